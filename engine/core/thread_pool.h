@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace pedicel {
+
+/// Runs independent tasks on a fixed number of threads. Which thread takes which task is not
+/// fixed, so tasks must not depend on each other: then any number of threads gives the same bits.
+class ThreadPool {
+ public:
+  /// `threads` counts the caller; 1 runs everything in the caller's thread.
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  int threads() const { return static_cast<int>(workers_.size()) + 1; }
+
+  /// Calls task(i) for i in [0, count) and returns when all are done. Does not allocate. `task`
+  /// must not throw.
+  template <class Task>
+  void for_each(int count, const Task& task) {
+    run(
+        count, [](const void* object, int i) { (*static_cast<const Task*>(object))(i); }, &task);
+  }
+
+ private:
+  using Call = void (*)(const void*, int);
+  void run(int count, Call call, const void* object);
+  void work();
+
+  std::vector<std::thread> workers_;
+  std::mutex mutex_;
+  std::condition_variable wake_, done_;
+  std::atomic<int> next_{0};
+  int count_ = 0, busy_ = 0;
+  unsigned generation_ = 0;
+  bool stop_ = false;
+  Call call_ = nullptr;
+  const void* object_ = nullptr;
+};
+
+}  // namespace pedicel

@@ -1,0 +1,163 @@
+#include "io/csv.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "core/check.h"
+#include "io/atomic_file.h"
+
+namespace pedicel::io {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+struct Cell {
+  std::string_view text;
+  int column;  // character column, from 1
+};
+
+std::vector<Cell> split(std::string_view line) {
+  std::vector<Cell> cells;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t comma = line.find(',', start);
+    const auto raw = line.substr(start, comma == std::string_view::npos ? comma : comma - start);
+    cells.push_back({trimmed(raw), static_cast<int>(start) + 1});
+    if (comma == std::string_view::npos) return cells;
+    start = comma + 1;
+  }
+}
+
+class Reader {
+ public:
+  Reader(std::string file, const CsvRules& rules, Diagnostics& diagnostics)
+      : rules_(rules), diagnostics_(diagnostics) {
+    table_.file = std::move(file);
+  }
+
+  CsvTable read(std::string_view text) {
+    int line = 0;
+    while (!text.empty()) {
+      const std::size_t end = text.find('\n');
+      ++line;
+      take(trimmed(text.substr(0, end)).empty() ? std::string_view{} : text.substr(0, end), line);
+      text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+    }
+    if (table_.columns.empty())
+      diagnostics_.error({table_.file, 1, 1}, "no header line, expected column names");
+    else if (table_.rows.empty())
+      diagnostics_.error({table_.file, line, 1}, "no rows, expected at least one row of numbers");
+    return std::move(table_);
+  }
+
+ private:
+  void take(std::string_view line, int number) {
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    if (line.empty() || line.front() == '#') return;
+    const std::vector<Cell> cells = split(line);
+    if (table_.columns.empty()) {
+      for (const Cell& cell : cells) table_.columns.emplace_back(cell.text);
+      return;
+    }
+    if (cells.size() != table_.columns.size()) {
+      diagnostics_.error({table_.file, number, 1},
+                         std::to_string(cells.size()) + " cells, expected " +
+                             std::to_string(table_.columns.size()) + " as in the header");
+      return;
+    }
+    std::vector<double> row;
+    for (std::size_t i = 0; i < cells.size(); ++i) row.push_back(value(cells[i], number, i));
+    if (rules_.increasing_first && !table_.rows.empty() && !(row[0] > table_.rows.back()[0]))
+      diagnostics_.error({table_.file, number, cells[0].column},
+                         table_.columns[0] + " " + std::string(cells[0].text) +
+                             " does not increase, expected more than " +
+                             format_number(table_.rows.back()[0]));
+    table_.rows.push_back(std::move(row));
+    table_.lines.push_back(number);
+  }
+
+  double value(const Cell& cell, int line, std::size_t index) {
+    const bool missing = cell.text.empty() || cell.text == "nan";
+    if (missing && rules_.empty_cells && !(index == 0 && rules_.increasing_first))
+      return std::numeric_limits<double>::quiet_NaN();
+    double number = 0.0;
+    const char* end = cell.text.data() + cell.text.size();
+    const auto [stop, error] = std::from_chars(cell.text.data(), end, number);
+    if (cell.text.empty() || error != std::errc{} || stop != end || !std::isfinite(number))
+      diagnostics_.error(
+          {table_.file, line, cell.column},
+          table_.columns[index] + ": \"" + std::string(cell.text) + "\" is not a finite number");
+    return number;
+  }
+
+  CsvTable table_;
+  CsvRules rules_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+int CsvTable::column(const std::string& name) const {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i] == name) return static_cast<int>(i);
+  return -1;
+}
+
+CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
+                  Diagnostics& diagnostics) {
+  const int before = diagnostics.error_count();
+  CsvTable table;
+  try {
+    table = Reader(path.string(), rules, diagnostics).read(read_file(path));
+  } catch (const InvalidFile& error) {
+    diagnostics.error({path.string()}, "cannot be read");
+  }
+  if (diagnostics.error_count() > before) return {};
+  return table;
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
+    : path_(path), columns_(columns.size()) {
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  file_.open(path, std::ios::trunc);
+  if (!file_) throw WriteError(path.string() + ": cannot be written");
+  text_row(columns);
+  flush();
+}
+
+void CsvWriter::row(std::span<const double> values) {
+  PEDICEL_ASSERT(values.size() == columns_);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    file_ << (i ? "," : "") << format_number(values[i]);
+  file_ << '\n';
+}
+
+void CsvWriter::text_row(const std::vector<std::string>& cells) {
+  PEDICEL_ASSERT(cells.size() == columns_);
+  for (std::size_t i = 0; i < cells.size(); ++i) file_ << (i ? "," : "") << cells[i];
+  file_ << '\n';
+}
+
+void CsvWriter::flush() {
+  file_.flush();
+  if (!file_) throw WriteError(path_.string() + ": cannot be written");
+}
+
+std::string format_number(double value, int digits) {
+  if (std::isnan(value)) return "nan";
+  char text[40];
+  const auto [end, error] =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+  PEDICEL_ASSERT(error == std::errc{});
+  return std::string(text, end);
+}
+
+}  // namespace pedicel::io

@@ -1,0 +1,265 @@
+#include "io/yaml.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "io/atomic_file.h"
+#include "io/csv.h"
+
+namespace pedicel::io {
+
+namespace {
+
+std::string bounds_text(const Bounds& bounds) {
+  if (std::isfinite(bounds.minimum) && std::isfinite(bounds.maximum))
+    return "a number between " + format_number(bounds.minimum) + " and " +
+           format_number(bounds.maximum);
+  if (std::isfinite(bounds.minimum))
+    return std::string("a number ") + (bounds.open_minimum ? "> " : ">= ") +
+           format_number(bounds.minimum);
+  return "a finite number";
+}
+
+bool within(double value, const Bounds& bounds) {
+  if (!std::isfinite(value) || value > bounds.maximum) return false;
+  return bounds.open_minimum ? value > bounds.minimum : value >= bounds.minimum;
+}
+
+std::optional<double> parse_number(const YAML::Node& node) {
+  if (!node.IsScalar() || node.Tag() == "!") return std::nullopt;  // "!" marks a quoted scalar
+  const std::string& text = node.Scalar();
+  const char* first = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
+  const char* last = text.data() + text.size();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc{} || end != last || first == last) return std::nullopt;
+  return value;
+}
+
+std::string shown(const YAML::Node& node) {
+  if (node.IsScalar()) return "\"" + node.Scalar() + "\"";
+  if (node.IsSequence()) return "a list";
+  if (node.IsMap()) return "a map";
+  return "nothing";
+}
+
+void check_duplicate_keys(const YAML::Node& node, const std::string& file,
+                          Diagnostics& diagnostics) {
+  if (node.IsSequence())
+    for (const YAML::Node& item : node) check_duplicate_keys(item, file, diagnostics);
+  if (!node.IsMap()) return;
+  std::set<std::string> seen;
+  for (const auto& item : node) {
+    if (!seen.insert(item.first.Scalar()).second)
+      diagnostics.error({file, item.first.Mark().line + 1, item.first.Mark().column + 1},
+                        "key \"" + item.first.Scalar() + "\" appears twice, expected once");
+    check_duplicate_keys(item.second, file, diagnostics);
+  }
+}
+
+}  // namespace
+
+SourcePosition YamlNode::position() const {
+  const YAML::Mark mark = node_.Mark();
+  return {file_, mark.line + 1, mark.column + 1};
+}
+
+void YamlNode::error(std::string what) const {
+  diagnostics_->error(position(), std::move(what));
+}
+
+double YamlNode::number(const std::string& what, const Bounds& bounds) const {
+  const std::optional<double> value = parse_number(node_);
+  if (value && within(*value, bounds)) return *value;
+  error(what + " is " + shown(node_) + ", expected " + bounds_text(bounds));
+  return std::isfinite(bounds.minimum) ? bounds.minimum : 0.0;
+}
+
+int YamlNode::integer(const std::string& what, int minimum, int maximum) const {
+  const std::optional<double> value = parse_number(node_);
+  if (value && *value == std::floor(*value) && *value >= minimum && *value <= maximum)
+    return static_cast<int>(*value);
+  error(what + " is " + shown(node_) + ", expected a whole number between " +
+        std::to_string(minimum) + " and " + std::to_string(maximum));
+  return minimum;
+}
+
+bool YamlNode::boolean(const std::string& what) const {
+  if (node_.IsScalar() && node_.Scalar() == "true") return true;
+  if (node_.IsScalar() && node_.Scalar() == "false") return false;
+  error(what + " is " + shown(node_) + ", expected true or false");
+  return false;
+}
+
+std::string YamlNode::text(const std::string& what) const {
+  if (node_.IsScalar() && !node_.Scalar().empty()) return node_.Scalar();
+  error(what + " is " + shown(node_) + ", expected a text");
+  return {};
+}
+
+std::string YamlNode::choice(const std::string& what,
+                             const std::vector<std::string>& allowed) const {
+  std::string list;
+  for (const std::string& word : allowed) {
+    if (node_.IsScalar() && node_.Scalar() == word) return word;
+    list += (list.empty() ? "" : ", ") + word;
+  }
+  error(what + " is " + shown(node_) + ", expected one of: " + list);
+  return allowed.front();
+}
+
+Vec3 YamlNode::vector(const std::string& what) const {
+  if (!node_.IsSequence() || node_.size() != 3) {
+    error(what + " is " + shown(node_) +
+          (node_.IsSequence() ? " of " + std::to_string(node_.size()) : "") +
+          ", expected [x, y, z]");
+    return Vec3::Zero();
+  }
+  Vec3 value;
+  for (int i = 0; i < 3; ++i) value[i] = YamlNode(node_[i], file_, *diagnostics_).number(what);
+  return value;
+}
+
+Quat YamlNode::quaternion(const std::string& what) const {
+  if (!node_.IsSequence() || node_.size() != 4) {
+    error(what + " is " + shown(node_) + ", expected [x, y, z, w]");
+    return Quat::Identity();
+  }
+  Quat value;
+  for (int i = 0; i < 4; ++i)
+    value.coeffs()[i] = YamlNode(node_[i], file_, *diagnostics_).number(what);
+  if (value.norm() < 1e-6) {
+    error(what + " has length 0, expected a rotation [x, y, z, w]");
+    return Quat::Identity();
+  }
+  return value.normalized();
+}
+
+std::vector<double> YamlNode::numbers(const std::string& what, const Bounds& bounds) const {
+  std::vector<double> values;
+  for (const YamlNode& item : list(what)) values.push_back(item.number(what, bounds));
+  return values;
+}
+
+std::vector<YamlNode> YamlNode::list(const std::string& what) const {
+  std::vector<YamlNode> items;
+  if (!node_.IsSequence()) {
+    error(what + " is " + shown(node_) + ", expected a list");
+    return items;
+  }
+  for (const YAML::Node& item : node_) items.emplace_back(item, file_, *diagnostics_);
+  return items;
+}
+
+YamlMap::YamlMap(const YamlNode& node, std::string what) : node_(node), what_(std::move(what)) {
+  if (!node_.is_map()) node_.error(what_ + " is " + shown(node_.raw()) + ", expected a map");
+}
+
+bool YamlMap::has(const std::string& key) const {
+  return node_.is_map() && node_.raw()[key].IsDefined();
+}
+
+std::optional<YamlNode> YamlMap::optional(const std::string& key) {
+  asked_.insert(key);
+  if (!has(key)) return std::nullopt;
+  return YamlNode(node_.raw()[key], node_.file(), node_.diagnostics());
+}
+
+std::optional<YamlNode> YamlMap::required(const std::string& key) {
+  auto node = optional(key);
+  if (!node && node_.is_map()) error("missing key \"" + key + "\", expected in " + what_);
+  return node;
+}
+
+double YamlMap::number(const std::string& key, const Bounds& bounds) {
+  const auto node = required(key);
+  return node ? node->number(key, bounds) : 0.0;
+}
+double YamlMap::number(const std::string& key, const Bounds& bounds, double otherwise) {
+  const auto node = optional(key);
+  return node ? node->number(key, bounds) : otherwise;
+}
+int YamlMap::integer(const std::string& key, int minimum, int maximum, int otherwise) {
+  const auto node = optional(key);
+  return node ? node->integer(key, minimum, maximum) : otherwise;
+}
+bool YamlMap::boolean(const std::string& key, bool otherwise) {
+  const auto node = optional(key);
+  return node ? node->boolean(key) : otherwise;
+}
+std::string YamlMap::text(const std::string& key) {
+  const auto node = required(key);
+  return node ? node->text(key) : std::string{};
+}
+std::string YamlMap::text(const std::string& key, const std::string& otherwise) {
+  const auto node = optional(key);
+  return node ? node->text(key) : otherwise;
+}
+std::string YamlMap::choice(const std::string& key, const std::vector<std::string>& allowed,
+                            const std::string& otherwise) {
+  const auto node = optional(key);
+  return node ? node->choice(key, allowed) : otherwise;
+}
+Vec3 YamlMap::vector(const std::string& key) {
+  const auto node = required(key);
+  return node ? node->vector(key) : Vec3(Vec3::Zero());
+}
+Vec3 YamlMap::vector(const std::string& key, const Vec3& otherwise) {
+  const auto node = optional(key);
+  return node ? node->vector(key) : otherwise;
+}
+Quat YamlMap::quaternion(const std::string& key, const Quat& otherwise) {
+  const auto node = optional(key);
+  return node ? node->quaternion(key) : otherwise;
+}
+std::vector<YamlNode> YamlMap::list(const std::string& key) {
+  const auto node = optional(key);
+  return node ? node->list(key) : std::vector<YamlNode>{};
+}
+
+void YamlMap::finish() {
+  if (!node_.is_map()) return;
+  std::string expected;
+  for (const std::string& key : asked_) expected += (expected.empty() ? "" : ", ") + key;
+  for (const auto& item : node_.raw()) {
+    if (asked_.contains(item.first.Scalar())) continue;
+    YamlNode(item.first, node_.file(), node_.diagnostics())
+        .error("unknown key \"" + item.first.Scalar() + "\" in " + what_ +
+               ", expected one of: " + expected);
+  }
+}
+
+YamlNode load_yaml(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  return parse_yaml(read_file(path), path.string(), diagnostics);
+}
+
+YamlNode parse_yaml(const std::string& text, const std::string& name, Diagnostics& diagnostics) {
+  YAML::Node node;
+  try {
+    node = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw InvalidFile({name, error.mark.line + 1, error.mark.column + 1},
+                      "not valid YAML: " + error.msg);
+  }
+  check_duplicate_keys(node, name, diagnostics);
+  return YamlNode(node, name, diagnostics);
+}
+
+bool check_format(YamlMap& map, const std::string& format, int version) {
+  const auto format_node = map.required("format");
+  if (!format_node) return false;
+  if (format_node->text("format") != format) {
+    format_node->error("format is " + shown(format_node->raw()) + ", expected " + format);
+    return false;
+  }
+  const auto version_node = map.required("version");
+  if (!version_node) return false;
+  const int found = version_node->integer("version", 1, 1000000);
+  if (found == version) return true;
+  if (!map.node().diagnostics().has_errors())
+    version_node->error("version is " + std::to_string(found) + ", expected " +
+                        std::to_string(version));
+  return false;
+}
+
+}  // namespace pedicel::io
