@@ -1,0 +1,66 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cosserat/block_system.h"
+#include "cosserat/contact.h"
+
+namespace pedicel::cosserat {
+
+/// Contact and Coulomb friction as terms of the incremental potential.
+///
+/// Normal: 1/2 k max(0, margin - gap)^2, with the gap taken as linear around the iterate at which
+/// the contact was found. Tangential: a spring of the same stiffness whose stretch is the
+/// displacement of the plant's surface against the collider's since they met, and which slides
+/// where it would carry more than mu N: a Huber potential in the step, with N from the iterate, and
+/// a stretch that is remembered between steps (Cundall & Strack, Geotechnique 29, 1979). So a held
+/// fruit sticks without creeping.
+class ContactTerms {
+ public:
+  /// Collects the contacts of an iterate. `start` is the state at the start of the step.
+  void find(const RodModel& model, const RodState& start, const RodState& iterate, double dt,
+            std::span<ContactSource* const> sources);
+
+  /// Adds gradient and Hessian at the iterate; returns the potential there.
+  double linearise(const RodModel& model, const RodState& iterate, BlockSystem& system) const;
+  double potential(const RodModel& model, const RodState& state) const;
+
+  /// Ends the step: forces for the report, and the friction memory for the next step.
+  void finish(const RodModel& model, const RodState& end);
+
+  const std::vector<ContactForce>& forces() const { return forces_; }
+  int size() const { return static_cast<int>(active_.size()); }
+  double deepest() const;
+  void forget() { memory_.clear(); }
+
+ private:
+  struct Active {
+    ContactPoint point;
+    int element = 0;
+    Vec3 arm_E = Vec3::Zero();      // m, from the child node to the touching surface
+    Vec3 place_W = Vec3::Zero();    // m, at the iterate
+    Vec3 start_W = Vec3::Zero();    // m, where that point of the plant was at the step's start
+    Vec3 stretch_W = Vec3::Zero();  // m, of the friction spring at the step's start
+    double limit = 0.0;             // N, mu N
+  };
+  struct Memory {
+    int shape, collider;
+    Vec3 stretch_W;
+  };
+  struct Push {
+    Vec3 normal_force, friction_force;  // N, W, on the plant
+    Vec3 stretch;                       // m, friction spring after sliding
+    double energy;
+    bool slipping;
+  };
+  Push push(const Active& contact, const RodState& state) const;
+  const Memory* remembered(int shape, int collider) const;
+
+  std::vector<ContactPoint> found_;
+  std::vector<Active> active_;
+  std::vector<Memory> memory_;
+  std::vector<ContactForce> forces_;
+};
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/state_hash.h"
+#include "core/thread_pool.h"
+#include "cosserat/detachment.h"
+#include "cosserat/rod_solver.h"
+
+namespace pedicel::cosserat {
+
+/// All the plants of a world, stepped side by side. Plants do not touch each other; each has its
+/// own solver, so any number of threads gives the same bits.
+class RodSystem {
+ public:
+  explicit RodSystem(const RodSettings& settings, int threads = 1);
+
+  /// Adds a finished model, at rest in its drawn shape. Returns its index.
+  int add_plant(RodModel model);
+  /// What a plant may touch. The source must be this plant's own: plants are stepped at once.
+  void add_contact_source(int plant, std::unique_ptr<ContactSource> source);
+
+  /// Advances every plant by dt, then takes off the fruits whose joint passed a threshold.
+  void step(double dt, const Vec3& gravity);
+
+  int size() const { return static_cast<int>(plants_.size()); }
+  const RodModel& model(int plant) const { return plants_[plant].model; }
+  const RodState& state(int plant) const { return plants_[plant].state; }
+  RodModel& model(int plant) { return plants_[plant].model; }
+  RodState& state(int plant) { return plants_[plant].state; }
+  /// Loads that act until they are changed.
+  std::vector<Load>& loads(int plant) { return plants_[plant].loads; }
+
+  const StepReport& report(int plant) const { return plants_[plant].report; }
+  const std::vector<ContactForce>& contact_forces(int plant) const;
+  /// Fruits of a plant that came off in the last step.
+  const std::vector<DetachEvent>& detached(int plant) const { return plants_[plant].detached; }
+
+  /// Replaces the state of a plant and forgets its solver's history.
+  void set_state(int plant, const RodState& state);
+
+  void add_to(StateHash& hash) const;
+
+ private:
+  struct Plant {
+    RodModel model;
+    RodState state;
+    std::unique_ptr<RodSolver> solver;
+    std::vector<std::unique_ptr<ContactSource>> sources;
+    std::vector<ContactSource*> source_pointers;
+    std::vector<Load> loads;
+    StepReport report;
+    std::vector<DetachEvent> detached;
+  };
+  void step_plant(Plant& plant, double dt, const Vec3& gravity);
+
+  RodSettings settings_;
+  ThreadPool pool_;
+  std::vector<Plant> plants_;
+};
+
+}  // namespace pedicel::cosserat
