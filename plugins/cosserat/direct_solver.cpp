@@ -12,6 +12,7 @@ namespace {
 constexpr double largest_turn =
     1.0;  // rad, of one Newton step: beyond it the quadratic model is void
 constexpr double converged_change = 1.0e-3;  // m or rad
+constexpr double rough_change = 0.3;         // rad, or element lengths
 constexpr int most_halvings = 12;
 
 bool is_finite(const RodState& state) {
@@ -53,7 +54,9 @@ StepReport DirectSolver::step(const RodModel& model, RodState& state, const Step
   report.deepest = contacts_.deepest();
   remember(model, state);
   assembly_.set_velocities(model, state);
-  state.previous_dt = input.dt;
+  // A step whose last iteration still moved things roughly is not on a smooth path: the second-order
+  // scheme, which continues that path, would feed on it. The next step is first order and damps.
+  state.previous_dt = rough_ ? 0.0 : input.dt;
   state.time = start_.time + input.dt;
   return report;
 }
@@ -86,15 +89,17 @@ bool DirectSolver::newton(const RodModel& model, RodState& state, const StepInpu
 
 bool DirectSolver::line_search(const RodModel& model, RodState& state, double energy,
                                StepReport& report) {
-  double turn = 0.0;
+  double turn = 0.0, shift = 0.0;
   report.last_change = 0.0;
   for (int e = 0; e < model.size(); ++e) {
     const Vec6& d = system_.solution(e);
     turn = std::max(turn, d.tail<3>().norm());
+    shift = std::max(shift, d.head<3>().norm() / model.elements[e].length);
     const double change = d.cwiseAbs().maxCoeff();
     if (change > report.last_change) report.element = e;
     report.last_change = std::max(report.last_change, change);
   }
+  rough_ = turn > rough_change || shift > rough_change;
   base_position_ = state.position;
   base_orientation_ = state.orientation;
   double share = std::min(1.0, largest_turn / std::max(turn, 1.0e-300));

@@ -29,6 +29,7 @@ class DirectSolver : public RodSolver {
   BlockSystem system_;
   ContactTerms contacts_;
   RodState start_;
+  bool rough_ = false;  // the last iteration still changed the shape a lot
   std::vector<Vec3> base_position_;     // m, W: the iterate that the line search starts from
   std::vector<Quat> base_orientation_;  // E to W
 };
