@@ -1,0 +1,12 @@
+#pragma once
+
+#include "geometry/mesh.h"
+#include "render/instanced_mesh.h"
+
+namespace pedicel::render {
+
+/// Position and normal of every corner of a mesh, ready to draw: faces that meet at less than
+/// `crease` (rad) are shaded smoothly, sharper edges stay sharp. Faces weigh by area.
+MeshData with_normals(const geometry::TriangleMesh& mesh, double crease = 0.6);
+
+}  // namespace pedicel::render

@@ -1,0 +1,226 @@
+#include "render/renderer.h"
+
+#include <string>
+
+#include "core/check.h"
+#include "render/colour_space.h"
+#include "render/contact_map.h"
+#include "render/frame_geometry.h"
+#include "render/programs.h"
+#include "render/render_target.h"
+#include "render/shadow_map.h"
+
+namespace pedicel::render {
+
+namespace {
+
+constexpr int largest_side = 8192;
+
+std::array<float, 16> columns(const Mat4& m) {
+  std::array<float, 16> values;
+  Eigen::Map<Eigen::Matrix4f>(values.data()) = m.cast<float>();
+  return values;
+}
+std::array<float, 4> floats(const Vec3& v, double w = 0.0) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()),
+          static_cast<float>(w)};
+}
+std::array<float, 4> floats(const Colour& colour, double w = 0.0) {
+  const Colour c = to_linear(colour);
+  return {c.r, c.g, c.b, static_cast<float>(w)};
+}
+std::array<float, 4> scaled(std::array<float, 4> v, double factor) {
+  for (int i = 0; i < 3; ++i) v[i] *= static_cast<float>(factor);
+  return v;
+}
+
+}  // namespace
+
+void check(const RenderSettings& s) {
+  const auto refuse = [](const std::string& field, const std::string& value,
+                         const std::string& bound) {
+    throw UsageError("RenderSettings." + field + " = " + value + ": must be " + bound);
+  };
+  if (s.samples != 1 && s.samples != 2 && s.samples != 4)
+    refuse("samples", std::to_string(s.samples), "1, 2 or 4");
+  if (s.shadow_size < 256 || s.shadow_size > largest_side)
+    refuse("shadow_size", std::to_string(s.shadow_size) + " px", "between 256 and 8192");
+  if (!(s.to_sun.z() > 0.0) || !s.to_sun.allFinite())
+    refuse("to_sun.z", std::to_string(s.to_sun.z()), "> 0 (the sun is above the horizon)");
+  if (!(s.sun >= 0.0)) refuse("sun", std::to_string(s.sun), ">= 0");
+  if (!(s.exposure > 0.0)) refuse("exposure", std::to_string(s.exposure), "> 0");
+}
+
+class Renderer::Implementation {
+ public:
+  Implementation(const GlFunctions& gl, const RenderSettings& settings)
+      : gl_(gl),
+        settings_(settings),
+        programs_(gl_),
+        shapes_(gl_),
+        cache_(gl_),
+        seen_(gl_, shapes_, cache_),
+        casting_(gl_, shapes_, cache_),
+        shadow_(gl_, settings.shadow_size, true),
+        contact_(gl_) {
+    gl_.GenVertexArrays(1, &empty_array_);
+  }
+  ~Implementation() { gl_.DeleteVertexArrays(1, &empty_array_); }
+
+  const RenderTarget& draw(const DrawList& list, const Camera& camera, int width, int height) {
+    prepare_target(width, height);
+    cache_.drop_unused();
+    seen_.prepare(list, Detail(camera, width, height));
+    Eigen::AlignedBox3d casters = list.bounds();
+    if (casters.isEmpty()) casters.extend(camera.target);
+    const SunView sun = fit_sun(casters, settings_.to_sun, shadow_.size());
+    casting_.prepare(list, Detail(1.0 / sun.texel));
+    FrameUniforms frame = light(list, casters);
+    gl_.Enable(GL_DEPTH_TEST);
+    gl_.DepthFunc(GL_LESS);
+    if (list.ground) draw_contact(frame, casters, list.ground->height);
+    draw_shadow(frame, sun);
+    look(frame, camera, casters, width, height);
+    draw_picture(frame, list.ground.has_value());
+    return *target_;
+  }
+
+  long triangles() const { return seen_.triangles(); }
+
+ private:
+  void prepare_target(int width, int height) {
+    if (target_ && target_->width() == width && target_->height() == height) return;
+    target_.reset();
+    target_ = std::make_unique<RenderTarget>(gl_, width, height, settings_.samples);
+  }
+
+  FrameUniforms light(const DrawList& list, const Eigen::AlignedBox3d& casters) const {
+    const double exposure = settings_.exposure;
+    FrameUniforms frame;
+    frame.sun_colour = scaled(floats(Colour{1.0f, 0.965f, 0.91f}), settings_.sun * exposure);
+    frame.zenith = scaled(floats(Colour::hex(0x8fb2dc)), exposure);
+    frame.horizon = scaled(floats(Colour::hex(0xe8eef4)), exposure);
+    frame.bounce = scaled(floats(Colour::hex(0x8f887c)), exposure);
+    const Ground ground = list.ground.value_or(Ground{});
+    frame.ground_light = floats(ground.light, ground.cell);
+    frame.ground_dark = floats(ground.dark, ground.height);
+    const Vec3 centre = casters.center();
+    const double size = std::max(casters.diagonal().norm(), 0.5);
+    frame.ground_fade = floats(Vec3(centre.x(), centre.y(), 1.0 * size), 8.0 * size);
+    return frame;
+  }
+
+  void look(FrameUniforms& frame, const Camera& camera, const Eigen::AlignedBox3d& casters,
+            int width, int height) const {
+    // The ground must not end at the far plane before it has faded.
+    Camera wide = camera;
+    wide.far_plane =
+        std::max(camera.far_plane, (camera.eye - casters.center()).norm() +
+                                       20.0 * std::max(casters.diagonal().norm(), 0.5));
+    const Mat4 view = wide.view();
+    const double up = 0.5 * height / camera.focal_length(height);
+    frame.view_projection = columns(wide.projection(static_cast<double>(width) / height) * view);
+    frame.eye = floats(camera.eye, wide.far_plane);
+    frame.view_right = floats(view.block<1, 3>(0, 0).transpose() * up * width / height);
+    frame.view_up = floats(view.block<1, 3>(1, 0).transpose() * up);
+    frame.view_forward = floats(-view.block<1, 3>(2, 0).transpose());
+    frame.viewport = {static_cast<float>(width), static_cast<float>(height),
+                      static_cast<float>(camera.near_plane), 1.0f / settings_.shadow_size};
+  }
+
+  void draw_casters() const {
+    for (const Kind kind : {Kind::tube, Kind::sphere, Kind::mesh, Kind::blade}) {
+      programs_.use_depth(kind);
+      casting_.draw(kind);
+    }
+  }
+
+  void draw_contact(FrameUniforms& frame, const Eigen::AlignedBox3d& casters, double height) const {
+    const Mat4 view = ContactMap::view_from_below(casters, height);
+    frame.contact_matrix = columns(to_texture(view));
+    frame.view_projection = columns(view);
+    programs_.set_frame(frame);
+    contact_.depths().begin();
+    draw_casters();
+    contact_.blur(programs_, empty_array_);
+  }
+
+  void draw_shadow(FrameUniforms& frame, const SunView& sun) const {
+    frame.shadow_matrix = columns(to_texture(sun.matrix));
+    frame.sun_direction = floats(settings_.to_sun.normalized(), 1.6 * sun.texel);
+    frame.view_projection = columns(sun.matrix);
+    programs_.set_frame(frame);
+    shadow_.begin();
+    if (!settings_.shadows) return;
+    gl_.Enable(GL_POLYGON_OFFSET_FILL);
+    gl_.PolygonOffset(1.5f, 2.0f);
+    draw_casters();
+    gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  }
+
+  void draw_picture(const FrameUniforms& frame, bool ground) const {
+    programs_.set_frame(frame);
+    target_->bind();
+    gl_.Clear(GL_DEPTH_BUFFER_BIT);
+    shadow_.bind_texture(shadow_unit);
+    contact_.bind_texture(contact_unit);
+    for (int kind = 0; kind < kind_count; ++kind) {
+      programs_.use_lit(static_cast<Kind>(kind));
+      seen_.draw(static_cast<Kind>(kind));
+    }
+    gl_.BindVertexArray(empty_array_);
+    if (ground) {
+      programs_.use_ground();
+      gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    }
+    gl_.DepthFunc(GL_LEQUAL);  // the sky lies at the far end of the depth range
+    programs_.use_sky();
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  GlFunctions gl_;
+  RenderSettings settings_;
+  Programs programs_;
+  UnitMeshes shapes_;
+  MeshCache cache_;
+  FrameGeometry seen_, casting_;
+  DepthMap shadow_;
+  ContactMap contact_;
+  std::unique_ptr<RenderTarget> target_;
+  GLuint empty_array_ = 0;
+};
+
+Renderer::Renderer(const GlFunctions& gl, const RenderSettings& settings) {
+  check(settings);
+  implementation_ = std::make_unique<Implementation>(gl, settings);
+}
+Renderer::~Renderer() = default;
+
+namespace {
+
+void check_size(int width, int height) {
+  if (width < 1 || height < 1 || width > largest_side || height > largest_side)
+    throw UsageError("picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                     " px: must be between 1 x 1 and 8192 x 8192");
+}
+
+}  // namespace
+
+Image Renderer::render(const DrawList& list, const Camera& camera, int width, int height) {
+  check_size(width, height);
+  check(camera);
+  return implementation_->draw(list, camera, width, height).read();
+}
+
+void Renderer::draw(const DrawList& list, const Camera& camera, int width, int height,
+                    unsigned framebuffer) {
+  check_size(width, height);
+  check(camera);
+  implementation_->draw(list, camera, width, height).resolve_to(framebuffer);
+}
+
+long Renderer::triangles() const {
+  return implementation_->triangles();
+}
+
+}  // namespace pedicel::render

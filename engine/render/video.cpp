@@ -1,0 +1,159 @@
+#include "render/video.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/check.h"
+#include "render/child_process.h"
+
+namespace pedicel::render {
+
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+void check_frame(const Image& frame, int width, int height) {
+  if (frame.width != width || frame.height != height)
+    throw UsageError("frame of " + std::to_string(frame.width) + " x " +
+                     std::to_string(frame.height) + " px: must be " + std::to_string(width) +
+                     " x " + std::to_string(height) + " as the video");
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError(folder.string() + ": cannot be created: " + error.message());
+}
+
+std::vector<std::string> encoder_arguments(const std::filesystem::path& file, int width, int height,
+                                           double rate) {
+  return {"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
+          "-s", std::to_string(width) + "x" + std::to_string(height), "-r", number(rate), "-i",
+          "pipe:0", "-vf",
+          // H.264 in yuv420p wants even sides.
+          "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "fast", "-crf", "20",
+          "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4", "file:" + file.string()};
+}
+
+class Mp4Writer : public VideoWriter {
+ public:
+  Mp4Writer(const std::filesystem::path& path, int width, int height, double rate)
+      : path_(path),
+        part_(path.string() + ".part" + std::to_string(::getpid())),
+        width_(width),
+        height_(height),
+        encoder_(encoder_arguments(part_, width, height, rate)) {}
+
+  ~Mp4Writer() override {
+    try {
+      finish();
+    } catch (const OutputError&) {  // a destructor has nobody to tell
+    }
+  }
+
+  void add(const Image& frame) override {
+    check_frame(frame, width_, height_);
+    if (finished_) throw UsageError("VideoWriter: a frame after finish()");
+    if (!encoder_.send(frame.rgb)) {
+      finish();
+      fail();
+    }
+    ++frames_;
+  }
+
+  void finish() override {
+    if (finished_) return;
+    finished_ = true;
+    const int code = encoder_.finish();
+    std::error_code error;
+    if (code != 0 || frames_ == 0) {
+      std::filesystem::remove(part_, error);
+      if (code != 0 && frames_ > 0) fail();
+      return;
+    }
+    std::filesystem::rename(part_, path_, error);
+    if (error) throw OutputError(path_.string() + ": cannot be written: " + error.message());
+  }
+
+  int frames() const override { return frames_; }
+  std::string description() const override { return path_.string() + " (H.264)"; }
+  std::filesystem::path result() const override { return path_; }
+
+ private:
+  [[noreturn]] void fail() const {
+    const std::string words = encoder_.complaint();
+    throw OutputError(path_.string() +
+                      ": ffmpeg failed: " + (words.empty() ? "it ended early" : words));
+  }
+
+  std::filesystem::path path_, part_;
+  int width_, height_, frames_ = 0;
+  bool finished_ = false;
+  ChildProcess encoder_;
+};
+
+class PictureWriter : public VideoWriter {
+ public:
+  PictureWriter(const std::filesystem::path& folder, int width, int height, std::string why)
+      : folder_(folder), width_(width), height_(height), why_(std::move(why)) {
+    make_folder(folder);
+  }
+
+  void add(const Image& frame) override {
+    check_frame(frame, width_, height_);
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%05d.png", frames_);
+    write_png(folder_ / name, frame);
+    ++frames_;
+  }
+  void finish() override {}
+  int frames() const override { return frames_; }
+  std::string description() const override {
+    return (folder_ / "frame_%05d.png").string() + (why_.empty() ? "" : " (" + why_ + ")");
+  }
+  std::filesystem::path result() const override { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  int width_, height_, frames_ = 0;
+  std::string why_;
+};
+
+}  // namespace
+
+bool ffmpeg_encodes() {
+  static const bool works = [] {
+    ChildProcess probe({"ffmpeg", "-nostdin", "-loglevel", "error", "-f", "lavfi", "-i",
+                        "color=size=64x64:rate=5:duration=0.2", "-c:v", "libx264", "-f", "null",
+                        "-"});
+    return probe.finish() == 0;
+  }();
+  return works;
+}
+
+std::unique_ptr<VideoWriter> VideoWriter::open(const std::filesystem::path& path, int width,
+                                               int height, double frames_per_second) {
+  if (width < 1 || height < 1 || width > 8192 || height > 8192)
+    throw UsageError("video of " + std::to_string(width) + " x " + std::to_string(height) +
+                     " px: must be between 1 x 1 and 8192 x 8192");
+  if (!(frames_per_second > 0.0 && frames_per_second <= 1000.0))
+    throw UsageError("frames_per_second = " + number(frames_per_second) +
+                     ": must be > 0 and at most 1000");
+  make_folder(path.parent_path());
+  if (ffmpeg_encodes()) return std::make_unique<Mp4Writer>(path, width, height, frames_per_second);
+  const std::filesystem::path folder = path.parent_path() / (path.stem().string() + "_frames");
+  return std::make_unique<PictureWriter>(folder, width, height, "no ffmpeg that encodes H.264");
+}
+
+std::unique_ptr<VideoWriter> VideoWriter::open_pictures(const std::filesystem::path& folder,
+                                                        int width, int height) {
+  return std::make_unique<PictureWriter>(folder, width, height, "");
+}
+
+}  // namespace pedicel::render
