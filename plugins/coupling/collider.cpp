@@ -1,0 +1,74 @@
+#include "coupling/collider.h"
+
+#include <cmath>
+
+#include "core/check.h"
+
+namespace pedicel::coupling {
+
+namespace {
+
+geometry::Aabb moved(const geometry::Aabb& box, const Mat3& R, const Vec3& position) {
+  if (!box.sizes().allFinite()) {
+    const double far = std::numeric_limits<double>::infinity();
+    return {Vec3::Constant(-far), Vec3::Constant(far)};
+  }
+  const Vec3 centre = R * box.center() + position;
+  const Vec3 half = R.cwiseAbs() * (0.5 * box.sizes());
+  return {centre - half, centre + half};
+}
+
+// The box around both poses, widened by how far the arc between them may bulge out of the straight
+// line: r angle^2 / 8, with r the farthest point of the shape.
+void refresh_box(Placement& placement, const geometry::Aabb& bounds) {
+  placement.box_W = moved(bounds, placement.R_WC, placement.X_WC.position);
+  if (!placement.is_moving || !bounds.sizes().allFinite()) return;
+  placement.box_W.extend(moved(bounds, placement.R_WC_before, placement.X_WC_before.position));
+  const double angle = placement.X_WC.rotation.angularDistance(placement.X_WC_before.rotation);
+  const double farthest = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).norm();
+  placement.box_W.min().array() -= farthest * angle * angle / 8.0;
+  placement.box_W.max().array() += farthest * angle * angle / 8.0;
+}
+
+}  // namespace
+
+int ColliderSet::add(Collider collider, const Pose& X_WL) {
+  if (!collider.shape) throw UsageError("collider '" + collider.name + "': has no shape");
+  if (collider.friction && !(*collider.friction >= 0.0 && *collider.friction <= 10.0))
+    throw UsageError("collider '" + collider.name + "': friction = " +
+                     std::to_string(*collider.friction) + ": must be between 0 and 10");
+  const geometry::Aabb bounds = collider.shape->bounds();
+  if (collider.feature <= 0.0) collider.feature = bounds.sizes().minCoeff();
+  colliders_.push_back(std::move(collider));
+  placements_.emplace_back();
+  put(size() - 1, X_WL);
+  return size() - 1;
+}
+
+void ColliderSet::put(int index, const Pose& X_WL) {
+  Placement& placement = placements_[index];
+  placement.X_WC = placement.X_WC_before = X_WL * colliders_[index].X_LC;
+  placement.R_WC = placement.R_WC_before = placement.X_WC.rotation.toRotationMatrix();
+  placement.is_moving = false;
+  refresh_box(placement, colliders_[index].shape->bounds());
+}
+
+void ColliderSet::update(std::span<const Pose> X_WL) {
+  PEDICEL_ASSERT(X_WL.size() == colliders_.size());
+  for (int i = 0; i < size(); ++i) {
+    Placement& placement = placements_[i];
+    placement.X_WC_before = placement.X_WC;
+    placement.R_WC_before = placement.R_WC;
+    placement.X_WC = X_WL[i] * colliders_[i].X_LC;
+    placement.R_WC = placement.X_WC.rotation.toRotationMatrix();
+    placement.is_moving = placement.X_WC.position != placement.X_WC_before.position ||
+                          placement.R_WC != placement.R_WC_before;
+    refresh_box(placement, colliders_[i].shape->bounds());
+  }
+}
+
+Pose ColliderSet::link_pose(int index) const {
+  return placements_[index].X_WC * colliders_[index].X_LC.inverse();
+}
+
+}  // namespace pedicel::coupling

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/aabb.h"
+#include "geometry/signed_distance.h"
+
+namespace pedicel::coupling {
+
+/// Something that plants may touch: one shape of a robot's link, of a rigid body, or of the ground.
+/// C is the frame of its signed distance field.
+struct Collider {
+  std::string name;  ///< "gripper/finger_left"
+  int body = 0;      ///< whose: the caller's number of a robot or rigid body
+  int link = -1;     ///< which link of it, in the caller's numbering
+  std::shared_ptr<const geometry::SignedDistance> shape;  ///< in C
+  Pose X_LC;                                              ///< of the shape in its link
+  std::optional<double> friction;  ///< 1, against plants; absent: CouplingSettings::friction
+  double feature = 0.0;  ///< m, size of its smallest part; 0: the smallest extent of its bounds
+};
+
+/// Where a collider is.
+struct Placement {
+  Pose X_WC;         ///< at the end of the step
+  Pose X_WC_before;  ///< at the end of the step before
+  Mat3 R_WC = Mat3::Identity(), R_WC_before = Mat3::Identity();
+  geometry::Aabb box_W;    ///< m, around both poses; infinite for a plane
+  bool is_moving = false;  ///< the two poses differ
+  bool is_active = true;   ///< false: plants pass through
+};
+
+/// All colliders of a world, shared by the sources of all plants: those only read it, so plants may
+/// be stepped side by side.
+class ColliderSet {
+ public:
+  /// Returns its index, which stays. Throws UsageError where the shape is missing or the friction
+  /// is out of bounds. May be called between steps (a fruit that fell).
+  int add(Collider collider, const Pose& X_WL);
+
+  /// Once a step, after the rigid bodies moved and before the plants do: the poses of the links at
+  /// the end of the step, one a collider. Throws nothing and does not allocate.
+  void update(std::span<const Pose> X_WL);
+  /// Puts one collider somewhere without any motion (after a reset, or a hidden thing's return).
+  void put(int index, const Pose& X_WL);
+  void set_active(int index, bool active) { placements_[index].is_active = active; }
+
+  int size() const { return static_cast<int>(colliders_.size()); }
+  const Collider& collider(int index) const { return colliders_[index]; }
+  const Placement& placement(int index) const { return placements_[index]; }
+  /// The pose of the collider's link at the end of the step.
+  Pose link_pose(int index) const;
+
+ private:
+  std::vector<Collider> colliders_;
+  std::vector<Placement> placements_;
+};
+
+}  // namespace pedicel::coupling

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "cosserat/contact.h"
+#include "coupling/collider.h"
+#include "coupling/coupling_settings.h"
+#include "coupling/nearest_place.h"
+
+namespace pedicel::coupling {
+
+/// The contacts of one plant with the shared colliders: at most one for each pair of a shape of the
+/// plant and a collider, at their nearest place. ContactPoint::collider is the collider's index.
+///
+/// Axes are placed as the solver moves them: rigid segments behind their child nodes. Shapes of
+/// dead elements and of fruits that are gone are left out. find() does not allocate once warm.
+class ColliderSource : public cosserat::ContactSource {
+ public:
+  /// Keeps a reference to `colliders`, which must outlive it and must not change during a step.
+  /// Throws UsageError where a setting is out of its bounds.
+  ColliderSource(const ColliderSet& colliders, const CouplingSettings& settings);
+
+  /// Leaves out for good every pair that overlaps, or is nearer than the margin, in this state: a
+  /// stem stands in the ground, a trellis wire runs through it. Adds to what is left out already.
+  void ignore_touching(const cosserat::RodModel& model, const cosserat::RodState& state);
+
+  void begin_step(const cosserat::RodModel& model, const cosserat::RodState& start,
+                  double dt) override;
+  void find(const cosserat::RodModel& model, const cosserat::RodState& state, double dt,
+            std::vector<cosserat::ContactPoint>& found) override;
+
+ private:
+  struct Axis {
+    Vec3 near_W, far_W;  // m
+  };
+  Axis axis_of(const cosserat::CollisionShape& shape, const std::vector<Vec3>& position,
+               const std::vector<Quat>& orientation) const;
+  void place_shapes(const cosserat::RodModel& model, const cosserat::RodState& state);
+  void choose_colliders();
+  bool is_ignored(int shape, int collider) const;
+  void touch(const cosserat::RodModel& model, int shape, int collider,
+             std::vector<cosserat::ContactPoint>& found) const;
+  MovingCapsule in_collider(const cosserat::CollisionShape& shape, int index,
+                            const Placement& placement) const;
+
+  const ColliderSet& colliders_;
+  CouplingSettings settings_;
+  std::vector<Vec3> start_position_;     // m, W
+  std::vector<Quat> start_orientation_;  // E to W
+  std::vector<Axis> axes_, start_axes_;
+  std::vector<geometry::Aabb> boxes_;  // m, W, around the way of each shape; empty: not there
+  geometry::Aabb box_;                 // m, W, around all of them
+  std::vector<int> near_;              // colliders that may touch this plant
+  std::vector<std::pair<int, int>> ignored_;  // (shape, collider), ascending
+};
+
+}  // namespace pedicel::coupling

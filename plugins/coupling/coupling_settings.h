@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/parameter.h"
+#include "cosserat/self_contact.h"
+
+namespace pedicel::coupling {
+
+/// How plants touch robots, rigid bodies, the ground and themselves. Names, units, bounds and
+/// sentences: parameters_of().
+struct CouplingSettings {
+  double contact_stiffness = 1.0e5;  ///< N/m, of a stem
+  double fruit_stiffness = 1.0e4;    ///< N/m, of a fruit's flesh
+  double margin = 2.0e-4;            ///< m, contact begins to push at this gap
+  double friction = 0.5;             ///< 1, where the collider states none of its own
+  int samples_per_feature = 2;       ///< 1, along a capsule, per smallest extent of the collider
+  int most_samples = 16;             ///< 1, along one capsule
+  bool two_way = false;              ///< the reaction acts on the links
+  bool self_contact = true;          ///< plants touch themselves
+};
+std::vector<Parameter> parameters_of(CouplingSettings& settings);
+
+/// The first value that is out of its bounds, as "CouplingSettings.margin = -1 m: must be ...";
+/// empty where all are in.
+std::string check(const CouplingSettings& settings);
+
+/// What a plant's contact with itself takes over.
+cosserat::SelfContactSettings self_contact_settings(const CouplingSettings& settings);
+
+}  // namespace pedicel::coupling

@@ -1,0 +1,315 @@
+#include "cosserat/self_contact.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/check.h"
+#include "core/random.h"
+#include "unit/coupling/allocation_counter.h"
+
+namespace pedicel::cosserat {
+namespace {
+
+using Pair = std::pair<int, int>;
+
+Vec3 random_point(Random& random, double size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+void add_stem(RodModel& model, int parent, const Vec3& end, double radius) {
+  const int e = add_element(model, parent, end, circle_section(radius, Material{}));
+  model.elements[e].radius_near = model.elements[e].radius_far = radius;
+}
+
+// Two horizontal rods of three segments each from one clamp, far apart after the first segment: the
+// second runs over the first at height `above`.
+RodModel crossing_rods(double above, double radius) {
+  RodModel model;
+  add_stem(model, -1, {0.1, -0.1, 0}, radius);       // 0
+  add_stem(model, 0, {0.1, 0, 0}, radius);           // 1
+  add_stem(model, 1, {0.1, 0.1, 0}, radius);         // 2
+  add_stem(model, 2, {0.1, 0.2, 0}, radius);         // 3
+  add_stem(model, -1, {-0.1, 0.06, above}, radius);  // 4
+  add_stem(model, 4, {0.05, 0.06, above}, radius);   // 5
+  add_stem(model, 5, {0.15, 0.06, above}, radius);   // 6: crosses element 2
+  model.elements[0].organ = 0;
+  model.organs = {"plant/stem"};
+  finish(model);
+  return model;
+}
+
+std::vector<ContactPoint> contacts_of(SelfContact& source, const RodModel& model,
+                                      const RodState& start, const RodState& state) {
+  std::vector<ContactPoint> found;
+  source.begin_step(model, start, 0.01);
+  source.find(model, state, 0.01, found);
+  return found;
+}
+
+// Lowers elements 4 to 6 rigidly.
+RodState lowered(const RodModel& model, double by) {
+  RodState state = drawn_state(model);
+  for (int e = 4; e < 7; ++e) state.position[e].z() -= by;
+  return state;
+}
+
+// The cost of a place pair is |a(s) - b(t)|^2; a dense grid over the unit square is the reference.
+// The regularisation may cost e/2 = 0.5e-4 of the longer axis squared.
+TEST(NearestFractions, AreAsNearAsADenseSearch) {
+  Random random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vec3 a = random_point(random, 1), b = random_point(random, 1);
+    Vec3 along_a = random_point(random, 1), along_b = random_point(random, 1);
+    if (trial % 3 == 0) along_b = 0.7 * along_a;  // parallel
+    if (trial % 10 == 1) along_b.setZero();       // a sphere
+    if (trial % 20 == 2) along_a.setZero();
+    const auto at = nearest_fractions(a, along_a, b, along_b);
+    ASSERT_GE(std::min(at.a, at.b), 0.0);
+    ASSERT_LE(std::max(at.a, at.b), 1.0);
+    double best = 1.0e9;
+    for (int i = 0; i <= 100; ++i)
+      for (int j = 0; j <= 100; ++j)
+        best = std::min(best, (a + 0.01 * i * along_a - b - 0.01 * j * along_b).squaredNorm());
+    const double found = (a + at.a * along_a - b - at.b * along_b).squaredNorm();
+    const double longer = std::max(along_a.squaredNorm(), along_b.squaredNorm());
+    EXPECT_LE(found, best + 0.5e-4 * longer + 1.0e-12) << trial;
+  }
+}
+
+TEST(NearestFractions, OfParallelAxesAreTheMiddles) {
+  const auto at = nearest_fractions({0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}, {1, 0, 0});
+  EXPECT_NEAR(at.a, 0.5, 1e-9);
+  EXPECT_NEAR(at.b, 0.5, 1e-9);
+}
+
+// Turning one axis through parallel must not make the place jump.
+TEST(NearestFractions, MoveContinuouslyThroughParallel) {
+  double last = nearest_fractions({0, 0, 0}, {1, 0, 0}, {0, 0, 0.2}, {1, 0, -0.05}).a;
+  for (double tilt = -0.05; tilt <= 0.05; tilt += 1.0e-4) {
+    const double now = nearest_fractions({0, 0, 0}, {1, 0, 0}, {0, 0, 0.2}, {1, 0, tilt}).a;
+    EXPECT_LT(std::abs(now - last), 0.25) << tilt;
+    last = now;
+  }
+}
+
+TEST(OverlappingBoxes, AreThoseOfAllPairs) {
+  Random random(2);
+  OverlappingBoxes finder;
+  for (int trial = 0; trial < 30; ++trial) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (int i = 0; i < 80; ++i) {
+      Eigen::AlignedBox3d box;
+      const Vec3 low = random_point(random, 1);
+      if (i % 9 != 0) box.extend(low).extend(low + Vec3::Constant(random.uniform(0.01, 0.3)));
+      if (i % 17 == 0) box.extend(random_point(random, 1));
+      boxes.push_back(box);
+    }
+    std::vector<Pair> expected, found;
+    for (int i = 0; i < 80; ++i)
+      for (int j = i + 1; j < 80; ++j)
+        if (!boxes[i].isEmpty() && !boxes[j].isEmpty() && boxes[i].intersects(boxes[j]))
+          expected.emplace_back(i, j);
+    finder.find(boxes, found);
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(SelfContact, GivesTwoContactsThatCarryTheForceOfOneSpring) {
+  const double radius = 0.003, above = 0.02;
+  const RodModel model = crossing_rods(above, radius);
+  SelfContactSettings settings;
+  SelfContact source(model, settings);
+  const RodState start = drawn_state(model);
+  EXPECT_TRUE(contacts_of(source, model, start, start).empty());
+
+  const double overlap = 0.0005;
+  const RodState state = lowered(model, above - 2 * radius + overlap);
+  const auto found = contacts_of(source, model, start, state);
+  ASSERT_EQ(found.size(), 2u);
+  const ContactPoint &under = found[0], &over = found[1];
+  EXPECT_EQ(under.shape, 2);
+  EXPECT_EQ(under.collider, self_contact_base + 6);
+  EXPECT_EQ(over.shape, 6);
+  EXPECT_EQ(over.collider, self_contact_base + 2);
+  EXPECT_TRUE(is_self_contact(over.collider));
+  EXPECT_NEAR(under.normal_W.z(), -1, 1e-6);
+  EXPECT_NEAR(over.normal_W.z(), 1, 1e-6);
+  EXPECT_NEAR(under.back, 0.04, 1e-5);
+  EXPECT_NEAR(over.back, 0.05, 1e-5);
+  for (const ContactPoint& point : found) {
+    EXPECT_NEAR(point.gap, -0.5 * overlap, 1e-8);
+    const double force = point.stiffness * (point.margin - point.gap);
+    // k = min(stiffness, m / dt^2) and F = k o (1 + o / margin).
+    const double k = std::min(model.elements[2].mass, model.elements[6].mass) / (0.01 * 0.01);
+    ASSERT_LT(k, settings.stiffness);
+    const double o = settings.margin + overlap;
+    EXPECT_NEAR(force, k * o * (1 + o / settings.margin), 1e-6);
+    // Only the upper rod moved: the middle moves with half of its motion.
+    EXPECT_NEAR(point.surface_motion_W.z(), -0.5 * (above - 2 * radius + overlap), 1e-9);
+  }
+}
+
+TEST(SelfContact, PushesBackAnAxisThatWentThroughInOneStep) {
+  const double radius = 0.003, above = 0.02;
+  const RodModel model = crossing_rods(above, radius);
+  SelfContact source(model, {});
+  const RodState state = lowered(model, above + 0.001);  // its axis is 1 mm under the other's
+  const auto found = contacts_of(source, model, drawn_state(model), state);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].normal_W.z(), -1, 1e-6);
+  EXPECT_NEAR(found[0].gap, -0.5 * (0.001 + 2 * radius), 1e-9);
+}
+
+TEST(SelfContact, LeavesOutWhatOverlapsAsDrawn) {
+  const RodModel model = crossing_rods(0.005, 0.003);  // overlaps by 1 mm where it was drawn
+  SelfContact source(model, {});
+  const RodState state = lowered(model, 0.001);
+  EXPECT_TRUE(contacts_of(source, model, drawn_state(model), state).empty());
+}
+
+// A rod folded onto itself: each pair of segments lies on each other, but those at most two joints
+// apart never touch.
+TEST(SelfContact, LeavesOutNeighboursUpToTwoJoints) {
+  RodModel model;
+  for (int e = 0; e < 6; ++e) add_stem(model, e - 1, {0.02 * (e + 1), 0, 0}, 0.002);
+  finish(model);
+  SelfContact source(model, {});
+  RodState folded = drawn_state(model);
+  for (int e = 0; e < 6; ++e) {
+    folded.position[e] = Vec3(e % 2 ? 0.0 : 0.02, 0.0005 * e, 0);
+    if (e % 2)
+      folded.orientation[e] = Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitZ())) * folded.orientation[e];
+  }
+  std::set<Pair> pairs;
+  for (const ContactPoint& point : contacts_of(source, model, folded, folded))
+    pairs.emplace(model.shapes[point.shape].element,
+                  model.shapes[point.collider - self_contact_base].element);
+  std::set<Pair> expected;
+  for (int a = 0; a < 6; ++a)
+    for (int b = 0; b < 6; ++b)
+      if (std::abs(a - b) > 2) expected.emplace(a, b);
+  EXPECT_EQ(pairs, expected);
+}
+
+TEST(SelfContact, TreatsWeldedElementsAsNeighbours) {
+  RodModel model = crossing_rods(0.02, 0.003);
+  const RodState state = lowered(model, 0.0145);
+  SelfContact free(model, {});
+  EXPECT_EQ(contacts_of(free, model, drawn_state(model), state).size(), 2u);
+  model.welds.push_back({2, 6, 1.0, Vec3::Ones(), Quat::Identity()});
+  SelfContact welded(model, {});
+  EXPECT_TRUE(contacts_of(welded, model, drawn_state(model), state).empty());
+}
+
+// Random bundles of stems with fruits against all pairs of shapes, sampled densely.
+TEST(SelfContact, FindsThePairsOfABruteForceSearch) {
+  Random random(3);
+  for (int trial = 0; trial < 10; ++trial) {
+    RodModel model;
+    for (int branch = 0; branch < 8; ++branch) {
+      int parent = -1;
+      for (int i = 0; i < 3; ++i) {
+        // Drawn far apart, so that nothing is left out for its drawn overlap.
+        const Vec3 end(branch + 1.0, 1.0, 0.1 * (i + 1));
+        add_stem(model, parent, end, random.uniform(0.004, 0.01));
+        parent = model.size() - 1;
+      }
+      model.fruits.push_back({"fruit", parent, 0.0, random.uniform(0.01, 0.03), 900, {}});
+    }
+    finish(model);
+    // Short shapes, for the brute-force search's sake.
+    for (CollisionShape& shape : model.shapes)
+      if (shape.fruit < 0) shape.back_near = 0.1;
+    SelfContactSettings settings;
+    SelfContact source(model, settings);
+    RodState state = drawn_state(model);
+    for (int e = 0; e < model.size(); ++e) {
+      state.position[e] = random_point(random, 0.12);
+      state.orientation[e] = Quat::FromTwoVectors(Vec3::UnitZ(), random_point(random, 1));
+    }
+    state.alive[5] = 0;
+    state.fruit_gone[1] = true;
+
+    std::set<Pair> found;
+    for (const ContactPoint& point : contacts_of(source, model, state, state))
+      found.emplace(point.shape, point.collider - self_contact_base);
+    const auto axis_point = [&](const CollisionShape& shape, int i) -> Vec3 {
+      const double back = shape.back_near + 0.02 * i * (shape.back_far - shape.back_near);
+      return state.position[shape.element] -
+             back * (state.orientation[shape.element] * Vec3::UnitZ());
+    };
+    for (int a = 0; a < static_cast<int>(model.shapes.size()); ++a)
+      for (int b = 0; b < static_cast<int>(model.shapes.size()); ++b) {
+        const CollisionShape &first = model.shapes[a], &second = model.shapes[b];
+        const bool gone =
+            first.element == 5 || second.element == 5 || first.fruit == 1 || second.fruit == 1;
+        double nearest = 1.0e9;
+        for (int i = 0; i <= 50; ++i)
+          for (int j = 0; j <= 50; ++j)
+            nearest = std::min(nearest, (axis_point(first, i) - axis_point(second, j)).norm());
+        const double gap = nearest - first.radius_near - second.radius_near;
+        // Roots of all branches are siblings; within a branch all three are neighbours.
+        const bool neighbours = first.element / 3 == second.element / 3 ||
+                                (first.element % 3 == 0 && second.element % 3 == 0);
+        if (gone || neighbours) {
+          EXPECT_FALSE(found.count({a, b})) << a << " " << b;
+        } else if (gap < settings.margin - 2.0e-3) {
+          EXPECT_TRUE(found.count({a, b})) << a << " " << b << " gap " << gap;
+        } else if (gap > settings.margin + 2.0e-3) {
+          EXPECT_FALSE(found.count({a, b})) << a << " " << b << " gap " << gap;
+        }
+      }
+  }
+}
+
+TEST(SelfContact, DoesNotAllocateOnceWarm) {
+  const RodModel model = crossing_rods(0.02, 0.003);
+  SelfContact source(model, {});
+  const RodState start = drawn_state(model), state = lowered(model, 0.0145);
+  std::vector<ContactPoint> found;
+  const auto step = [&] {
+    found.clear();
+    source.begin_step(model, start, 0.01);
+    source.find(model, start, 0.01, found);
+    source.find(model, state, 0.01, found);
+  };
+  step();
+  step();
+  const long before = allocations();
+  step();
+  EXPECT_EQ(allocations(), before);
+  EXPECT_EQ(found.size(), 2u);
+}
+
+TEST(SelfContact, RefusesSettingsOutOfBounds) {
+  const RodModel model = crossing_rods(0.02, 0.003);
+  const auto words = [&](SelfContactSettings settings) -> std::string {
+    try {
+      SelfContact source(model, settings);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  SelfContactSettings settings;
+  EXPECT_EQ(words(settings), "taken");
+  settings.stiffness = 0;
+  EXPECT_THAT(words(settings),
+              testing::HasSubstr("SelfContactSettings.stiffness = 0.000000: must be > 0"));
+  settings = {};
+  settings.fruit_stiffness = -1;
+  EXPECT_THAT(words(settings), testing::HasSubstr("fruit_stiffness = -1.000000: must be > 0"));
+  settings = {};
+  settings.friction = -0.1;
+  EXPECT_THAT(words(settings), testing::HasSubstr("friction = -0.100000: must be >= 0"));
+  settings = {};
+  settings.margin = std::nan("");
+  EXPECT_THAT(words(settings), testing::HasSubstr("margin = nan: must be > 0"));
+}
+
+}  // namespace
+}  // namespace pedicel::cosserat
