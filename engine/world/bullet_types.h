@@ -1,0 +1,27 @@
+#pragma once
+
+#include <LinearMath/btTransform.h>
+
+#include "core/frames.h"
+
+namespace pedicel::world {
+
+inline btVector3 to_bullet(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+inline btQuaternion to_bullet(const Quat& q) {
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+inline btTransform to_bullet(const Pose& pose) {
+  return btTransform(to_bullet(pose.rotation), to_bullet(pose.position));
+}
+
+inline Vec3 from_bullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+inline Pose from_bullet(const btTransform& transform) {
+  const btQuaternion q = transform.getRotation();
+  return {from_bullet(transform.getOrigin()), Quat(q.w(), q.x(), q.y(), q.z()).normalized()};
+}
+
+}  // namespace pedicel::world

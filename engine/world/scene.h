@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/frames.h"
+#include "world/bodies.h"
+#include "world/expectation.h"
+
+namespace pedicel::world {
+
+/// A key of a settings section or a `set:` map. The scene does not know what plugins it feeds: it
+/// keeps the text with its place, and whoever owns the parameter reads it (world/settings.h).
+struct Setting {
+  std::string key;
+  std::string text;
+  SourcePosition where;
+};
+
+/// A thing that a place is given relative to. It is looked up when the world is built, so that a
+/// scene stays right when its plant is edited.
+struct Anchor {
+  enum class Kind { none, fruit, body, plant, tool };
+  Kind kind = Kind::none;
+  std::string name;  ///< "truss/fruit_3" for a fruit
+  SourcePosition where;
+};
+
+/// A plant, or a grid of equal plants.
+struct ScenePlant {
+  enum class Source { file, mtg, built_in };
+  std::string name;
+  Source source = Source::file;
+  std::filesystem::path file;  ///< plant or MTG file
+  std::string built_in;        ///< name of a plant that is made by the program ("forest")
+  bool optional = false;       ///< a missing file skips the scene (or takes the fallback)
+  std::filesystem::path
+      fallback;  ///< plant file taken where an optional one is absent; may be empty
+  Pose pose;     ///< X_WP
+  std::array<int, 2> repeat{1, 1};    ///< plants along X and Y
+  Eigen::Vector2d spacing{0.5, 0.5};  ///< m
+  std::vector<Setting> set;           ///< e.g. detach.stretch
+  SourcePosition where;
+};
+
+/// Where the tool is to be at a time.
+struct SceneWaypoint {
+  double time = 0.0;  ///< s
+  Anchor at;
+  Vec3 position = Vec3::Zero();     ///< m, W; added to the anchor's place where there is one
+  std::optional<Quat> orientation;  ///< tool to W; absent: as at the waypoint before
+  std::optional<double> gripper;    ///< opening, m; absent: as before
+  SourcePosition where;
+};
+
+struct SceneRobot {
+  std::string name = "robot";
+  std::filesystem::path file;
+  std::vector<std::pair<std::string, std::filesystem::path>> packages;
+  Pose base;                             ///< X_W
+  std::map<std::string, double> joints;  ///< start values, rad or m
+  std::string control = "position";      ///< position | velocity | torque
+  std::string tool;                  ///< link that waypoints move; empty: the robot's own choice
+  Vec3 tool_offset = Vec3::Zero();   ///< m, in the tool link
+  std::string gripper;               ///< joint that `gripper:` moves; empty: none
+  double gripper_force = 0.0;        ///< N (or N m), limit; 0: the joint's own
+  std::filesystem::path trajectory;  ///< CSV of joint positions; empty: none
+  std::vector<SceneWaypoint> waypoints;
+  SourcePosition where;
+};
+
+/// A force on a fruit or an organ's end in the world frame.
+struct SceneLoad {
+  std::string target;           ///< "truss/fruit_3"
+  Vec3 force = Vec3::Zero();    ///< N
+  double from = 0.0, to = 0.0;  ///< s, acts for from <= t < to
+  bool ramp = false;            ///< grows linearly from 0 at `from` to the whole force at `to`
+  SourcePosition where;
+};
+
+struct SceneCamera {
+  std::string name;
+  Vec3 eye = Vec3(1.5, -1.5, 1.0), target = Vec3::Zero();  ///< m, W; relative to `follow` if given
+  double field_of_view = 0.7;                              ///< rad, vertical
+  Anchor follow;
+};
+
+struct ScenePicture {
+  enum class When { time, before_detachment, after_detachment, end };
+  When when = When::time;
+  double time = 0.0;    ///< s
+  std::string camera;   ///< empty: the first
+  bool strain = false;  ///< stems coloured by their strain
+};
+
+struct SceneVideo {
+  double fps = 30.0;
+  std::array<int, 2> size{1280, 720};
+  std::string camera;
+};
+
+struct SceneSweep {
+  std::string key;
+  std::vector<double> values;
+  SourcePosition where;
+};
+
+/// A scene file as it is written: plain data, nothing of it built yet.
+struct Scene {
+  std::filesystem::path file;
+  std::string name, purpose, see;
+  double duration = 1.0;    ///< s
+  double dt = 1.0 / 240.0;  ///< s
+  double log_rate = 100.0;  ///< Hz
+  int seed = 0;
+  int threads = 1;
+  Vec3 gravity = Vec3(0, 0, -9.81);
+  std::vector<Setting> rods, coupling;
+  std::vector<ScenePlant> plants;
+  std::optional<SceneRobot> robot;
+  std::vector<BodyDescription> bodies;
+  std::optional<GroundPlane> ground;
+  std::vector<SceneLoad> loads;
+  std::vector<SceneCamera> cameras;
+  std::vector<ScenePicture> pictures;
+  SceneVideo video;
+  std::optional<SceneSweep> sweep;
+  std::vector<Expectation> expectations;
+};
+
+}  // namespace pedicel::world

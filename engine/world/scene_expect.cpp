@@ -1,0 +1,108 @@
+#include <algorithm>
+
+#include "world/scene_sections.h"
+
+namespace pedicel::world::sections {
+
+namespace {
+
+const Quantity* find_quantity(const std::string& name) {
+  for (const Quantity& quantity : known_quantities())
+    if (quantity.name == name) return &quantity;
+  return nullptr;
+}
+
+std::string quantity_names() {
+  std::string names;
+  for (const Quantity& quantity : known_quantities())
+    names += (names.empty() ? "" : ", ") + std::string(quantity.name);
+  return names;
+}
+
+/// Whether the quantity takes a subject, and whether it must be named.
+enum class Need { no, may, must };
+Need need_of(const Quantity& quantity, const std::string& subject) {
+  const std::string_view text = quantity.subjects;
+  if (text.find("[" + subject + "]") != std::string_view::npos) return Need::may;
+  return text.find(subject) != std::string_view::npos ? Need::must : Need::no;
+}
+
+void read_subjects(io::YamlMap& map, const Quantity& quantity, Expectation& e) {
+  const std::pair<const char*, std::string*> subjects[] = {
+      {"fruit", &e.fruit}, {"body", &e.body}, {"plant", &e.plant}, {"link", &e.link}};
+  for (const auto& [key, value] : subjects) {
+    const auto node = map.optional(key);
+    const Need need = need_of(quantity, key);
+    if (node && need == Need::no)
+      node->error(
+          std::string(key) + ": " + e.quantity + " is not measured of a " + key +
+          (quantity.subjects.empty() ? "" : ", expected " + std::string(quantity.subjects)));
+    if (!node && need == Need::must)
+      map.error("missing key \"" + std::string(key) + "\": " + e.quantity + " is measured of a " +
+                key);
+    if (node) *value = node->text(key);
+  }
+}
+
+double read_is(const io::YamlNode& node) {
+  if (node.is_scalar() && (node.raw().Scalar() == "true" || node.raw().Scalar() == "false"))
+    return node.boolean("is") ? 1.0 : 0.0;
+  return node.number("is");
+}
+
+void read_between(const io::YamlNode& node, Expectation& e) {
+  const std::vector<double> bounds = node.numbers("between");
+  if (bounds.size() != 2 || bounds[0] > bounds[1])
+    return node.error("between: expected [low, high]");
+  e.low = bounds[0];
+  e.high = bounds[1];
+}
+
+void read_test(io::YamlMap& map, Expectation& e) {
+  using Test = Expectation::Test;
+  const std::pair<const char*, Test> tests[] = {{"is", Test::is},
+                                                {"between", Test::between},
+                                                {"above", Test::above},
+                                                {"below", Test::below},
+                                                {"with_sweep", Test::rises_with_sweep}};
+  int found = 0;
+  for (const auto& [key, test] : tests) {
+    const auto node = map.optional(key);
+    if (!node) continue;
+    ++found;
+    e.test = test;
+    if (test == Test::is) {
+      e.low = read_is(*node);
+    } else if (test == Test::between) {
+      read_between(*node, e);
+    } else if (test == Test::rises_with_sweep) {
+      if (node->choice("with_sweep", {"rises", "falls"}) == "falls")
+        e.test = Test::falls_with_sweep;
+    } else {
+      e.low = node->number(key);
+    }
+  }
+  if (found != 1)
+    map.error("an expectation: expected exactly one of is, between, above, below and with_sweep");
+}
+
+}  // namespace
+
+Expectation read_expectation(const io::YamlNode& node) {
+  Expectation expectation;
+  io::YamlMap map(node, "an expectation");
+  expectation.where = node.position();
+  const auto name = map.required("quantity");
+  if (name) expectation.quantity = name->text("quantity");
+  const Quantity* quantity = find_quantity(expectation.quantity);
+  if (name && !quantity)
+    name->error("quantity \"" + expectation.quantity +
+                "\" is unknown, expected one of: " + quantity_names());
+  read_subjects(map, quantity ? *quantity : Quantity{"", "[fruit] [body] [plant] [link]", ""},
+                expectation);
+  read_test(map, expectation);
+  map.finish();
+  return expectation;
+}
+
+}  // namespace pedicel::world::sections

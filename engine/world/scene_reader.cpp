@@ -1,0 +1,148 @@
+#include "world/scene_reader.h"
+
+#include <set>
+
+#include "world/scene_sections.h"
+
+namespace pedicel::world {
+
+namespace {
+
+void read_head(io::YamlMap& map, Scene& scene) {
+  std::string stem = scene.file.stem().string();  // without .yaml
+  if (stem.ends_with(".scene")) stem.resize(stem.size() - 6);
+  scene.name = map.text("name", stem);
+  scene.purpose = map.text("purpose");
+  scene.see = map.text("see");
+  scene.duration = map.number("duration", io::positive);
+  scene.dt = map.number("dt", {1e-7, 1.0}, scene.dt);
+  scene.log_rate = map.number("log_rate", io::positive, scene.log_rate);
+  scene.seed = map.integer("seed", 0, 1000000000, scene.seed);
+  scene.threads = map.integer("threads", 1, 256, scene.threads);
+  scene.gravity = map.vector("gravity", scene.gravity);
+  if (const auto rods = map.optional("rods")) scene.rods = sections::read_settings(*rods, "rods");
+  if (const auto coupling = map.optional("coupling"))
+    scene.coupling = sections::read_settings(*coupling, "coupling");
+}
+
+template <class Item, class Read>
+void read_list(io::YamlMap& map, const char* key, std::vector<Item>& items, const Read& read) {
+  for (const io::YamlNode& node : map.list(key)) items.push_back(read(node));
+}
+
+/// As read_list(), and names must be unique.
+template <class Item, class Read>
+void read_named(io::YamlMap& map, const char* key, std::vector<Item>& items, const Read& read) {
+  std::set<std::string> names;
+  for (const io::YamlNode& node : map.list(key)) {
+    items.push_back(read(node));
+    const std::string& name = items.back().name;
+    if (!name.empty() && !names.insert(name).second)
+      node.error("name \"" + name + "\" is used twice in " + key + ", expected once");
+  }
+}
+
+void read_things(io::YamlMap& map, const std::filesystem::path& folder, Scene& scene) {
+  read_named(map, "plants", scene.plants,
+             [&](const io::YamlNode& node) { return sections::read_plant(node, folder); });
+  if (const auto robot = map.optional("robot")) scene.robot = sections::read_robot(*robot, folder);
+  read_named(map, "bodies", scene.bodies, sections::read_body);
+  if (const auto ground = map.optional("ground")) scene.ground = sections::read_ground(*ground);
+  read_list(map, "loads", scene.loads, sections::read_load);
+}
+
+void read_views(io::YamlMap& map, Scene& scene) {
+  read_named(map, "cameras", scene.cameras, sections::read_camera);
+  read_list(map, "pictures", scene.pictures, sections::read_picture);
+  if (const auto video = map.optional("video")) scene.video = sections::read_video(*video);
+}
+
+template <class Items>
+bool has_name(const Items& items, const std::string& name) {
+  for (const auto& item : items)
+    if (item.name == name) return true;
+  return false;
+}
+
+/// Plants that stand in a grid are called NAME_0, NAME_1, ...
+bool is_plant(const Scene& scene, const std::string& name) {
+  if (has_name(scene.plants, name)) return true;
+  const std::size_t cut = name.rfind('_');
+  return cut != std::string::npos && has_name(scene.plants, name.substr(0, cut));
+}
+
+void check_fruit(const Scene& scene, const std::string& fruit, const SourcePosition& where,
+                 Diagnostics& diagnostics) {
+  if (fruit.empty()) return;
+  const std::size_t slash = fruit.find('/');
+  if (slash == std::string::npos || !is_plant(scene, fruit.substr(0, slash)))
+    diagnostics.error(where,
+                      "fruit \"" + fruit + "\": expected PLANT/FRUIT, a plant of this scene");
+}
+
+void check_anchor(const Scene& scene, const Anchor& anchor, Diagnostics& diagnostics) {
+  if (anchor.kind == Anchor::Kind::fruit)
+    check_fruit(scene, anchor.name, anchor.where, diagnostics);
+  if (anchor.kind == Anchor::Kind::body && !has_name(scene.bodies, anchor.name))
+    diagnostics.error(anchor.where, "body \"" + anchor.name + "\": there is none of that name");
+  if (anchor.kind == Anchor::Kind::plant && !is_plant(scene, anchor.name))
+    diagnostics.error(anchor.where, "plant \"" + anchor.name + "\": there is none of that name");
+  if (anchor.kind == Anchor::Kind::tool && !scene.robot)
+    diagnostics.error(anchor.where, "tool: the scene has no robot");
+}
+
+void check_expectation(const Scene& scene, const Expectation& e, Diagnostics& diagnostics) {
+  check_fruit(scene, e.fruit, e.where, diagnostics);
+  if (!e.body.empty() && !has_name(scene.bodies, e.body))
+    diagnostics.error(e.where, "body \"" + e.body + "\": there is none of that name");
+  if (!e.plant.empty() && !is_plant(scene, e.plant))
+    diagnostics.error(e.where, "plant \"" + e.plant + "\": there is none of that name");
+  if (e.over_sweep() && !scene.sweep)
+    diagnostics.error(e.where, "with_sweep: the scene has no sweep");
+}
+
+void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnostics) {
+  for (const SceneLoad& load : scene.loads)
+    check_fruit(scene, load.target, load.where, diagnostics);
+  if (scene.robot)
+    for (const SceneWaypoint& waypoint : scene.robot->waypoints)
+      check_anchor(scene, waypoint.at, diagnostics);
+  for (const SceneCamera& camera : scene.cameras) check_anchor(scene, camera.follow, diagnostics);
+  for (const Expectation& e : scene.expectations) check_expectation(scene, e, diagnostics);
+  std::vector<std::string> wanted = {scene.video.camera};
+  for (const ScenePicture& picture : scene.pictures) wanted.push_back(picture.camera);
+  for (const std::string& camera : wanted)
+    if (!camera.empty() && !has_name(scene.cameras, camera))
+      map.error("camera \"" + camera + "\": there is none of that name");
+}
+
+std::optional<Scene> read(const io::YamlNode& root, const std::filesystem::path& path,
+                          Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  Scene scene;
+  scene.file = path;
+  io::YamlMap map(root, "a scene");
+  if (!io::check_format(map, "pedicel-scene", 1)) return std::nullopt;
+  read_head(map, scene);
+  read_things(map, path.parent_path(), scene);
+  read_views(map, scene);
+  if (const auto sweep = map.optional("sweep")) scene.sweep = sections::read_sweep(*sweep);
+  read_list(map, "expect", scene.expectations, sections::read_expectation);
+  map.finish();
+  check_references(map, scene, diagnostics);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return scene;
+}
+
+}  // namespace
+
+std::optional<Scene> read_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  return read(io::load_yaml(path, diagnostics), path, diagnostics);
+}
+
+std::optional<Scene> parse_scene(const std::string& text, const std::filesystem::path& path,
+                                 Diagnostics& diagnostics) {
+  return read(io::parse_yaml(text, path.string(), diagnostics), path, diagnostics);
+}
+
+}  // namespace pedicel::world

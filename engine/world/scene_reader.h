@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "world/scene.h"
+
+namespace pedicel::world {
+
+/// Reads a scene file (`format: pedicel-scene`). Every fault goes to `diagnostics` with its line
+/// and column; nothing comes back where there is one. Files that the scene names are looked for,
+/// not read.
+std::optional<Scene> read_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// The same from text; `path` stands for the file in errors and for its folder in relative paths.
+std::optional<Scene> parse_scene(const std::string& text, const std::filesystem::path& path,
+                                 Diagnostics& diagnostics);
+
+}  // namespace pedicel::world

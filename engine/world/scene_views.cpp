@@ -1,0 +1,68 @@
+#include <algorithm>
+
+#include "world/scene_sections.h"
+
+namespace pedicel::world::sections {
+
+SceneCamera read_camera(const io::YamlNode& node) {
+  SceneCamera camera;
+  io::YamlMap map(node, "a camera");
+  camera.name = map.text("name");
+  camera.eye = map.vector("eye");
+  camera.target = map.vector("target", Vec3::Zero());
+  camera.field_of_view = map.number("fov", {0.01, 3.0}, camera.field_of_view);
+  if (const auto follow = map.optional("follow")) camera.follow = read_anchor(*follow, "follow");
+  if (!((camera.eye - camera.target).norm() > 1e-6))
+    node.error("a camera: expected eye and target to be apart");
+  map.finish();
+  return camera;
+}
+
+ScenePicture read_picture(const io::YamlNode& node) {
+  ScenePicture picture;
+  io::YamlMap map(node, "a picture");
+  picture.camera = map.text("camera", "");
+  picture.strain = map.boolean("strain", false);
+  const std::vector<std::string> words = {"before_detachment", "after_detachment", "end"};
+  const auto at = map.required("at");
+  if (at && !at->raw().IsNull() && at->is_scalar() &&
+      std::find(words.begin(), words.end(), at->raw().Scalar()) != words.end()) {
+    const auto index = std::find(words.begin(), words.end(), at->raw().Scalar()) - words.begin();
+    picture.when = static_cast<ScenePicture::When>(1 + index);
+  } else if (at) {
+    picture.time = at->number("at (a time in s, before_detachment, after_detachment or end)",
+                              io::not_negative);
+  }
+  map.finish();
+  return picture;
+}
+
+SceneVideo read_video(const io::YamlNode& node) {
+  SceneVideo video;
+  io::YamlMap map(node, "video");
+  video.fps = map.number("fps", {1.0, 240.0}, video.fps);
+  video.camera = map.text("camera", "");
+  if (const auto size = map.optional("size")) {
+    const auto parts = size->list("size");
+    if (parts.size() != 2) size->error("size: expected [width, height] in pixels");
+    for (std::size_t i = 0; i < 2 && parts.size() == 2; ++i)
+      video.size[i] = parts[i].integer("size", 16, 8192);
+  }
+  map.finish();
+  return video;
+}
+
+SceneSweep read_sweep(const io::YamlNode& node) {
+  SceneSweep sweep;
+  io::YamlMap map(node, "sweep");
+  sweep.where = node.position();
+  sweep.key = map.text("set");
+  if (const auto values = map.required("values")) {
+    sweep.values = values->numbers("values");
+    if (sweep.values.size() < 2) values->error("values: expected at least two");
+  }
+  map.finish();
+  return sweep;
+}
+
+}  // namespace pedicel::world::sections

@@ -1,0 +1,156 @@
+#include "world/settings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/check.h"
+#include "io/csv.h"
+
+namespace pedicel::world {
+
+namespace {
+
+std::string expected_names(const std::vector<Parameter>& parameters,
+                           const std::vector<WordSetting>& words) {
+  std::string names = parameter_names(parameters);
+  for (const WordSetting& word : words) names += (names.empty() ? "" : ", ") + word.name;
+  return names;
+}
+
+void apply_word(const Setting& setting, const std::string& section, const WordSetting& word,
+                Diagnostics& diagnostics) {
+  const auto found = std::find(word.words.begin(), word.words.end(), setting.text);
+  if (found != word.words.end()) {
+    *word.value = static_cast<int>(found - word.words.begin());
+    return;
+  }
+  std::string list;
+  for (const std::string& allowed : word.words) list += (list.empty() ? "" : ", ") + allowed;
+  diagnostics.error(setting.where, section + "." + setting.key + " is \"" + setting.text +
+                                       "\", expected one of: " + list);
+}
+
+/// The number that a flag or a number is.
+std::optional<double> value_of(const std::string& text) {
+  if (text == "true") return 1.0;
+  if (text == "false") return 0.0;
+  return to_number(text);
+}
+
+void apply_number(const Setting& setting, const std::string& section, const Parameter& parameter,
+                  Diagnostics& diagnostics) {
+  const std::optional<double> value = value_of(setting.text);
+  if (!value) {
+    diagnostics.error(setting.where, section + "." + setting.key + " is \"" + setting.text +
+                                         "\", expected a number (" + parameter.unit + ")");
+    return;
+  }
+  if (const auto refused = set_parameter(parameter, *value))
+    diagnostics.error(setting.where, section + "." + *refused);
+}
+
+/// A number of the scene itself that `--set` reaches.
+struct SceneNumber {
+  const char* key;
+  double minimum, maximum;
+  bool whole;
+};
+constexpr SceneNumber scene_numbers[] = {{"duration", 1e-6, 1e6, false},
+                                         {"dt", 1e-7, 1.0, false},
+                                         {"log_rate", 1e-3, 1e6, false},
+                                         {"seed", 0, 1e9, true},
+                                         {"threads", 1, 256, true}};
+
+double checked(const SceneNumber& number, const std::string& text) {
+  const std::optional<double> value = to_number(text);
+  if (value && *value >= number.minimum && *value <= number.maximum &&
+      (!number.whole || *value == std::floor(*value)))
+    return *value;
+  throw UsageError(std::string(number.key) + " = \"" + text + "\": must be a " +
+                   (number.whole ? "whole " : "") + "number between " +
+                   io::format_number(number.minimum) + " and " + io::format_number(number.maximum));
+}
+
+bool set_scene_number(Scene& scene, const std::string& key, const std::string& text) {
+  for (const SceneNumber& number : scene_numbers) {
+    if (key != number.key) continue;
+    const double value = checked(number, text);
+    if (key == "duration") scene.duration = value;
+    if (key == "dt") scene.dt = value;
+    if (key == "log_rate") scene.log_rate = value;
+    if (key == "seed") scene.seed = static_cast<int>(value);
+    if (key == "threads") scene.threads = static_cast<int>(value);
+    return true;
+  }
+  return false;
+}
+
+bool starts_with(const std::string& text, const std::string& prefix) {
+  return text.rfind(prefix, 0) == 0 && text.size() > prefix.size();
+}
+
+void set_on_plant(Scene& scene, const std::string& key, const std::string& rest, Setting setting) {
+  for (ScenePlant& plant : scene.plants) {
+    if (!starts_with(rest, plant.name + ".")) continue;
+    setting.key = rest.substr(plant.name.size() + 1);
+    plant.set.push_back(setting);
+    return;
+  }
+  throw UsageError("--set " + key + ": the scene has no plant of that name");
+}
+
+}  // namespace
+
+std::optional<double> to_number(const std::string& text) {
+  double value = 0.0;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+void apply_settings(const std::vector<Setting>& settings, const std::string& section,
+                    const std::vector<Parameter>& parameters, const std::vector<WordSetting>& words,
+                    Diagnostics& diagnostics) {
+  for (const Setting& setting : settings) {
+    const auto word = std::find_if(words.begin(), words.end(),
+                                   [&](const WordSetting& w) { return w.name == setting.key; });
+    const Parameter* parameter = find_parameter(parameters, setting.key);
+    if (word != words.end())
+      apply_word(setting, section, *word, diagnostics);
+    else if (parameter)
+      apply_number(setting, section, *parameter, diagnostics);
+    else
+      diagnostics.error(setting.where,
+                        "unknown key \"" + setting.key + "\" in " + section +
+                            ", expected one of: " + expected_names(parameters, words));
+  }
+}
+
+void apply_override(Scene& scene, const std::string& key, const std::string& value) {
+  if (set_scene_number(scene, key, value)) return;
+  const Setting setting{key, value, {"--set " + key, 0, 0}};
+  if (starts_with(key, "rods.")) {
+    scene.rods.push_back({key.substr(5), value, setting.where});
+  } else if (starts_with(key, "coupling.")) {
+    scene.coupling.push_back({key.substr(9), value, setting.where});
+  } else if (starts_with(key, "plants.")) {
+    set_on_plant(scene, key, key.substr(7), setting);
+  } else if (key.find('.') == std::string::npos) {
+    throw UsageError("--set " + key +
+                     ": expected duration, dt, log_rate, seed, threads, rods.KEY, coupling.KEY, "
+                     "plants.NAME.KEY, or an override of every plant such as detach.stretch");
+  } else {
+    for (ScenePlant& plant : scene.plants) plant.set.push_back(setting);
+  }
+}
+
+std::pair<std::string, std::string> split_assignment(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0 || at + 1 == text.size())
+    throw UsageError("\"" + text + "\": expected key=value");
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+}  // namespace pedicel::world

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/parameter.h"
+#include "world/scene.h"
+
+namespace pedicel::world {
+
+/// A setting that is a word ("solver: direct"). `value` receives the index of the word.
+struct WordSetting {
+  std::string name;
+  std::vector<std::string> words;
+  int* value = nullptr;
+};
+
+/// Applies a settings section to the parameters that its owner describes. Every unknown key and
+/// every refused value goes to `diagnostics` with its place; `section` names it ("rods").
+void apply_settings(const std::vector<Setting>& settings, const std::string& section,
+                    const std::vector<Parameter>& parameters, const std::vector<WordSetting>& words,
+                    Diagnostics& diagnostics);
+
+/// The number that a text is, as it is written in our files; nothing where it is none.
+std::optional<double> to_number(const std::string& text);
+
+/// Changes a scene as `--set key=value` does: dt, duration, seed, threads, log_rate, rods.KEY,
+/// coupling.KEY, plants.NAME.KEY (one plant) and any other KEY that is an override of every plant
+/// (detach.stretch). Throws UsageError where the key or the value is impossible.
+void apply_override(Scene& scene, const std::string& key, const std::string& value);
+
+/// Splits "key=value". Throws UsageError where there is no "=" or no key.
+std::pair<std::string, std::string> split_assignment(const std::string& text);
+
+}  // namespace pedicel::world
