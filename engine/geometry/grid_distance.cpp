@@ -137,13 +137,7 @@ Aabb GridDistance::grid_box() const {
   return {origin_, node(nodes_.x() - 1, nodes_.y() - 1, nodes_.z() - 1)};
 }
 
-double GridDistance::distance(const Vec3& p_L, Vec3* gradient_L) const {
-  if (!p_L.allFinite()) {
-    if (gradient_L) *gradient_L = Vec3::UnitZ();
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const Aabb box = grid_box();
-  const Vec3 q = p_L.cwiseMax(box.min()).cwiseMin(box.max());
+GridDistance::Interpolated GridDistance::interpolate(const Vec3& q) const {
   const Vec3 cells = (q - origin_) / spacing_;
   int cell[3];
   double t[3];
@@ -151,36 +145,45 @@ double GridDistance::distance(const Vec3& p_L, Vec3* gradient_L) const {
     cell[k] = std::clamp(static_cast<int>(cells[k]), 0, nodes_[k] - 2);
     t[k] = cells[k] - cell[k];
   }
-  // Interpolate along x, then y, then z, carrying the derivatives along.
+  // Along x, then y, then z, carrying the derivatives along.
   const float* corner = &samples_[index(cell[0], cell[1], cell[2])];
-  const int step[2] = {nodes_.x(), nodes_.x() * nodes_.y()};
+  const int step_y = nodes_.x(), step_z = nodes_.x() * nodes_.y();
   double value[2], dx[2], dy[2];
   for (int k = 0; k < 2; ++k) {
-    const float* low = corner + k * step[1];
-    const float* high = low + step[0];
+    const float* low = corner + k * step_z;
+    const float* high = low + step_y;
     const double slope_low = double(low[1]) - low[0], slope_high = double(high[1]) - high[0];
     const double at_low = low[0] + t[0] * slope_low, at_high = high[0] + t[0] * slope_high;
     dx[k] = slope_low + t[1] * (slope_high - slope_low);
     dy[k] = at_high - at_low;
     value[k] = at_low + t[1] * dy[k];
   }
-  const double border = value[0] + t[2] * (value[1] - value[0]);
-  const Vec3 slope =
-      Vec3(dx[0] + t[2] * (dx[1] - dx[0]), dy[0] + t[2] * (dy[1] - dy[0]), value[1] - value[0]) /
-      spacing_;
+  const double dz = value[1] - value[0];
+  const Vec3 change(dx[0] + t[2] * (dx[1] - dx[0]), dy[0] + t[2] * (dy[1] - dy[0]), dz);
+  return {value[0] + t[2] * dz, change / spacing_};
+}
 
+double GridDistance::distance(const Vec3& p_L, Vec3* gradient_L) const {
+  if (!p_L.allFinite()) {
+    if (gradient_L) *gradient_L = Vec3::UnitZ();
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const Aabb box = grid_box();
+  const Vec3 q = p_L.cwiseMax(box.min()).cwiseMin(box.max());
+  const Interpolated at = interpolate(q);
   const Vec3 beyond = p_L - q;
   const double s = beyond.norm();
   if (s == 0.0) {
-    if (gradient_L) *gradient_L = unit_or(slope, unit_or(p_L - mesh_box_.center(), Vec3::UnitZ()));
-    return border;
+    if (gradient_L)
+      *gradient_L = unit_or(at.slope, unit_or(p_L - mesh_box_.center(), Vec3::UnitZ()));
+    return at.value;
   }
   if (gradient_L) {
     // d sqrt(s^2 + b^2); on the axes where q stays at the border, b does not change.
-    const Vec3 along = (beyond.array() == 0.0).select(slope, Vec3::Zero());
-    *gradient_L = unit_or(beyond + border * along, beyond / s);
+    const Vec3 along = (beyond.array() == 0.0).select(at.slope, Vec3::Zero());
+    *gradient_L = unit_or(beyond + at.value * along, beyond / s);
   }
-  return std::hypot(s, border);
+  return std::hypot(s, at.value);
 }
 
 }  // namespace pedicel::geometry

@@ -30,7 +30,7 @@ struct GridSettings {
 };
 
 /// The signed distance to a mesh, sampled on a regular grid around it (single precision) and
-/// interpolated trilinearly: some 20 ns instead of microseconds.
+/// interpolated trilinearly: tens of nanoseconds, not microseconds.
 ///
 /// Outside of the grid, with s the distance to the grid's box, q the nearest point of the box and b
 /// the distance of q, the true distance is at least sqrt(s^2 + b^2) and at most s + b, since the
@@ -54,6 +54,13 @@ class GridDistance final : public SignedDistance {
   friend class GridFile;
   GridDistance() = default;
 
+  struct Interpolated {
+    double value;  ///< m
+    Vec3 slope;
+  };
+
+  /// `q` must be in grid_box().
+  Interpolated interpolate(const Vec3& q) const;
   void sample_coarse(const MeshDistance& mesh, ThreadPool& pool);
   std::vector<std::uint8_t> nodes_near_surface(double band) const;
   int index(int x, int y, int z) const { return (z * nodes_.y() + y) * nodes_.x() + x; }

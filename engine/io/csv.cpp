@@ -52,7 +52,7 @@ class Reader {
     }
     if (table_.columns.empty())
       diagnostics_.error({table_.file, 1, 1}, "no header line, expected column names");
-    else if (table_.rows.empty())
+    else if (table_.rows.empty() && !refused_rows_)
       diagnostics_.error({table_.file, line, 1}, "no rows, expected at least one row of numbers");
     return std::move(table_);
   }
@@ -70,6 +70,7 @@ class Reader {
       diagnostics_.error({table_.file, number, 1},
                          std::to_string(cells.size()) + " cells, expected " +
                              std::to_string(table_.columns.size()) + " as in the header");
+      refused_rows_ = true;
       return;
     }
     std::vector<double> row;
@@ -98,6 +99,7 @@ class Reader {
   }
 
   CsvTable table_;
+  bool refused_rows_ = false;
   CsvRules rules_;
   Diagnostics& diagnostics_;
 };

@@ -31,6 +31,7 @@ std::optional<double> parse_number(const YAML::Node& node) {
   const char* first = text.data() + (!text.empty() && text.front() == '+' ? 1 : 0);
   const char* last = text.data() + text.size();
   double value = 0.0;
+  if (first != text.data() && first != last && *first == '-') return std::nullopt;  // "+-1"
   const auto [end, error] = std::from_chars(first, last, value);
   if (error != std::errc{} || end != last || first == last) return std::nullopt;
   return value;
@@ -254,11 +255,12 @@ bool check_format(YamlMap& map, const std::string& format, int version) {
   }
   const auto version_node = map.required("version");
   if (!version_node) return false;
+  const int before = map.node().diagnostics().error_count();
   const int found = version_node->integer("version", 1, 1000000);
+  if (map.node().diagnostics().error_count() > before) return false;
   if (found == version) return true;
-  if (!map.node().diagnostics().has_errors())
-    version_node->error("version is " + std::to_string(found) + ", expected " +
-                        std::to_string(version));
+  version_node->error("version is " + std::to_string(found) + ", expected " +
+                      std::to_string(version));
   return false;
 }
 

@@ -128,8 +128,14 @@ class Renderer::Implementation {
                       static_cast<float>(camera.near_plane), 1.0f / settings_.shadow_size};
   }
 
+  /// Round things cast with their far side: the near side, whose coarse facets lie now inside, now
+  /// outside those that are seen, would shade itself in stripes. The contact map's view is
+  /// mirrored, so there the lower sides are kept, as they should be.
   void draw_casters() const {
+    gl_.Enable(GL_CULL_FACE);
+    gl_.CullFace(GL_FRONT);
     for (const Kind kind : {Kind::tube, Kind::sphere, Kind::mesh, Kind::blade}) {
+      if (kind == Kind::mesh) gl_.Disable(GL_CULL_FACE);  // loaded meshes may not be closed
       programs_.use_depth(kind);
       casting_.draw(kind);
     }
@@ -147,7 +153,7 @@ class Renderer::Implementation {
 
   void draw_shadow(FrameUniforms& frame, const SunView& sun) const {
     frame.shadow_matrix = columns(to_texture(sun.matrix));
-    frame.sun_direction = floats(settings_.to_sun.normalized(), 1.6 * sun.texel);
+    frame.sun_direction = floats(settings_.to_sun.normalized(), 2.0 * sun.texel);
     frame.view_projection = columns(sun.matrix);
     programs_.set_frame(frame);
     shadow_.begin();

@@ -90,7 +90,7 @@ MeshData unit_tube(int sides, int stretches, int caps) {
 UnitMeshes::UnitMeshes(const GlFunctions& gl) {
   constexpr int sides[levels] = {6, 10, 18, 32};
   constexpr int stretches[levels] = {2, 3, 5, 8};
-  constexpr int caps[levels] = {1, 2, 4, 7};
+  constexpr int caps[levels] = {1, 3, 6, 10};
   constexpr int splits[levels] = {1, 2, 3, 4};
   const auto make = [&](const MeshData& data, std::span<const int> base,
                         std::span<const int> instance) {

@@ -1,7 +1,9 @@
 #include "world/expectation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/check.h"
 #include "io/csv.h"
@@ -50,6 +52,8 @@ std::string test_text(const Expectation& e) {
       return "rises with the sweep";
     case Expectation::Test::falls_with_sweep:
       return "falls with the sweep";
+    case Expectation::Test::steady_over_sweep:
+      return "within " + number(e.low) + " of its mean over the sweep";
   }
   return {};
 }
@@ -67,6 +71,23 @@ bool holds(const Expectation& e, double value) {
     default:
       return false;
   }
+}
+
+// Both are written so that a NaN anywhere meets nothing.
+bool is_steady(std::span<const double> values, double share) {
+  const double mean =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return std::all_of(values.begin(), values.end(), [&](double value) {
+    return std::abs(value - mean) <= share * std::abs(mean);
+  });
+}
+
+bool holds_over_sweep(const Expectation& e, std::span<const double> values) {
+  if (e.test == Expectation::Test::steady_over_sweep) return is_steady(values, e.low);
+  const double sign = e.test == Expectation::Test::rises_with_sweep ? 1.0 : -1.0;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (!(sign * (values[i] - values[i - 1]) > 0.0)) return false;
+  return true;
 }
 
 }  // namespace
@@ -90,11 +111,7 @@ Verdict judge(const Expectation& expectation, double measured) {
 
 Verdict judge_sweep(const Expectation& expectation, std::span<const double> measured) {
   PEDICEL_ASSERT(expectation.over_sweep());
-  const double sign = expectation.test == Expectation::Test::rises_with_sweep ? 1.0 : -1.0;
-  bool met = measured.size() >= 2;
-  // Written so that a NaN anywhere meets nothing.
-  for (std::size_t i = 1; i < measured.size(); ++i)
-    met = met && sign * (measured[i] - measured[i - 1]) > 0.0;
+  const bool met = measured.size() >= 2 && holds_over_sweep(expectation, measured);
   return {expectation, {measured.begin(), measured.end()}, met};
 }
 

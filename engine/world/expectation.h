@@ -22,16 +22,22 @@ std::span<const Quantity> known_quantities();
 
 /// A pass criterion: a quantity and a bound, or how it changes over a sweep.
 struct Expectation {
-  enum class Test { is, between, above, below, rises_with_sweep, falls_with_sweep };
+  enum class Test {
+    is,
+    between,
+    above,
+    below,
+    rises_with_sweep,
+    falls_with_sweep,
+    steady_over_sweep,  ///< all values within `low` of their mean, relative
+  };
   std::string quantity;
   std::string fruit, body, plant, link;  ///< of what; empty: of all
   Test test = Test::is;
   double low = 0.0, high = 0.0;  ///< between; the others use `low`
   SourcePosition where;
 
-  bool over_sweep() const {
-    return test == Test::rises_with_sweep || test == Test::falls_with_sweep;
-  }
+  bool over_sweep() const { return test >= Test::rises_with_sweep; }
 };
 
 /// "detach_time_s of truss/fruit_3 between 1 and 3"
@@ -46,7 +52,8 @@ struct Verdict {
 /// A value that could not be measured (a fruit that never came off) is NaN and meets nothing.
 Verdict judge(const Expectation& expectation, double measured);
 
-/// The values in the order of the sweep; they must rise (fall) strictly, and there must be two.
+/// The values in the order of the sweep, two at least; they must rise (fall) strictly, or be
+/// steady.
 Verdict judge_sweep(const Expectation& expectation, std::span<const double> measured);
 
 /// "met     detached_count is 1: 1"

@@ -58,6 +58,15 @@ void read_between(const io::YamlNode& node, Expectation& e) {
   e.high = bounds[1];
 }
 
+/// with_sweep: rises | falls | steady; the last with `within`, the share of the mean.
+void read_with_sweep(const io::YamlNode& node, io::YamlMap& map, Expectation& e) {
+  const std::string word = node.choice("with_sweep", {"rises", "falls", "steady"});
+  if (word == "falls") e.test = Expectation::Test::falls_with_sweep;
+  if (word != "steady") return;
+  e.test = Expectation::Test::steady_over_sweep;
+  e.low = map.number("within", io::positive);
+}
+
 void read_test(io::YamlMap& map, Expectation& e) {
   using Test = Expectation::Test;
   const std::pair<const char*, Test> tests[] = {{"is", Test::is},
@@ -76,8 +85,7 @@ void read_test(io::YamlMap& map, Expectation& e) {
     } else if (test == Test::between) {
       read_between(*node, e);
     } else if (test == Test::rises_with_sweep) {
-      if (node->choice("with_sweep", {"rises", "falls"}) == "falls")
-        e.test = Test::falls_with_sweep;
+      read_with_sweep(*node, map, e);
     } else {
       e.low = node->number(key);
     }

@@ -115,36 +115,49 @@ void SimWorld::check_bodies() {
   }
 }
 
+namespace {
+
+void check_body(const BodyDescription& body) {
+  if (body.parts.empty()) throw UsageError("body " + body.name + ": has no parts");
+  const auto [lower, upper] = bounds_of(body);
+  if (!((upper - lower).minCoeff() > 0.0)) throw UsageError("body " + body.name + ": has no size");
+}
+
+std::unique_ptr<btRigidBody> make_rigid_body(const BodyDescription& body, const RigidShape& shape) {
+  btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, shape.compound.get(),
+                                                to_bullet(shape.inertia));
+  info.m_startWorldTransform = to_bullet(body.pose * shape.X_BC);
+  info.m_friction = body.friction;
+  info.m_restitution = body.restitution;
+  auto rigid = std::make_unique<btRigidBody>(info);
+  rigid->setActivationState(DISABLE_DEACTIVATION);
+  if (body.mass == 0.0) return rigid;
+
+  const Vec3 lever = body.pose.rotation * shape.X_BC.position;
+  rigid->setLinearVelocity(to_bullet(body.velocity + body.angular_velocity.cross(lever)));
+  rigid->setAngularVelocity(to_bullet(body.angular_velocity));
+  const auto [lower, upper] = bounds_of(body);
+  const double smallest = (upper - lower).minCoeff();
+  // Fruits are no perfect spheres: without some rolling resistance (a lever arm, m) they would roll
+  // for ever.
+  rigid->setRollingFriction(0.01 * smallest);
+  rigid->setSpinningFriction(0.01 * smallest);
+  // A small fruit in free fall must not pass through a thin tray between two steps.
+  rigid->setCcdMotionThreshold(0.25 * smallest);
+  rigid->setCcdSweptSphereRadius(0.25 * smallest);
+  return rigid;
+}
+
+}  // namespace
+
 int SimWorld::add_body(const BodyDescription& description) {
-  if (description.parts.empty()) throw UsageError("body " + description.name + ": has no parts");
+  check_body(description);
   if (body_index(description.name) >= 0)
     throw UsageError("body " + description.name + ": this name is taken");
-  const auto [lower, upper] = bounds_of(description);
-  if (!((upper - lower).minCoeff() > 0.0))
-    throw UsageError("body " + description.name + ": has no size");
   auto body = std::make_unique<Body>();
   body->description = description;
   body->shape = make_rigid_shape(description);
-  btRigidBody::btRigidBodyConstructionInfo info(
-      description.mass, nullptr, body->shape.compound.get(), to_bullet(body->shape.inertia));
-  info.m_startWorldTransform = to_bullet(description.pose * body->shape.X_BC);
-  info.m_friction = description.friction;
-  info.m_restitution = description.restitution;
-  // Fruits are no perfect spheres: without some rolling resistance they would roll for ever.
-  const double smallest = (upper - lower).minCoeff();
-  info.m_rollingFriction = 0.02 * smallest;
-  info.m_spinningFriction = 0.02 * smallest;
-  body->bullet = std::make_unique<btRigidBody>(info);
-  const Vec3 lever = description.pose.rotation * body->shape.X_BC.position;
-  body->bullet->setLinearVelocity(
-      to_bullet(description.velocity + description.angular_velocity.cross(lever)));
-  body->bullet->setAngularVelocity(to_bullet(description.angular_velocity));
-  body->bullet->setActivationState(DISABLE_DEACTIVATION);
-  if (description.mass > 0.0) {
-    // A small fruit in free fall must not pass through a thin tray between two steps.
-    body->bullet->setCcdMotionThreshold(0.25 * smallest);
-    body->bullet->setCcdSweptSphereRadius(0.25 * smallest);
-  }
+  body->bullet = make_rigid_body(description, body->shape);
   bullet_->world.addRigidBody(body->bullet.get());
   bodies_.push_back(std::move(body));
   return body_count() - 1;

@@ -188,6 +188,8 @@ TEST(LoadMesh, RefusesWithPathAndExpectation) {
               HasSubstr("not a readable mesh: "));
   EXPECT_THAT(refusal(folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")),
               HasSubstr("no triangles, expected at least one with an area"));
+  EXPECT_THAT(refusal(folder.write("wild.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")),
+              HasSubstr("vertex index out of range"));
   EXPECT_THAT(refusal(folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")),
               HasSubstr("a vertex is not finite, expected numbers in metres"));
 }

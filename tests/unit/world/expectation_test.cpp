@@ -48,6 +48,13 @@ TEST(Expectation, ASweepMustRiseOrFallStrictly) {
   EXPECT_FALSE(judge_sweep(expect(Kind::rises_with_sweep), std::array{2.0}).met);
 }
 
+TEST(Expectation, SteadyMeansNearTheMeanOfTheSweep) {
+  const std::array values = {0.9, 1.0, 1.1}, holed = {1.0, nothing};
+  EXPECT_TRUE(judge_sweep(expect(Kind::steady_over_sweep, 0.11), values).met);
+  EXPECT_FALSE(judge_sweep(expect(Kind::steady_over_sweep, 0.09), values).met);
+  EXPECT_FALSE(judge_sweep(expect(Kind::steady_over_sweep, 0.5), holed).met);
+}
+
 TEST(Expectation, SaysWhatWasExpectedAndMeasured) {
   EXPECT_EQ(to_string(judge(expect(Kind::between, 1.0, 3.0), 4.25)),
             "NOT MET detach_time_s of truss/fruit_3 between 1 and 3: 4.25");

@@ -102,6 +102,7 @@ TEST(SimWorld, ASmallFruitLandsInATrayAndComesToRestThere) {
   BodyDescription fruit = fruit_body("fruit", 0.012, 0.007, 0.03, 0.0015);
   fruit.pose.position = {0.02, 0.01, 0.9};
   fruit.velocity = Vec3(0.1, 0, 0);
+  fruit.angular_velocity = Vec3(0, 1, 0);
   const int index = world.add_body(fruit);
   for (int i = 0; i < 5 * 480; ++i) world.step();
   const Vec3 place = world.body_pose(index).position;

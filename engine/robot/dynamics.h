@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "robot/kinematics.h"
+
+namespace pedicel::robot {
+
+/// Inverse dynamics and energy of a description with a resting base, without Bullet: the recursive
+/// Newton-Euler algorithm (Luh, Walker, Paul 1980; Featherstone 2008, section 5.3) in world axes.
+/// Does not allocate after construction.
+class Dynamics {
+ public:
+  Dynamics(const RobotDescription& robot, const KinematicModel& model);
+
+  /// What each degree of freedom must be driven with (N m or N) so that the robot at q, qd
+  /// accelerates with qdd; the share of mimic joints is included, joint damping and friction are
+  /// not.
+  const Eigen::VectorXd& inverse(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+                                 const Eigen::VectorXd& qdd, const Vec3& gravity_W);
+
+  /// The same for each element of the model (mimic joints by themselves), from the last inverse().
+  const std::vector<double>& element_torques() const { return element_torques_; }
+
+  double kinetic_energy(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);         ///< J
+  double potential_energy(const Eigen::VectorXd& q, const Vec3& gravity_W);           ///< J
+
+ private:
+  struct LinkState {
+    Vec3 angular_acceleration, acceleration;  // of the frame's origin, world axes
+    Vec3 force, moment;                       // through the joint, moment about the frame's origin
+  };
+  void forward(const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd);
+  void own_forces(const Vec3& gravity_W);
+  void backward();
+
+  KinematicModel model_;
+  std::vector<Inertial> inertials_;
+  std::vector<Pose> poses_;
+  std::vector<Twist> twists_;
+  std::vector<LinkState> states_;
+  std::vector<double> element_torques_;
+  Eigen::VectorXd torques_;
+};
+
+}  // namespace pedicel::robot

@@ -1,0 +1,242 @@
+#include "robot/robot.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "robot/bullet_types.h"
+#include "robot/joint_drive.h"
+#include "robot/multibody.h"
+
+namespace pedicel::robot {
+
+std::vector<Parameter> RobotSettings::parameters() {
+  return {
+      {"contact_friction", "1", &contact_friction, 0.0, 10.0,
+       "Coulomb coefficient of the links' surfaces against rigid bodies."},
+      {"position_gain", "1", &position_gain, 0.01, 1.0,
+       "Share of a joint's position error that its motor removes in one step; 1 is stiffest."},
+  };
+}
+
+namespace {
+
+struct ExternalForce {
+  int link;
+  Vec3 force_W, point_W;
+};
+
+const RobotSettings& checked(RobotSettings& settings) {
+  if (const auto fault = check_parameters(settings.parameters())) throw UsageError(*fault);
+  return settings;
+}
+
+}  // namespace
+
+struct Robot::Impl {
+  Impl(const RobotDescription& robot, const RobotSettings& wanted, btMultiBodyDynamicsWorld& world)
+      : description(robot),
+        settings(wanted),
+        model(description, checked(settings).base_pose),
+        multibody(description, model, settings, world),
+        drive(description, model, settings, multibody),
+        dynamics(description, model) {
+    q.setZero(model.dofs());
+    qd = torques = q;
+    commands.resize(model.dofs());
+    forces.reserve(1024);  // a step allocates only beyond this many contacts
+  }
+
+  void place_joints(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity);
+  void read();
+  int checked_joint(int joint) const;
+  int checked_link(const std::string& link) const;
+
+  RobotDescription description;
+  RobotSettings settings;
+  KinematicModel model;
+  MultiBody multibody;
+  JointDrive drive;
+  mutable Dynamics dynamics;  // only its work space changes
+  Eigen::VectorXd q, qd, torques;
+  std::vector<Pose> poses;
+  std::vector<Twist> twists;
+  std::vector<JointCommand> commands;
+  std::vector<ExternalForce> forces;
+};
+
+void Robot::Impl::place_joints(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity) {
+  for (int k = 0; k < multibody.joints(); ++k) {
+    const auto& e = model.elements()[multibody.joint_group(k).element];
+    multibody.body().setJointPos(k, e.multiplier * position[e.dof] + e.offset);
+    multibody.body().setJointVel(k, e.multiplier * velocity[e.dof]);
+  }
+}
+
+void Robot::Impl::read() {
+  for (int k = 0; k < multibody.joints(); ++k) {
+    const auto& e = model.elements()[multibody.joint_group(k).element];
+    if (description.joints[e.joint].mimic) continue;
+    q[e.dof] = multibody.body().getJointPos(k);
+    qd[e.dof] = multibody.body().getJointVel(k);
+  }
+  if (!settings.fixed_base) model.set_base_pose(multibody.base_pose());
+  model.link_poses(q, poses);
+  model.link_velocities(poses, qd, twists, multibody.base_twist());
+}
+
+int Robot::Impl::checked_joint(int joint) const {
+  if (joint < 0 || joint >= model.dofs())
+    throw UsageError("robot '" + description.name + "': joint index " + std::to_string(joint) +
+                     ", expected 0 to " + std::to_string(model.dofs() - 1));
+  return joint;
+}
+
+int Robot::Impl::checked_link(const std::string& link) const {
+  const int index = model.link_index(link);
+  if (index < 0)
+    throw UsageError("robot '" + description.name + "': no link '" + link + "'");
+  return index;
+}
+
+Robot::Robot(const RobotDescription& description, const RobotSettings& settings,
+             btMultiBodyDynamicsWorld& world)
+    : impl_(std::make_unique<Impl>(description, settings, world)) {
+  reset(model().neutral(), Eigen::VectorXd::Zero(model().dofs()));
+}
+
+Robot::~Robot() = default;
+
+const RobotDescription& Robot::description() const { return impl_->description; }
+const KinematicModel& Robot::model() const { return impl_->model; }
+const RobotSettings& Robot::settings() const { return impl_->settings; }
+const Eigen::VectorXd& Robot::positions() const { return impl_->q; }
+const Eigen::VectorXd& Robot::velocities() const { return impl_->qd; }
+const Eigen::VectorXd& Robot::motor_torques() const { return impl_->torques; }
+const std::vector<Pose>& Robot::link_poses() const { return impl_->poses; }
+const std::vector<Twist>& Robot::link_twists() const { return impl_->twists; }
+btMultiBody& Robot::multibody() { return impl_->multibody.body(); }
+
+double Robot::joint_position(const std::string& joint) const {
+  const Impl& robot = *impl_;
+  const int index = robot.description.joint(joint);
+  for (int k = 0; k < robot.multibody.joints(); ++k)
+    if (robot.model.elements()[robot.multibody.joint_group(k).element].joint == index)
+      return robot.multibody.body().getJointPos(k);
+  throw UsageError("robot '" + robot.description.name + "': no joint '" + joint + "' that moves");
+}
+
+const Pose& Robot::link_pose_W(const std::string& link) const {
+  return impl_->poses[impl_->checked_link(link)];
+}
+
+const Twist& Robot::link_twist_W(const std::string& link) const {
+  return impl_->twists[impl_->checked_link(link)];
+}
+
+void Robot::set_position_target(int joint, double position, double velocity) {
+  const KinematicModel& m = impl_->model;
+  JointCommand& command = impl_->commands[impl_->checked_joint(joint)];
+  command.mode = ControlMode::position;
+  command.position = std::clamp(position, m.lower()[joint], m.upper()[joint]);
+  command.velocity = velocity;
+}
+
+void Robot::set_position_targets(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  for (int i = 0; i < model().dofs(); ++i) set_position_target(i, q[i], qd[i]);
+}
+
+void Robot::set_velocity_target(int joint, double velocity) {
+  JointCommand& command = impl_->commands[impl_->checked_joint(joint)];
+  command.mode = ControlMode::velocity;
+  command.velocity = velocity;
+}
+
+void Robot::set_torque(int joint, double torque) {
+  JointCommand& command = impl_->commands[impl_->checked_joint(joint)];
+  command.mode = ControlMode::torque;
+  command.torque = torque;
+}
+
+ControlMode Robot::mode(int joint) const {
+  return impl_->commands[impl_->checked_joint(joint)].mode;
+}
+
+void Robot::add_external_force(int link, const Vec3& force_W, const Vec3& point_W) {
+  // Kept until begin_step(): Bullet forgets forces that are added from its tick callbacks.
+  impl_->forces.push_back({link, force_W, point_W});
+}
+
+void Robot::begin_step(double dt) {
+  for (const ExternalForce& f : impl_->forces)
+    impl_->multibody.add_force(f.link, f.force_W, f.point_W);
+  impl_->forces.clear();
+  impl_->drive.begin(impl_->commands, impl_->q, impl_->qd, dt);
+}
+
+void Robot::end_step() {
+  impl_->read();
+  impl_->drive.end(impl_->torques);
+}
+
+void Robot::reset(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  if (q.size() != model().dofs() || qd.size() != model().dofs())
+    throw UsageError("robot '" + description().name + "': reset expects " +
+                     std::to_string(model().dofs()) + " joint values");
+  impl_->place_joints(q, qd);
+  impl_->multibody.update_colliders();
+  impl_->torques.setZero();
+  impl_->forces.clear();
+  for (int i = 0; i < model().dofs(); ++i) set_position_target(i, q[i]);
+  impl_->read();
+}
+
+RobotState Robot::state() const {
+  const btMultiBody& body = impl_->multibody.body();
+  RobotState state;
+  for (int k = 0; k < impl_->multibody.joints(); ++k) {
+    state.joint_positions.push_back(body.getJointPos(k));
+    state.joint_velocities.push_back(body.getJointVel(k));
+  }
+  const btVector3 position = body.getBasePos(), angular = body.getBaseOmega(),
+                  linear = body.getBaseVel();
+  const btQuaternion& rotation = body.getWorldToBaseRot();
+  state.base.assign(&position[0], &position[0] + 3);
+  state.base.insert(state.base.end(), &rotation[0], &rotation[0] + 4);
+  state.base.insert(state.base.end(), &angular[0], &angular[0] + 3);
+  state.base.insert(state.base.end(), &linear[0], &linear[0] + 3);
+  return state;
+}
+
+void Robot::set_state(const RobotState& state) {
+  btMultiBody& body = impl_->multibody.body();
+  const auto joints = static_cast<std::size_t>(impl_->multibody.joints());
+  if (state.joint_positions.size() != joints || state.joint_velocities.size() != joints ||
+      state.base.size() != 13)
+    throw UsageError("robot '" + description().name + "': the state of another robot");
+  for (int k = 0; k < impl_->multibody.joints(); ++k) {
+    body.setJointPos(k, state.joint_positions[k]);
+    body.setJointVel(k, state.joint_velocities[k]);
+  }
+  const std::vector<double>& b = state.base;
+  body.setBasePos({b[0], b[1], b[2]});
+  body.setWorldToBaseRot({b[3], b[4], b[5], b[6]});
+  body.setBaseOmega({b[7], b[8], b[9]});
+  body.setBaseVel({b[10], b[11], b[12]});
+  impl_->multibody.update_colliders();
+  impl_->forces.clear();
+  impl_->read();
+}
+
+void Robot::add_to(StateHash& hash) const {
+  const RobotState all = state();
+  for (const auto* values : {&all.joint_positions, &all.joint_velocities, &all.base})
+    for (double value : *values) hash.add(value);
+}
+
+double Robot::energy() const {
+  const Vec3 gravity = from_bullet(impl_->multibody.world().getGravity());
+  return impl_->dynamics.kinetic_energy(impl_->q, impl_->qd) +
+         impl_->dynamics.potential_energy(impl_->q, gravity);
+}
+
+}  // namespace pedicel::robot

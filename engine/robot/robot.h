@@ -1,0 +1,106 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/parameter.h"
+#include "core/state_hash.h"
+#include "robot/kinematics.h"
+
+class btMultiBody;
+class btMultiBodyDynamicsWorld;
+
+namespace pedicel::robot {
+
+/// How a robot stands in the world and how its joints are held.
+struct RobotSettings {
+  Pose base_pose;            ///< of the URDF's root link, in the world
+  bool fixed_base = true;    ///< false: the root floats
+  bool rk4 = false;          ///< Runge-Kutta 4 for the free motion: for passive robots (README)
+  bool collide = true;       ///< false: links touch nothing in Bullet
+  int collision_group = 1;   ///< Bullet's filter bits of the moving links (1: default filter)
+  int collision_mask = -1;   ///< what they may touch
+  double contact_friction = 0.8;  ///< 1, Coulomb coefficient of the links' surfaces in Bullet
+  double position_gain = 0.5;     ///< 1, share of a position error that is removed in one step
+
+  std::vector<Parameter> parameters();
+};
+
+enum class ControlMode { position, velocity, torque };
+
+/// What a restart needs; valid for the same robot only.
+struct RobotState {
+  std::vector<double> joint_positions, joint_velocities;  ///< every moving joint, mimics too
+  std::vector<double> base;  ///< floating base: position 3, rotation 4, angular and linear velocity
+};
+
+/// A robot as a btMultiBody in a world. Owns its Bullet objects and takes them out of the world when
+/// it goes; the world must outlive it. Links that fixed joints hold together are one Bullet link,
+/// yet every URDF link can be asked for.
+///
+/// One step: set targets, begin_step(dt), world.stepSimulation(dt, 0), end_step(). Joints start in
+/// position mode, at q = model().neutral(). Indices of joints are those of model(); of links, those
+/// of description().
+class Robot {
+ public:
+  /// Throws UsageError where the settings are out of range or nothing moves.
+  Robot(const RobotDescription& description, const RobotSettings& settings,
+        btMultiBodyDynamicsWorld& world);
+  ~Robot();
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+
+  const RobotDescription& description() const;
+  const KinematicModel& model() const;
+  const RobotSettings& settings() const;
+
+  // Measured, as of the last end_step() or reset().
+  const Eigen::VectorXd& positions() const;   ///< rad or m, dofs
+  const Eigen::VectorXd& velocities() const;  ///< rad/s or m/s, dofs
+  /// Torque or force (N m, N) that each motor applied in the last step, friction and damping of the
+  /// joint excluded; within the URDF's effort.
+  const Eigen::VectorXd& motor_torques() const;
+  /// Position of any joint by its URDF name, mimic joints as they are (not as they should be).
+  /// Throws UsageError for an unknown or fixed joint.
+  double joint_position(const std::string& joint) const;
+  const Pose& link_pose_W(int link) const { return link_poses()[link]; }
+  const Twist& link_twist_W(int link) const { return link_twists()[link]; }
+  const Pose& link_pose_W(const std::string& link) const;    ///< throws UsageError
+  const Twist& link_twist_W(const std::string& link) const;  ///< throws UsageError
+  const std::vector<Pose>& link_poses() const;               ///< all links
+  const std::vector<Twist>& link_twists() const;
+
+  // Commands; they stay until changed. Targets outside the limits are moved into them.
+  /// Where the joint shall be at the end of the next step, and how fast it moves there.
+  void set_position_target(int joint, double position, double velocity = 0.0);
+  /// The same for all joints (a sample of a Trajectory at the end of the next step).
+  void set_position_targets(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
+  void set_velocity_target(int joint, double velocity);
+  void set_torque(int joint, double torque);
+  ControlMode mode(int joint) const;
+
+  /// Force (N) on a link at a point, world frame, for the next step only (two-way coupling).
+  void add_external_force(int link, const Vec3& force_W, const Vec3& point_W);
+
+  /// Before world.stepSimulation(dt, 0): hands commands and external forces to Bullet.
+  void begin_step(double dt);
+  /// After it: reads positions, velocities, torques and link poses.
+  void end_step();
+
+  /// Puts the robot at q, qd and makes q its position target. Values are taken as they are.
+  void reset(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
+  RobotState state() const;
+  void set_state(const RobotState& state);
+  void add_to(StateHash& hash) const;
+
+  /// Kinetic plus potential energy, J (fixed base; floating base: of the links relative to it).
+  double energy() const;
+  btMultiBody& multibody();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pedicel::robot

@@ -1,0 +1,110 @@
+#include "robot/substitute_inertia.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/mass_properties.h"
+#include "io/csv.h"
+#include "robot/inertial_sum.h"
+
+namespace pedicel::robot {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Inertial box_solid(const Vec3& size, const Vec3& centre, double density) {
+  Inertial solid;
+  solid.mass = density * size.prod();
+  solid.com_L = centre;
+  const Vec3 squares = size.cwiseAbs2();
+  solid.inertia = (solid.mass / 12.0 * (Vec3::Constant(squares.sum()) - squares)).asDiagonal();
+  return solid;
+}
+
+Inertial cylinder_solid(double radius, double length, double density) {
+  Inertial solid;
+  solid.mass = density * pi * radius * radius * length;
+  const double across = solid.mass * (3.0 * radius * radius + length * length) / 12.0;
+  solid.inertia = Vec3(across, across, 0.5 * solid.mass * radius * radius).asDiagonal();
+  return solid;
+}
+
+Inertial sphere_solid(double radius, double density) {
+  Inertial solid;
+  solid.mass = density * 4.0 / 3.0 * pi * radius * radius * radius;
+  solid.inertia = Mat3::Identity() * (0.4 * solid.mass * radius * radius);
+  return solid;
+}
+
+/// A mesh that holds no volume (a flat sheet) counts as its bounding box, at least 1 mm thick.
+Inertial mesh_solid(const geometry::TriangleMesh& mesh, double density) {
+  if (const auto properties = geometry::mass_properties(mesh, density))
+    return {properties->mass, properties->centre, properties->inertia};
+  Vec3 low = mesh.vertices.front(), high = low;
+  for (const Vec3& vertex : mesh.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  return box_solid((high - low).cwiseMax(1e-3), 0.5 * (low + high), density);
+}
+
+Inertial shape_solid(const Geometry& shape, double density) {
+  switch (shape.kind) {
+    case Geometry::Kind::box:
+      return box_solid(shape.size, Vec3::Zero(), density);
+    case Geometry::Kind::cylinder:
+      return cylinder_solid(shape.radius, shape.length, density);
+    case Geometry::Kind::sphere:
+      return sphere_solid(shape.radius, density);
+    case Geometry::Kind::mesh:
+      break;
+  }
+  return mesh_solid(*shape.mesh, density);
+}
+
+bool positive_definite(const Mat3& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() > 1e-12;
+}
+
+}  // namespace
+
+std::optional<Inertial> solid_of_geometry(const Link& link, double density) {
+  Inertial sum;
+  for (const Collision& c : link.collisions)
+    add_inertial(sum, shape_solid(c.geometry, density), c.X_LC);
+  if (link.collisions.empty())
+    for (const Visual& v : link.visuals) add_inertial(sum, shape_solid(v.geometry, density), v.X_LV);
+  if (sum.mass > 0.0) return sum;
+  return {};
+}
+
+std::optional<std::string> substitute_inertia(Link& link, bool may_be_frame) {
+  Inertial& own = link.inertial;
+  const bool bare = link.collisions.empty() && link.visuals.empty();
+  if (own.mass == 0.0 && bare && may_be_frame) return {};
+  if (own.mass > 0.0 && positive_definite(own.inertia)) return {};
+
+  const std::optional<Inertial> solid = solid_of_geometry(link, substitute_density);
+  const std::string geometry = link.collisions.empty() ? "visual" : "collision";
+  const std::string what = "link '" + link.name + "': ";
+  if (own.mass == 0.0) {
+    own = solid ? *solid : sphere_solid(0.01, substitute_density);
+    return what + "no mass; substitute: " + io::format_number(own.mass, 4) + " kg, " +
+           (solid ? "its " + geometry + " geometry" : "a sphere of 10 mm radius") +
+           " at 1000 kg/m3";
+  }
+  if (solid) {
+    own.inertia = solid->inertia * (own.mass / solid->mass);
+    return what + "no usable inertia (it must be positive definite); substitute: its " + geometry +
+           " geometry with " + io::format_number(own.mass, 4) + " kg spread evenly";
+  }
+  const double radius = std::cbrt(own.mass / (substitute_density * 4.0 / 3.0 * pi));
+  own.inertia = Mat3::Identity() * (0.4 * own.mass * radius * radius);
+  return what + "no usable inertia (it must be positive definite); substitute: a solid sphere of " +
+         io::format_number(own.mass, 4) + " kg at 1000 kg/m3";
+}
+
+}  // namespace pedicel::robot

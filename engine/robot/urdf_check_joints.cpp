@@ -1,0 +1,119 @@
+#include <map>
+
+#include "robot/urdf_xml.h"
+
+namespace pedicel::robot {
+
+namespace {
+
+const std::set<std::string> joint_types = {"fixed", "revolute", "continuous", "prismatic"};
+
+void check_axis(const UrdfXml& xml, const TiXmlElement& joint, const std::string& what) {
+  const TiXmlElement* axis = joint.FirstChildElement("axis");
+  if (axis == nullptr) return;  // the standard's default is 1 0 0
+  if (!xml.text(*axis, "xyz", what + ": axis")) return;
+  const auto xyz = xml.numbers(*axis, "xyz", 3, what + ": axis");
+  if (xyz && Vec3((*xyz)[0], (*xyz)[1], (*xyz)[2]).norm() < 1e-6)
+    xml.error(attribute_or_element(*axis, "xyz"),
+              what + ": axis of length 0, expected a direction such as 0 0 1");
+}
+
+void check_limit(const UrdfXml& xml, const TiXmlElement& joint, const std::string& type,
+                 const std::string& what) {
+  const bool needed = type == "revolute" || type == "prismatic";
+  const TiXmlElement* limit = joint.FirstChildElement("limit");
+  if (limit == nullptr) {
+    if (needed)
+      xml.error(joint, what + ": " + type +
+                           " joint without <limit>, expected lower, upper, effort and velocity");
+    return;
+  }
+  const auto lower = xml.number(*limit, "lower", what + ": limit", false);
+  const auto upper = xml.number(*limit, "upper", what + ": limit", false);
+  if (needed && lower.value_or(0.0) > upper.value_or(0.0))
+    xml.error(*limit, what + ": limit with lower above upper, expected lower <= upper");
+  for (const char* name : {"effort", "velocity"}) {
+    const auto value = xml.not_negative(*limit, name, what + ": limit", true, false);
+    if (value == 0.0 && type != "fixed")
+      xml.warning(attribute_or_element(*limit, name),
+                  what + ": " + name + " 0 would stop the joint, taken as unlimited");
+  }
+}
+
+void check_dynamics(const UrdfXml& xml, const TiXmlElement& joint, const std::string& what) {
+  const TiXmlElement* dynamics = joint.FirstChildElement("dynamics");
+  if (dynamics == nullptr) return;
+  xml.not_negative(*dynamics, "damping", what + ": dynamics", false, false);
+  xml.not_negative(*dynamics, "friction", what + ": dynamics", false, false);
+  if (dynamics->Attribute("damping") == nullptr && dynamics->Attribute("friction") == nullptr)
+    xml.error(*dynamics, what + ": empty <dynamics>, expected damping or friction");
+}
+
+using JointMap = std::map<std::string, const TiXmlElement*>;
+
+void check_mimic(const UrdfXml& xml, const TiXmlElement& joint, const JointMap& joints,
+                 const std::string& name, const std::string& what) {
+  const TiXmlElement* mimic = joint.FirstChildElement("mimic");
+  if (mimic == nullptr) return;
+  xml.number(*mimic, "multiplier", what + ": mimic", false);
+  xml.number(*mimic, "offset", what + ": mimic", false);
+  const std::optional<std::string> source = xml.text(*mimic, "joint", what + ": mimic");
+  if (!source) return;
+  std::set<std::string> seen = {name};
+  for (std::string at = *source;;) {
+    const auto found = joints.find(at);
+    if (found == joints.end()) {
+      xml.error(attribute_or_element(*mimic, "joint"),
+                what + ": mimic of the unknown joint '" + at + "', expected a joint of this file");
+      return;
+    }
+    const char* type = found->second->Attribute("type");
+    if (type != nullptr && std::string(type) == "fixed") {
+      xml.error(attribute_or_element(*mimic, "joint"),
+                what + ": mimic of the fixed joint '" + at + "', expected a joint that moves");
+      return;
+    }
+    if (!seen.insert(at).second) {
+      xml.error(attribute_or_element(*mimic, "joint"),
+                what + ": mimic joints in a circle, expected one that moves by itself");
+      return;
+    }
+    const TiXmlElement* next = found->second->FirstChildElement("mimic");
+    const char* next_name = next != nullptr ? next->Attribute("joint") : nullptr;
+    if (next_name == nullptr) return;
+    at = next_name;
+  }
+}
+
+void check_joint(const UrdfXml& xml, const TiXmlElement& joint, const JointMap& joints,
+                 const std::string& name) {
+  const std::string what = "joint '" + name + "'";
+  xml.check_origin(joint, what);
+  check_axis(xml, joint, what);
+  check_dynamics(xml, joint, what);
+  check_mimic(xml, joint, joints, name, what);
+  const std::optional<std::string> type = xml.text(joint, "type", what);
+  if (!type) return;
+  if (joint_types.contains(*type))
+    check_limit(xml, joint, *type, what);
+  else
+    xml.error(attribute_or_element(joint, "type"),
+              what + ": unknown joint type '" + *type +
+                  "', expected fixed, revolute, continuous or prismatic");
+}
+
+}  // namespace
+
+void check_joints(const UrdfXml& xml, const TiXmlElement& robot) {
+  JointMap joints;
+  for (const TiXmlElement* joint : children(robot, "joint")) {
+    const std::optional<std::string> name = xml.text(*joint, "name", "joint");
+    if (name && !joints.emplace(*name, joint).second)
+      xml.error(attribute_or_element(*joint, "name"),
+                "duplicate joint '" + *name + "', expected each name once");
+  }
+  for (const TiXmlElement* joint : children(robot, "joint"))
+    if (const char* name = joint->Attribute("name")) check_joint(xml, *joint, joints, name);
+}
+
+}  // namespace pedicel::robot

@@ -1,0 +1,54 @@
+#include "io/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "core/diagnostics.h"
+#include "temporary_folder.h"
+
+namespace pedicel::io {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(AtomicFile, WritesWhatIsReadBackAndReplacesTheOld) {
+  TemporaryFolder folder;
+  const auto path = folder / "deep/er/file.txt";
+  const std::string bytes("a\0b\r\n\xff", 6);
+  write_file_atomically(path, "a much longer text that was there before");
+  write_file_atomically(path, bytes);
+  EXPECT_EQ(read_file(path), bytes);
+  const auto entries = std::filesystem::directory_iterator(folder / "deep/er");
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "a temporary file was left behind";
+}
+
+TEST(AtomicFile, SaysWhyItCannotWrite) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "file") << "x";
+  std::filesystem::create_directory(folder / "taken");
+  EXPECT_THAT([&] { write_file_atomically(folder / "file/a.txt", ""); },
+              ThrowsMessage<WriteError>(HasSubstr("cannot be")));
+  EXPECT_THAT([&] { write_file_atomically(folder / "taken", ""); },
+              ThrowsMessage<WriteError>(
+                  AllOf(HasSubstr("taken: cannot be written: "), HasSubstr("directory"))));
+  const auto entries = std::filesystem::directory_iterator(folder / ".");
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 2) << "a temporary file was left behind";
+}
+
+TEST(AtomicFile, ReadingSaysWhatIsWrong) {
+  TemporaryFolder folder;
+  EXPECT_THAT([&] { read_file(folder / "absent"); },
+              ThrowsMessage<InvalidFile>(
+                  EndsWith("absent: error: cannot be read: No such file or directory")));
+  EXPECT_THAT([&] { read_file(folder / "."); },
+              ThrowsMessage<InvalidFile>(EndsWith("error: is a folder, expected a file")));
+}
+
+}  // namespace
+}  // namespace pedicel::io
