@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/frames.h"
 
 namespace pedicel::cosserat {
@@ -38,6 +40,16 @@ inline Eigen::Vector4d bend_twist_in_full(const Quat& parent, const Quat& q, con
 inline Vec3 bend_twist(const Quat& parent, const Quat& q, const Quat& rest) {
   const Quat from_rest = rest.conjugate() * (parent.conjugate() * q);
   return (from_rest.w() < 0.0 ? -2.0 : 2.0) * from_rest.vec();
+}
+
+/// One correction turns a segment by no more than this, rad.
+inline constexpr double largest_turn = 0.5;
+
+/// The vector, shortened to `limit` where it is longer; zero where it is not finite.
+inline Vec3 clamped(const Vec3& v, double limit) {
+  const double norm = v.norm();
+  if (!std::isfinite(norm)) return Vec3::Zero();
+  return norm > limit ? Vec3(limit / norm * v) : v;
 }
 
 }  // namespace pedicel::cosserat

@@ -48,6 +48,7 @@ void RodSystem::add_to(StateHash& hash) const {
       hash.add(plant.state.position[e]);
       hash.add(plant.state.orientation[e]);
       hash.add(plant.state.velocity[e]);
+      hash.add(plant.state.angular_velocity[e]);
       hash.add(static_cast<std::uint64_t>(plant.state.alive[e]));
     }
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <optional>
 
 #include "cosserat/block_system.h"
 #include "cosserat/rotation.h"
@@ -87,12 +88,35 @@ Eigen::VectorXd reactions(const RodModel& model, const Loads& gravity_loads) {
   return normal.ldlt().solve(right);
 }
 
-// The rotation phi that carries a moment (E): Jr^-T(phi) K phi = moment, by fixed-point iteration
-// from the small-angle answer.
-Vec3 bend_under(const Vec3& stiffness, const Vec3& moment) {
-  Vec3 phi = moment.cwiseQuotient(stiffness);
-  for (int i = 0; i < 60 && phi.norm() < largest_bend; ++i)
-    phi = (inverse_right_jacobian(phi).transpose().inverse() * moment).cwiseQuotient(stiffness);
+// The moment (E) that a joint bent by phi carries.
+Vec3 moment_of(const Vec3& stiffness, const Vec3& phi) {
+  return inverse_right_jacobian(phi).transpose() * stiffness.cwiseProduct(phi);
+}
+
+// The rotation phi that carries a moment (E): Newton, the load being brought up in steps, so that
+// the answer is the one that grows from the unbent joint. Nothing where there is none below the
+// largest bend.
+std::optional<Vec3> bend_under(const Vec3& stiffness, const Vec3& moment) {
+  constexpr int steps = 8, iterations = 20;
+  constexpr double nudge = 1.0e-6;  // rad
+  Vec3 phi = Vec3::Zero();
+  for (int s = 1; s <= steps; ++s) {
+    const Vec3 wanted = moment * s / steps;
+    for (int i = 0; i < iterations; ++i) {
+      Mat3 slope;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 d = nudge * Vec3::Unit(k);
+        slope.col(k) =
+            (moment_of(stiffness, phi + d) - moment_of(stiffness, phi - d)) / (2 * nudge);
+      }
+      const Vec3 missing = wanted - moment_of(stiffness, phi);
+      if (missing.norm() <= 1.0e-13 * (1.0e-9 + wanted.norm())) break;
+      phi += slope.inverse() * missing;
+      if (!(phi.norm() < largest_bend)) return std::nullopt;
+    }
+  }
+  if (!((moment_of(stiffness, phi) - moment).norm() <= 1.0e-12 * (1.0 + moment.norm())))
+    return std::nullopt;
   return phi;
 }
 
@@ -107,7 +131,8 @@ void preload(RodModel& model, const Eigen::VectorXd& reaction) {
     if (support.rotation_stiffness.minCoeff() <= 0.0) continue;
     const Vec3 moment = element.drawn_rotation.conjugate() * Vec3(reaction.segment<3>(6 * s + 3));
     support.rotation =
-        element.drawn_rotation * exp_map(bend_under(support.rotation_stiffness, moment));
+        element.drawn_rotation *
+        exp_map(-bend_under(support.rotation_stiffness, -moment).value_or(Vec3::Zero()));
   }
 }
 
@@ -132,12 +157,13 @@ Standing stand_as_drawn(RodModel& model, const Vec3& gravity) {
   for (int e = 0; e < model.size(); ++e) {
     Element& element = model.elements[e];
     const Vec6 load = in_element(element, loads[e]);
-    const Vec3 phi = bend_under(element.bend_stiffness, load.tail<3>());
-    if (!(phi.norm() < largest_bend)) {
+    const std::optional<Vec3> bent = bend_under(element.bend_stiffness, load.tail<3>());
+    if (!bent) {
       standing.solvable = false;
       standing.element = e;
       return standing;
     }
+    const Vec3& phi = *bent;
     if (phi.norm() > standing.largest_rest_bend) {
       standing.largest_rest_bend = phi.norm();
       standing.element = e;

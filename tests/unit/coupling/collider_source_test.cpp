@@ -162,7 +162,7 @@ TEST(ColliderSource, GivesTheRigidMotionOfTheTouchedSurface) {
 }
 
 // A plate swept through the rod within one step: the rod is pushed ahead of it.
-TEST(ColliderSource, MeetsACollidersThatSweepsThroughInOneStep) {
+TEST(ColliderSource, MeetsAColliderThatSweepsThroughInOneStep) {
   const RodModel model = level_rod();
   ColliderSet colliders;
   colliders.add(box({0.02, 0.02, 0.002}), at(0.05, 0, -0.006));

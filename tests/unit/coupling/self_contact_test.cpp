@@ -148,6 +148,8 @@ TEST(SelfContact, GivesTwoContactsThatCarryTheForceOfOneSpring) {
     ASSERT_LT(k, settings.stiffness);
     const double o = settings.margin + overlap;
     EXPECT_NEAR(force, k * o * (1 + o / settings.margin), 1e-6);
+    // Half of the gap moves each side's plane: its slope is twice dF/do.
+    EXPECT_NEAR(point.stiffness, 2 * k * (1 + 2 * o / settings.margin), 1e-6 * point.stiffness);
     // Only the upper rod moved: the middle moves with half of its motion.
     EXPECT_NEAR(point.surface_motion_W.z(), -0.5 * (above - 2 * radius + overlap), 1e-9);
   }

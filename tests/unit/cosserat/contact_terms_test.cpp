@@ -1,0 +1,141 @@
+// Contact and friction as energies, and what they do in a step.
+#include "cosserat/contact_terms.h"
+
+#include <gtest/gtest.h>
+
+#include "analytic/rod_cases.h"
+#include "analytic/sphere_source.h"
+#include "unit/cosserat/random_plants.h"
+
+namespace pedicel::cosserat::cases {
+namespace {
+
+// Places a sphere so that it overlaps each of some shapes of a plant.
+SphereSource touching_spheres(const RodModel& model, const RodState& state, Random& random) {
+  SphereSource source;
+  for (int s = 0; s < static_cast<int>(model.shapes.size()); s += 2) {
+    const CollisionShape& shape = model.shapes[s];
+    const Vec3 place =
+        point_on(model, state, shape.element, 0.4 * model.elements[shape.element].length);
+    Vec3 side = random_vector(random).cross(state.orientation[shape.element] * Vec3::UnitZ());
+    side.normalize();
+    const double radius = 0.01;
+    source.spheres.push_back({place + side * (radius + shape.radius_near - 0.0005), radius,
+                              random_vector(random, 2e-3)});
+  }
+  return source;
+}
+
+// The friction limit and the direction are frozen at the iterate: there the force is exactly the
+// slope of the frozen potential, sticking or sliding.
+TEST(ContactTerms, ForceIsMinusTheSlopeOfThePotential) {
+  for (const double friction : {0.0, 0.2, 50.0}) {
+    Random random(5);
+    const RodModel model = random_plant(random, 8, false);
+    const RodState start = random_state(model, random, 1e-3, 0.1, 1e-3);
+    RodState state = start;
+    for (Vec3& p : state.position) p += random_vector(random, 3e-4);
+    SphereSource source = touching_spheres(model, state, random);
+    source.friction = friction;
+    ContactSource* pointer = &source;
+    ContactTerms terms;
+    terms.find(model, start, state, 1e-3, {&pointer, 1});
+    ASSERT_GT(terms.size(), 3);
+    BlockSystem system(model);
+    const double energy = terms.linearise(model, state, system);
+    EXPECT_NEAR(energy, terms.potential(model, state), 1e-15);
+    double largest = 0.0, worst = 0.0;
+    constexpr double step =
+        1e-8;  // small against the overlap: the potential has a kink at its edge
+    for (int e = 0; e < model.size(); ++e) {
+      for (int i = 0; i < 6; ++i) {
+        const double slope = (terms.potential(model, nudged(state, e, i, step)) -
+                              terms.potential(model, nudged(state, e, i, -step))) /
+                             (2 * step);
+        largest = std::max(largest, std::abs(slope));
+        worst = std::max(worst, std::abs(system.right_side(e)[i] + slope));
+      }
+    }
+    EXPECT_LT(worst, 1e-5 * largest) << friction;
+    EXPECT_EQ(system.negative_eigenvalues(), 0);
+  }
+}
+
+// A soft, well damped rod's tip is pressed on a sphere so large that it is a floor (radius 1 km),
+// and then pulled sideways.
+struct Pulled {
+  Vec3 tip;
+  ContactForce force;
+};
+
+Pulled pull(double sideways, double friction, double seconds) {
+  constexpr double radius = PeerCantilever::radius, floor = 1000.0, press = 0.05;
+  RodModel model = PeerCantilever::model(10);
+  for (Element& element : model.elements) {
+    element.radius_near = element.radius_far = radius;
+    element.mass_damping = 20.0;
+    element.damping_time = 0.05;
+  }
+  finish(model);
+  model.shapes.erase(model.shapes.begin(), model.shapes.end() - 1);  // the last segment only
+  Simulation sim(model);
+  SphereSource source;
+  source.friction = friction;
+  const double below = floor + radius + source.margin;
+  source.spheres.push_back({Vec3(PeerCantilever::length, 0, -below), floor, no_gravity});
+  sim.contacts.push_back(&source);
+  sim.loads.push_back({9, 0.0, Vec3(0, 0, -press), no_gravity});
+  for (int i = 0; i < 480; ++i) sim.step(1.0 / 240.0, no_gravity);
+  const int steps = static_cast<int>(240 * seconds);
+  for (int i = 0; i < steps; ++i) {
+    sim.loads[0].force_W.y() = sideways * std::min(1.0, (i + 1) / 24.0);
+    sim.step(1.0 / 240.0, no_gravity);
+  }
+  EXPECT_EQ(sim.solver->contact_forces().size(), 1u);
+  return {sim.tip(), sim.solver->contact_forces().at(0)};
+}
+
+// Below the limit the tip gives way by the spring's F / k, 10 um at 1000 N/m and 10 mN, and by
+// rolling, r (F r) / (GJ / L) = 37 um, and does not creep; without friction the rod's own 3EI/L^3
+// would let it go 170 mm.
+TEST(ContactTerms, FrictionHoldsBelowItsLimitWithoutCreeping) {
+  const Pulled early = pull(0.01, 0.5, 2.0), late = pull(0.01, 0.5, 6.0);
+  EXPECT_NEAR(late.force.normal, 0.05, 0.001);
+  EXPECT_FALSE(late.force.slipping);
+  EXPECT_LT(late.tip.y(), 6e-5);
+  EXPECT_NEAR(late.tip.y(), early.tip.y(), 1e-7);
+  EXPECT_NEAR(late.force.tangential_W.y(), -0.01, 1e-4);
+}
+
+TEST(ContactTerms, FrictionSlipsAtItsLimit) {
+  const Pulled slipping = pull(0.1, 0.5, 0.3);
+  EXPECT_TRUE(slipping.force.slipping);
+  EXPECT_NEAR(slipping.force.tangential_W.norm() / slipping.force.normal, 0.5, 0.02);
+  EXPECT_GT(slipping.tip.y(), 1e-2);
+}
+
+// A floor that moves takes the tip along: surface motion is what friction works against.
+TEST(ContactTerms, AMovingSurfaceCarriesThePlant) {
+  for (const SolverKind kind : {SolverKind::direct, SolverKind::position_based}) {
+    RodModel model = PeerCantilever::model(10);
+    for (Element& element : model.elements) element.mass_damping = 5.0;
+    finish(model);
+    model.shapes.erase(model.shapes.begin(), model.shapes.end() - 1);
+    RodSettings settings;
+    settings.solver = kind;
+    settings.iterations = 20;
+    Simulation sim(model, settings);
+    SphereSource source;
+    source.spheres.push_back({Vec3(PeerCantilever::length, 0, -1000.0), 1000.0, no_gravity});
+    sim.contacts.push_back(&source);
+    sim.loads.push_back({9, 0.0, Vec3(0, 0, -0.05), no_gravity});
+    for (int i = 0; i < 240; ++i) sim.step(1.0 / 240.0, no_gravity);
+    source.spheres[0].motion = Vec3(0, 0.02 / 240.0, 0);  // 20 mm/s, for a second
+    const double before = sim.tip().y();
+    for (int i = 0; i < 240; ++i) sim.step(1.0 / 240.0, no_gravity);
+    EXPECT_NEAR(sim.tip().y() - before, 0.02, 0.002) << static_cast<int>(kind);
+  }
+}
+
+}  // namespace
+}  // namespace pedicel::cosserat::cases

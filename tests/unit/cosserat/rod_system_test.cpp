@@ -1,0 +1,184 @@
+// Many plants: the same bits with any number of threads; states set from outside; what a step says.
+#include "cosserat/rod_system.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "analytic/rod_cases.h"
+#include "analytic/sphere_source.h"
+#include "unit/cosserat/random_plants.h"
+
+namespace pedicel::cosserat::cases {
+namespace {
+
+constexpr double dt = 1.0 / 240.0;
+
+void plant_garden(RodSystem& system) {
+  for (int p = 0; p < 7; ++p) {
+    Random random(p);
+    RodModel model = random_plant(random, 10 + p, p % 3 == 0);
+    model.fruits[0].thresholds.stretch = 2e-3;
+    const Vec3 tip = model.elements.back().drawn_position;
+    system.add_plant(std::move(model));
+    auto spheres = std::make_unique<SphereSource>();
+    spheres->spheres.push_back({tip - Vec3(0, 0, 0.025), 0.02, Vec3::Zero()});
+    system.add_contact_source(p, std::move(spheres));
+    system.loads(p).push_back({0, 0.0, Vec3(0.01, 0, 0), Vec3::Zero()});
+  }
+}
+
+std::uint64_t hash_after(const RodSettings& settings, int threads, int steps) {
+  RodSystem system(settings, threads);
+  plant_garden(system);
+  for (int i = 0; i < steps; ++i) system.step(dt, gravity);
+  StateHash hash;
+  system.add_to(hash);
+  return hash.value();
+}
+
+TEST(RodSystem, SameBitsWithOneAndTwoThreads) {
+  for (const SolverKind kind : {SolverKind::direct, SolverKind::position_based}) {
+    RodSettings settings;
+    settings.solver = kind;
+    const std::uint64_t one = hash_after(settings, 1, 120);
+    EXPECT_EQ(one, hash_after(settings, 2, 120));
+    EXPECT_EQ(one, hash_after(settings, 1, 120));
+    EXPECT_NE(one, hash_after(settings, 1, 121));
+  }
+}
+
+// After a state is set the step before it is not known: the next step is of first order, as the
+// first step of all is.
+TEST(RodSystem, AStateThatIsSetStartsAgainAtFirstOrder) {
+  RodSettings settings;
+  RodSystem system(settings);
+  system.add_plant(PeerCantilever::model(10));
+  for (int i = 0; i < 50; ++i) system.step(dt, gravity);
+  EXPECT_EQ(system.state(0).previous_dt, dt);
+  RodState start = system.state(0);
+  system.set_state(0, start);
+  EXPECT_EQ(system.state(0).previous_dt, 0.0);
+  system.step(dt, gravity);
+
+  RodSettings euler;
+  euler.integrator = Integrator::backward_euler;
+  RodSystem other(euler);
+  other.add_plant(PeerCantilever::model(10));
+  other.set_state(0, start);
+  other.step(dt, gravity);
+  for (int e = 0; e < 10; ++e)
+    EXPECT_EQ(system.state(0).position[e], other.state(0).position[e]) << e;
+}
+
+// Setting the same state twice gives the same bits: the solver keeps nothing of its own.
+TEST(RodSystem, NothingIsRememberedOutsideTheState) {
+  RodSystem system{RodSettings{}};
+  plant_garden(system);
+  for (int i = 0; i < 30; ++i) system.step(dt, gravity);
+  const RodState saved = system.state(1);
+  const auto rerun = [&] {
+    system.set_state(1, saved);
+    for (int i = 0; i < 30; ++i) system.step(dt, gravity);
+    return system.state(1).position.back();
+  };
+  const Vec3 first = rerun();
+  EXPECT_EQ(first, rerun());
+}
+
+// A change of dt is a restart too: BDF2's coefficients hold for equal steps only.
+TEST(RodSystem, AChangeOfTheStepLengthDoesNotKick) {
+  Simulation sim(PeerCantilever::model(10), settings_with(Integrator::bdf2));
+  settle(sim.model, sim.state, gravity);
+  const Vec3 tip = sim.tip();
+  for (int i = 0; i < 60; ++i) sim.step(i % 7 == 0 ? dt / 3 : dt, gravity);
+  EXPECT_LT((sim.tip() - tip).norm(), 1e-7);
+}
+
+TEST(RodSystem, TimeGoesOn) {
+  for (const SolverKind kind : {SolverKind::direct, SolverKind::position_based}) {
+    RodSettings settings;
+    settings.solver = kind;
+    RodSystem system(settings);
+    system.add_plant(PeerCantilever::model(3));
+    for (int i = 0; i < 24; ++i) system.step(0.125, gravity);
+    EXPECT_EQ(system.state(0).time, 3.0);
+  }
+}
+
+TEST(RodSystem, ADirectStepThatIsNotFinitePutsTheStateBackAndSaysSo) {
+  RodSystem system{RodSettings{}};
+  system.add_plant(PeerCantilever::model(5));
+  system.step(dt, gravity);
+  const RodState before = system.state(0);
+  system.loads(0).push_back(
+      {4, 0.0, Vec3(std::numeric_limits<double>::infinity(), 0, 0), Vec3::Zero()});
+  system.step(dt, gravity);
+  EXPECT_TRUE(system.report(0).errors & not_finite);
+  EXPECT_EQ(system.state(0).position.back(), before.position.back());
+  system.loads(0).clear();
+  system.step(dt, gravity);
+  EXPECT_EQ(system.report(0).errors, 0u);
+}
+
+// Absurd stiffness, steps and speeds: the direct solver stays finite too.
+TEST(RodSystem, DirectSolverNeverOverflows) {
+  for (int run = 0; run < 20; ++run) {
+    Random random(run);
+    RodModel model = random_plant(random, 15, run % 2 == 1);
+    const double scale = std::pow(10.0, random.uniform(-4.0, 4.0));
+    for (Element& element : model.elements) {
+      element.bend_stiffness *= scale;
+      element.stretch_stiffness *= scale;
+    }
+    Simulation sim(model);
+    for (Vec3& v : sim.state.velocity) v = random_vector(random, 30.0);
+    for (Vec3& omega : sim.state.angular_velocity) omega = random_vector(random, 300.0);
+    for (int i = 0; i < 100; ++i) sim.step(run % 3 == 0 ? 0.1 : 0.01, gravity);
+    for (const Vec3& p : sim.state.position) EXPECT_TRUE(p.allFinite()) << run;
+  }
+}
+
+// A fruit that comes off in a step is reported by that step, and the plant goes on without it.
+TEST(RodSystem, ReportsFruitsThatCameOff) {
+  RodModel model = PeerCantilever::model(10);
+  model.fruits.push_back({"fruit", 9, 0.0, 0.01, 900.0, {}});
+  model.fruits[0].thresholds.force = 0.02;  // N; it weighs 0.037 N
+  finish(model);
+  RodSystem system{RodSettings{}};
+  system.add_plant(model);
+  int events = 0;
+  for (int i = 0; i < 240; ++i) {
+    system.step(dt, gravity);
+    for (const DetachEvent& event : system.detached(0)) {
+      ++events;
+      EXPECT_EQ(event.cause, "force");
+      EXPECT_GE(event.force, 0.02);
+      EXPECT_EQ(event.time, system.state(0).time);
+    }
+  }
+  EXPECT_EQ(events, 1);
+  EXPECT_EQ(system.report(0).errors, 0u);
+}
+
+TEST(RodSettings, EveryParameterHasAKnownUnitAndADefaultInRange) {
+  RodSettings settings;
+  const std::vector<Parameter> parameters = parameters_of(settings);
+  ASSERT_NE(find_parameter(parameters, "iterations"), nullptr);
+  for (const Parameter& parameter : parameters) {
+    const auto units = known_units();
+    EXPECT_NE(std::find(units.begin(), units.end(), parameter.unit), units.end()) << parameter.name;
+    EXPECT_FALSE(parameter.sentence.empty()) << parameter.name;
+  }
+  EXPECT_FALSE(check_parameters(parameters).has_value());
+  settings.substeps = 0;
+  EXPECT_TRUE(check_parameters(parameters).has_value());
+}
+
+TEST(RodSettings, EveryErrorHasARemedy) {
+  for (const StepError error : {not_converged, not_finite, line_search_failed})
+    EXPECT_FALSE(remedy(error).empty());
+}
+
+}  // namespace
+}  // namespace pedicel::cosserat::cases
