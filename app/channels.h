@@ -1,0 +1,16 @@
+#pragma once
+
+#include "app/simulation.h"
+#include "world/recorder.h"
+
+namespace pedicel::app {
+
+/// Adds the columns of log.csv: robot joints and torques, tool, contact force per link, organ and
+/// fruit, strain of every fruit's stalk against its thresholds, energies. Organs are left out where
+/// there are more than 60 of them (a forest), then each plant has one column.
+void add_channels(world::Recorder& recorder, const Simulation& simulation);
+
+/// The record of a fruit that came off, as events.csv has it.
+world::Event to_event(const Detached& detached);
+
+}  // namespace pedicel::app

@@ -1,0 +1,86 @@
+#include "app/colliders.h"
+
+#include <algorithm>
+
+#include "geometry/grid_cache.h"
+#include "geometry/shapes.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using Field = std::shared_ptr<const geometry::SignedDistance>;
+
+Field field_of(const robot::Geometry& g, std::vector<std::string>& notes) {
+  switch (g.kind) {
+    case robot::Geometry::Kind::box:
+      return std::make_shared<geometry::BoxDistance>(g.size);
+    case robot::Geometry::Kind::sphere:
+      return std::make_shared<geometry::SphereDistance>(g.radius);
+    case robot::Geometry::Kind::cylinder:
+      return std::make_shared<geometry::CylinderDistance>(g.radius, g.length);
+    case robot::Geometry::Kind::mesh:
+      break;
+  }
+  geometry::GridReport report;
+  auto grid = std::make_shared<geometry::GridDistance>(
+      geometry::cached_grid(*g.mesh, {}, geometry::default_cache_folder(), nullptr, &report));
+  if (!report.problem.empty()) notes.push_back(report.problem);
+  return grid;
+}
+
+Field field_of(const world::BodyPart& part) {
+  switch (part.kind) {
+    case world::BodyPart::Kind::box:
+      return std::make_shared<geometry::BoxDistance>(2.0 * part.half_extents);
+    case world::BodyPart::Kind::sphere:
+      return std::make_shared<geometry::SphereDistance>(part.radius);
+    case world::BodyPart::Kind::cylinder:
+      return std::make_shared<geometry::CylinderDistance>(part.radius, part.length);
+    case world::BodyPart::Kind::capsule:
+      return std::make_shared<geometry::CapsuleDistance>(part.radius, part.length);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
+                         const robot::RobotDescription& robot, const std::vector<Pose>& link_poses,
+                         std::vector<std::string>& notes) {
+  for (std::size_t l = 0; l < robot.links.size(); ++l) {
+    for (const robot::Collision& collision : robot.links[l].collisions) {
+      coupling::Collider collider;
+      collider.name = name + "/" + robot.links[l].name;
+      collider.body = robot_body;
+      collider.link = static_cast<int>(l);
+      collider.shape = field_of(collision.geometry, notes);
+      collider.X_LC = collision.X_LC;
+      set.add(std::move(collider), link_poses[l]);
+    }
+  }
+}
+
+void add_body_colliders(coupling::ColliderSet& set, const world::BodyDescription& body, int index,
+                        const Pose& X_WB) {
+  for (const world::BodyPart& part : body.parts) {
+    coupling::Collider collider;
+    collider.name = body.name;
+    collider.body = index;
+    collider.shape = field_of(part);
+    collider.X_LC = part.pose;
+    collider.friction = std::min(body.friction, 1.0);
+    set.add(std::move(collider), X_WB);
+  }
+}
+
+void add_ground_collider(coupling::ColliderSet& set, const world::GroundPlane& ground) {
+  coupling::Collider collider;
+  collider.name = "ground";
+  collider.body = ground_body;
+  collider.shape = std::make_shared<geometry::PlaneDistance>(Vec3::UnitZ(), ground.height);
+  collider.friction = std::min(ground.friction, 1.0);
+  set.add(std::move(collider), Pose{});
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/collider.h"
+#include "robot/description.h"
+#include "world/sim_world.h"
+
+/// From the things of a world to the distance fields that plants feel. Collider::body says whose a
+/// field is: the numbers below, or the index of a rigid body.
+namespace pedicel::app {
+
+inline constexpr int robot_body = -2;
+inline constexpr int ground_body = -1;
+
+/// Adds one collider a collision shape of every link, named "robot/LINK"; exact for primitives, a
+/// grid kept on disk for meshes (geometry/grid_cache.h). `link_poses` (X_WL) is where the links are
+/// now. A problem with the cache is added to `notes`, one sentence each.
+void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
+                         const robot::RobotDescription& robot, const std::vector<Pose>& link_poses,
+                         std::vector<std::string>& notes);
+
+/// Adds one collider a part of a rigid body, named after the body.
+void add_body_colliders(coupling::ColliderSet& set, const world::BodyDescription& body, int index,
+                        const Pose& X_WB);
+
+void add_ground_collider(coupling::ColliderSet& set, const world::GroundPlane& ground);
+
+}  // namespace pedicel::app

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/log_plots.h"
+#include "app/simulation.h"
+#include "world/recorder.h"
+
+namespace pedicel::app {
+
+/// Set by the signal handler; a run that sees it ends with its files closed (exit code 130).
+extern std::atomic<bool> stop_requested;
+
+struct RunOptions {
+  SimulationOptions simulation;
+  std::filesystem::path out;  ///< folder; empty: nothing is written
+  bool pictures = true;
+  bool video = true;
+  std::optional<double> fps;               ///< Hz, in place of the scene's
+  std::optional<std::array<int, 2>> size;  ///< px, in place of the scene's
+  bool quiet = false;                      ///< no start line, end line and progress
+};
+
+/// What a run leaves behind, beside its files.
+struct RunResult {
+  int exit_code = 0;
+  long steps = 0;
+  double simulated = 0.0, wall = 0.0;  ///< s; wall: the steps alone
+  double ms_per_step_p50 = 0.0, ms_per_step_p95 = 0.0;
+  double largest_stretch = 0.0;  ///< 1
+  std::uint64_t state_hash = 0;
+  std::string error;  ///< why it ended early; empty: it did not
+  std::vector<world::Verdict> verdicts;
+  std::vector<world::Event> events;
+  std::vector<StalkLimits> limits;              ///< of every fruit, for the plots
+  std::vector<std::filesystem::path> pictures;  ///< in the order taken
+  std::optional<std::filesystem::path> video;
+  std::filesystem::path folder;
+
+  double real_time_factor() const { return wall > 0.0 ? simulated / wall : 0.0; }
+};
+
+/// Runs a scene off screen, once, without its sweep: steps it, records it, takes its pictures and
+/// its video, and judges its expectations (those over a sweep are left out). Throws InvalidFile for
+/// a scene that cannot be built and io::WriteError for an output that cannot be written.
+RunResult run_scene(const world::Scene& scene, const RunOptions& options);
+
+/// Runs a scene, and its sweep where it has one (each value in a folder of its own, without video),
+/// and writes report.html. The result is that of the main run with the sweep's verdicts added.
+RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options);
+
+/// A result for machines.
+std::string to_json(const world::Scene& scene, const RunResult& result);
+
+}  // namespace pedicel::app

@@ -1,0 +1,79 @@
+#include "app/plant_overrides.h"
+
+#include <map>
+
+#include "world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using plant::DetachLimits;
+using plant::MaterialValues;
+
+const std::map<std::string, std::optional<double> DetachLimits::*>& detach_keys() {
+  static const std::map<std::string, std::optional<double> DetachLimits::*> keys = {
+      {"detach.stretch", &DetachLimits::stretch},
+      {"detach.bend", &DetachLimits::bend},
+      {"detach.force", &DetachLimits::force},
+      {"detach.moment", &DetachLimits::moment},
+      {"detach.torsion", &DetachLimits::torsion}};
+  return keys;
+}
+
+const std::map<std::string, std::optional<double> MaterialValues::*>& material_keys() {
+  static const std::map<std::string, std::optional<double> MaterialValues::*> keys = {
+      {"material.youngs_modulus", &MaterialValues::youngs_modulus},
+      {"material.poisson_ratio", &MaterialValues::poisson_ratio},
+      {"material.density", &MaterialValues::density},
+      {"material.damping_time", &MaterialValues::damping_time}};
+  return keys;
+}
+
+std::string all_keys() {
+  std::string text;
+  for (const auto& [key, member] : detach_keys()) text += key + ", ";
+  for (const auto& [key, member] : material_keys()) text += key + ", ";
+  return text + "sampling.connect, sampling.distance";
+}
+
+// The bounds are those of the plant file; check_plant() cannot see where a value came from.
+bool in_bounds(const std::string& key, double value) {
+  if (key == "material.poisson_ratio") return value > -1.0 && value <= 0.5;
+  if (key == "material.damping_time") return value >= 0.0;
+  return value > 0.0;
+}
+
+}  // namespace
+
+void apply_plant_overrides(plant::PlantFile& plant, const std::vector<world::Setting>& settings,
+                           Diagnostics& diagnostics) {
+  for (const world::Setting& setting : settings) {
+    const auto detach = detach_keys().find(setting.key);
+    const auto material = material_keys().find(setting.key);
+    const bool connect = setting.key == "sampling.connect";
+    if (detach == detach_keys().end() && material == material_keys().end() && !connect &&
+        setting.key != "sampling.distance") {
+      diagnostics.error(setting.where,
+                        "unknown key \"" + setting.key + "\", expected one of: " + all_keys());
+      continue;
+    }
+    const std::optional<double> value = world::to_number(setting.text);
+    if (!value || !in_bounds(setting.key, *value)) {
+      diagnostics.error(setting.where,
+                        setting.key + " is \"" + setting.text +
+                            "\", expected a number that a plant file may hold there");
+      continue;
+    }
+    if (detach != detach_keys().end()) {
+      for (plant::PlantFruit& fruit : plant.fruits) fruit.detach.*(detach->second) = *value;
+    } else if (material != material_keys().end()) {
+      plant.material.*(material->second) = *value;
+      for (plant::PlantCurve& curve : plant.curves) (curve.material.*(material->second)).reset();
+    } else {
+      (connect ? plant.connect : plant.distance) = *value;
+    }
+  }
+}
+
+}  // namespace pedicel::app

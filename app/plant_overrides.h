@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/diagnostics.h"
+#include "plant/plant_file.h"
+#include "world/scene.h"
+
+namespace pedicel::app {
+
+/// Changes a plant as a scene's `set:` or `--set` says (see build_plants() for the keys). Unknown
+/// keys and impossible values go to `diagnostics`.
+void apply_plant_overrides(plant::PlantFile& plant, const std::vector<world::Setting>& settings,
+                           Diagnostics& diagnostics);
+
+}  // namespace pedicel::app

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/state_hash.h"
+#include "coupling/contact_report.h"
+#include "robot/robot.h"
+#include "robot/trajectory.h"
+#include "world/scene.h"
+#include "world/sim_world.h"
+
+namespace pedicel::app {
+
+/// The scene's robot and the program it follows.
+class RobotControl : public world::Participant {
+ public:
+  /// Throws UsageError where the description does not fit the world (nothing moves).
+  RobotControl(const world::SceneRobot& scene, const robot::RobotDescription& description,
+               world::SimWorld& world);
+
+  world::Phase phase() const override { return world::Phase::control; }
+  /// Sets the program's targets for the end of this step and hands them to Bullet.
+  void act(world::SimWorld& world, world::StepReport& report) override;
+  /// After Bullet's part of the step: reads where the robot is now. To be added to the world before
+  /// the plants.
+  world::Participant& reader() { return reader_; }
+
+  const std::string& name() const { return name_; }
+  const robot::Robot& robot() const { return robot_; }
+  robot::Robot& robot() { return robot_; }
+  const robot::RobotDescription& description() const { return robot_.description(); }
+  Pose link_pose(int link) const { return robot_.link_pose_W(link); }
+  const std::vector<Pose>& link_poses() const { return robot_.link_poses(); }
+  int tool_link() const { return tool_link_; }
+  /// X_W of the tool: the link that waypoints move, with the scene's offset.
+  Pose tool_pose() const;
+  void set_trajectory(robot::Trajectory trajectory) { trajectory_ = std::move(trajectory); }
+
+  /// The plants' reaction on the links, for the next step (two-way coupling).
+  void push(const coupling::ContactReport& contacts);
+  void add_to(StateHash& hash) const { robot_.add_to(hash); }
+
+ private:
+  class Reader : public world::Participant {
+   public:
+    explicit Reader(robot::Robot& robot) : robot_(robot) {}
+    world::Phase phase() const override { return world::Phase::plants; }
+    void act(world::SimWorld& world, world::StepReport& report) override;
+
+   private:
+    robot::Robot& robot_;
+  };
+
+  std::string name_, mode_;
+  robot::Robot robot_;
+  Reader reader_;
+  robot::Trajectory trajectory_;
+  int tool_link_ = 0;
+  Vec3 tool_offset_;
+  Eigen::VectorXd q_, qd_;
+};
+
+/// Reads the robot's files, puts it into the world and plans its program. Faults (an unreadable
+/// file, a joint that is not there, a waypoint that cannot be reached) go to `diagnostics`, and
+/// then nothing comes back. `find` tells where a scene's anchor is.
+std::unique_ptr<RobotControl> make_robot_control(
+    const world::SceneRobot& scene, const std::vector<std::string>& packages,
+    world::SimWorld& world, const std::function<std::optional<Vec3>(const world::Anchor&)>& find,
+    Diagnostics& diagnostics);
+
+}  // namespace pedicel::app

@@ -1,0 +1,90 @@
+#include "app/robot_control.h"
+#include "robot/cartesian_path.h"
+#include "robot/urdf_reader.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using FindPlace = std::function<std::optional<Vec3>(const world::Anchor&)>;
+
+/// Turns a scene's waypoints into those of the robot: anchors become places, the tool's offset is
+/// taken off, and the gripper's opening becomes its joint.
+std::vector<robot::Waypoint> waypoints_of(const world::SceneRobot& scene,
+                                          const RobotControl& control, const FindPlace& find,
+                                          Diagnostics& diagnostics) {
+  std::vector<robot::Waypoint> all;
+  Quat orientation = control.tool_pose().rotation;
+  for (const world::SceneWaypoint& given : scene.waypoints) {
+    robot::Waypoint waypoint;
+    waypoint.time = given.time;
+    waypoint.tool = control.description().links[control.tool_link()].name;
+    waypoint.where = given.where;
+    orientation = given.orientation.value_or(orientation);
+    waypoint.orientation_W = orientation;
+    waypoint.position_W = given.position - orientation * scene.tool_offset;
+    if (given.at.kind != world::Anchor::Kind::none) {
+      const std::optional<Vec3> place = find(given.at);
+      if (!place)
+        diagnostics.error(given.where,
+                          "at: \"" + given.at.name +
+                              "\" is not there, expected a fruit, body or plant of this scene");
+      waypoint.position_W += place.value_or(Vec3::Zero());
+    }
+    if (given.gripper && !scene.gripper.empty()) waypoint.joints[scene.gripper] = *given.gripper;
+    all.push_back(std::move(waypoint));
+  }
+  return all;
+}
+
+void check_names(const world::SceneRobot& scene, const robot::RobotDescription& description,
+                 Diagnostics& diagnostics) {
+  const robot::KinematicModel model(description);
+  const auto joint_error = [&](const std::string& what) {
+    std::string names;
+    for (const std::string& name : model.joint_names()) names += (names.empty() ? "" : ", ") + name;
+    diagnostics.error(scene.where, what + ", expected one of: " + names);
+  };
+  for (const auto& [joint, value] : scene.joints)
+    if (model.joint_index(joint) < 0) joint_error("joints: no joint \"" + joint + "\" to set");
+  if (!scene.gripper.empty() && model.joint_index(scene.gripper) < 0)
+    joint_error("gripper: no joint \"" + scene.gripper + "\"");
+  if (!scene.tool.empty() && description.link(scene.tool) < 0)
+    diagnostics.error(scene.where, "tool: no link \"" + scene.tool + "\" in " + description.file);
+}
+
+void plan(const world::SceneRobot& scene, RobotControl& control, const FindPlace& find,
+          Diagnostics& diagnostics) {
+  const robot::KinematicModel& model = control.robot().model();
+  const Eigen::VectorXd start = control.robot().positions();
+  const int before = diagnostics.error_count();
+  if (!scene.trajectory.empty()) {
+    control.set_trajectory(robot::read_trajectory_csv(scene.trajectory, control.description(),
+                                                      model, start, diagnostics));
+  } else if (!scene.waypoints.empty()) {
+    const auto waypoints = waypoints_of(scene, control, find, diagnostics);
+    if (diagnostics.error_count() == before)
+      control.set_trajectory(robot::plan_cartesian(model, waypoints, start, {}, diagnostics));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
+                                                 const std::vector<std::string>& packages,
+                                                 world::SimWorld& world, const FindPlace& find,
+                                                 Diagnostics& diagnostics) {
+  robot::PackagePaths paths = robot::PackagePaths::from_environment();
+  for (const auto& [name, path] : scene.packages) paths.add(name + "=" + path.string());
+  for (const std::string& package : packages) paths.add(package);
+  const int before = diagnostics.error_count();
+  const auto description = robot::read_urdf(scene.file, paths, diagnostics);
+  if (description) check_names(scene, *description, diagnostics);
+  if (!description || diagnostics.error_count() > before) return nullptr;
+  auto control = std::make_unique<RobotControl>(scene, *description, world);
+  plan(scene, *control, find, diagnostics);
+  if (diagnostics.error_count() > before) return nullptr;
+  return control;
+}
+
+}  // namespace pedicel::app

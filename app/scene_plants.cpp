@@ -1,0 +1,120 @@
+#include "app/scene_plants.h"
+
+#include "app/plant_overrides.h"
+#include "cosserat/standing.h"
+#include "plant/mtg_reader.h"
+#include "plant/plant_builder.h"
+#include "plant/reference_plants.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using world::ScenePlant;
+
+std::optional<plant::PlantFile> read_file(const ScenePlant& wanted, Diagnostics& diagnostics,
+                                          std::vector<std::string>& notes) {
+  const bool there = std::filesystem::exists(wanted.file);
+  if (there && wanted.source == ScenePlant::Source::mtg)
+    return plant::read_mtg(wanted.file, {}, diagnostics);
+  if (there || !wanted.optional) return plant::read_plant_file(wanted.file, diagnostics);
+  notes.push_back(wanted.name + ": " + wanted.file.string() + " is not there" +
+                  (wanted.fallback.empty() ? "; the scene runs without it"
+                                           : "; taken instead: " + wanted.fallback.string()));
+  if (wanted.fallback.empty()) return std::nullopt;
+  return plant::read_plant_file(wanted.fallback, diagnostics);
+}
+
+ScenePlantModel reference_plant(const ScenePlant& wanted, int index, Diagnostics& diagnostics) {
+  ScenePlantModel made;
+  if (wanted.built_in == "forest")
+    made.model = plant::forest_plant(index);
+  else if (wanted.built_in == "hanging_tree")
+    made.model = plant::hanging_tree();
+  else if (wanted.built_in == "cantilever")
+    made.model = plant::cantilever(20);
+  else
+    diagnostics.error(wanted.where, "built_in is \"" + wanted.built_in +
+                                        "\", expected one of: forest, hanging_tree, cantilever");
+  return made;
+}
+
+/// The plants of one entry: names, places and overrides.
+class Builder {
+ public:
+  Builder(const world::Scene& scene, Diagnostics& diagnostics, std::vector<std::string>& notes)
+      : scene_(scene), diagnostics_(diagnostics), notes_(notes) {}
+
+  void add(const ScenePlant& wanted) {
+    if (wanted.source == ScenePlant::Source::built_in) return add_reference(wanted);
+    std::optional<plant::PlantFile> file = read_file(wanted, diagnostics_, notes_);
+    if (!file) return;
+    apply_plant_overrides(*file, wanted.set, diagnostics_);
+    if (diagnostics_.has_errors()) return;
+    const int count = wanted.repeat[0] * wanted.repeat[1];
+    for (int i = 0; i < count; ++i) {
+      Pose pose = wanted.pose;
+      pose.position.x() += wanted.spacing.x() * (i % wanted.repeat[0]);
+      pose.position.y() += wanted.spacing.y() * (i / wanted.repeat[0]);
+      file->name = count > 1 ? wanted.name + "_" + std::to_string(i) : wanted.name;
+      add_file(*file, wanted, pose);
+    }
+  }
+
+  std::vector<ScenePlantModel> plants;
+
+ private:
+  plant::BuildOptions options_for(const ScenePlant& wanted, const Pose& pose) const {
+    const auto beside = wanted.file.parent_path();
+    return {pose,
+            scene_.gravity,
+            {beside, beside / "../assets/leaves", scene_.file.parent_path() / "../leaves"}};
+  }
+
+  void add_file(const plant::PlantFile& file, const ScenePlant& wanted, const Pose& pose) {
+    std::optional<plant::BuiltPlant> built =
+        plant::build_plant(file, options_for(wanted, pose), diagnostics_);
+    if (!built) return;
+    ScenePlantModel made;
+    made.info.name = file.name;
+    made.info.is_woody = wanted.source == ScenePlant::Source::mtg ||
+                         file.material.youngs_modulus.value_or(0.0) > 5.0e8;
+    made.info.sampled_nodes = built->nodes_sampled;
+    for (const auto& triangle : built->blades) {
+      Blade blade;
+      for (int c = 0; c < 3; ++c)
+        blade[c] = {triangle.corners[c].element, triangle.corners[c].back};
+      made.info.blades.push_back(blade);
+    }
+    made.model = std::move(built->model);
+    plants.push_back(std::move(made));
+  }
+
+  void add_reference(const ScenePlant& wanted) {
+    if (!wanted.set.empty())
+      diagnostics_.error(wanted.set.front().where,
+                         "set: a built-in plant cannot be changed, expected none");
+    const int count = wanted.built_in == "forest" ? plant::forest_size : 1;
+    for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
+      ScenePlantModel made = reference_plant(wanted, i, diagnostics_);
+      if (count > 1) made.model.name = wanted.name + "_" + std::to_string(i);
+      made.info.name = made.model.name;
+      plants.push_back(std::move(made));
+    }
+  }
+
+  const world::Scene& scene_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string>& notes_;
+};
+
+}  // namespace
+
+std::vector<ScenePlantModel> build_plants(const world::Scene& scene, Diagnostics& diagnostics,
+                                          std::vector<std::string>& notes) {
+  Builder builder(scene, diagnostics, notes);
+  for (const ScenePlant& wanted : scene.plants) builder.add(wanted);
+  return std::move(builder.plants);
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/simulation.h"
+
+namespace pedicel::app {
+
+/// A plant of a scene, ready for the solver.
+struct ScenePlantModel {
+  cosserat::RodModel model;
+  PlantInfo info;
+};
+
+/// Builds every plant of a scene: from plant files, MTG files and built-in reference plants, with
+/// the scene's `set:` overrides, repeated where it says so. Faults go to `diagnostics`; what is
+/// worth knowing (an absent optional file) to `notes`.
+///
+/// Overrides: detach.stretch, .bend, .force, .moment, .torsion (all fruits),
+/// material.youngs_modulus, .poisson_ratio, .density, .damping_time (the whole plant, curves' own
+/// values too), sampling.connect, sampling.distance.
+std::vector<ScenePlantModel> build_plants(const world::Scene& scene, Diagnostics& diagnostics,
+                                          std::vector<std::string>& notes);
+
+}  // namespace pedicel::app

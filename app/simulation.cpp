@@ -1,0 +1,186 @@
+#include "app/simulation.h"
+
+#include <algorithm>
+
+#include "app/colliders.h"
+#include "app/scene_plants.h"
+#include "cosserat/self_contact.h"
+#include "coupling/collider_source.h"
+#include "world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+world::WorldSettings world_settings(const world::Scene& scene) {
+  world::WorldSettings settings;
+  settings.dt = scene.dt;
+  settings.gravity = scene.gravity;
+  return settings;
+}
+
+}  // namespace
+
+/// The scene's loads act before the plants move.
+class Simulation::LoadStep : public world::Participant {
+ public:
+  explicit LoadStep(Simulation& simulation) : simulation_(simulation) {}
+  world::Phase phase() const override { return world::Phase::commands; }
+  void act(world::SimWorld& world, world::StepReport&) override {
+    simulation_.apply_loads(world.time());
+  }
+
+ private:
+  Simulation& simulation_;
+};
+
+Simulation::Simulation(const world::Scene& scene, const SimulationOptions& options)
+    : scene_(scene), world_(world_settings(scene)) {
+  Diagnostics diagnostics;
+  read_settings(diagnostics);
+  rods_ = std::make_unique<cosserat::RodSystem>(rod_settings_, scene_.threads);
+  add_plants(diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  add_bodies();
+  add_loads(diagnostics);
+  add_robot(options, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  add_contacts();
+  for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::read_settings(Diagnostics& diagnostics) {
+  int solver = static_cast<int>(rod_settings_.solver);
+  int integrator = static_cast<int>(rod_settings_.integrator);
+  int coupling = coupling_settings_.two_way ? 1 : 0;
+  world::apply_settings(scene_.rods, "rods", cosserat::parameters_of(rod_settings_),
+                        {{"solver", {"direct", "position_based"}, &solver},
+                         {"integrator", {"backward_euler", "bdf2"}, &integrator}},
+                        diagnostics);
+  world::apply_settings(scene_.coupling, "coupling", coupling::parameters_of(coupling_settings_),
+                        {{"direction", {"one_way", "two_way"}, &coupling}}, diagnostics);
+  rod_settings_.solver = static_cast<cosserat::SolverKind>(solver);
+  rod_settings_.integrator = static_cast<cosserat::Integrator>(integrator);
+  coupling_settings_.two_way = coupling_settings_.two_way || coupling == 1;
+}
+
+void Simulation::add_plants(Diagnostics& diagnostics) {
+  for (ScenePlantModel& plant : build_plants(scene_, diagnostics, notes_)) {
+    rods_->add_plant(std::move(plant.model));
+    plants_.push_back(std::move(plant.info));
+  }
+}
+
+void Simulation::add_bodies() {
+  if (scene_.ground) world_.set_ground(*scene_.ground);
+  for (const world::BodyDescription& body : scene_.bodies) world_.add_body(body);
+}
+
+void Simulation::add_robot(const SimulationOptions& options, Diagnostics& diagnostics) {
+  if (!scene_.robot) return;
+  const auto find_place = [this](const world::Anchor& anchor) { return find(anchor); };
+  robot_ = make_robot_control(*scene_.robot, options.packages, world_, find_place, diagnostics);
+  if (!robot_) return;
+  world_.add(*robot_);
+  world_.add(robot_->reader());
+}
+
+void Simulation::add_contacts() {
+  if (scene_.ground) add_ground_collider(colliders_, *scene_.ground);
+  for (int b = 0; b < world_.body_count(); ++b)
+    add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
+  if (robot_)
+    add_robot_colliders(colliders_, robot_->name(), robot_->description(), robot_->link_poses(),
+                        notes_);
+  for (int p = 0; p < rods_->size(); ++p) {
+    auto source = std::make_unique<coupling::ColliderSource>(colliders_, coupling_settings_);
+    source->ignore_touching(rods_->model(p), rods_->state(p));
+    rods_->add_contact_source(p, std::move(source));
+    if (coupling_settings_.self_contact)
+      rods_->add_contact_source(
+          p, std::make_unique<cosserat::SelfContact>(
+                 rods_->model(p), coupling::self_contact_settings(coupling_settings_)));
+  }
+  plant_step_ = std::make_unique<PlantStep>(
+      *rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
+  if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
+  if (robot_ && coupling_settings_.two_way)
+    plant_step_->set_reaction(
+        [this](const coupling::ContactReport& contacts) { robot_->push(contacts); });
+  load_step_ = std::make_unique<LoadStep>(*this);
+  measurements_ = std::make_unique<Measurements>(*rods_, *plant_step_, colliders_);
+  world_.add(*load_step_);
+  world_.add(*plant_step_);
+  world_.add(*measurements_);
+}
+
+Pose Simulation::link_pose(const coupling::Collider& collider) const {
+  if (collider.body == robot_body) return robot_->link_pose(collider.link);
+  if (collider.body == ground_body) return Pose{};
+  return world_.body_pose(collider.body);
+}
+
+void Simulation::add_loads(Diagnostics& diagnostics) {
+  for (const world::SceneLoad& load : scene_.loads) {
+    bool found = false;
+    for (int p = 0; p < rods_->size(); ++p) {
+      const cosserat::RodModel& model = rods_->model(p);
+      for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
+        if (fruit_name(model, f) != load.target) continue;
+        found = true;
+        loads_.push_back({&load, p, f, rods_->loads(p).size()});
+        rods_->loads(p).push_back({model.fruits[f].element, model.fruits[f].back, {}, {}});
+        rods_->loads(p).back().force_W.setZero();
+        rods_->loads(p).back().moment_W.setZero();
+      }
+    }
+    if (!found)
+      diagnostics.error(load.where,
+                        "load on \"" + load.target + "\", expected PLANT/FRUIT of this scene");
+  }
+}
+
+void Simulation::apply_loads(double time) {
+  for (const FruitLoad& one : loads_) {
+    const world::SceneLoad& load = *one.load;
+    double share = time >= load.from && time < load.to ? 1.0 : 0.0;
+    if (load.ramp) share *= (time - load.from) / (load.to - load.from);
+    if (rods_->state(one.plant).fruit_gone[one.fruit]) share = 0.0;
+    rods_->loads(one.plant)[one.slot].force_W = share * load.force;
+  }
+}
+
+std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
+  if (anchor.kind == world::Anchor::Kind::tool && robot_) return robot_->tool_pose().position;
+  if (anchor.kind == world::Anchor::Kind::body) {
+    const int body = world_.body_index(anchor.name);
+    if (body >= 0) return world_.body_pose(body).position;
+    return std::nullopt;
+  }
+  for (int p = 0; p < rods_->size(); ++p) {
+    const cosserat::RodModel& model = rods_->model(p);
+    if (anchor.kind == world::Anchor::Kind::plant && model.name == anchor.name)
+      return model.root.position;
+    if (anchor.kind != world::Anchor::Kind::fruit) continue;
+    for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
+      if (fruit_name(model, f) != anchor.name) continue;
+      const int body = world_.body_index(anchor.name);  // it has come off
+      if (body >= 0) return world_.body_pose(body).position;
+      return cosserat::point_on(model, rods_->state(p), model.fruits[f].element,
+                                model.fruits[f].back);
+    }
+  }
+  return std::nullopt;
+}
+
+std::uint64_t Simulation::state_hash() const {
+  StateHash hash;
+  world_.add_to(hash);
+  rods_->add_to(hash);
+  if (robot_) robot_->add_to(hash);
+  return hash.value();
+}
+
+}  // namespace pedicel::app

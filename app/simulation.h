@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/drawing.h"
+#include "app/measurements.h"
+#include "app/plant_step.h"
+#include "app/robot_control.h"
+#include "coupling/coupling_settings.h"
+#include "world/scene.h"
+#include "world/sim_world.h"
+
+namespace pedicel::app {
+
+struct SimulationOptions {
+  std::vector<std::string> packages;  ///< "NAME=PATH" of `--package`
+};
+
+/// A plant of the simulation and what is known of it beyond its rods.
+struct PlantInfo {
+  std::string name;           ///< as in the scene; "forest_3" in a grid
+  std::vector<Blade> blades;  ///< leaves, for drawing
+  bool is_woody = false;      ///< drawn with bark
+  int sampled_nodes = 0;      ///< before simplification; 0: not from curves
+};
+
+/// A scene brought to life: Bullet's world, the robot, the plants and what they feel of each other.
+class Simulation {
+ public:
+  /// Throws InvalidFile with every fault found, before anything runs.
+  Simulation(const world::Scene& scene, const SimulationOptions& options);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  const world::StepReport& step() { return world_.step(); }
+
+  const world::Scene& scene() const { return scene_; }
+  world::SimWorld& world() { return world_; }
+  const world::SimWorld& world() const { return world_; }
+  const cosserat::RodSystem& rods() const { return *rods_; }
+  const std::vector<PlantInfo>& plants() const { return plants_; }
+  const PlantStep& plant_step() const { return *plant_step_; }
+  const coupling::ColliderSet& colliders() const { return colliders_; }
+  const Measurements& measurements() const { return *measurements_; }
+  Measurements& measurements() { return *measurements_; }
+  const cosserat::RodSettings& rod_settings() const { return rod_settings_; }
+  const coupling::CouplingSettings& coupling_settings() const { return coupling_settings_; }
+  /// Null where the scene has no robot.
+  const RobotControl* robot() const { return robot_.get(); }
+  /// What a user should know and that stops nothing, one sentence each.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// Where an anchor of the scene is now (m, W); nothing where there is no such thing.
+  std::optional<Vec3> find(const world::Anchor& anchor) const;
+
+  /// Robot joints, rods and rigid bodies, bit by bit.
+  std::uint64_t state_hash() const;
+
+ private:
+  void read_settings(Diagnostics& diagnostics);
+  void add_plants(Diagnostics& diagnostics);
+  void add_bodies();
+  void add_robot(const SimulationOptions& options, Diagnostics& diagnostics);
+  void add_contacts();
+  void add_loads(Diagnostics& diagnostics);
+  Pose link_pose(const coupling::Collider& collider) const;
+  void apply_loads(double time);
+
+  /// A load of the scene on the fruit that it names.
+  struct FruitLoad {
+    const world::SceneLoad* load;
+    int plant, fruit;
+    std::size_t slot;  // in RodSystem::loads()
+  };
+  class LoadStep;
+
+  world::Scene scene_;
+  cosserat::RodSettings rod_settings_;
+  coupling::CouplingSettings coupling_settings_;
+  world::SimWorld world_;
+  std::unique_ptr<cosserat::RodSystem> rods_;
+  std::vector<PlantInfo> plants_;
+  std::unique_ptr<RobotControl> robot_;
+  coupling::ColliderSet colliders_;
+  std::unique_ptr<PlantStep> plant_step_;
+  std::unique_ptr<Measurements> measurements_;
+  std::unique_ptr<LoadStep> load_step_;
+  std::vector<FruitLoad> loads_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace pedicel::app

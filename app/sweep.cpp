@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "app/headless.h"
+#include "app/scene_report.h"
+#include "world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+constexpr int exit_unmet = 5;
+
+/// What an expectation asks of each run of a sweep, as a plain expectation.
+double measured_in(const world::Expectation& wanted, const SweepRun& run) {
+  for (const world::Verdict& verdict : run.result.verdicts)
+    if (verdict.expectation.quantity == wanted.quantity &&
+        verdict.expectation.fruit == wanted.fruit && verdict.expectation.plant == wanted.plant &&
+        verdict.expectation.body == wanted.body && verdict.expectation.link == wanted.link)
+      return verdict.measured.front();
+  return 0.0;
+}
+
+/// The scene of one value: what is expected over the sweep is measured in each run, and the rest,
+/// which the scene expects of its own value, is not asked.
+world::Scene scene_of(const world::Scene& scene, double value) {
+  world::Scene one = scene;
+  world::apply_override(one, scene.sweep->key, io::format_number(value));
+  one.sweep.reset();
+  one.expectations.clear();
+  for (world::Expectation expectation : scene.expectations) {
+    if (!expectation.over_sweep()) continue;
+    expectation.test = world::Expectation::Test::above;
+    expectation.low = -1.0e300;  // whatever is measured meets it; not measured (NaN) does not
+    one.expectations.push_back(expectation);
+  }
+  return one;
+}
+
+std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options) {
+  std::vector<SweepRun> runs;
+  for (const double value : scene.sweep->values) {
+    RunOptions one = options;
+    one.video = false;
+    const std::string label = scene.sweep->key + "=" + io::format_number(value);
+    if (!options.out.empty()) one.out = options.out / ("sweep_" + label);
+    if (!options.quiet) std::fprintf(stderr, "sweep %s\n", label.c_str());
+    runs.push_back({value, run_scene(scene_of(scene, value), one)});
+    if (stop_requested) break;
+  }
+  return runs;
+}
+
+}  // namespace
+
+RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
+  RunResult result = run_scene(scene, options);
+  std::vector<SweepRun> runs;
+  if (scene.sweep && result.exit_code != 4 && !stop_requested) runs = run_sweep(scene, options);
+  for (const world::Expectation& expectation : scene.expectations) {
+    if (!expectation.over_sweep()) continue;
+    std::vector<double> values;
+    for (const SweepRun& run : runs) values.push_back(measured_in(expectation, run));
+    result.verdicts.push_back(world::judge_sweep(expectation, values));
+    if (!options.quiet)
+      std::fprintf(stderr, "%s\n", world::to_string(result.verdicts.back()).c_str());
+    if (!result.verdicts.back().met && result.exit_code == 0) result.exit_code = exit_unmet;
+  }
+  for (const SweepRun& run : runs)
+    if (run.result.exit_code == 4 || run.result.exit_code == 130)
+      result.exit_code = run.result.exit_code;
+  if (!options.out.empty()) write_scene_report(scene, result, runs);
+  return result;
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,129 @@
+#include "app/validate.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+
+#include "app/simulation.h"
+#include "io/csv.h"
+#include "io/yaml.h"
+#include "plant/leaf_template.h"
+#include "plant/mtg_reader.h"
+#include "plant/plant_file.h"
+#include "robot/urdf_reader.h"
+#include "world/scene_reader.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using Packages = std::vector<std::string>;
+
+/// Reads one kind of file; faults go to the diagnostics, or come as InvalidFile.
+struct Kind {
+  const char* format;     ///< of `format:`; empty: none
+  const char* extension;  ///< empty: none of its own
+  const char* name;
+  void (*check)(const std::filesystem::path&, const Packages&, Diagnostics&);
+};
+
+void check_plant(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
+  plant::read_plant_file(path, diagnostics);
+}
+
+void check_mtg(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
+  plant::read_mtg(path, {}, diagnostics);
+}
+
+void check_leaf(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
+  plant::read_leaf_template(path, diagnostics);
+}
+
+void check_scene(const std::filesystem::path& path, const Packages& packages,
+                 Diagnostics& diagnostics) {
+  const std::optional<world::Scene> scene = world::read_scene(path, diagnostics);
+  if (!scene) return;
+  SimulationOptions options;
+  options.packages = packages;
+  // Builds everything that the scene names, and runs none of it.
+  const Simulation simulation(*scene, options);
+}
+
+void check_urdf(const std::filesystem::path& path, const Packages& packages,
+                Diagnostics& diagnostics) {
+  robot::PackagePaths paths = robot::PackagePaths::from_environment();
+  for (const std::string& package : packages) paths.add(package);
+  robot::read_urdf(path, paths, diagnostics);
+}
+
+void check_csv(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
+  io::CsvRules rules;
+  rules.empty_cells = true;
+  io::read_csv(path, rules, diagnostics);
+}
+
+constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
+                              Kind{"pedicel-scene", "", "scene", check_scene},
+                              Kind{"pedicel-leaf", "", "leaf template", check_leaf},
+                              Kind{"", ".urdf", "robot", check_urdf},
+                              Kind{"", ".mtg", "digitised plant", check_mtg},
+                              Kind{"", ".csv", "table", check_csv}};
+
+std::string expected_kinds() {
+  std::string list;
+  for (const Kind& kind : kinds)
+    list += std::string(list.empty() ? "" : ", ") + (*kind.format ? kind.format : kind.extension);
+  return list;
+}
+
+/// What `format:` says; empty where the file is no YAML map that has it.
+std::string format_of(const std::filesystem::path& path) {
+  Diagnostics unused;
+  const io::YamlNode root = io::load_yaml(path, unused);
+  if (!root.is_map()) return {};
+  const YAML::Node format = root.raw()["format"];
+  return format.IsDefined() && format.IsScalar() ? format.Scalar() : std::string{};
+}
+
+const Kind& kind_of(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  for (const Kind& kind : kinds)
+    if (*kind.extension && extension == kind.extension) return kind;
+  const std::string format =
+      extension == ".yaml" || extension == ".yml" ? format_of(path) : std::string{};
+  for (const Kind& kind : kinds)
+    if (*kind.format && format == kind.format) return kind;
+  throw InvalidFile({path.string()},
+                    "kind of file is unknown, expected one of: " + expected_kinds());
+}
+
+void write_lines(const std::string& lines, std::ostream& out) {
+  if (!lines.empty()) out << lines << "\n";
+}
+
+/// True where the file is good.
+bool validate(const std::filesystem::path& path, const Packages& packages, std::ostream& out) {
+  Diagnostics diagnostics;
+  try {
+    const Kind& kind = kind_of(path);
+    kind.check(path, packages, diagnostics);
+    write_lines(diagnostics.text(), out);
+    if (!diagnostics.has_errors()) out << path.string() << ": " << kind.name << ", good\n";
+  } catch (const InvalidFile& error) {
+    write_lines(diagnostics.text(), out);
+    write_lines(error.what(), out);
+    return false;
+  }
+  return !diagnostics.has_errors();
+}
+
+}  // namespace
+
+int validate_files(const std::vector<std::string>& files, const std::vector<std::string>& packages,
+                   std::ostream& out) {
+  bool good = true;
+  for (const std::string& file : files) good = validate(file, packages, out) && good;
+  return good ? 0 : 3;
+}
+
+}  // namespace pedicel::app

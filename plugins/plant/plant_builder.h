@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cosserat/rod_model.h"
+#include "plant/leaf_template.h"
+#include "plant/placed_point.h"
+#include "plant/plant_file.h"
+#include "plant/plant_graph.h"
+
+namespace pedicel::plant {
+
+/// A plant ready for the solver, with what is needed to find places on it again.
+struct BuiltPlant {
+  cosserat::RodModel model;
+  std::vector<BladeTriangle> blades;  ///< leaves, for drawing
+  int nodes_sampled = 0;              ///< before simplification
+  int nodes_kept = 0;
+  double length_drawn = 0.0;       ///< m, of all curves
+  double length_kept = 0.0;        ///< m, of the stems' elements
+  std::vector<std::string> notes;  ///< what a user should know, one sentence each
+
+  /// Where a fraction `at` of a curve's drawn arc length lies, by the curve's index in the file.
+  PlacedPoint locate(int curve, double at) const;
+
+  /// The stretch of a curve that an element covers, in the direction of growth.
+  struct Span {
+    int element = 0, curve = 0;
+    double arc_near = 0.0, arc_far = 0.0;  ///< m along the drawn curve
+    double length = 0.0;                   ///< m, of the element
+  };
+  std::vector<Span> spans;
+  std::vector<double> curve_lengths;  ///< m
+};
+
+struct BuildOptions {
+  Pose pose;                                        ///< X_WP
+  Vec3 gravity = Vec3(0, 0, -9.81);                 ///< m/s2
+  std::vector<std::filesystem::path> leaf_folders;  ///< where NAME.leaf.yaml is looked for
+};
+
+/// Curves to rods: samples, joins, simplifies, adds an element a kept node with the section of its
+/// curve at its middle, then masses, fruits, leaves, supports and effects; where `shape: drawn`,
+/// the rest shape is found with which the plant stands as drawn (without effects). Faults go to
+/// `diagnostics` with the place in the plant file, and then nothing comes back.
+std::optional<BuiltPlant> build_plant(const PlantFile& plant, const BuildOptions& options,
+                                      Diagnostics& diagnostics);
+
+}  // namespace pedicel::plant

@@ -1,0 +1,224 @@
+#include "plant/plant_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/curve_distance.h"
+#include "io/csv.h"
+
+namespace pedicel::plant {
+
+namespace {
+
+constexpr double same_place = 1.0e-6;  // m: below it two samples are one node
+
+std::string millimetres(double metres) {
+  return io::format_number(1.0e3 * metres, 4) + " mm";
+}
+
+class Connector {
+ public:
+  Connector(const PlantFile& plant, const std::vector<geometry::Curve>& curves)
+      : plant_(plant), curves_(curves), joined_(curves.size(), false) {
+    const double step = sampling_step(curves, plant.connect, plant.distance);
+    for (std::size_t c = 0; c < curves.size(); ++c) arcs_.push_back(samples(c, step));
+    graph_.start_arc.assign(curves.size(), 0.0);
+  }
+
+  std::optional<PlantGraph> run(Diagnostics& diagnostics) {
+    add_root();
+    while (join_one_level()) {
+    }
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      if (!joined_[c]) report(c, diagnostics);
+    if (diagnostics.has_errors()) return std::nullopt;
+    mark_leaves();
+    return std::move(graph_);
+  }
+
+ private:
+  struct Join {
+    int curve = -1;
+    bool at_end = false;  // its last point is the one that joins
+    int node = -1;
+    double distance = std::numeric_limits<double>::infinity();  // m
+  };
+
+  std::vector<double> samples(std::size_t curve, double step) const {
+    std::vector<double> arcs = curves_[curve].sample_arcs(step);
+    for (const PlantLeaf& leaf : plant_.leaves)
+      if (plant_.curve_index(leaf.place.curve) == static_cast<int>(curve))
+        arcs.push_back(leaf.place.at * curves_[curve].length());
+    std::sort(arcs.begin(), arcs.end());
+    const auto same = [](double a, double b) { return b - a < same_place; };
+    arcs.erase(std::unique(arcs.begin(), arcs.end(), same), arcs.end());
+    return arcs;
+  }
+
+  Vec3 end_of(std::size_t curve, bool at_end) const {
+    return curves_[curve].point(at_end ? curves_[curve].length() : 0.0);
+  }
+
+  void add_root() {
+    Join root;
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      for (const bool at_end : {false, true}) {
+        const double distance = (end_of(c, at_end) - plant_.root).norm();
+        if (distance < root.distance) root = {static_cast<int>(c), at_end, -1, distance};
+      }
+    lay(root);
+  }
+
+  // Appends a curve's samples, from the joined end to the free one.
+  void lay(const Join& join) {
+    std::vector<double> arcs = arcs_[join.curve];
+    if (join.at_end) std::reverse(arcs.begin(), arcs.end());
+    graph_.start_arc[join.curve] = arcs.front();
+    int parent = join.node;
+    for (std::size_t k = 0; k < arcs.size(); ++k) {
+      GraphNode node;
+      node.position = curves_[join.curve].point(arcs[k]);
+      if (k == 0 && parent >= 0 &&
+          (graph_.nodes[parent].position - node.position).norm() < same_place)
+        continue;
+      node.curve = join.curve;
+      node.arc = arcs[k];
+      node.parent = parent;
+      const int index = static_cast<int>(graph_.nodes.size());
+      if (parent >= 0) graph_.nodes[parent].children.push_back(index);
+      graph_.nodes.push_back(std::move(node));
+      parent = index;
+    }
+    joined_[join.curve] = true;
+  }
+
+  // The nearest node of the tree to either end of a curve.
+  Join nearest_node(std::size_t curve) const {
+    Join best;
+    for (const bool at_end : {false, true}) {
+      const Vec3 end = end_of(curve, at_end);
+      for (std::size_t n = 0; n < graph_.nodes.size(); ++n) {
+        const double distance = (graph_.nodes[n].position - end).norm();
+        if (distance < best.distance)
+          best = {static_cast<int>(curve), at_end, static_cast<int>(n), distance};
+      }
+    }
+    return best;
+  }
+
+  // How near an end of `curve` comes to a curve that is not in the tree yet.
+  double nearest_waiting(std::size_t curve, bool at_end) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      if (c != curve && !joined_[c])
+        nearest = std::min(nearest,
+                           geometry::closest_on_curve(curves_[c], end_of(curve, at_end)).distance);
+    return nearest;
+  }
+
+  // A curve waits where the curve next to it is nearer but not in the tree yet; when all wait for
+  // each other, the nearest of them goes first.
+  bool join_one_level() {
+    std::vector<Join> now;
+    Join waiting;
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      if (joined_[c]) continue;
+      const Join join = nearest_node(c);
+      if (join.distance >= plant_.connect) continue;
+      if (join.distance <= nearest_waiting(c, join.at_end) + same_place)
+        now.push_back(join);
+      else if (join.distance < waiting.distance)
+        waiting = join;
+    }
+    if (now.empty() && waiting.curve >= 0) now.push_back(waiting);
+    for (const Join& join : now) lay(join);
+    return !now.empty();
+  }
+
+  void report(std::size_t curve, Diagnostics& diagnostics) const {
+    diagnostics.error(
+        plant_.curves[curve].where,
+        "curve \"" + plant_.curves[curve].name + "\" reaches nothing: its nearer end is " +
+            millimetres(nearest_node(curve).distance) +
+            " from the plant, expected less than connect = " + millimetres(plant_.connect));
+  }
+
+  void mark_leaves() {
+    for (const PlantLeaf& leaf : plant_.leaves) {
+      const int curve = plant_.curve_index(leaf.place.curve);
+      const double arc = leaf.place.at * curves_[curve].length();
+      for (GraphNode& node : graph_.nodes)
+        if (node.curve == curve && std::abs(node.arc - arc) <= same_place) node.carries = true;
+    }
+  }
+
+  const PlantFile& plant_;
+  const std::vector<geometry::Curve>& curves_;
+  std::vector<std::vector<double>> arcs_;
+  std::vector<char> joined_;
+  PlantGraph graph_;
+};
+
+}  // namespace
+
+std::vector<geometry::Curve> make_curves(const PlantFile& plant) {
+  std::vector<geometry::Curve> curves;
+  for (const PlantCurve& curve : plant.curves) {
+    std::vector<double> radii = curve.radius;
+    if (radii.empty()) radii = {0.5 * std::min(curve.section.width, curve.section.height)};
+    if (radii.size() == 1) radii.assign(curve.points.size(), radii.front());
+    curves.push_back(curve.interpolation == Interpolation::linear
+                         ? geometry::Curve::linear(curve.points, radii)
+                         : geometry::Curve::smooth(curve.points, radii));
+  }
+  return curves;
+}
+
+double sampling_step(const std::vector<geometry::Curve>& curves, double connect, double distance) {
+  double closest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      closest = std::min(closest, geometry::closest_on_curves(curves[i], curves[j]).distance);
+  const double floor = 0.25 * std::min(connect, distance);
+  return std::clamp(0.99 * closest, floor, std::max(floor, 0.25 * distance));
+}
+
+double PlantGraph::kept_length() const {
+  double sum = 0.0;
+  for (std::size_t n = 1; n < nodes.size(); ++n)
+    if (nodes[n].kept)
+      sum += (nodes[n].position - nodes[kept_parent(static_cast<int>(n))].position).norm();
+  return sum;
+}
+
+int PlantGraph::kept_parent(int node) const {
+  int parent = nodes[node].parent;
+  while (parent >= 0 && !nodes[parent].kept) parent = nodes[parent].parent;
+  return parent;
+}
+
+std::optional<PlantGraph> connect(const PlantFile& plant,
+                                  const std::vector<geometry::Curve>& curves,
+                                  Diagnostics& diagnostics) {
+  return Connector(plant, curves).run(diagnostics);
+}
+
+void simplify(PlantGraph& graph, double distance) {
+  std::vector<double> since(graph.nodes.size(), 0.0);  // m, along the path from the last kept node
+  for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+    GraphNode& node = graph.nodes[n];
+    node.kept = node.is_key();
+    if (node.parent < 0) continue;
+    const GraphNode& parent = graph.nodes[node.parent];
+    since[n] = (parent.kept ? 0.0 : since[node.parent]) + (node.position - parent.position).norm();
+    if (!node.kept) {
+      node.kept = since[n] >= distance * (1.0 - 1.0e-9);
+      continue;
+    }
+    const int above = graph.kept_parent(static_cast<int>(n));
+    if (!graph.nodes[above].is_key() && since[n] < 0.5 * distance) graph.nodes[above].kept = false;
+  }
+}
+
+}  // namespace pedicel::plant

@@ -1,0 +1,189 @@
+#include <charconv>
+#include <string_view>
+#include <system_error>
+
+#include "core/check.h"
+#include "io/atomic_file.h"
+#include "plant/plant_file.h"
+
+namespace pedicel::plant {
+
+namespace {
+
+// The shortest text that reads back as the same number.
+std::string exact(double value) {
+  char text[40];
+  const auto [end, fault] = std::to_chars(text, text + sizeof text, value);
+  PEDICEL_ASSERT(fault == std::errc{});
+  return std::string(text, end);
+}
+
+bool is_plain(const std::string& text) {
+  static constexpr std::string_view letters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+  static constexpr std::string_view inside = "0123456789 .-";
+  if (text.empty() || letters.find(text.front()) == std::string_view::npos) return false;
+  if (text.back() == ' ' || text == "null" || text == "Null" || text == "NULL") return false;
+  for (const char c : text)
+    if (letters.find(c) == std::string_view::npos && inside.find(c) == std::string_view::npos)
+      return false;
+  return true;
+}
+
+// A text as YAML reads it back: plain where nothing in it has a meaning there, else quoted.
+std::string word(const std::string& text) {
+  if (is_plain(text)) return text;
+  static constexpr std::string_view digits = "0123456789abcdef";
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (code < 0x20 || code == 0x7f)
+      quoted += std::string("\\x") + digits[code >> 4] + digits[code & 15];
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + exact(value);
+  return "[" + text + "]";
+}
+
+std::string vector(const Vec3& v) {
+  return list({v.x(), v.y(), v.z()});
+}
+
+std::string scalar_or_list(const std::vector<double>& values) {
+  return values.size() == 1 ? exact(values.front()) : list(values);
+}
+
+/// A map in one line, {key: value, ...}.
+class FlowMap {
+ public:
+  FlowMap& add(const std::string& key, const std::string& value) {
+    text_ += (text_.empty() ? "" : ", ") + key + ": " + value;
+    return *this;
+  }
+  FlowMap& add(const std::string& key, double value) { return add(key, exact(value)); }
+  FlowMap& add(const std::string& key, const std::optional<double>& value) {
+    return value ? add(key, *value) : *this;
+  }
+  FlowMap& add(const CurvePlace& place) {
+    return add("curve", word(place.curve)).add("at", place.at);
+  }
+  bool empty() const { return text_.empty(); }
+  std::string text() const { return "{" + text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+FlowMap material_map(const MaterialValues& material) {
+  return FlowMap()
+      .add("youngs_modulus", material.youngs_modulus)
+      .add("poisson_ratio", material.poisson_ratio)
+      .add("density", material.density)
+      .add("damping_time", material.damping_time);
+}
+
+FlowMap section_map(const SectionShape& section) {
+  FlowMap map;
+  if (section.kind == SectionKind::ellipse)
+    map.add("kind", "ellipse").add("ratio", section.ratio);
+  else
+    map.add("kind", "rectangle").add("width", section.width).add("height", section.height);
+  return map.add("normal", vector(section.normal));
+}
+
+std::string curve_text(const PlantCurve& curve) {
+  std::string text = "  - name: " + word(curve.name) + "\n";
+  text += "    interpolation: ";
+  text += curve.interpolation == Interpolation::linear ? "linear\n" : "smooth\n";
+  std::string points;
+  for (const Vec3& point : curve.points) points += (points.empty() ? "" : ", ") + vector(point);
+  text += "    points: [" + points + "]\n";
+  if (!curve.radius.empty()) text += "    radius: " + scalar_or_list(curve.radius) + "\n";
+  if (curve.section.kind != SectionKind::circle)
+    text += "    section: " + section_map(curve.section).text() + "\n";
+  const FlowMap material = material_map(curve.material);
+  if (!material.empty()) text += "    material: " + material.text() + "\n";
+  return text;
+}
+
+std::string fruit_text(const PlantFruit& fruit) {
+  FlowMap map;
+  map.add("name", word(fruit.name)).add(fruit.place);
+  map.add("radius", fruit.radius).add("density", fruit.density);
+  const FlowMap detach = FlowMap()
+                             .add("stretch", fruit.detach.stretch)
+                             .add("bend", fruit.detach.bend)
+                             .add("force", fruit.detach.force)
+                             .add("moment", fruit.detach.moment)
+                             .add("torsion", fruit.detach.torsion);
+  if (!detach.empty()) map.add("detach", detach.text());
+  return map.text();
+}
+
+std::string leaf_text(const PlantLeaf& leaf) {
+  FlowMap map;
+  map.add("name", word(leaf.name)).add(leaf.place);
+  map.add("template", word(leaf.leaf_template)).add("size", leaf.size);
+  map.add("normal", vector(leaf.normal));
+  if (leaf.direction) map.add("direction", vector(*leaf.direction));
+  return map.text();
+}
+
+std::string mass_text(const PlantMass& mass) {
+  return FlowMap().add(mass.place).add("mass", mass.mass).text();
+}
+
+std::string support_text(const CurvePlace& place) {
+  return FlowMap().add(place).text();
+}
+
+std::string effect_text(const Effect& effect) {
+  FlowMap map;
+  map.add("name", word(effect.name));
+  for (const auto& [key, values] : effect.numbers) map.add(key, scalar_or_list(values));
+  for (const auto& [key, text] : effect.words) map.add(key, word(text));
+  if (effect.place) map.add("where", FlowMap().add(*effect.place).text());
+  return map.text();
+}
+
+template <typename Item>
+std::string section_text(const std::string& key, const std::vector<Item>& items,
+                         std::string (*item_text)(const Item&)) {
+  if (items.empty()) return {};
+  std::string text = key + ":\n";
+  for (const Item& item : items) text += "  - " + item_text(item) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string plant_text(const PlantFile& plant) {
+  std::string text = "format: pedicel-plant\nversion: 1\nname: " + word(plant.name) + "\n";
+  text += plant.shape == Shape::rest ? "shape: rest\n" : "shape: drawn\n";
+  const FlowMap material = material_map(plant.material);
+  if (!material.empty()) text += "material: " + material.text() + "\n";
+  text += "sampling: " +
+          FlowMap().add("connect", plant.connect).add("distance", plant.distance).text() + "\n";
+  text += "root: " + vector(plant.root) + "\n";
+  text += section_text("supports", plant.supports, support_text);
+  text += "curves:\n";
+  for (const PlantCurve& curve : plant.curves) text += curve_text(curve);
+  text += section_text("fruits", plant.fruits, fruit_text);
+  text += section_text("leaves", plant.leaves, leaf_text);
+  text += section_text("masses", plant.masses, mass_text);
+  text += section_text("effects", plant.effects, effect_text);
+  return text;
+}
+
+void write_plant_file(const std::filesystem::path& path, const PlantFile& plant) {
+  io::write_file_atomically(path, plant_text(plant));
+}
+
+}  // namespace pedicel::plant

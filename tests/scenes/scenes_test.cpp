@@ -1,0 +1,35 @@
+// Every scene that we ship is run whole, with its sweep and without pictures, and must meet its own
+// criteria.
+#include <gtest/gtest.h>
+
+#include "app/headless.h"
+#include "scenes/shipped_scenes.h"
+
+namespace pedicel {
+namespace {
+
+class ShippedScene : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(ShippedScene, MeetsItsOwnCriteria) {
+  Diagnostics diagnostics;
+  const auto scene = world::read_scene(GetParam(), diagnostics);
+  ASSERT_TRUE(scene) << diagnostics.text();
+  ASSERT_FALSE(scene->expectations.empty()) << "a scene without a criterion shows nothing";
+  if (const std::string missing = missing_file(*scene); !missing.empty())
+    GTEST_SKIP() << missing << " is not there";
+  app::RunOptions options;
+  options.out = std::filesystem::path(::testing::TempDir()) / "pedicel_scenes" / scene->name;
+  options.pictures = false;
+  options.video = false;
+  options.quiet = true;
+  const app::RunResult result = app::run_with_sweep(*scene, options);
+  EXPECT_EQ(result.exit_code, 0) << result.error;
+  EXPECT_EQ(result.verdicts.size(), scene->expectations.size());
+  for (const world::Verdict& verdict : result.verdicts)
+    EXPECT_TRUE(verdict.met) << world::to_string(verdict);
+}
+
+INSTANTIATE_TEST_SUITE_P(Assets, ShippedScene, ::testing::ValuesIn(shipped_scenes()), scene_name);
+
+}  // namespace
+}  // namespace pedicel

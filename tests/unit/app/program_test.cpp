@@ -1,0 +1,181 @@
+// Runs the program itself: exit codes and what it says, as conventions for scripts need them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "io/atomic_file.h"
+#include "io/csv.h"
+
+namespace pedicel {
+namespace {
+
+using ::testing::HasSubstr;
+
+const char* const quick_scene = R"(format: pedicel-scene
+version: 1
+purpose: a stem that stands
+see: nothing moves
+duration: 0.1
+plants:
+  - {name: stem, file: stem.plant.yaml}
+expect:
+  - {quantity: detached_count, is: 0}
+)";
+
+const char* const stem_plant = R"(format: pedicel-plant
+version: 1
+name: stem
+material: {youngs_modulus: 1.0e8, poisson_ratio: 0.3, density: 800, damping_time: 0.01}
+sampling: {connect: 0.01, distance: 0.02}
+root: [0, 0, 0]
+curves:
+  - {name: stem, points: [[0, 0, 0], [0, 0, 0.1], [0.01, 0, 0.2]], radius: 0.004}
+)";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ =
+        std::filesystem::path(::testing::TempDir()) / ("program_" + std::string(test->name()));
+    std::filesystem::remove_all(folder_);
+    write("stem.plant.yaml", stem_plant);
+    write("quick.scene.yaml", quick_scene);
+  }
+  void write(const std::string& name, const std::string& text) {
+    io::write_file_atomically(folder_ / name, text);
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// The exit code; what it printed is then in out_ and err_.
+  int run(const std::string& arguments) {
+    const std::string command = std::string(PEDICEL_PROGRAM) + " " + arguments + " >" +
+                                path("stdout") + " 2>" + path("stderr");
+    const int status = std::system(command.c_str());
+    out_ = io::read_file(folder_ / "stdout");
+    err_ = io::read_file(folder_ / "stderr");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int run_scene(const std::string& more = {}, const std::string& scene = "quick.scene.yaml") {
+    return run("--headless " + path(scene) + " --out " + path("out") + " --no-pictures " + more);
+  }
+
+  std::filesystem::path folder_;
+  std::string out_, err_;
+};
+
+TEST_F(Program, GoodRunEndsWith0AndLeavesItsFiles) {
+  EXPECT_EQ(run_scene("--json"), 0) << err_;
+  const auto json = nlohmann::json::parse(out_);
+  EXPECT_EQ(json.at("exit_code"), 0);
+  EXPECT_TRUE(json.at("expectations").at(0).at("met"));
+  for (const char* file : {"log.csv", "events.csv", "log.meta.json", "report.html"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / file)) << file;
+  EXPECT_THAT(err_, HasSubstr("seed 0"));
+  EXPECT_THAT(err_, HasSubstr("24 steps"));
+}
+
+TEST_F(Program, HelpNamesTheExitCodes) {
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_THAT(out_, HasSubstr("Exit codes: 0 ok, 1 runtime failure, 2 usage"));
+}
+
+TEST_F(Program, UsageErrorsEndWith2) {
+  EXPECT_EQ(run(""), 2);
+  EXPECT_EQ(run("--unheard-of"), 2);
+  EXPECT_EQ(run_scene("--set dt=-1"), 2);
+  EXPECT_THAT(err_, HasSubstr("must be a number between"));
+  EXPECT_EQ(run_scene("--size big"), 2);
+  EXPECT_EQ(run("bench nothing"), 2);
+}
+
+TEST_F(Program, BadFilesEndWith3AndSayWhere) {
+  EXPECT_EQ(run_scene("", "none.scene.yaml"), 3);
+  write("bad.scene.yaml", with(quick_scene, "duration: 0.1", "duration: soon"));
+  EXPECT_EQ(run_scene("", "bad.scene.yaml"), 3);
+  EXPECT_THAT(err_, HasSubstr("bad.scene.yaml:5:11: error: duration is \"soon\""));
+  EXPECT_EQ(run_scene("--set rods.newton_iterations=0"), 3);
+  EXPECT_EQ(run_scene("--set detach.strech=0.1"), 3);
+  EXPECT_THAT(err_, HasSubstr("unknown key \"detach.strech\""));
+}
+
+// A stem of lead with an explicit kick of 1e300 N cannot stay finite.
+TEST_F(Program, UnstableRunEndsWith4NamesTheOrganAndKeepsItsRecord) {
+  write("stem.plant.yaml", std::string(stem_plant) +
+                               "fruits:\n  - {name: fruit_1, curve: stem, at: 1.0, radius: 0.01, "
+                               "density: 900, detach: {}}\n");
+  write("wild.scene.yaml", with(quick_scene, "expect:",
+                                "loads:\n  - {fruit: stem/fruit_1, force: [1.0e+300, 0, 0], "
+                                "from: 0.05, to: 1}\nexpect:"));
+  EXPECT_EQ(run_scene("", "wild.scene.yaml"), 4) << err_;
+  EXPECT_THAT(err_, HasSubstr("stem/stem"));
+  Diagnostics diagnostics;
+  const io::CsvTable log = io::read_csv(folder_ / "out/log.csv", {true, true}, diagnostics);
+  EXPECT_GE(log.rows.size(), 4u) << diagnostics.text();
+}
+
+TEST_F(Program, UnmetExpectationEndsWith5) {
+  write("wrong.scene.yaml", with(quick_scene, "is: 0", "is: 1"));
+  EXPECT_EQ(run_scene("", "wrong.scene.yaml"), 5);
+  EXPECT_THAT(err_, HasSubstr("NOT MET detached_count is 1: 0"));
+}
+
+TEST_F(Program, OutputThatCannotBeWrittenEndsWith6) {
+  EXPECT_EQ(run("--headless " + path("quick.scene.yaml") + " --out /proc/nowhere --no-pictures"),
+            6);
+  EXPECT_THAT(err_, HasSubstr("/proc/nowhere"));
+}
+
+TEST_F(Program, InterruptEndsWith130AndReadableFiles) {
+  write("long.scene.yaml", with(quick_scene, "duration: 0.1", "duration: 100000"));
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    execl(PEDICEL_PROGRAM, PEDICEL_PROGRAM, "--headless", path("long.scene.yaml").c_str(), "--out",
+          path("out").c_str(), "--no-pictures", "--quiet", nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 200 && !std::filesystem::exists(folder_ / "out/log.csv"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  Diagnostics diagnostics;
+  const io::CsvTable log = io::read_csv(folder_ / "out/log.csv", {true, true}, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.text();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/log.meta.json"));
+}
+
+TEST_F(Program, SweepRunsEveryValue) {
+  EXPECT_EQ(run("sweep " + path("quick.scene.yaml") + " --out " + path("out") +
+                " --no-pictures --quiet --set material.density=400,800"),
+            0)
+      << err_;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/sweep.csv"));
+}
+
+TEST_F(Program, ValidateSaysWhichFilesAreBad) {
+  EXPECT_EQ(run("validate " + path("quick.scene.yaml") + " " + path("stem.plant.yaml")), 0) << err_;
+  write("bad.scene.yaml", with(quick_scene, "duration: 0.1", "duration: soon"));
+  EXPECT_EQ(run("validate " + path("bad.scene.yaml") + " " + path("stem.plant.yaml")), 3);
+}
+
+}  // namespace
+}  // namespace pedicel

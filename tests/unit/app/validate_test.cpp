@@ -1,0 +1,86 @@
+#include "app/validate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "io/atomic_file.h"
+
+namespace pedicel::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Validate : public ::testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) {
+    const auto path = std::filesystem::path(::testing::TempDir()) / "validate" / name;
+    io::write_file_atomically(path, text);
+    return path.string();
+  }
+  int validate(const std::vector<std::string>& files) {
+    std::ostringstream out;
+    const int code = validate_files(files, {}, out);
+    text_ = out.str();
+    return code;
+  }
+  std::string text_;
+};
+
+TEST_F(Validate, EveryShippedFileIsGood) {
+  std::vector<std::string> files;
+  for (const char* folder : {"plants", "assets"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(
+             std::filesystem::path(PEDICEL_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension == ".yaml" || extension == ".urdf") files.push_back(entry.path().string());
+    }
+  std::sort(files.begin(), files.end());
+  ASSERT_FALSE(files.empty());
+  EXPECT_EQ(validate(files), 0) << text_;
+}
+
+TEST_F(Validate, OneBadFileIsEnough) {
+  const std::string good = std::string(PEDICEL_SOURCE_DIR) + "/plants/cherry_tomato.plant.yaml";
+  const std::string bad = write("bad.plant.yaml", "format: pedicel-plant\nversion: 1\n");
+  EXPECT_EQ(validate({bad, good}), 3);
+  EXPECT_THAT(text_, HasSubstr("bad.plant.yaml:1:1: error: missing key"));
+  EXPECT_THAT(text_, HasSubstr("cherry_tomato.plant.yaml: plant, good"));
+}
+
+TEST_F(Validate, SaysWhatItKnowsWhereTheKindIsUnknown) {
+  EXPECT_EQ(validate({write("a.txt", "hello")}), 3);
+  EXPECT_THAT(text_, HasSubstr("a.txt: error: kind of file is unknown, expected one of: "
+                               "pedicel-plant, pedicel-scene"));
+  EXPECT_EQ(validate({write("b.yaml", "format: pedicel-poem\n")}), 3);
+  EXPECT_THAT(text_, HasSubstr("kind of file is unknown"));
+}
+
+TEST_F(Validate, SaysWhatCannotBeRead) {
+  EXPECT_EQ(validate({"/nowhere/a.scene.yaml"}), 3);
+  EXPECT_THAT(text_, HasSubstr("/nowhere/a.scene.yaml"));
+  EXPECT_EQ(validate({write("c.yaml", "a: [1\n")}), 3);
+  EXPECT_THAT(text_, HasSubstr("not valid YAML"));
+}
+
+TEST_F(Validate, ASceneIsBadWhereAFileThatItNamesIs) {
+  write("bad.plant.yaml", "format: pedicel-plant\nversion: 1\n");
+  const std::string scene = write("s.scene.yaml",
+                                  "format: pedicel-scene\nversion: 1\npurpose: p\nsee: s\n"
+                                  "duration: 1\nplants: [{name: a, file: bad.plant.yaml}]\n");
+  EXPECT_EQ(validate({scene}), 3);
+  EXPECT_THAT(text_, HasSubstr("bad.plant.yaml:1:1: error: missing key"));
+}
+
+TEST_F(Validate, ChecksRobotsAndTables) {
+  EXPECT_EQ(validate({write("a.urdf", "<robot name=\"a\"/>")}), 3);
+  EXPECT_THAT(text_, HasSubstr("a.urdf"));
+  EXPECT_EQ(validate({write("a.csv", "time,x\n0,1\n0,2\n")}), 3);
+  EXPECT_THAT(text_, HasSubstr("a.csv:3:1: error: time 0 does not increase"));
+}
+
+}  // namespace
+}  // namespace pedicel::app
