@@ -26,11 +26,18 @@ SceneView::SceneView(const Simulation& simulation) : simulation_(simulation) {
 
 void SceneView::fill(Frame& frame, bool strain) {
   frame.time = simulation_.world().time();
+  if (frame.list.ground && simulation_.scene().ground)
+    frame.list.ground->height = simulation_.scene().ground->height;
   for (std::size_t p = 0; p < plants_.size(); ++p)
     plants_[p].add_to(frame.list, simulation_.rods().state(static_cast<int>(p)),
                       strain ? std::optional(strain_scale_) : std::nullopt);
   for (std::size_t l = 0; l < links_.size(); ++l)
     add_at(frame.list, links_[l], simulation_.robot()->link_pose(static_cast<int>(l)));
+  frame.list.ground.reset();
+  if (const auto& ground = simulation_.scene().ground) {
+    frame.list.ground.emplace();
+    frame.list.ground->height = ground->height;
+  }
   add_bodies(frame.list);
   add_texts(frame, strain);
 }

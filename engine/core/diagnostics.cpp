@@ -32,9 +32,18 @@ std::string Diagnostics::text() const {
   return text;
 }
 
-InvalidFile::InvalidFile(const Diagnostics& diagnostics) : std::runtime_error(diagnostics.text()) {}
+void Diagnostics::add(const InvalidFile& fault) {
+  for (const Diagnostic& diagnostic : fault.all()) {
+    all_.push_back(diagnostic);
+    if (diagnostic.severity == Severity::error) ++errors_;
+  }
+}
+
+InvalidFile::InvalidFile(const Diagnostics& diagnostics)
+    : std::runtime_error(diagnostics.text()), all_(diagnostics.all()) {}
 
 InvalidFile::InvalidFile(SourcePosition where, std::string what)
-    : std::runtime_error(to_string({Severity::error, std::move(where), std::move(what)})) {}
+    : std::runtime_error(to_string({Severity::error, where, what})),
+      all_{{Severity::error, where, what}} {}
 
 }  // namespace pedicel

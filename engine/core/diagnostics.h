@@ -16,6 +16,8 @@ struct SourcePosition {
 
 enum class Severity { warning, error };
 
+class InvalidFile;
+
 struct Diagnostic {
   Severity severity = Severity::error;
   SourcePosition where;
@@ -31,6 +33,8 @@ class Diagnostics {
  public:
   void error(SourcePosition where, std::string what);
   void warning(SourcePosition where, std::string what);
+  /// Takes over what a reader below threw, places and all.
+  void add(const InvalidFile& fault);
 
   bool has_errors() const { return errors_ > 0; }
   int error_count() const { return errors_; }
@@ -49,6 +53,11 @@ class InvalidFile : public std::runtime_error {
  public:
   explicit InvalidFile(const Diagnostics& diagnostics);
   InvalidFile(SourcePosition where, std::string what);
+
+  const std::vector<Diagnostic>& all() const { return all_; }
+
+ private:
+  std::vector<Diagnostic> all_;
 };
 
 }  // namespace pedicel

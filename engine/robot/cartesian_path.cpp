@@ -14,11 +14,13 @@ namespace {
 using Eigen::VectorXd;
 
 /// 0 to 1 with velocity and acceleration 0 at both ends.
-double minimum_jerk(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
+double minimum_jerk(double s) {
+  return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
+}
 
 std::string name_of(const std::vector<Waypoint>& waypoints, std::size_t i) {
-  return "waypoint " + std::to_string(i + 1) +
-         " (t = " + io::format_number(waypoints[i].time, 4) + " s): ";
+  return "waypoint " + std::to_string(i + 1) + " (t = " + io::format_number(waypoints[i].time, 4) +
+         " s): ";
 }
 
 /// A path that could not be followed: how far it came, and why.
@@ -71,9 +73,10 @@ class Follower {
       if (speed > model_.velocity_limits()[i] * (1.0 + 1e-9))
         return fail(waypoint, time,
                     "too fast: at t = " + io::format_number(time, 4) + " s '" +
-                        model_.joint_names()[i] + "' would move at " +
-                        io::format_number(speed, 3) + " per second, its limit is " +
-                        io::format_number(model_.velocity_limits()[i], 3) + "; give it more time");
+                        model_.joint_names()[i] + "' would move at " + io::format_number(speed, 3) +
+                        " per second, its limit is " +
+                        io::format_number(model_.velocity_limits()[i], 3) +
+                        "; give it more time, or lead it further from a singular posture");
     }
     add(time, q);
   }
@@ -109,8 +112,8 @@ class Follower {
       const IkResult result = descend(model_, target_between(from, to, link, s), q, settings_.ik);
       if (!result.reached)
         return fail(i, time,
-                    "the straight way to it leaves the reach at t = " +
-                        io::format_number(time, 4) + " s: nearest reachable pose is " +
+                    "the straight way to it leaves the reach at t = " + io::format_number(time, 4) +
+                        " s: nearest reachable pose is " +
                         io::format_number(result.position_error * 1e3, 2) + " mm and " +
                         io::format_number(result.rotation_error * 180.0 / std::numbers::pi, 2) +
                         " degrees away");

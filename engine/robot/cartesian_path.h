@@ -12,15 +12,16 @@
 
 namespace pedicel::robot {
 
-/// Where a tool link shall be at a time, and where joints that are set by hand (a gripper) shall be.
+/// Where a tool link shall be at a time, and where joints that are set by hand (a gripper) shall
+/// be.
 struct Waypoint {
-  double time = 0.0;                      ///< s
-  std::string tool;                       ///< a link's name
-  Vec3 position_W = Vec3::Zero();         ///< m
-  std::optional<Quat> orientation_W;      ///< of the tool; else
-  std::optional<Vec3> approach_W;         ///< where the tool's z axis points; else as it likes
-  std::map<std::string, double> joints;   ///< rad or m; they keep their value until set again
-  SourcePosition where;                   ///< for errors
+  double time = 0.0;                     ///< s
+  std::string tool;                      ///< a link's name
+  Vec3 position_W = Vec3::Zero();        ///< m
+  std::optional<Quat> orientation_W;     ///< of the tool; else
+  std::optional<Vec3> approach_W;        ///< where the tool's z axis points; else as it likes
+  std::map<std::string, double> joints;  ///< rad or m; they keep their value until set again
+  SourcePosition where;                  ///< for errors
 };
 
 struct PathSettings {
@@ -42,8 +43,8 @@ Trajectory plan_cartesian(const KinematicModel& model, const std::vector<Waypoin
                           const Eigen::VectorXd& q_start, const PathSettings& settings,
                           Diagnostics& diagnostics);
 
-/// Reads a list of waypoints: {time, tool, position, orientation | approach, joints: {name: value}}.
-/// `tool` may be left out where `default_tool` names one.
+/// Reads a list of waypoints: {time, tool, position, orientation | approach, joints: {name:
+/// value}}. `tool` may be left out where `default_tool` names one.
 std::vector<Waypoint> read_waypoints(const io::YamlNode& list, const std::string& default_tool);
 
 }  // namespace pedicel::robot

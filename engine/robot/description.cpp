@@ -13,7 +13,9 @@ int index_of(const Items& items, const std::string& name) {
 
 }  // namespace
 
-int RobotDescription::link(const std::string& link_name) const { return index_of(links, link_name); }
+int RobotDescription::link(const std::string& link_name) const {
+  return index_of(links, link_name);
+}
 
 int RobotDescription::joint(const std::string& joint_name) const {
   return index_of(joints, joint_name);

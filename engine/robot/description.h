@@ -18,17 +18,17 @@ namespace pedicel::robot {
 struct Geometry {
   enum class Kind { box, cylinder, sphere, mesh };
   Kind kind = Kind::box;
-  Vec3 size = Vec3::Zero();                           ///< box: full extents, m
-  double radius = 0.0;                                ///< cylinder and sphere, m
-  double length = 0.0;                                ///< cylinder, m
-  std::filesystem::path mesh_file;                    ///< mesh: where it was found
-  std::shared_ptr<const geometry::TriangleMesh> mesh; ///< mesh: scaled, m
+  Vec3 size = Vec3::Zero();                            ///< box: full extents, m
+  double radius = 0.0;                                 ///< cylinder and sphere, m
+  double length = 0.0;                                 ///< cylinder, m
+  std::filesystem::path mesh_file;                     ///< mesh: where it was found
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< mesh: scaled, m
 };
 
 struct Visual {
-  Pose X_LV;                                          ///< in the link's frame
+  Pose X_LV;  ///< in the link's frame
   Geometry geometry;
-  Eigen::Vector4d color{0.7, 0.7, 0.7, 1.0};          ///< red, green, blue, alpha in 0..1
+  Eigen::Vector4d color{0.7, 0.7, 0.7, 1.0};  ///< red, green, blue, alpha in 0..1
 };
 
 struct Collision {
@@ -38,9 +38,9 @@ struct Collision {
 
 /// Mass properties: inertia about the centre of mass, along the link's axes.
 struct Inertial {
-  double mass = 0.0;              ///< kg
-  Vec3 com_L = Vec3::Zero();      ///< m
-  Mat3 inertia = Mat3::Zero();    ///< kg m2
+  double mass = 0.0;            ///< kg
+  Vec3 com_L = Vec3::Zero();    ///< m
+  Mat3 inertia = Mat3::Zero();  ///< kg m2
 };
 
 struct Link {
@@ -66,22 +66,23 @@ struct Joint {
 
   std::string name;
   JointType type = JointType::fixed;
-  int parent = -1;               ///< index of the parent link
-  int child = -1;                ///< index of the child link
-  Pose X_PJ;                     ///< joint frame (= child frame at position 0) in the parent's frame
-  Vec3 axis = Vec3::UnitX();     ///< unit, in the joint's frame
-  double lower = -unlimited;     ///< rad or m
-  double upper = unlimited;      ///< rad or m
-  double effort = unlimited;     ///< N m or N, largest of the motor
-  double velocity = unlimited;   ///< rad/s or m/s, largest commanded
-  double damping = 0.0;          ///< N m s/rad or N s/m
-  double friction = 0.0;         ///< N m or N, Coulomb
+  int parent = -1;              ///< index of the parent link
+  int child = -1;               ///< index of the child link
+  Pose X_PJ;                    ///< joint frame (= child frame at position 0) in the parent's frame
+  Vec3 axis = Vec3::UnitX();    ///< unit, in the joint's frame
+  double lower = -unlimited;    ///< rad or m
+  double upper = unlimited;     ///< rad or m
+  double effort = unlimited;    ///< N m or N, largest of the motor
+  double velocity = unlimited;  ///< rad/s or m/s, largest commanded
+  double damping = 0.0;         ///< N m s/rad or N s/m
+  double friction = 0.0;        ///< N m or N, Coulomb
   std::optional<Mimic> mimic;
 
   bool moves() const { return type != JointType::fixed; }
 };
 
-/// A robot as its URDF states it: a tree of links, in the order of the file. Holds no Bullet object.
+/// A robot as its URDF states it: a tree of links, in the order of the file. Holds no Bullet
+/// object.
 struct RobotDescription {
   std::string name;
   std::string file;

@@ -22,8 +22,8 @@ void Dynamics::forward(const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd) {
     const Vec3& omega = twists_[e.parent].angular;
     const Vec3 arm = poses_[e.link].position - poses_[e.parent].position;
     state.angular_acceleration = parent.angular_acceleration;
-    state.acceleration =
-        parent.acceleration + parent.angular_acceleration.cross(arm) + omega.cross(omega.cross(arm));
+    state.acceleration = parent.acceleration + parent.angular_acceleration.cross(arm) +
+                         omega.cross(omega.cross(arm));
     if (e.dof < 0) continue;
     const Vec3 axis = poses_[e.link].rotation * e.axis * e.multiplier;
     const Vec3 own = axis * qdd[e.dof] + omega.cross(axis * qd[e.dof]);
@@ -70,11 +70,16 @@ void Dynamics::backward() {
 }
 
 const Eigen::VectorXd& Dynamics::inverse(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
-                                         const Eigen::VectorXd& qdd, const Vec3& gravity_W) {
+                                         const Eigen::VectorXd& qdd, const Vec3& gravity_W,
+                                         std::span<const LinkForce> forces) {
   model_.link_poses(q, poses_);
   model_.link_velocities(poses_, qd, twists_);
   forward(qd, qdd);
   own_forces(gravity_W);
+  for (const LinkForce& f : forces) {
+    states_[f.link].force -= f.force_W;
+    states_[f.link].moment -= (f.point_W - poses_[f.link].position).cross(f.force_W);
+  }
   backward();
   return torques_;
 }

@@ -1,11 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "robot/kinematics.h"
 
 namespace pedicel::robot {
+
+/// A force (N) on a link at a point (m), world frame.
+struct LinkForce {
+  int link = 0;
+  Vec3 force_W = Vec3::Zero(), point_W = Vec3::Zero();
+};
 
 /// Inverse dynamics and energy of a description with a resting base, without Bullet: the recursive
 /// Newton-Euler algorithm (Luh, Walker, Paul 1980; Featherstone 2008, section 5.3) in world axes.
@@ -15,16 +22,17 @@ class Dynamics {
   Dynamics(const RobotDescription& robot, const KinematicModel& model);
 
   /// What each degree of freedom must be driven with (N m or N) so that the robot at q, qd
-  /// accelerates with qdd; the share of mimic joints is included, joint damping and friction are
-  /// not.
+  /// accelerates with qdd under gravity and `forces`; the share of mimic joints is included, joint
+  /// damping and friction are not.
   const Eigen::VectorXd& inverse(const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
-                                 const Eigen::VectorXd& qdd, const Vec3& gravity_W);
+                                 const Eigen::VectorXd& qdd, const Vec3& gravity_W,
+                                 std::span<const LinkForce> forces = {});
 
   /// The same for each element of the model (mimic joints by themselves), from the last inverse().
   const std::vector<double>& element_torques() const { return element_torques_; }
 
-  double kinetic_energy(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);         ///< J
-  double potential_energy(const Eigen::VectorXd& q, const Vec3& gravity_W);           ///< J
+  double kinetic_energy(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);  ///< J
+  double potential_energy(const Eigen::VectorXd& q, const Vec3& gravity_W);    ///< J
 
  private:
   struct LinkState {

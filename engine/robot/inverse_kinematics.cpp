@@ -34,6 +34,11 @@ Vec3 rotation_error(const Pose& pose, const IkTarget& target) {
   return Vec3::Zero();
 }
 
+bool is_free(const KinematicModel& model, int link, const IkSettings& settings, int dof) {
+  const auto& held = settings.held;
+  return model.moves(dof, link) && std::find(held.begin(), held.end(), dof) == held.end();
+}
+
 /// One descent's work space.
 class Descent {
  public:
@@ -42,8 +47,7 @@ class Descent {
       : model_(model), target_(target), settings_(settings), q_(model.clamped(q_start)) {
     for (int held : settings.held) q_[held] = q_start[held];
     for (int i = 0; i < model.dofs(); ++i)
-      if (model.moves(i, target.link) && !std::count(settings.held.begin(), settings.held.end(), i))
-        free_.push_back(i);
+      if (is_free(model, target.link, settings, i)) free_.push_back(i);
   }
 
   IkResult run() {
@@ -132,15 +136,30 @@ class Descent {
   Vec6 error_;
 };
 
-VectorXd random_start(const KinematicModel& model, const VectorXd& q_start,
+VectorXd random_start(const KinematicModel& model, int link, const VectorXd& q_start,
                       const IkSettings& settings, Random& random) {
   constexpr double pi = std::numbers::pi;
   VectorXd q = q_start;
   for (int i = 0; i < model.dofs(); ++i) {
-    const double draw = random.uniform();  // drawn for held joints too: same seed, same starts
-    if (std::count(settings.held.begin(), settings.held.end(), i)) continue;
+    const double draw = random.uniform();  // for every joint: same seed, same starts
+    if (!is_free(model, link, settings, i)) continue;
     const double low = std::max(model.lower()[i], -pi), high = std::min(model.upper()[i], pi);
     q[i] = low <= high ? low + draw * (high - low) : model.clamped(q_start)[i];
+  }
+  return q;
+}
+
+/// The same pose with every joint as few turns away from `q_start` as its limits allow.
+VectorXd unwound(const KinematicModel& model, VectorXd q, const VectorXd& q_start) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  for (int i = 0; i < model.dofs(); ++i) {
+    if (!model.periodic(i)) continue;
+    const double near = q[i] + turn * std::round((q_start[i] - q[i]) / turn);
+    for (const double candidate : {near, near < q_start[i] ? near + turn : near - turn})
+      if (candidate >= model.lower()[i] && candidate <= model.upper()[i]) {
+        q[i] = candidate;
+        break;
+      }
   }
   return q;
 }
@@ -154,10 +173,11 @@ IkResult best_of_restarts(const KinematicModel& model, const IkTarget& target,
   Random random(settings.seed);
   IkResult best = descend(model, target, q_start, settings);
   for (int i = 0; i < settings.restarts && !best.reached; ++i) {
-    IkResult next =
-        descend(model, target, random_start(model, q_start, settings, random), settings);
+    IkResult next = descend(model, target,
+                            random_start(model, target.link, q_start, settings, random), settings);
     if (weight(next, settings) < weight(best, settings)) best = std::move(next);
   }
+  best.q = unwound(model, best.q, q_start);
   return best;
 }
 
@@ -185,8 +205,8 @@ IkResult inverse_kinematics(const KinematicModel& model, const IkTarget& target,
   point.approach_W.reset();
   const IkResult nearest = best_of_restarts(model, point, best.q, settings);
   if (!nearest.reached)
-    best.sentence = "unreachable: nearest reachable point is " +
-                    millimetres(nearest.position_error) + " away";
+    best.sentence =
+        "unreachable: nearest reachable point is " + millimetres(nearest.position_error) + " away";
   else
     best.sentence = "unreachable in this orientation: nearest reachable pose is " +
                     millimetres(best.position_error) + " and " +
@@ -200,9 +220,11 @@ std::vector<VectorXd> ik_solutions(const KinematicModel& model, const IkTarget& 
   Random random(settings.seed);
   std::vector<VectorXd> found;
   for (int i = 0; i <= settings.restarts; ++i) {
-    const VectorXd start = i == 0 ? q_start : random_start(model, q_start, settings, random);
-    const IkResult result = descend(model, target, start, settings);
+    const VectorXd start =
+        i == 0 ? q_start : random_start(model, target.link, q_start, settings, random);
+    IkResult result = descend(model, target, start, settings);
     if (!result.reached) continue;
+    result.q = unwound(model, result.q, q_start);
     const bool known = std::any_of(found.begin(), found.end(), [&](const VectorXd& q) {
       return (q - result.q).cwiseAbs().maxCoeff() < 1e-2;
     });

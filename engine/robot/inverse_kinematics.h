@@ -13,9 +13,9 @@ namespace pedicel::robot {
 /// it likes; with `approach` only its z axis is told where to point.
 struct IkTarget {
   int link = 0;
-  Vec3 position_W = Vec3::Zero();        ///< m, of the link's origin
+  Vec3 position_W = Vec3::Zero();  ///< m, of the link's origin
   std::optional<Quat> orientation_W;
-  std::optional<Vec3> approach_W;        ///< unit; ignored where there is an orientation
+  std::optional<Vec3> approach_W;  ///< unit; ignored where there is an orientation
 };
 
 struct IkSettings {
@@ -37,8 +37,8 @@ struct IkResult {
 };
 
 /// One descent by damped least squares (Levenberg-Marquardt: Nakamura, Hanafusa 1986) that keeps
-/// every joint within its limits, from `q_start`. Joints that do not move the link stay as they are.
-/// `sentence` stays empty.
+/// every joint within its limits, from `q_start`. Joints that do not move the link stay as they
+/// are. `sentence` stays empty.
 IkResult descend(const KinematicModel& model, const IkTarget& target,
                  const Eigen::VectorXd& q_start, const IkSettings& settings = {});
 

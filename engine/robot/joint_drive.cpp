@@ -16,7 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// creep for ever after the last nanometre, and the sign of rounding would decide its torque.
 constexpr double resting_speed = 1e-6;
 
-double sign(double value) { return value > 0.0 ? 1.0 : value < 0.0 ? -1.0 : 0.0; }
+double sign(double value) {
+  return value > 0.0 ? 1.0 : value < 0.0 ? -1.0 : 0.0;
+}
 
 /// Limits nearer than what a joint covers in one step at this speed (rad/s or m/s) are watched.
 constexpr double watched_speed = 50.0;
@@ -28,11 +30,14 @@ JointDrive::JointDrive(const RobotDescription& robot, const KinematicModel& mode
     : model_(model), settings_(settings), multibody_(multibody), dynamics_(robot, model) {
   rows_ = std::make_unique<JointRows>(&multibody.body(), lay_out(robot, model));
   multibody_.world().addMultiBodyConstraint(rows_.get());
+  effort_ = model.effort_limits();
   velocity_.setZero(model.dofs());
   acceleration_ = wanted_ = forward_ = velocity_;
 }
 
-JointDrive::~JointDrive() { multibody_.world().removeMultiBodyConstraint(rows_.get()); }
+JointDrive::~JointDrive() {
+  multibody_.world().removeMultiBodyConstraint(rows_.get());
+}
 
 std::vector<JointRows::Row> JointDrive::lay_out(const RobotDescription& robot,
                                                 const KinematicModel& model) {
@@ -85,22 +90,23 @@ double JointDrive::planned_velocity(const JointCommand& command, int dof, double
 }
 
 void JointDrive::plan(const std::vector<JointCommand>& commands, const Eigen::VectorXd& q,
-                      const Eigen::VectorXd& qd) {
+                      const Eigen::VectorXd& qd, std::span<const LinkForce> forces) {
   for (int i = 0; i < model_.dofs(); ++i) {
     const bool free = commands[i].mode == ControlMode::torque;
     velocity_[i] = free ? qd[i] : planned_velocity(commands[i], i, q[i]);
     acceleration_[i] = (velocity_[i] - qd[i]) / dt_;
   }
   if (settings_.fixed_base)
-    wanted_ = dynamics_.inverse(q, qd, acceleration_, from_bullet(multibody_.world().getGravity()));
+    wanted_ = dynamics_.inverse(q, qd, acceleration_, from_bullet(multibody_.world().getGravity()),
+                                forces);
   for (Drive& drive : drives_) {
     drive.velocity = drive.multiplier * velocity_[drive.dof];
-    drive.passive = drive.joint->damping * drive.velocity +
-                    drive.joint->friction * sign(drive.velocity);
+    drive.passive =
+        drive.joint->damping * drive.velocity + drive.joint->friction * sign(drive.velocity);
     wanted_[drive.dof] += drive.multiplier * drive.passive;
   }
   for (int i = 0; i < model_.dofs(); ++i) {
-    const double effort = model_.effort_limits()[i];
+    const double effort = effort_[i];
     const bool free = commands[i].mode == ControlMode::torque;
     forward_[i] = std::clamp(free ? commands[i].torque : wanted_[i], -effort, effort);
   }
@@ -112,7 +118,7 @@ void JointDrive::drive_source(int k, const JointCommand& command) {
   JointRows::Row& motor = rows_->row(drive.motor);
   motor.active = command.mode != ControlMode::torque;
   motor.target = drive.velocity;
-  const double effort = model_.effort_limits()[drive.dof];
+  const double effort = effort_[drive.dof];
   motor.lower = (-effort - forward_[drive.dof]) * dt_;
   motor.upper = (effort - forward_[drive.dof]) * dt_;
 }
@@ -176,10 +182,10 @@ void JointDrive::set_limit_row(int k) {
 }
 
 void JointDrive::begin(const std::vector<JointCommand>& commands, const Eigen::VectorXd& q,
-                       const Eigen::VectorXd& qd, double dt) {
+                       const Eigen::VectorXd& qd, std::span<const LinkForce> forces, double dt) {
   dt_ = dt;
   wanted_.setZero();
-  plan(commands, q, qd);
+  plan(commands, q, qd, forces);
   for (int k = 0; k < multibody_.joints(); ++k) {
     const Drive& drive = drives_[k];
     if (drive.joint->mimic)

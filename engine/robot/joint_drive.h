@@ -26,9 +26,10 @@ class JointDrive {
   JointDrive(const JointDrive&) = delete;
   JointDrive& operator=(const JointDrive&) = delete;
 
-  /// Before Bullet's step, with the robot at q, qd. Does not allocate.
+  /// Before Bullet's step, with the robot at q, qd and `forces` on its links. Does not allocate.
   void begin(const std::vector<JointCommand>& commands, const Eigen::VectorXd& q,
-             const Eigen::VectorXd& qd, double dt);
+             const Eigen::VectorXd& qd, std::span<const LinkForce> forces, double dt);
+  void set_effort_limit(int dof, double effort) { effort_[dof] = effort; }
   /// Motor torques of the step that just ended.
   void end(Eigen::VectorXd& torques) const;
 
@@ -37,16 +38,16 @@ class JointDrive {
   struct Drive {
     const Joint* joint = nullptr;
     int dof = 0;
-    std::size_t element = 0;             ///< of the model
+    std::size_t element = 0;  ///< of the model
     double multiplier = 1.0, offset = 0.0;
-    int motor = -1;                      ///< the row that couples it to its source for a mimic
+    int motor = -1;  ///< the row that couples it to its source for a mimic
     int damping = -1, friction = -1, limit = -1;
-    double velocity = 0.0;               ///< expected at the end of the step
-    double passive = 0.0;                ///< friction and damping at that velocity, N m or N
+    double velocity = 0.0;  ///< expected at the end of the step
+    double passive = 0.0;   ///< friction and damping at that velocity, N m or N
   };
   std::vector<JointRows::Row> lay_out(const RobotDescription& robot, const KinematicModel& model);
   void plan(const std::vector<JointCommand>& commands, const Eigen::VectorXd& q,
-            const Eigen::VectorXd& qd);
+            const Eigen::VectorXd& qd, std::span<const LinkForce> forces);
   double planned_velocity(const JointCommand& command, int dof, double q) const;
   void drive_source(int k, const JointCommand& command);
   void drive_mimic(int k, const JointCommand& command);
@@ -57,11 +58,12 @@ class JointDrive {
   const RobotSettings& settings_;
   MultiBody& multibody_;
   Dynamics dynamics_;
-  std::vector<Drive> drives_;      // one for each joint of the multibody
-  std::vector<int> source_;        // joint of the multibody of each degree of freedom
+  std::vector<Drive> drives_;  // one for each joint of the multibody
+  std::vector<int> source_;    // joint of the multibody of each degree of freedom
   std::unique_ptr<JointRows> rows_;
   double dt_ = 0.0;
   Eigen::VectorXd velocity_, acceleration_;  // planned, dofs
+  Eigen::VectorXd effort_;                   // limits of the motors, dofs
   Eigen::VectorXd wanted_;                   // motor torque that the plan needs, dofs
   Eigen::VectorXd forward_;                  // of it, what the effort allows: applied ahead
 };

@@ -21,13 +21,14 @@ void JointRows::finalizeMultiDof() {
     const Row& row = rows_[i];
     btScalar* jacobian = jacobianA(static_cast<int>(i));
     jacobian[6 + m_bodyA->getLink(row.link).m_dofOffset] = row.coefficient;
-    if (row.link_b >= 0)
-      jacobian[6 + m_bodyA->getLink(row.link_b).m_dofOffset] = row.coefficient_b;
+    if (row.link_b >= 0) jacobian[6 + m_bodyA->getLink(row.link_b).m_dofOffset] = row.coefficient_b;
   }
   m_numDofsFinalized = m_jacSizeBoth;
 }
 
-int JointRows::getIslandIdA() const { return m_bodyA->getLinkCollider(0)->getIslandTag(); }
+int JointRows::getIslandIdA() const {
+  return m_bodyA->getLinkCollider(0)->getIslandTag();
+}
 
 void JointRows::createConstraintRows(btMultiBodyConstraintArray& constraint_rows,
                                      btMultiBodyJacobianData& data,
@@ -41,8 +42,8 @@ void JointRows::createConstraintRows(btMultiBodyConstraintArray& constraint_rows
     btMultiBodySolverConstraint& solver = constraint_rows.expandNonInitializing();
     fillMultiBodyConstraint(solver, data, jacobianA(index), jacobianB(index), zero, zero, zero,
                             zero, 0.0, info, row.lower, row.upper, false, 1.0, false, row.target);
-    // Bullet's iteration is delta = rhs - applied * cfm - (J dv) * inverse, with rhs and cfm already
-    // multiplied by the inverse of J M^-1 J^T (+ softness).
+    // Bullet's iteration is delta = rhs - applied * cfm - (J dv) * inverse, with rhs and cfm
+    // already multiplied by the inverse of J M^-1 J^T (+ softness).
     const double inverse = solver.m_jacDiagABInv;
     const double softened = inverse / (1.0 + row.softness * inverse);
     solver.m_rhs *= softened / inverse;

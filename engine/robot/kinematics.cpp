@@ -85,7 +85,9 @@ KinematicModel::KinematicModel(const RobotDescription& robot, const Pose& X_WB)
   }
 }
 
-int KinematicModel::joint_index(const std::string& name) const { return index_in(names_, name); }
+int KinematicModel::joint_index(const std::string& name) const {
+  return index_in(names_, name);
+}
 
 int KinematicModel::link_index(const std::string& name) const {
   return index_in(link_names_, name);
@@ -155,6 +157,13 @@ Jacobian KinematicModel::jacobian(const Eigen::VectorXd& q, int link, const Vec3
   Jacobian j;
   jacobian(poses, link, point_L, j);
   return j;
+}
+
+bool KinematicModel::periodic(int dof) const {
+  int joints = 0;
+  for (const Element& e : elements_)
+    if (e.dof == dof) joints += e.type == JointType::prismatic ? 2 : 1;
+  return joints == 1;
 }
 
 bool KinematicModel::moves(int dof, int link) const {

@@ -35,7 +35,7 @@ class KinematicModel {
   int link_index(const std::string& name) const;
   const std::string& link_name(int link) const { return link_names_[link]; }
 
-  const Eigen::VectorXd& lower() const { return lower_; }            ///< rad or m, may be infinite
+  const Eigen::VectorXd& lower() const { return lower_; }  ///< rad or m, may be infinite
   const Eigen::VectorXd& upper() const { return upper_; }
   const Eigen::VectorXd& velocity_limits() const { return velocity_; }
   const Eigen::VectorXd& effort_limits() const { return effort_; }
@@ -50,12 +50,12 @@ class KinematicModel {
   /// One link with the joint that carries it; parents come before children, the root first.
   struct Element {
     int link = 0;
-    int parent = -1;           ///< link, -1 for the root
-    int joint = -1;            ///< in the description, -1 for the root
+    int parent = -1;  ///< link, -1 for the root
+    int joint = -1;   ///< in the description, -1 for the root
     JointType type = JointType::fixed;
     Pose X_PJ;
-    Vec3 axis = Vec3::UnitX(); ///< in the joint's frame
-    int dof = -1;              ///< joint position = multiplier * q[dof] + offset
+    Vec3 axis = Vec3::UnitX();  ///< in the joint's frame
+    int dof = -1;               ///< joint position = multiplier * q[dof] + offset
     double multiplier = 1.0;
     double offset = 0.0;
   };
@@ -72,6 +72,10 @@ class KinematicModel {
   /// Jacobian of a point fixed in a link (given in the link's frame), at poses from link_poses().
   void jacobian(const std::vector<Pose>& X_WL, int link, const Vec3& point_L, Jacobian& j) const;
   Jacobian jacobian(const Eigen::VectorXd& q, int link, const Vec3& point_L = Vec3::Zero()) const;
+
+  /// Whether a whole turn of this degree of freedom brings every link back: a turning joint that no
+  /// mimic follows.
+  bool periodic(int dof) const;
 
   /// Whether a degree of freedom moves a link.
   bool moves(int dof, int link) const;

@@ -18,9 +18,9 @@ MultiBody::MultiBody(const RobotDescription& robot, const KinematicModel& model,
   if (!settings.fixed_base && groups_[0].inertial.mass <= 0.0)
     throw UsageError("robot '" + robot.name + "': a floating base needs mass");
 
-  body_ = std::make_unique<btMultiBody>(static_cast<int>(groups_.size()) - 1,
-                                        groups_[0].inertial.mass, to_bullet(frames_[0].inertia),
-                                        settings.fixed_base, false);
+  body_ =
+      std::make_unique<btMultiBody>(static_cast<int>(groups_.size()) - 1, groups_[0].inertial.mass,
+                                    to_bullet(frames_[0].inertia), settings.fixed_base, false);
   for (int k = 0; k < static_cast<int>(groups_.size()) - 1; ++k) set_up_joint(robot, model, k);
   body_->finalizeMultiDof();
   body_->setBaseWorldTransform(to_bullet(model.base_pose() * frames_[0].X_GC));
@@ -98,8 +98,8 @@ Twist MultiBody::base_twist() const {
 
 void MultiBody::add_force(int link, const Vec3& force_W, const Vec3& point_W) {
   const int index = group_of_[link] - 1;
-  const btVector3 com = index < 0 ? body_->getBasePos()
-                                  : body_->getLink(index).m_cachedWorldTransform.getOrigin();
+  const btVector3 com =
+      index < 0 ? body_->getBasePos() : body_->getLink(index).m_cachedWorldTransform.getOrigin();
   const Vec3 torque = (point_W - from_bullet(com)).cross(force_W);
   if (index < 0) {
     body_->addBaseForce(to_bullet(force_W));

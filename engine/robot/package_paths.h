@@ -26,8 +26,8 @@ class PackagePaths {
   void add_ament_path(const std::string& colon_separated);
 
   struct Found {
-    std::optional<std::filesystem::path> file;       ///< nothing where no candidate exists
-    std::vector<std::filesystem::path> looked_at;    ///< every candidate, in order
+    std::optional<std::filesystem::path> file;     ///< nothing where no candidate exists
+    std::vector<std::filesystem::path> looked_at;  ///< every candidate, in order
   };
   /// Finds the file that `uri` names in a URDF.
   Found find(const std::string& uri, const std::filesystem::path& urdf) const;

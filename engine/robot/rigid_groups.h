@@ -9,10 +9,10 @@ namespace pedicel::robot {
 /// Links that fixed joints hold together move as one body: fewer Bullet links, and frames without
 /// mass (which Featherstone's algorithm cannot take as moving links) need no special case.
 struct RigidGroup {
-  int link = 0;       ///< the link that leads the group; its frame G is the group's
-  int parent = -1;    ///< group, -1 for the base
-  int element = 0;    ///< element of the model whose joint carries the group
-  Pose X_PJ;          ///< joint frame at position 0 in the parent group's frame
+  int link = 0;     ///< the link that leads the group; its frame G is the group's
+  int parent = -1;  ///< group, -1 for the base
+  int element = 0;  ///< element of the model whose joint carries the group
+  Pose X_PJ;        ///< joint frame at position 0 in the parent group's frame
   struct Member {
     int link;
     Pose X_GL;

@@ -20,11 +20,6 @@ std::vector<Parameter> RobotSettings::parameters() {
 
 namespace {
 
-struct ExternalForce {
-  int link;
-  Vec3 force_W, point_W;
-};
-
 const RobotSettings& checked(RobotSettings& settings) {
   if (const auto fault = check_parameters(settings.parameters())) throw UsageError(*fault);
   return settings;
@@ -61,7 +56,7 @@ struct Robot::Impl {
   std::vector<Pose> poses;
   std::vector<Twist> twists;
   std::vector<JointCommand> commands;
-  std::vector<ExternalForce> forces;
+  std::vector<LinkForce> forces;
 };
 
 void Robot::Impl::place_joints(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity) {
@@ -93,8 +88,7 @@ int Robot::Impl::checked_joint(int joint) const {
 
 int Robot::Impl::checked_link(const std::string& link) const {
   const int index = model.link_index(link);
-  if (index < 0)
-    throw UsageError("robot '" + description.name + "': no link '" + link + "'");
+  if (index < 0) throw UsageError("robot '" + description.name + "': no link '" + link + "'");
   return index;
 }
 
@@ -106,15 +100,33 @@ Robot::Robot(const RobotDescription& description, const RobotSettings& settings,
 
 Robot::~Robot() = default;
 
-const RobotDescription& Robot::description() const { return impl_->description; }
-const KinematicModel& Robot::model() const { return impl_->model; }
-const RobotSettings& Robot::settings() const { return impl_->settings; }
-const Eigen::VectorXd& Robot::positions() const { return impl_->q; }
-const Eigen::VectorXd& Robot::velocities() const { return impl_->qd; }
-const Eigen::VectorXd& Robot::motor_torques() const { return impl_->torques; }
-const std::vector<Pose>& Robot::link_poses() const { return impl_->poses; }
-const std::vector<Twist>& Robot::link_twists() const { return impl_->twists; }
-btMultiBody& Robot::multibody() { return impl_->multibody.body(); }
+const RobotDescription& Robot::description() const {
+  return impl_->description;
+}
+const KinematicModel& Robot::model() const {
+  return impl_->model;
+}
+const RobotSettings& Robot::settings() const {
+  return impl_->settings;
+}
+const Eigen::VectorXd& Robot::positions() const {
+  return impl_->q;
+}
+const Eigen::VectorXd& Robot::velocities() const {
+  return impl_->qd;
+}
+const Eigen::VectorXd& Robot::motor_torques() const {
+  return impl_->torques;
+}
+const std::vector<Pose>& Robot::link_poses() const {
+  return impl_->poses;
+}
+const std::vector<Twist>& Robot::link_twists() const {
+  return impl_->twists;
+}
+btMultiBody& Robot::multibody() {
+  return impl_->multibody.body();
+}
 
 double Robot::joint_position(const std::string& joint) const {
   const Impl& robot = *impl_;
@@ -161,16 +173,23 @@ ControlMode Robot::mode(int joint) const {
   return impl_->commands[impl_->checked_joint(joint)].mode;
 }
 
+void Robot::set_effort_limit(int joint, double effort) {
+  impl_->checked_joint(joint);
+  if (!(effort > 0.0))
+    throw UsageError("robot '" + description().name + "': effort limit of '" +
+                     model().joint_names()[joint] + "', expected more than 0");
+  impl_->drive.set_effort_limit(joint, std::min(effort, model().effort_limits()[joint]));
+}
+
 void Robot::add_external_force(int link, const Vec3& force_W, const Vec3& point_W) {
   // Kept until begin_step(): Bullet forgets forces that are added from its tick callbacks.
   impl_->forces.push_back({link, force_W, point_W});
 }
 
 void Robot::begin_step(double dt) {
-  for (const ExternalForce& f : impl_->forces)
-    impl_->multibody.add_force(f.link, f.force_W, f.point_W);
+  for (const LinkForce& f : impl_->forces) impl_->multibody.add_force(f.link, f.force_W, f.point_W);
+  impl_->drive.begin(impl_->commands, impl_->q, impl_->qd, impl_->forces, dt);
   impl_->forces.clear();
-  impl_->drive.begin(impl_->commands, impl_->q, impl_->qd, dt);
 }
 
 void Robot::end_step() {
@@ -228,9 +247,15 @@ void Robot::set_state(const RobotState& state) {
 }
 
 void Robot::add_to(StateHash& hash) const {
-  const RobotState all = state();
-  for (const auto* values : {&all.joint_positions, &all.joint_velocities, &all.base})
-    for (double value : *values) hash.add(value);
+  const btMultiBody& body = impl_->multibody.body();
+  for (int k = 0; k < impl_->multibody.joints(); ++k) {
+    hash.add(body.getJointPos(k));
+    hash.add(body.getJointVel(k));
+  }
+  hash.add(from_bullet(body.getBasePos()));
+  hash.add(from_bullet(body.getWorldToBaseRot()));
+  hash.add(from_bullet(body.getBaseOmega()));
+  hash.add(from_bullet(body.getBaseVel()));
 }
 
 double Robot::energy() const {

@@ -15,12 +15,12 @@ namespace pedicel::robot {
 
 /// How a robot stands in the world and how its joints are held.
 struct RobotSettings {
-  Pose base_pose;            ///< of the URDF's root link, in the world
-  bool fixed_base = true;    ///< false: the root floats
-  bool rk4 = false;          ///< Runge-Kutta 4 for the free motion: for passive robots (README)
-  bool collide = true;       ///< false: links touch nothing in Bullet
-  int collision_group = 1;   ///< Bullet's filter bits of the moving links (1: default filter)
-  int collision_mask = -1;   ///< what they may touch
+  Pose base_pose;           ///< of the URDF's root link, in the world
+  bool fixed_base = true;   ///< false: the root floats
+  bool rk4 = false;         ///< Runge-Kutta 4 for the free motion: for passive robots (README)
+  bool collide = true;      ///< false: links touch nothing in Bullet
+  int collision_group = 1;  ///< Bullet's filter bits of the moving links (1: default filter)
+  int collision_mask = -1;  ///< what they may touch
   double contact_friction = 0.8;  ///< 1, Coulomb coefficient of the links' surfaces in Bullet
   double position_gain = 0.5;     ///< 1, share of a position error that is removed in one step
 
@@ -35,9 +35,9 @@ struct RobotState {
   std::vector<double> base;  ///< floating base: position 3, rotation 4, angular and linear velocity
 };
 
-/// A robot as a btMultiBody in a world. Owns its Bullet objects and takes them out of the world when
-/// it goes; the world must outlive it. Links that fixed joints hold together are one Bullet link,
-/// yet every URDF link can be asked for.
+/// A robot as a btMultiBody in a world. Owns its Bullet objects and takes them out of the world
+/// when it goes; the world must outlive it. Links that fixed joints hold together are one Bullet
+/// link, yet every URDF link can be asked for.
 ///
 /// One step: set targets, begin_step(dt), world.stepSimulation(dt, 0), end_step(). Joints start in
 /// position mode, at q = model().neutral(). Indices of joints are those of model(); of links, those
@@ -79,6 +79,9 @@ class Robot {
   void set_velocity_target(int joint, double velocity);
   void set_torque(int joint, double torque);
   ControlMode mode(int joint) const;
+  /// Limits what a motor may apply (N m or N; a gripper that must not crush): never more than the
+  /// URDF's effort. Throws UsageError where it is not positive.
+  void set_effort_limit(int joint, double effort);
 
   /// Force (N) on a link at a point, world frame, for the next step only (two-way coupling).
   void add_external_force(int link, const Vec3& force_W, const Vec3& point_W);

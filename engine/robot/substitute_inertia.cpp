@@ -76,7 +76,8 @@ std::optional<Inertial> solid_of_geometry(const Link& link, double density) {
   for (const Collision& c : link.collisions)
     add_inertial(sum, shape_solid(c.geometry, density), c.X_LC);
   if (link.collisions.empty())
-    for (const Visual& v : link.visuals) add_inertial(sum, shape_solid(v.geometry, density), v.X_LV);
+    for (const Visual& v : link.visuals)
+      add_inertial(sum, shape_solid(v.geometry, density), v.X_LV);
   if (sum.mass > 0.0) return sum;
   return {};
 }

@@ -47,7 +47,8 @@ void Trajectory::sample(double time, Eigen::VectorXd& q, Eigen::VectorXd& qd) co
   const double p1 = s * s * (3.0 - 2.0 * s), m0 = s * (1.0 - s) * (1.0 - s), m1 = s * s * (s - 1.0);
   const double dp1 = 6.0 * s * (1.0 - s) / h;
   const double dm0 = (1.0 - s) * (1.0 - 3.0 * s), dm1 = s * (3.0 * s - 2.0);
-  q = (1.0 - p1) * positions_[i] + p1 * positions_[i + 1] + h * (m0 * slopes_[i] + m1 * slopes_[i + 1]);
+  q = (1.0 - p1) * positions_[i] + p1 * positions_[i + 1] +
+      h * (m0 * slopes_[i] + m1 * slopes_[i + 1]);
   qd = dp1 * (positions_[i + 1] - positions_[i]) + dm0 * slopes_[i] + dm1 * slopes_[i + 1];
 }
 

@@ -29,9 +29,9 @@ class Trajectory {
   std::vector<Eigen::VectorXd> positions_, slopes_;
 };
 
-/// Reads `time_s,joint1,joint2,...`: joints by their URDF names, rad or m; joints that the file does
-/// not name stay at `q_start`. A column that is no joint, a joint that follows another, and a value
-/// outside the limits are errors; then the trajectory comes back empty.
+/// Reads `time_s,joint1,joint2,...`: joints by their URDF names, rad or m; joints that the file
+/// does not name stay at `q_start`. A column that is no joint, a joint that follows another, and a
+/// value outside the limits are errors; then the trajectory comes back empty.
 Trajectory read_trajectory_csv(const std::filesystem::path& path, const RobotDescription& robot,
                                const KinematicModel& model, const Eigen::VectorXd& q_start,
                                Diagnostics& diagnostics);

@@ -16,7 +16,8 @@ void check_inertial(const UrdfXml& xml, const TiXmlElement& link, const std::str
     xml.error(*inertial, what + ": inertial without <mass>, expected <mass value=\"...\"/>");
   const TiXmlElement* inertia = inertial->FirstChildElement("inertia");
   if (inertia == nullptr) {
-    xml.error(*inertial, what + ": inertial without <inertia>, expected ixx, ixy, ixz, iyy, iyz, izz");
+    xml.error(*inertial,
+              what + ": inertial without <inertia>, expected ixx, ixy, ixz, iyy, iyz, izz");
     return;
   }
   for (const char* name : inertia_names) xml.number(*inertia, name, what + ": inertia");
@@ -50,7 +51,8 @@ void check_geometry(const UrdfXml& xml, const TiXmlElement& owner, const std::st
   const TiXmlElement* geometry = owner.FirstChildElement("geometry");
   const TiXmlElement* shape = geometry != nullptr ? geometry->FirstChildElement() : nullptr;
   if (shape == nullptr) {
-    xml.error(owner, what + ": no geometry, expected <geometry> with box, cylinder, sphere or mesh");
+    xml.error(owner,
+              what + ": no geometry, expected <geometry> with box, cylinder, sphere or mesh");
     return;
   }
   const std::string& kind = shape->ValueStr();
@@ -81,9 +83,9 @@ void check_color(const UrdfXml& xml, const TiXmlElement& material, const std::st
   if (!rgba) return;
   for (double part : *rgba)
     if (part < 0.0 || part > 1.0) {
-      xml.error(attribute_or_element(*color, "rgba"), what + ": rgba \"" +
-                                                          color->Attribute("rgba") +
-                                                          "\", expected four numbers in 0..1");
+      xml.error(
+          attribute_or_element(*color, "rgba"),
+          what + ": rgba \"" + color->Attribute("rgba") + "\", expected four numbers in 0..1");
       return;
     }
 }

@@ -18,14 +18,15 @@ std::optional<std::string> linked(const UrdfXml& xml, const TiXmlElement& joint,
   }
   const std::optional<std::string> link = xml.text(*element, "link", what + ": " + end);
   if (!link || links.contains(*link)) return link;
-  xml.error(attribute_or_element(*element, "link"),
-            what + ": " + end + " link '" + *link + "' does not exist, expected a link of this file");
+  xml.error(
+      attribute_or_element(*element, "link"),
+      what + ": " + end + " link '" + *link + "' does not exist, expected a link of this file");
   return {};
 }
 
 struct Tree {
   std::map<std::string, const TiXmlElement*> links;
-  std::map<std::string, std::string> parent_of;  // child link to parent link
+  std::map<std::string, std::string> parent_of;         // child link to parent link
   std::map<std::string, const TiXmlElement*> joint_of;  // child link to its joint
 };
 
@@ -71,8 +72,9 @@ void check_tree(const UrdfXml& xml, const TiXmlElement& robot) {
         root = name;
     } else if (!cycle_reported && in_cycle(tree, name)) {
       cycle_reported = true;
-      xml.error(*tree.joint_of.at(name),
-                std::string("link '") + name + "' is its own ancestor, expected a tree without a cycle");
+      xml.error(
+          *tree.joint_of.at(name),
+          std::string("link '") + name + "' is its own ancestor, expected a tree without a cycle");
     }
   }
 }

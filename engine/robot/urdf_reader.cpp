@@ -3,6 +3,8 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
+
 #include "io/atomic_file.h"
 #include "robot/substitute_inertia.h"
 #include "robot/urdf_geometry.h"
@@ -38,7 +40,8 @@ bool check(const UrdfXml& xml, const TiXmlElement* robot, const PackagePaths& pa
   const int before = diagnostics.error_count();
   if (robot == nullptr || robot->ValueStr() != "robot") {
     const std::string found = robot != nullptr ? "<" + robot->ValueStr() + ">" : "nothing";
-    diagnostics.error({xml.file(), 1, 1}, found + " as the first element, expected <robot name=\"...\">");
+    diagnostics.error({xml.file(), 1, 1},
+                      found + " as the first element, expected <robot name=\"...\">");
     return false;
   }
   if (check_xacro(xml, *robot)) return false;
@@ -55,7 +58,8 @@ bool parse(const std::string& text, const UrdfXml& xml, const PackagePaths& pack
   source.document.Parse(text.c_str());
   if (source.document.Error()) {
     diagnostics.error(
-        {xml.file(), source.document.ErrorRow(), source.document.ErrorCol()},
+        {xml.file(), std::max(1, source.document.ErrorRow()),
+         std::max(1, source.document.ErrorCol())},
         std::string("not XML: ") + source.document.ErrorDesc() + ", expected a URDF file");
     return false;
   }
@@ -87,10 +91,14 @@ Link read_link(const urdf::Link& source, UrdfMeshes& meshes) {
 
 JointType joint_type(int type) {
   switch (type) {
-    case urdf::Joint::REVOLUTE: return JointType::revolute;
-    case urdf::Joint::CONTINUOUS: return JointType::continuous;
-    case urdf::Joint::PRISMATIC: return JointType::prismatic;
-    default: return JointType::fixed;
+    case urdf::Joint::REVOLUTE:
+      return JointType::revolute;
+    case urdf::Joint::CONTINUOUS:
+      return JointType::continuous;
+    case urdf::Joint::PRISMATIC:
+      return JointType::prismatic;
+    default:
+      return JointType::fixed;
   }
 }
 

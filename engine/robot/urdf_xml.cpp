@@ -130,9 +130,9 @@ bool check_xacro(const UrdfXml& xml, const TiXmlElement& robot) {
   else
     expanded.replace_extension(".expanded.urdf");
   if (expanded.extension() != ".urdf") expanded += ".urdf";
-  xml.error(*trace->where, "\"" + trace->text + "\" is an unexpanded xacro, expected plain URDF: run " +
-                               "`xacro " + xml.file() + " -o " + expanded.string() +
-                               "` and load that file");
+  xml.error(*trace->where, "\"" + trace->text +
+                               "\" is an unexpanded xacro, expected plain URDF: run " + "`xacro " +
+                               xml.file() + " -o " + expanded.string() + "` and load that file");
   return true;
 }
 

@@ -50,6 +50,15 @@ class Change {
     return 1.0 + gradient * (s - 0.5);
   }
 
+  // The same at a span's joint, which stands for half a segment on either side of it; a clamp's
+  // stands for the first half of its own segment.
+  double at_joint(const BuiltPlant::Span& span, double gradient) const {
+    const bool clamped = model_.elements[span.element].parent < 0;
+    const double share = clamped ? 0.25 : 0.0;
+    const double arc = (1.0 - share) * span.arc_near + share * span.arc_far;
+    return 1.0 + gradient * (arc / built_.curve_lengths[span.curve] - 0.5);
+  }
+
   bool concerns(const BuiltPlant::Span& span) const {
     return !effect_.place || plant_.curve_index(effect_.place->curve) == span.curve;
   }
@@ -69,7 +78,7 @@ class Change {
     for (const BuiltPlant::Span& span : built_.spans) {
       if (!concerns(span)) continue;
       model_.elements[span.element].stretch_stiffness *= along(span, number("gradient"));
-      model_.elements[span.element].bend_stiffness *= along(span, number("gradient"));
+      model_.elements[span.element].bend_stiffness *= at_joint(span, number("gradient"));
     }
   }
 

@@ -181,14 +181,13 @@ std::optional<LeafTemplate> read(const YamlNode& node) {
 
 // Reads what `load` gives; a file that is not there or is no YAML is a fault like every other.
 template <typename Load>
-std::optional<LeafTemplate> read_from(const std::string& name, Diagnostics& diagnostics,
-                                      const Load& load) {
+std::optional<LeafTemplate> read_from(Diagnostics& diagnostics, const Load& load) {
   const int before = diagnostics.error_count();
   try {
     auto leaf = read(load());
     return diagnostics.error_count() > before ? std::nullopt : leaf;
   } catch (const InvalidFile& fault) {
-    diagnostics.error({name}, fault.what());
+    diagnostics.add(fault);
     return std::nullopt;
   }
 }
@@ -221,12 +220,12 @@ cosserat::Weld weld_of(const cosserat::RodModel& model, int a, int b) {
 
 std::optional<LeafTemplate> parse_leaf_template(const std::string& text, const std::string& name,
                                                 Diagnostics& diagnostics) {
-  return read_from(name, diagnostics, [&] { return io::parse_yaml(text, name, diagnostics); });
+  return read_from(diagnostics, [&] { return io::parse_yaml(text, name, diagnostics); });
 }
 
 std::optional<LeafTemplate> read_leaf_template(const std::filesystem::path& path,
                                                Diagnostics& diagnostics) {
-  return read_from(path.string(), diagnostics, [&] { return io::load_yaml(path, diagnostics); });
+  return read_from(diagnostics, [&] { return io::load_yaml(path, diagnostics); });
 }
 
 std::optional<std::filesystem::path> find_leaf_template(

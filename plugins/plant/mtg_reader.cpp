@@ -87,16 +87,17 @@ class MtgParser {
       const auto found = std::find_if(named, cells.end(), same);
       return found == cells.end() ? -1 : static_cast<int>(found - cells.begin());
     };
-    refused_header_ = false;
     const std::string axes[] = {"XX", "YY", "ZZ"};
+    std::string missing;
     for (int i = 0; i < 3; ++i) {
       coordinates_[i] = column_of(axes[i]);
-      if (coordinates_[i] >= 0) continue;
-      refused_header_ = true;
-      error(cells.front().column, "no column " + axes[i] + " beside " +
+      if (coordinates_[i] < 0) missing += (missing.empty() ? "" : ", ") + axes[i];
+    }
+    refused_header_ = !missing.empty();
+    if (refused_header_)
+      error(cells.front().column, "no column " + missing + " beside " +
                                       (names.empty() ? "ENTITY-CODE" : names) +
                                       ", expected the coordinates XX, YY and ZZ in mm");
-    }
     diameter_ = column_of("TopDia");
     code_columns_ = static_cast<int>(named - cells.begin());
   }
@@ -198,7 +199,7 @@ std::optional<PlantFile> read_mtg(const std::filesystem::path& path, const MtgOp
     const auto nodes = parse_mtg(io::read_file(path), path.string(), diagnostics);
     return checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
   } catch (const InvalidFile& fault) {
-    diagnostics.error({path.string()}, fault.what());
+    diagnostics.add(fault);
     return std::nullopt;
   }
 }

@@ -22,7 +22,14 @@ class Connector {
   Connector(const PlantFile& plant, const std::vector<geometry::Curve>& curves)
       : plant_(plant), curves_(curves), joined_(curves.size(), false) {
     const double step = sampling_step(curves, plant.connect, plant.distance);
-    for (std::size_t c = 0; c < curves.size(); ++c) arcs_.push_back(samples(c, step));
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      arcs_.push_back(samples(c, step));
+      Eigen::AlignedBox3d box;
+      for (const double arc : arcs_.back()) box.extend(curves[c].point(arc));
+      // Between samples a curve may bulge out by less than half of their distance.
+      const Vec3 margin = Vec3::Constant(0.5 * step);
+      boxes_.emplace_back(box.min() - margin, box.max() + margin);
+    }
     graph_.start_arc.assign(curves.size(), 0.0);
   }
 
@@ -76,6 +83,8 @@ class Connector {
     if (join.at_end) std::reverse(arcs.begin(), arcs.end());
     graph_.start_arc[join.curve] = arcs.front();
     int parent = join.node;
+    // Also where a curve goes on from another's end: an element has the section of one curve.
+    if (parent >= 0) graph_.nodes[parent].carries = true;
     for (std::size_t k = 0; k < arcs.size(); ++k) {
       GraphNode node;
       node.position = curves_[join.curve].point(arcs[k]);
@@ -107,14 +116,14 @@ class Connector {
     return best;
   }
 
-  // How near an end of `curve` comes to a curve that is not in the tree yet.
-  double nearest_waiting(std::size_t curve, bool at_end) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < curves_.size(); ++c)
-      if (c != curve && !joined_[c])
-        nearest = std::min(nearest,
-                           geometry::closest_on_curve(curves_[c], end_of(curve, at_end)).distance);
-    return nearest;
+  // Whether an end of `curve` comes nearer than `distance` to a curve that is not in the tree yet.
+  bool is_nearer_to_waiting(std::size_t curve, bool at_end, double distance) const {
+    const Vec3 end = end_of(curve, at_end);
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      if (c == curve || joined_[c] || boxes_[c].exteriorDistance(end) >= distance) continue;
+      if (geometry::closest_on_curve(curves_[c], end).distance < distance) return true;
+    }
+    return false;
   }
 
   // A curve waits where the curve next to it is nearer but not in the tree yet; when all wait for
@@ -126,7 +135,7 @@ class Connector {
       if (joined_[c]) continue;
       const Join join = nearest_node(c);
       if (join.distance >= plant_.connect) continue;
-      if (join.distance <= nearest_waiting(c, join.at_end) + same_place)
+      if (!is_nearer_to_waiting(c, join.at_end, join.distance - same_place))
         now.push_back(join);
       else if (join.distance < waiting.distance)
         waiting = join;
@@ -156,6 +165,7 @@ class Connector {
   const PlantFile& plant_;
   const std::vector<geometry::Curve>& curves_;
   std::vector<std::vector<double>> arcs_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // m, P, around each curve
   std::vector<char> joined_;
   PlantGraph graph_;
 };
@@ -176,11 +186,11 @@ std::vector<geometry::Curve> make_curves(const PlantFile& plant) {
 }
 
 double sampling_step(const std::vector<geometry::Curve>& curves, double connect, double distance) {
+  const double floor = 0.25 * std::min(connect, distance);
   double closest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < curves.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
+    for (std::size_t j = 0; j < i && 0.99 * closest > floor; ++j)
       closest = std::min(closest, geometry::closest_on_curves(curves[i], curves[j]).distance);
-  const double floor = 0.25 * std::min(connect, distance);
   return std::clamp(0.99 * closest, floor, std::max(floor, 0.25 * distance));
 }
 

@@ -27,7 +27,7 @@ struct GraphNode {
   double arc = 0.0;              ///< m along that curve as drawn
   int parent = -1;               ///< -1: the root
   std::vector<int> children;
-  bool carries = false;  ///< something starts here (a leaf): a key node
+  bool carries = false;  ///< something starts here (a curve, a leaf): a key node
   bool kept = true;
 
   /// Junctions (degree over 2), leaf nodes (degree 1) and places that carry something.

@@ -183,7 +183,7 @@ std::optional<PlantFile> parse_plant(const std::string& text, const std::string&
     auto plant = read(node);
     return diagnostics.error_count() > before ? std::nullopt : plant;
   } catch (const InvalidFile& fault) {
-    diagnostics.error({name}, fault.what());
+    diagnostics.add(fault);
     return std::nullopt;
   }
 }
@@ -196,7 +196,7 @@ std::optional<PlantFile> read_plant_file(const std::filesystem::path& path,
     auto plant = read(node);
     return diagnostics.error_count() > before ? std::nullopt : plant;
   } catch (const InvalidFile& fault) {
-    diagnostics.error({path.string()}, fault.what());
+    diagnostics.add(fault);
     return std::nullopt;
   }
 }

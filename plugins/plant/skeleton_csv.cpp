@@ -186,7 +186,7 @@ std::optional<PlantFile> read_skeleton_csv(const std::filesystem::path& path,
     const auto nodes = parse_skeleton_csv(io::read_file(path), path.string(), diagnostics);
     return checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
   } catch (const InvalidFile& fault) {
-    diagnostics.error({path.string()}, fault.what());
+    diagnostics.add(fault);
     return std::nullopt;
   }
 }

@@ -33,7 +33,9 @@ TEST_P(Determinism, TwoWorldsInTurnsWithOneAndTwoThreadsGiveTheSameBits) {
     first.step();
     second.step();
     // Where they part, the first step in which they do is what one wants to know.
-    if (i % 100 == 0) ASSERT_EQ(first.state_hash(), second.state_hash()) << "after step " << i;
+    if (i % 100 == 0) {
+      ASSERT_EQ(first.state_hash(), second.state_hash()) << "after step " << i;
+    }
   }
   EXPECT_EQ(first.state_hash(), second.state_hash());
   EXPECT_NE(first.state_hash(), before);

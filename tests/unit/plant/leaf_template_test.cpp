@@ -3,8 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
-#include <numeric>
 
 #include "core/check.h"
 #include "core/random.h"

@@ -55,9 +55,8 @@ inline std::string inertial(double mass, const std::string& xyz, const std::stri
 inline std::string pendulum_urdf(const std::string& joint_extras,
                                  const std::string& type = "continuous") {
   return "<robot name='pendulum'><link name='base'/><link name='bob'>" +
-         inertial(2.0, "0 0 -0.5", "0.01", "0.01", "0.01") +
-         "</link><joint name='hinge' type='" + type +
-         "'><parent link='base'/><child link='bob'/><axis xyz='0 1 0'/>" + joint_extras +
+         inertial(2.0, "0 0 -0.5", "0.01", "0.01", "0.01") + "</link><joint name='hinge' type='" +
+         type + "'><parent link='base'/><child link='bob'/><axis xyz='0 1 0'/>" + joint_extras +
          "</joint></robot>";
 }
 

@@ -49,7 +49,7 @@ TEST(Expectation, ASweepMustRiseOrFallStrictly) {
 }
 
 TEST(Expectation, SteadyMeansNearTheMeanOfTheSweep) {
-  const std::array values = {0.9, 1.0, 1.1}, holed = {1.0, nothing};
+  const std::array values = {0.9, 1.0, 1.1}, holed = {1.0, nothing, 1.0};
   EXPECT_TRUE(judge_sweep(expect(Kind::steady_over_sweep, 0.11), values).met);
   EXPECT_FALSE(judge_sweep(expect(Kind::steady_over_sweep, 0.09), values).met);
   EXPECT_FALSE(judge_sweep(expect(Kind::steady_over_sweep, 0.5), holed).met);

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cosserat/direct_solver.h"
+#include "plant/plant_builder.h"
+
+// Every plant file that ships builds, and where it is drawn as it hangs, stays there: no node moves
+// by more than 1 um in 5 s.
+namespace pedicel::plant {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> shipped() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(PEDICEL_SOURCE_DIR "/plants"))
+    if (entry.path().string().ends_with(".plant.yaml")) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class ShippedPlant : public testing::TestWithParam<fs::path> {};
+
+TEST_P(ShippedPlant, BuildsAndStandsAsDrawn) {
+  Diagnostics diagnostics;
+  const auto plant = read_plant_file(GetParam(), diagnostics);
+  ASSERT_TRUE(plant) << diagnostics.text();
+  BuildOptions options;
+  options.leaf_folders = {PEDICEL_SOURCE_DIR "/assets/leaves"};
+  const auto built = build_plant(*plant, options, diagnostics);
+  ASSERT_TRUE(built) << diagnostics.text();
+  EXPECT_EQ(diagnostics.text(), "");  // no warning either: stable
+  if (plant->shape == Shape::rest) return;
+
+  cosserat::DirectSolver solver({}, built->model);
+  cosserat::RodState state = cosserat::drawn_state(built->model);
+  cosserat::StepInput input;
+  input.dt = 1.0 / 120.0;
+  for (int i = 0; i < 600; ++i) solver.step(built->model, state, input);
+  double farthest = 0.0;
+  for (int e = 0; e < built->model.size(); ++e)
+    farthest =
+        std::max(farthest, (state.position[e] - built->model.elements[e].drawn_position).norm());
+  EXPECT_LT(farthest, 1.0e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, ShippedPlant, testing::ValuesIn(shipped()), [](const auto& file) {
+  std::string name = file.param.filename().string();
+  name = name.substr(0, name.find('.'));
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace pedicel::plant

@@ -1,0 +1,257 @@
+// Digitised plants: how their axes become curves, and a real apple tree against its table of nodes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <tuple>
+#include <vector>
+
+#include "io/atomic_file.h"
+#include "plant/mtg_reader.h"
+
+namespace pedicel::plant {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string head =
+    "CODE :\tFORM-A\nFEATURES:\nXX\tREAL\nMTG:\n"
+    "ENTITY-CODE\t\t\tdist\tXX\tYY\tZZ\tTopDia\n";
+
+// A trunk of three points with a gap in its digits, a branch at the second one, and a twig whose
+// foot lies where it branches off.
+const std::string small = head +
+                          "/P1\n"
+                          "^/U1\t\t\t\t0\t0\t0\t200\n"
+                          "^/E1<<E5\t\t\t\t0\t0\t500\t100\n"
+                          "\t+B1/E1\t\t\t100\t0\t600\t\n"
+                          "\t\t+D1\t\t100\t0\t600\t30\n"
+                          "\t\t^<E1\t\t100\t50\t600\t\n"
+                          "\t^<E2\t\t\t200\t0\t700\t60\n"
+                          "# a comment\n"
+                          "^<E6\n"
+                          "\t+B2\t\t\t-50\t0\t500\t50\n"
+                          "^<E7\t\t\t\t0\t0\t1000\t80\n";
+
+std::string errors_of(const std::string& text) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(parse_mtg(text, "t.mtg", diagnostics).empty());
+  return diagnostics.text();
+}
+
+std::string table_errors_of(const std::string& text) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(parse_skeleton_csv(text, "t.csv", diagnostics).empty());
+  return diagnostics.text();
+}
+
+PlantFile small_plant() {
+  Diagnostics diagnostics;
+  const auto nodes = parse_mtg(small, "t.mtg", diagnostics);
+  EXPECT_EQ(nodes.size(), 8u);
+  const auto plant = checked_skeleton_plant(nodes, "small", {}, diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  return plant.value_or(PlantFile{});
+}
+
+TEST(MtgReader, FollowsTheColumns) {
+  Diagnostics diagnostics;
+  const auto nodes = parse_mtg(small, "t.mtg", diagnostics);
+  std::vector<int> parents;
+  for (const SkeletonNode& node : nodes) parents.push_back(node.parent);
+  // B2 hangs from E6, which has no place of its own: from E5, the digitised one above it.
+  EXPECT_EQ(parents, (std::vector<int>{-1, 0, 1, 2, 3, 2, 1, 1}));
+  EXPECT_EQ(nodes[5].position, Vec3(0.2, 0, 0.7));
+  EXPECT_EQ(nodes[5].diameter, 0.006);
+  EXPECT_EQ(nodes[5].code, "^<E2");
+  EXPECT_TRUE(nodes[2].branch);
+  EXPECT_FALSE(nodes[2].diameter);
+  EXPECT_EQ(nodes[2].where.line, 9);
+  EXPECT_EQ(nodes[2].where.column, 2);
+}
+
+TEST(MtgReader, MakesACurveOfEachAxis) {
+  const PlantFile plant = small_plant();
+  ASSERT_EQ(plant.curves.size(), 4u);
+  EXPECT_EQ(plant.root, Vec3(0, 0, 0));
+  EXPECT_EQ(plant.shape, Shape::drawn);
+  const std::vector<Vec3> trunk = {{0, 0, 0}, {0, 0, 0.5}, {0, 0, 1}};
+  const std::vector<Vec3> branch = {{0, 0, 0.5}, {0.1, 0, 0.6}, {0.2, 0, 0.7}};
+  const std::vector<Vec3> twig = {{0.1, 0, 0.6}, {0.1, 0.05, 0.6}};
+  const std::vector<Vec3> other = {{0, 0, 0.5}, {-0.05, 0, 0.5}};
+  EXPECT_EQ(plant.curves[0].points, trunk);
+  EXPECT_EQ(plant.curves[1].points, branch);
+  EXPECT_EQ(plant.curves[2].points, twig);
+  EXPECT_EQ(plant.curves[3].points, other);
+  for (const PlantCurve& curve : plant.curves)
+    EXPECT_EQ(curve.interpolation, Interpolation::linear);
+}
+
+TEST(MtgReader, FillsInDiameters) {
+  const PlantFile plant = small_plant();
+  EXPECT_EQ(plant.curves[0].radius, (std::vector<double>{0.01, 0.005, 0.004}));
+  EXPECT_EQ(plant.curves[1].radius, (std::vector<double>{0.003, 0.003, 0.003}));  // from behind it
+  EXPECT_EQ(plant.curves[2].radius, (std::vector<double>{0.002, 0.002}));  // 3 mm: below the least
+}
+
+TEST(MtgReader, ThePlantReadsBack) {
+  const PlantFile plant = small_plant();
+  Diagnostics diagnostics;
+  EXPECT_EQ(parse_plant(plant_text(plant), "p", diagnostics), plant);
+}
+
+TEST(MtgReader, RefusesWithPlaceAndWords) {
+  EXPECT_THAT(errors_of("CODE:\n"), HasSubstr("no line \"MTG:\""));
+  EXPECT_THAT(errors_of("MTG:\n"), HasSubstr("no line \"ENTITY-CODE\""));
+  EXPECT_THAT(errors_of("MTG:\n/P1\n"),
+              HasSubstr("t.mtg:2:1: error: \"/P1\", expected ENTITY-CODE"));
+  EXPECT_THAT(errors_of("MTG:\nENTITY-CODE\tDab\tXX\tYY\n/P1\n"),
+              HasSubstr("t.mtg:2:1: error: no column ZZ beside Dab, XX, YY"));
+  EXPECT_THAT(errors_of(head + "/P1\n"), HasSubstr("no entity has coordinates"));
+  EXPECT_THAT(errors_of(head + "/P1\t\t\t\tx\t0\t0\n"),
+              HasSubstr("t.mtg:6:8: error: \"x\", expected a number"));
+  EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t\t0\n"),
+              HasSubstr("t.mtg:6:1: error: the entity has 2 of 3 coordinates"));
+  EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t0\t0\t-5\n"),
+              HasSubstr("TopDia is \"-5\", expected a number >= 0"));
+  EXPECT_THAT(errors_of(head + "/P1\t+B1\n"), HasSubstr("t.mtg:6:5: error: a second entity"));
+  EXPECT_THAT(errors_of(head + "\t\t\t3\n"), HasSubstr("no entity in the line"));
+  EXPECT_THAT(errors_of(head + "/P1\n^=E1\n"), HasSubstr("t.mtg:7:1: error: \"^=E1\", expected"));
+  EXPECT_THAT(errors_of(head + "/P1\n\t^<E1\n"), HasSubstr("7:2: error: \"^\" follows nothing"));
+  EXPECT_THAT(errors_of(head + "/P1\n\t\t+E1\n"), HasSubstr("7:3: error: the entity hangs from"));
+  EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t0\t0\n/P2\t\t\t\t1\t0\t0\n"),
+              HasSubstr("t.mtg:7:1: error: the entity is a second root"));
+}
+
+TEST(MtgReader, ReportsAFileThatIsNotThere) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_mtg("no/such.mtg", {}, diagnostics));
+  EXPECT_THAT(diagnostics.text(), HasSubstr("no/such.mtg: error: cannot be read"));
+}
+
+TEST(SkeletonTable, ReadsRowsInAnyOrder) {
+  Diagnostics diagnostics;
+  const auto nodes = parse_skeleton_csv(
+      "x,y,z,parentid,vid,edgetype\n"
+      "0.1,0,0.5,7,9,+\n0,0,1,7,8,<\n0,0,0.5,3,7,<\n0,0,0,,3,\n",
+      "t.csv", diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  ASSERT_EQ(nodes.size(), 4u);
+  EXPECT_EQ(nodes[1].parent, 0);
+  EXPECT_EQ(nodes[2].position, Vec3(0.1, 0, 0.5));
+  EXPECT_TRUE(nodes[2].branch);
+  EXPECT_EQ(nodes[3].parent, 1);
+  const PlantFile plant = skeleton_plant(nodes, "t", {});
+  ASSERT_EQ(plant.curves.size(), 2u);
+  EXPECT_EQ(plant.curves[0].points.size(), 3u);
+  EXPECT_EQ(plant.curves[1].radius, (std::vector<double>{0.002, 0.002}));
+}
+
+TEST(SkeletonTable, RefusesWithPlaceAndWords) {
+  const std::string columns = "x,y,z,parentid,vid,edgetype\n";
+  EXPECT_THAT(table_errors_of("x,y\n"), HasSubstr("t.csv:1:1: error: a column is missing"));
+  EXPECT_THAT(table_errors_of(columns), HasSubstr("no rows"));
+  EXPECT_THAT(table_errors_of(columns + "0,0\n"),
+              HasSubstr("t.csv:2:1: error: 2 cells, expected 6"));
+  EXPECT_THAT(table_errors_of(columns + "0,a,0,,1,\n"),
+              HasSubstr("t.csv:2:3: error: \"a\", expected a number"));
+  EXPECT_THAT(table_errors_of(columns + "0,0,0,,1.5,\n"), HasSubstr("expected a whole number"));
+  EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,1,2,?\n"),
+              HasSubstr("t.csv:3:11: error: edge \"?\", expected <"));
+  EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,1,1,<\n"),
+              HasSubstr("t.csv:3:1: error: node 1 appears twice"));
+  EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,5,2,<\n"),
+              HasSubstr("t.csv:3:1: error: parent 5 is not there"));
+  EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,,2,<\n"),
+              HasSubstr("t.csv:3:1: error: a second root"));
+  EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,3,2,<\n0,0,2,2,3,<\n"),
+              HasSubstr("t.csv:3:1: error: node 2 is its own ancestor"));
+  EXPECT_THAT(table_errors_of("id,parent,x_m,y_m,z_m,diameter_m,is_branch\n0,-1,0,0,0,-1,0\n"),
+              HasSubstr("diameter \"-1\", expected a number >= 0"));
+}
+
+/// Code, place, diameter and the parent's place of a node.
+using Key = std::tuple<std::string, std::vector<double>, double, std::vector<double>>;
+
+std::vector<Key> sorted_keys(const std::vector<SkeletonNode>& nodes, bool with_parents) {
+  const auto place = [](const SkeletonNode& node) {
+    return std::vector<double>(node.position.begin(), node.position.end());
+  };
+  std::vector<Key> keys;
+  for (const SkeletonNode& node : nodes)
+    keys.emplace_back(
+        node.code, place(node), node.diameter.value_or(-1.0),
+        with_parents && node.parent >= 0 ? place(nodes[node.parent]) : std::vector<double>{});
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+class AppleTree : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << "no " << folder_;
+  }
+  const std::filesystem::path folder_ =
+      std::filesystem::path(PEDICEL_SHARED_DIR) / "data" / "apple_tree";
+};
+
+TEST_F(AppleTree, HasTheNodesOfItsTable) {
+  Diagnostics diagnostics;
+  const auto nodes = parse_mtg(io::read_file(folder_ / "agraf.mtg"), "agraf.mtg", diagnostics);
+  const auto table = parse_skeleton_csv(io::read_file(folder_ / "agraf_skeleton.csv"),
+                                        "agraf_skeleton.csv", diagnostics);
+  ASSERT_EQ(diagnostics.text(), "");
+  ASSERT_EQ(nodes.size(), 836u);
+  ASSERT_EQ(table.size(), 836u);
+  // Whole millimetres come to the same bits either way.
+  EXPECT_EQ(sorted_keys(nodes, false), sorted_keys(table, false));
+  // The table hangs three nodes that follow a comment line of the MTG from the trunk, although they
+  // stand in the columns of a branch.
+  const auto ours = sorted_keys(nodes, true), theirs = sorted_keys(table, true);
+  std::vector<Key> differ;
+  std::set_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(),
+                      std::back_inserter(differ));
+  EXPECT_EQ(differ.size(), 3u);
+}
+
+TEST_F(AppleTree, BecomesAPlant) {
+  Diagnostics diagnostics;
+  const auto plant = read_mtg(folder_ / "agraf.mtg", {}, diagnostics);
+  ASSERT_EQ(diagnostics.text(), "");
+  ASSERT_TRUE(plant);
+  EXPECT_EQ(plant->name, "agraf");
+  EXPECT_EQ(plant->root, Vec3::Zero());
+  EXPECT_EQ(plant->curves.front().points.front(), Vec3::Zero());
+  double top = 0.0;
+  for (const PlantCurve& curve : plant->curves) {
+    for (const Vec3& point : curve.points) top = std::max(top, point.z());
+    for (const double radius : curve.radius) EXPECT_GE(radius, 0.002);
+  }
+  EXPECT_NEAR(top, 2.809, 1.0e-9);  // the trunk's last digitised point
+  // Every branch starts at a point of a curve before it.
+  for (std::size_t c = 1; c < plant->curves.size(); ++c) {
+    const Vec3& foot = plant->curves[c].points.front();
+    bool joined = false;
+    for (std::size_t other = 0; other < c && !joined; ++other)
+      for (const Vec3& point : plant->curves[other].points) joined = joined || point == foot;
+    EXPECT_TRUE(joined) << plant->curves[c].name;
+  }
+}
+
+TEST_F(AppleTree, TheTableBecomesAPlantToo) {
+  Diagnostics diagnostics;
+  const auto plant = read_skeleton_csv(folder_ / "agraf_skeleton.csv", {}, diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  EXPECT_TRUE(plant);
+}
+
+TEST_F(AppleTree, ApricotWithoutCoordinatesIsRefused) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_mtg(folder_ / "apricot.mtg", {}, diagnostics));
+  EXPECT_THAT(diagnostics.text(), HasSubstr("no column XX, YY, ZZ beside LongUC"));
+}
+
+}  // namespace
+}  // namespace pedicel::plant
