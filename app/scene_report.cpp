@@ -64,6 +64,18 @@ double measured_in(const world::Expectation& wanted, const RunResult& result) {
   return std::nan("");
 }
 
+/// The picture of a run that shows most: the last one just before a break, else the last.
+std::optional<std::filesystem::path> telling_picture(const RunResult& run) {
+  std::optional<std::filesystem::path> best;
+  for (const std::filesystem::path& picture : run.pictures) {
+    const auto is_break = [](const std::filesystem::path& p) {
+      return p.filename().string().starts_with("before_break");
+    };
+    if (!best || !is_break(*best) || is_break(picture)) best = picture;
+  }
+  return best;
+}
+
 void add_sweep(const world::Scene& scene, const std::vector<SweepRun>& sweep,
                const std::filesystem::path& folder, RunSummary& summary) {
   if (sweep.empty()) return;
@@ -83,9 +95,8 @@ void add_sweep(const world::Scene& scene, const std::vector<SweepRun>& sweep,
     summary.sweep.rows.push_back(row);
     for (std::size_t i = 0; i < row.size(); ++i) csv += (i ? "," : "") + row[i];
     csv += '\n';
-    if (!run.result.pictures.empty())
-      summary.sweep_pictures.push_back(
-          {run.result.pictures.back(), scene.sweep->key + " = " + number(run.value, 6)});
+    if (const auto picture = telling_picture(run.result))
+      summary.sweep_pictures.push_back({*picture, scene.sweep->key + " = " + number(run.value, 6)});
   }
   if (by) summary.sweep_plot = sweep_plot(scene.sweep->key, values, measured, results);
   summary.files.emplace_back("sweep.csv", "the sweep's values and what was measured");

@@ -37,15 +37,27 @@ world::Scene scene_of(const world::Scene& scene, double value) {
   return one;
 }
 
+// "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
+void say(const std::string& label, const RunResult& result) {
+  std::string text = "sweep " + label + ":";
+  for (const world::Verdict& verdict : result.verdicts)
+    text +=
+        " " + verdict.expectation.quantity + " " +
+        (verdict.measured.empty() ? "nothing" : io::format_number(verdict.measured.front(), 4)) +
+        ",";
+  std::fprintf(stderr, "%s %.2f x real time\n", text.c_str(), result.real_time_factor());
+}
+
 std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options) {
   std::vector<SweepRun> runs;
   for (const double value : scene.sweep->values) {
     RunOptions one = options;
     one.video = false;
+    one.quiet = true;
     const std::string label = scene.sweep->key + "=" + io::format_number(value);
     if (!options.out.empty()) one.out = options.out / ("sweep_" + label);
-    if (!options.quiet) std::fprintf(stderr, "sweep %s\n", label.c_str());
     runs.push_back({value, run_scene(scene_of(scene, value), one)});
+    if (!options.quiet) say(label, runs.back().result);
     if (stop_requested) break;
   }
   return runs;
