@@ -43,16 +43,17 @@ struct RunArguments {
 
 void add_run_options(CLI::App& app, RunArguments& a) {
   app.add_option("--out", a.out, "folder for everything that is written (default: out/<scene>)");
-  app.add_option(
-      "--set", a.set,
-      "key=value: duration, dt, seed, threads, log_rate, rods.KEY, coupling.KEY, "
-      "plants.NAME.KEY, or a key of every plant such as detach.stretch; may be repeated");
+  app.add_option("--set", a.set,
+                 "key=value: duration, dt, seed, threads, log_rate, rods.KEY, coupling.KEY, "
+                 "plants.NAME.KEY, or a key of every plant such as detach.stretch; may be repeated")
+      ->allow_extra_args(false);
   app.add_option("--duration", a.duration, "simulated time, s");
   app.add_option("--dt", a.dt, "time step, s");
   app.add_option("--seed", a.seed, "seed of everything random");
   app.add_option("--threads", a.threads, "threads for the plants");
   app.add_option("--log-rate", a.log_rate, "rows a simulated second in log.csv, Hz");
-  app.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies; may be repeated");
+  app.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies; may be repeated")
+      ->allow_extra_args(false);
   app.add_option("--fps", a.fps, "frames a simulated second of the video, Hz");
   app.add_option("--size", a.size, "WxH of pictures and video, px");
   app.add_flag("--no-video", a.no_video, "take no video");
@@ -207,7 +208,8 @@ int run_cli(int argc, char** argv) {
   std::vector<std::string> files, packages;
   CLI::App* validate = app.add_subcommand("validate", "load and check files without running them");
   validate->add_option("files", files, "plants, scenes, leaf templates, URDFs")->required();
-  validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies");
+  validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies")
+      ->allow_extra_args(false);
 
   BenchOptions bench_options;
   bool json = false;

@@ -22,7 +22,7 @@ struct IkSettings {
   double position_tolerance = 1e-5;  ///< m
   double rotation_tolerance = 1e-4;  ///< rad
   int iterations = 200;              ///< of one start
-  int restarts = 24;                 ///< from random positions, after the start that was given
+  int restarts = 40;                 ///< from random positions, after the start that was given
   std::uint64_t seed = 1;            ///< of the restarts
   double radian_length = 0.1;        ///< m, what an error of one radian weighs
   std::vector<int> held;             ///< joints that keep their value
