@@ -18,7 +18,8 @@ step() {
 
 elapsed() { printf '%d:%02d min' $((SECONDS / 60)) $((SECONDS % 60)); }
 
-# build_preset NAME: configures and builds build/NAME on every core.
+# build_preset NAME [TARGET...]: configures and builds build/NAME (all of it, or the targets) on
+# every core.
 build_preset() {
   step "configure $1"
   cmake --preset "$1" >"build/configure-$1.log" 2>&1 || {
@@ -26,5 +27,7 @@ build_preset() {
     return 1
   }
   step "build $1"
-  cmake --build --preset "$1" --parallel "$(nproc)"
+  local targets=()
+  [[ $# -gt 1 ]] && targets=(--target "${@:2}")
+  cmake --build --preset "$1" --parallel "$(nproc)" "${targets[@]}"
 }
