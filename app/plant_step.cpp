@@ -52,7 +52,8 @@ void PlantStep::sum_up(const Vec3& gravity, world::StepReport& report) {
     contacts_.add(p, rods_.model(p), rods_.contact_forces(p));
     judge(p, report);
     const cosserat::StepReport& own = rods_.report(p);
-    rough_steps_[p] = own.errors & cosserat::not_converged ? rough_steps_[p] + 1 : 0;
+    const bool rough = own.errors & (cosserat::not_converged | cosserat::line_search_failed);
+    rough_steps_[p] = rough ? rough_steps_[p] + 1 : 0;
     report.contacts += own.contacts;
     report.plant_energy += cosserat::energy_of(rods_.model(p), rods_.state(p), gravity).total();
     report.deepest_overlap = std::max(report.deepest_overlap, own.deepest);

@@ -32,6 +32,8 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
   qd_ = Eigen::VectorXd::Zero(q_.size());
   for (const auto& [joint, value] : scene.joints) q_[robot_.model().joint_index(joint)] = value;
   q_ = robot_.model().clamped(q_);
+  if (scene.gripper_force > 0.0 && !scene.gripper.empty())
+    robot_.set_effort_limit(robot_.model().joint_index(scene.gripper), scene.gripper_force);
   robot_.reset(q_, qd_);
 }
 
