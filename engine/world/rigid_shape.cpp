@@ -3,9 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "world/bullet_types.h"
+#include "robot/bullet_types.h"
 
 namespace pedicel::world {
+
+using robot::from_bullet;
+using robot::to_bullet;
 
 namespace {
 

@@ -8,10 +8,13 @@
 
 #include "core/check.h"
 #include "core/timer.h"
-#include "world/bullet_types.h"
+#include "robot/bullet_types.h"
 #include "world/rigid_shape.h"
 
 namespace pedicel::world {
+
+using robot::from_bullet;
+using robot::to_bullet;
 
 struct SimWorld::Bullet {
   btDefaultCollisionConfiguration configuration;

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "core/diagnostics.h"
-#include "temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

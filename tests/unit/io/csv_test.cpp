@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 #include "io/atomic_file.h"
-#include "temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

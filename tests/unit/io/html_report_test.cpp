@@ -6,7 +6,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "io/markup.h"
-#include "temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 #include "render/child_process.h"
-#include "temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace pedicel::render {
 namespace {
