@@ -150,7 +150,14 @@ bool BlockSystem::solve_sparse() {
 }
 
 int BlockSystem::negative_eigenvalues() const {
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(sparse_matrix());
+  // A shift far below every stiffness that matters keeps singular directions (an eigenvalue of
+  // zero) from stopping the factorisation.
+  Eigen::SparseMatrix<double> matrix = sparse_matrix();
+  const double shift = 1.0e-14 * matrix.diagonal().cwiseAbs().maxCoeff();
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  factor.setShift(shift);
+  factor.compute(matrix);
+  if (factor.info() != Eigen::Success) return 1;  // a zero pivot: not positive definite
   return static_cast<int>((factor.vectorD().array() < 0.0).count());
 }
 

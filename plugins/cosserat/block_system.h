@@ -36,7 +36,7 @@ class BlockSystem {
   const Vec6& solution(int element) const { return right_[element]; }
 
   /// The number of negative eigenvalues, by Sylvester's law of inertia (from the signs of the
-  /// pivots of LDL^T). Slow; for stability questions only. Keeps the blocks.
+  /// pivots of LDL^T; 1 where a pivot is zero). Slow; for stability questions only. Keeps the blocks.
   int negative_eigenvalues() const;
 
  private:
