@@ -4,6 +4,20 @@
 
 namespace pedicel {
 
+namespace {
+
+// Some ten microseconds. True as soon as `ready` is.
+template <class Ready>
+bool becomes_ready_soon(const Ready& ready) {
+  for (int i = 0; i < 4096; ++i) {
+    if (ready()) return true;
+    if (i % 128 == 127) std::this_thread::yield();
+  }
+  return false;
+}
+
+}  // namespace
+
 ThreadPool::ThreadPool(int threads) {
   if (threads < 1) throw UsageError("threads = " + std::to_string(threads) + ": must be >= 1");
   for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
@@ -23,33 +37,40 @@ void ThreadPool::run(int count, Call call, const void* object) {
     for (int i = 0; i < count; ++i) call(object, i);
     return;
   }
+  count_ = count;
+  call_ = call;
+  object_ = object;
+  next_.store(0, std::memory_order_relaxed);
+  busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
+  generation_.fetch_add(1, std::memory_order_release);
   {
-    std::lock_guard lock(mutex_);
-    count_ = count;
-    call_ = call;
-    object_ = object;
-    next_.store(0, std::memory_order_relaxed);
-    busy_ = static_cast<int>(workers_.size());
-    ++generation_;
+    std::lock_guard lock(mutex_);  // whoever is falling asleep has either seen the call or waits
   }
   wake_.notify_all();
   for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count;) call(object, i);
+  const auto done = [this] { return busy_.load(std::memory_order_acquire) == 0; };
+  if (becomes_ready_soon(done)) return;
   std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return busy_ == 0; });
+  done_.wait(lock, done);
 }
 
 void ThreadPool::work() {
   unsigned seen = 0;
+  const auto called = [&] {
+    return stop_.load(std::memory_order_acquire) ||
+           generation_.load(std::memory_order_acquire) != seen;
+  };
   while (true) {
-    {
+    if (!becomes_ready_soon(called)) {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return stop_ || generation_ != seen; });
-      if (stop_) return;
-      seen = generation_;
+      wake_.wait(lock, called);
     }
+    if (stop_) return;
+    ++seen;
     for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) call_(object_, i);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) > 1) continue;
     std::lock_guard lock(mutex_);
-    if (--busy_ == 0) done_.notify_one();
+    done_.notify_one();
   }
 }
 

@@ -11,6 +11,8 @@ namespace pedicel {
 
 /// Runs independent tasks on a fixed number of threads. Which thread takes which task is not
 /// fixed, so tasks must not depend on each other: then any number of threads gives the same bits.
+/// Threads wait for the next call awake for some ten microseconds, because waking one up costs as
+/// much as a small task, and sleep after that.
 class ThreadPool {
  public:
   /// `threads` counts the caller; 1 runs everything in the caller's thread.
@@ -38,9 +40,10 @@ class ThreadPool {
   std::mutex mutex_;
   std::condition_variable wake_, done_;
   std::atomic<int> next_{0};
-  int count_ = 0, busy_ = 0;
-  unsigned generation_ = 0;
-  bool stop_ = false;
+  std::atomic<int> busy_{0};
+  std::atomic<unsigned> generation_{0};
+  std::atomic<bool> stop_{false};
+  int count_ = 0;
   Call call_ = nullptr;
   const void* object_ = nullptr;
 };

@@ -161,17 +161,4 @@ int BlockSystem::negative_eigenvalues() const {
   return static_cast<int>((factor.vectorD().array() < 0.0).count());
 }
 
-void add_point_spring(BlockSystem& system, int element, const Vec3& arm, const Mat3& hessian,
-                      const Vec3& force) {
-  const Mat3 lever = -skew(arm);  // d point / d rotation
-  const Mat3 mixed = hessian * lever;
-  Mat6& block = system.diagonal(element);
-  block.topLeftCorner<3, 3>() += hessian;
-  block.topRightCorner<3, 3>() += mixed;
-  block.bottomLeftCorner<3, 3>() += mixed.transpose();
-  block.bottomRightCorner<3, 3>() += lever.transpose() * mixed;
-  system.right_side(element).head<3>() += force;
-  system.right_side(element).tail<3>() += arm.cross(force);
-}
-
 }  // namespace pedicel::cosserat

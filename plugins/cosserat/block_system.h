@@ -5,12 +5,10 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "cosserat/diagonal_blocks.h"
 #include "cosserat/rod_model.h"
 
 namespace pedicel::cosserat {
-
-using Mat6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// A symmetric positive definite system with one 6x6 block an element, coupled to the parent's and,
 /// where the plant has loops, across its welds. Unknowns of an element: (position, rotation
@@ -52,10 +50,5 @@ class BlockSystem {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   bool analysed_ = false;
 };
-
-/// Adds a spring of symmetric stiffness `hessian` (N/m, W) that pulls with `force` (N, W) on a
-/// point fixed to an element, at `arm` (m, W) from its child node.
-void add_point_spring(BlockSystem& system, int element, const Vec3& arm, const Mat3& hessian,
-                      const Vec3& force);
 
 }  // namespace pedicel::cosserat

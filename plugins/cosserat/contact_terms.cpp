@@ -73,7 +73,7 @@ ContactTerms::Push ContactTerms::push(const Active& contact, const RodState& sta
 }
 
 double ContactTerms::linearise(const RodModel&, const RodState& iterate,
-                               BlockSystem& system) const {
+                               DiagonalBlocks& blocks) const {
   double energy = 0.0;
   for (const Active& contact : active_) {
     const ContactPoint& point = contact.point;
@@ -93,7 +93,7 @@ double ContactTerms::linearise(const RodModel&, const RodState& iterate,
       hessian += point.stiffness * (Mat3::Identity() - normal);
     }
     const Vec3 arm = contact.place_W - iterate.position[contact.element];
-    add_point_spring(system, contact.element, arm, hessian,
+    add_point_spring(blocks, contact.element, arm, hessian,
                      push_now.normal_force + push_now.friction_force);
   }
   return energy;

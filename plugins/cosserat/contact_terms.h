@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "cosserat/block_system.h"
 #include "cosserat/contact.h"
+#include "cosserat/diagonal_blocks.h"
 
 namespace pedicel::cosserat {
 
@@ -23,7 +23,7 @@ class ContactTerms {
             std::span<ContactSource* const> sources);
 
   /// Adds gradient and Hessian at the iterate; returns the potential there.
-  double linearise(const RodModel& model, const RodState& iterate, BlockSystem& system) const;
+  double linearise(const RodModel& model, const RodState& iterate, DiagonalBlocks& blocks) const;
   double potential(const RodModel& model, const RodState& state) const;
 
   /// Ends the step: forces for the report, and the friction memory for the next step.

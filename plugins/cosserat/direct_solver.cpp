@@ -1,9 +1,9 @@
 #include "cosserat/direct_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "cosserat/rotation.h"
+#include <limits>
 
 namespace pedicel::cosserat {
 
@@ -13,131 +13,255 @@ constexpr double largest_turn =
     1.0;  // rad, of one Newton step: beyond it the quadratic model is void
 constexpr double converged_change = 1.0e-3;  // m or rad
 constexpr double rough_change = 0.3;         // rad, or element lengths
-constexpr int most_halvings = 12;
+constexpr double smallest_share = 1.0 / 4096.0;
+constexpr int rough_contact_iterations = 4;  // times newton_iterations
 
-bool is_finite(const RodState& state) {
-  double sum = 0.0;
-  for (int e = 0; e < state.size(); ++e)
-    sum += state.position[e].sum() + state.orientation[e].coeffs().sum();
-  return std::isfinite(sum);
+bool any(const std::vector<char>& flags) {
+  return std::find(flags.begin(), flags.end(), 1) != flags.end();
 }
 
 }  // namespace
 
-DirectSolver::DirectSolver(const RodSettings& settings, const RodModel& model)
-    : settings_(settings),
-      assembly_(model),
-      system_(model),
-      base_position_(model.elements.size()),
-      base_orientation_(model.elements.size()) {}
+DirectSolver::Plant::Plant(const RodModel& model) : extras(model.size()) {
+  if (!model.welds.empty()) loops = std::make_unique<BlockSystem>(model);
+}
 
-void DirectSolver::reset() {
-  contacts_.forget();
+DirectSolver::DirectSolver(const RodSettings& settings, const RodModel& model)
+    : DirectSolver(settings, std::array{&model}, 1) {}
+
+DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel* const> models,
+                           int threads)
+    : settings_(settings), rows_(models, threads) {
+  plants_.reserve(models.size());
+  for (const RodModel* model : models) {
+    plants_.emplace_back(*model);
+    any_loops_ = any_loops_ || plants_.back().loops;
+  }
+  states_.resize(plants_.size());
+  working_.resize(plants_.size());
+  searching_.resize(plants_.size());
+}
+
+void DirectSolver::reset(int plant) {
+  plants_[plant].contacts.forget();
+  plants_[plant].has_history = false;
+  plants_[plant].gain = 1.0;
 }
 
 StepReport DirectSolver::step(const RodModel& model, RodState& state, const StepInput& input) {
-  StepReport report;
-  const bool first_order =
-      settings_.integrator == Integrator::backward_euler || state.previous_dt != input.dt;
-  start_ = state;
-  for (ContactSource* source : input.contacts) source->begin_step(model, start_, input.dt);
-  assembly_.prepare(model, start_, input, first_order);
-  guess(model, state, first_order);
-  if (!newton(model, state, input, report) || !is_finite(state)) {
-    state = start_;
-    state.previous_dt = 0.0;
+  PlantStep one{&model, &state, input.loads, input.contacts, true, {}};
+  step({&one, 1}, input.dt, input.gravity, alone_);
+  return one.report;
+}
+
+void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravity,
+                        ThreadPool& pool) {
+  begin(steps, dt, gravity, pool);
+  solve(steps, dt, pool);
+  end(steps, dt, pool);
+}
+
+// task(group): what carries others first, then the groups side by side.
+template <class Task>
+void DirectSolver::root_outward(ThreadPool& pool, const Task& task) {
+  if (rows_.has_top()) task(rows_.groups());
+  pool.for_each(rows_.groups(), task);
+}
+
+void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& gravity,
+                         ThreadPool& pool) {
+  rows_.set_gravity(gravity);
+  for (int p = 0; p < size(); ++p) {
+    Plant& plant = plants_[p];
+    PlantStep& step = steps[p];
+    step.report = {};
+    states_[p] = step.state;
+    if (step.model_changed) rows_.read_model(p, *step.model);
+    const bool first_order = settings_.integrator == Integrator::backward_euler ||
+                             !plant.has_history || step.state->previous_dt != dt;
+    rows_.set_scheme(p, dt, first_order, step.state->root);
+    plant.touched = !step.loads.empty() || !step.contacts.empty() ||
+                    !step.model->supports.empty() || plant.loops;
+    plant.extra_energy = 0.0;
+    plant.last_change = 0.0;
+  }
+  root_outward(pool, [&](int group) { rows_.prepare(group, states_); });
+  if (std::none_of(plants_.begin(), plants_.end(), [](const Plant& p) { return p.touched; }))
+    return;
+  pool.for_each(size(), [&](int p) {
+    if (!plants_[p].touched) return;
+    plants_[p].iterate = *steps[p].state;
+    plants_[p].attachments.prepare(*steps[p].state, steps[p].loads);
+    for (ContactSource* source : steps[p].contacts)
+      source->begin_step(*steps[p].model, *steps[p].state, dt);
+  });
+}
+
+void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
+  std::fill(working_.begin(), working_.end(), 1);
+  // Where nothing has to happen between them, a group is eliminated and substituted in one go.
+  const bool at_once = !rows_.has_top() && !any_loops_;
+  while (any(working_)) {
+    rows_.set_active(working_);
+    linearise_touched(steps, dt, pool);
+    if (!at_once) {
+      pool.for_each(rows_.groups(), [&](int group) { rows_.eliminate(group); });
+      if (rows_.has_top()) rows_.eliminate(rows_.groups());
+      pool.for_each(size(), [&](int p) {
+        if (working_[p] && plants_[p].loops) solve_loops(p, *steps[p].model);
+      });
+    }
+    root_outward(pool, [&](int group) {
+      if (at_once) rows_.eliminate(group);
+      rows_.substitute(group);
+    });
+    search(steps, pool);
+    for (int p = 0; p < size(); ++p)
+      if (working_[p] && is_done(plants_[p], steps[p].report)) working_[p] = 0;
+  }
+}
+
+// Contacts are found anew in every iteration.
+void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
+  const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
+  rows_.clear_extras();
+  int count = 0;
+  for (int p = 0; p < size(); ++p) count += wanted(p) ? 1 : 0;
+  if (count == 0) return;
+  pool.for_each(size(), [&](int p) {
+    if (!wanted(p)) return;
+    Plant& plant = plants_[p];
+    const RodModel& model = *steps[p].model;
+    rows_.write_iterate(p, plant.iterate);
+    plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
+    plant.extras.clear();
+    plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) +
+                         plant.contacts.linearise(model, plant.iterate, plant.extras);
+  });
+  for (int p = 0; p < size(); ++p)
+    if (wanted(p) && !plants_[p].loops) rows_.add_extras(p, plants_[p].extras);
+}
+
+void DirectSolver::solve_loops(int index, const RodModel& model) {
+  Plant& plant = plants_[index];
+  BlockSystem& system = *plant.loops;
+  rows_.copy_blocks(index, system);
+  for (const DiagonalBlocks::Entry& entry : plant.extras.entries()) {
+    system.diagonal(entry.element) += entry.diagonal;
+    system.right_side(entry.element) += entry.right_side;
+  }
+  for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
+    system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
+  if (system.solve())
+    rows_.set_change(index, system);
+  else
+    plant.extra_energy = std::numeric_limits<double>::quiet_NaN();
+}
+
+void DirectSolver::search(std::span<PlantStep> steps, ThreadPool& pool) {
+  for (int p = 0; p < size(); ++p) {
+    if (working_[p]) start_search(p, steps[p].report);
+    rows_.set_share(p, working_[p] ? plants_[p].share : 0.0);
+  }
+  for (bool keep = true; any(searching_); keep = false) {
+    rows_.set_active(searching_);
+    root_outward(pool, [&](int group) { rows_.move(group, keep); });
+    pool.for_each(size(), [&](int p) {
+      if (searching_[p]) try_share(p, *steps[p].model, steps[p].report);
+    });
+  }
+}
+
+void DirectSolver::start_search(int index, StepReport& report) {
+  Plant& plant = plants_[index];
+  plant.energy = rows_.energy(index) + plant.extra_energy;
+  if (!rows_.healthy(index) || !std::isfinite(plant.energy)) {
     report.errors |= not_finite;
-    return report;
+    working_[index] = 0;
+    return;
   }
-  contacts_.finish(model, state);
-  report.contacts = static_cast<int>(contacts_.forces().size());
-  report.deepest = contacts_.deepest();
-  remember(model, state);
-  assembly_.set_velocities(model, state);
-  // A step whose last iteration still moved things roughly is not on a smooth path: the
-  // second-order scheme, which continues that path, would feed on it. The next step is first order
-  // and damps.
-  state.previous_dt = rough_ ? 0.0 : input.dt;
-  state.time = start_.time + input.dt;
-  return report;
+  plant.change = rows_.change(index);
+  plant.share = std::min(1.0, largest_turn / std::max(plant.change.turn, 1.0e-300));
+  searching_[index] = 1;
 }
 
-// Newton starts from the motion continued, so that one iteration is second order in time too.
-void DirectSolver::guess(const RodModel& model, RodState& state, bool first_order) const {
-  if (first_order) return;
-  for (int e = 0; e < model.size(); ++e) {
-    state.position[e] = 2.0 * start_.position[e] - start_.previous_position[e];
-    state.orientation[e] = (start_.orientation[e] *
-                            (start_.previous_orientation[e].conjugate() * start_.orientation[e]))
-                               .normalized();
+void DirectSolver::try_share(int index, const RodModel& model, StepReport& report) {
+  Plant& plant = plants_[index];
+  double found = rows_.energy(index);
+  if (plant.touched) {
+    rows_.write_iterate(index, plant.iterate);
+    plant.extra_energy = plant.attachments.potential(model, plant.iterate) +
+                         plant.contacts.potential(model, plant.iterate);
+    found += plant.extra_energy;
   }
+  // Rounding of the sum is the only ascent allowed.
+  if (plant.share == 0.0 || found <= plant.energy + 1.0e-12 * (1.0 + std::abs(plant.energy))) {
+    searching_[index] = 0;
+    return;
+  }
+  plant.share *= 0.5;
+  if (plant.share < smallest_share) {
+    plant.share = 0.0;
+    report.errors |= line_search_failed;
+  }
+  rows_.set_share(index, plant.share);
 }
 
-bool DirectSolver::newton(const RodModel& model, RodState& state, const StepInput& input,
-                          StepReport& report) {
-  for (report.iterations = 1;; ++report.iterations) {
-    contacts_.find(model, start_, state, input.dt, input.contacts);
-    double energy = assembly_.linearise(model, state, system_);
-    energy += contacts_.linearise(model, state, system_);
-    if (!std::isfinite(energy) || !system_.solve()) return false;
-    if (!line_search(model, state, energy, report)) report.errors |= line_search_failed;
-    // Contacts are found anew in every iteration, and self-contact leaves its coupling out of the
-    // Hessian: there an iteration gains a fixed factor only, so a small change is not yet the end.
-    const double tolerance = (contacts_.size() > 0 ? 1.0e-4 : 1.0) * settings_.tolerance;
-    if (report.last_change <= tolerance) return true;
-    if (report.iterations >= settings_.newton_iterations) break;
+// Newton stops when what is left, by the geometric series of its gain an iteration, is below the
+// tolerance (Hairer & Wanner, Solving ODEs II, section IV.8). Its first iteration takes the gain
+// from an earlier step: larger where the change is larger than then, and trusted less with each
+// step that did not measure it.
+bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
+  const double change = plant.change.largest;
+  ++report.iterations;
+  report.last_change = change;
+  double gain = plant.gain * std::max(1.0, change / std::max(plant.gain_change, 1.0e-300));
+  if (plant.last_change > 0.0) {
+    gain = plant.gain = change / plant.last_change;
+    plant.gain_change = plant.last_change;
   }
-  if (report.last_change > converged_change) report.errors |= not_converged;
-  return true;
+  const bool first = plant.last_change == 0.0;
+  plant.last_change = change;
+  // A contact that moves a stem by many of its radii in one step wants more iterations than a
+  // smooth motion: cut short, the stem may end inside a thin link.
+  const bool rough_contact = plant.contacts.size() > 0 && change > converged_change;
+  const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
+  const bool last = report.iterations >= most;
+  if (last && change > converged_change) report.errors |= not_converged;
+  // Contacts are found anew in every iteration, and self-contact leaves its coupling out of the
+  // Hessian: there a small change is not yet the end.
+  if (plant.contacts.size() > 0) return last || change <= 1.0e-4 * settings_.tolerance;
+  const bool small = change <= settings_.tolerance ||
+                     (gain < 1.0 && gain / (1.0 - gain) * change <= settings_.tolerance);
+  if (small && first) plant.gain = std::pow(plant.gain, 0.8);
+  return last || small;
 }
 
-bool DirectSolver::line_search(const RodModel& model, RodState& state, double energy,
-                               StepReport& report) {
-  double turn = 0.0, shift = 0.0;
-  report.last_change = 0.0;
-  for (int e = 0; e < model.size(); ++e) {
-    const Vec6& d = system_.solution(e);
-    turn = std::max(turn, d.tail<3>().norm());
-    shift = std::max(shift, d.head<3>().norm() / model.elements[e].length);
-    const double change = d.cwiseAbs().maxCoeff();
-    if (change > report.last_change) report.element = e;
-    report.last_change = std::max(report.last_change, change);
-  }
-  rough_ = turn > rough_change || shift > rough_change;
-  base_position_ = state.position;
-  base_orientation_ = state.orientation;
-  double share = std::min(1.0, largest_turn / std::max(turn, 1.0e-300));
-  for (int i = 0; i < most_halvings; ++i, share *= 0.5) {
-    move(model, state, share);
-    const double found = assembly_.potential(model, state) + contacts_.potential(model, state);
-    // Rounding of the sum is the only ascent allowed.
-    if (found <= energy + 1.0e-12 * (1.0 + std::abs(energy))) return true;
-  }
-  state.position = base_position_;
-  state.orientation = base_orientation_;
-  return false;
-}
-
-void DirectSolver::move(const RodModel& model, RodState& state, double share) const {
-  for (int e = 0; e < model.size(); ++e) {
-    const Vec6& d = system_.solution(e);
-    state.position[e] = base_position_[e] + share * d.head<3>();
-    state.orientation[e] = (exp_map(share * d.tail<3>()) * base_orientation_[e]).normalized();
-  }
-}
-
-// What the next step needs to know of the step that ends here.
-void DirectSolver::remember(const RodModel& model, RodState& state) const {
-  state.previous_position = start_.position;
-  state.previous_orientation = start_.orientation;
-  state.previous_velocity = start_.velocity;
-  state.previous_angular_velocity = start_.angular_velocity;
-  for (int e = 0; e < model.size(); ++e) {
-    if (model.elements[e].damping_time == 0.0) continue;
-    const Strain strain = strain_of(model, start_, e);
-    state.previous_stretch[e] = strain.stretch;
-    state.previous_bend[e] = strain.bend;
-  }
+void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
+  root_outward(pool, [&](int group) { rows_.finish(group); });
+  pool.for_each(size(), [&](int p) {
+    Plant& plant = plants_[p];
+    RodState& state = *steps[p].state;
+    StepReport& report = steps[p].report;
+    plant.has_history = true;
+    state.previous_root = state.root;
+    if (report.errors & not_finite) {
+      state.previous_dt = 0.0;
+      return;
+    }
+    rows_.write_end(p, state);
+    if (report.errors != none) report.element = rows_.largest_change(p, state.size());
+    plant.contacts.finish(*steps[p].model, state);
+    report.contacts = static_cast<int>(plant.contacts.forces().size());
+    report.deepest = plant.contacts.deepest();
+    // A step whose last iteration still moved things roughly is not on a smooth path: the
+    // second-order scheme, which continues that path, would feed on it. The next step is first
+    // order and damps.
+    const bool rough = plant.change.turn > rough_change || plant.change.shift > rough_change;
+    state.previous_dt = rough ? 0.0 : dt;
+    state.time += dt;
+  });
+  rows_.end_step();
 }
 
 StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,

@@ -1,37 +1,92 @@
 #pragma once
 
-#include "cosserat/assembly.h"
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/thread_pool.h"
+#include "cosserat/attachments.h"
 #include "cosserat/block_system.h"
 #include "cosserat/contact_terms.h"
+#include "cosserat/rod_rows.h"
 #include "cosserat/rod_solver.h"
 
 namespace pedicel::cosserat {
 
 /// Newton's method on the incremental potential of a step, with a positive definite Hessian, the
 /// O(n) block elimination of the tree and a backtracking line search (plugins/cosserat/README.md).
+///
+/// All plants take their iterations together, because equal branches and equal plants are computed
+/// side by side (lanes.h); each has its own line search and stops by itself. What a plant does
+/// depends neither on the others nor on the number of threads, to the bit.
 class DirectSolver : public RodSolver {
  public:
+  /// One plant.
   DirectSolver(const RodSettings& settings, const RodModel& model);
+  /// Several; `threads` is how many will step them.
+  DirectSolver(const RodSettings& settings, std::span<const RodModel* const> models, int threads);
 
+  /// One plant of several. The model is read again where `model_changed` is set.
+  struct PlantStep {
+    const RodModel* model = nullptr;
+    RodState* state = nullptr;
+    std::span<const Load> loads;
+    std::span<ContactSource* const> contacts;
+    bool model_changed = true;
+    StepReport report;  ///< set by the step
+  };
+  /// Steps all the plants that it was made for, in that order.
+  void step(std::span<PlantStep> plants, double dt, const Vec3& gravity, ThreadPool& pool);
   StepReport step(const RodModel& model, RodState& state, const StepInput& input) override;
-  const std::vector<ContactForce>& contact_forces() const override { return contacts_.forces(); }
-  void reset() override;
+
+  const std::vector<ContactForce>& contact_forces() const override { return contact_forces(0); }
+  const std::vector<ContactForce>& contact_forces(int plant) const {
+    return plants_[plant].contacts.forces();
+  }
+  void reset() override { reset(0); }
+  void reset(int plant);
 
  private:
-  void guess(const RodModel& model, RodState& state, bool first_order) const;
-  bool newton(const RodModel& model, RodState& state, const StepInput& input, StepReport& report);
-  bool line_search(const RodModel& model, RodState& state, double energy, StepReport& report);
-  void move(const RodModel& model, RodState& state, double share) const;
-  void remember(const RodModel& model, RodState& state) const;
+  struct Plant {
+    explicit Plant(const RodModel& model);
+
+    Attachments attachments;
+    ContactTerms contacts;
+    DiagonalBlocks extras;
+    std::unique_ptr<BlockSystem> loops;  // where the plant has welds
+    bool touched = false;                // by loads, supports, welds or contact sources
+    RodState iterate;                    // where touched
+    bool has_history = false;
+    double energy = 0.0, extra_energy = 0.0;  // J, where the line search began; of `touched`
+    double share = 0.0;                       // 1, of Newton's change that is tried
+    RodRows::Change change;
+    double last_change = 0.0;  // of the iteration before; 0: there was none
+    // What an iteration leaves of the change before it, and the change at which that was measured.
+    double gain = 1.0, gain_change = 0.0;
+  };
+
+  void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
+  void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
+  void linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool);
+  void solve_loops(int index, const RodModel& model);
+  void search(std::span<PlantStep> steps, ThreadPool& pool);
+  void start_search(int index, StepReport& report);
+  void try_share(int index, const RodModel& model, StepReport& report);
+  bool is_done(Plant& plant, StepReport& report) const;
+  void end(std::span<PlantStep> steps, double dt, ThreadPool& pool);
+  template <class Task>
+  void root_outward(ThreadPool& pool, const Task& task);
+  int size() const { return static_cast<int>(plants_.size()); }
 
   RodSettings settings_;
-  Assembly assembly_;
-  BlockSystem system_;
-  ContactTerms contacts_;
-  RodState start_;
-  bool rough_ = false;  // the last iteration still changed the shape a lot
-  std::vector<Vec3> base_position_;     // m, W: the iterate that the line search starts from
-  std::vector<Quat> base_orientation_;  // E to W
+  RodRows rows_;
+  std::vector<Plant> plants_;
+  // By plant.
+  std::vector<const RodState*> states_;
+  std::vector<char> working_, searching_;  // Newton, its line search: not done yet
+  bool any_loops_ = false;
+  ThreadPool alone_{1};
 };
 
 /// Finds the static equilibrium that the state settles into under gravity and loads (Newton with

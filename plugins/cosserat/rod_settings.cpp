@@ -9,7 +9,7 @@ std::vector<Parameter> parameters_of(RodSettings& s) {
       {"newton_iterations", "1", &s.newton_iterations, 1, 1000,
        "Most Newton iterations a step of the direct solver. One is stable; two to four converge."},
       {"tolerance", "1", &s.tolerance, 0.0, 1.0e-2,
-       "Newton stops after a change below this (m and rad); what is left is far smaller."},
+       "Newton stops when it expects to be nearer than this to the solution (m and rad)."},
       {"iterations", "1", &s.iterations, 1, 10000,
        "Gauss-Seidel sweeps a sub-step of the position-based solver."},
       {"substeps", "1", &s.substeps, 1, 10000, "Sub-steps a step of the position-based solver."},

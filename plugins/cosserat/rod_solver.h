@@ -19,8 +19,7 @@ struct RodSettings {
   SolverKind solver = SolverKind::direct;
   Integrator integrator = Integrator::bdf2;  ///< direct solver only
   int newton_iterations = 4;                 ///< 1, at most, a step
-  /// 1, Newton stops after a change (m and rad) of less than this. Its iterations gain two digits or
-  /// more each, so what is left is far smaller.
+  /// 1, Newton stops when it expects to be nearer than this (m and rad) to the step's solution.
   double tolerance = 1.0e-5;
   int iterations = 5;                        ///< 1, position-based: Gauss-Seidel sweeps a sub-step
   int substeps = 1;                          ///< 1, position-based

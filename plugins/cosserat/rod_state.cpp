@@ -41,13 +41,7 @@ RodState drawn_state(const RodModel& model) {
   state.angular_velocity.assign(n, Vec3::Zero());
   state.alive.assign(n, 1);
   state.fruit_gone.assign(model.fruits.size(), false);
-  state.root = model.root;
-  state.previous_position = state.position;
-  state.previous_orientation = state.orientation;
-  state.previous_velocity = state.velocity;
-  state.previous_angular_velocity = state.angular_velocity;
-  state.previous_stretch.assign(n, Vec3::Zero());
-  state.previous_bend.assign(n, Vec3::Zero());
+  state.root = state.previous_root = model.root;
   return state;
 }
 

@@ -15,16 +15,13 @@ struct RodState {
   std::vector<char> alive;             ///< 0 once the element has come off
   std::vector<bool> fruit_gone;        ///< one entry a fruit
   Pose root;                           ///< X_W of the clamp, now
+  Pose previous_root;                  ///< X_W of it at the end of the last step: what `root` moved
+                                       ///< by since is its motion in the next one
   double time = 0.0;                   ///< s
 
-  // The step before, for second order in time.
-  std::vector<Vec3> previous_position;
-  std::vector<Quat> previous_orientation;
-  std::vector<Vec3> previous_velocity;
-  std::vector<Vec3> previous_angular_velocity;
-  std::vector<Vec3> previous_stretch;  ///< 1, E: strains from rest, for Kelvin-Voigt damping
-  std::vector<Vec3> previous_bend;     ///< rad, E
-  double previous_dt = 0.0;            ///< s; 0: no step before, the next one is first order
+  /// s, of the step that ended here, if its solver may go on from it at second order; 0: the next
+  /// step is of first order. Set it to 0 after changing a state.
+  double previous_dt = 0.0;
 
   int size() const { return static_cast<int>(position.size()); }
 };

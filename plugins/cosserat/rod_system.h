@@ -6,12 +6,13 @@
 #include "core/state_hash.h"
 #include "core/thread_pool.h"
 #include "cosserat/detachment.h"
+#include "cosserat/direct_solver.h"
 #include "cosserat/rod_solver.h"
 
 namespace pedicel::cosserat {
 
-/// All the plants of a world, stepped side by side. Plants do not touch each other; each has its
-/// own solver, so any number of threads gives the same bits.
+/// All the plants of a world, stepped side by side. Plants do not touch each other, so any number
+/// of threads gives the same bits.
 class RodSystem {
  public:
   explicit RodSystem(const RodSettings& settings, int threads = 1);
@@ -27,8 +28,14 @@ class RodSystem {
   int size() const { return static_cast<int>(plants_.size()); }
   const RodModel& model(int plant) const { return plants_[plant].model; }
   const RodState& state(int plant) const { return plants_[plant].state; }
-  RodModel& model(int plant) { return plants_[plant].model; }
-  RodState& state(int plant) { return plants_[plant].state; }
+  /// To change it between two steps; take the reference anew after each. What stays as it was is
+  /// better read through model().
+  RodModel& edit_model(int plant) {
+    plants_[plant].model_changed = true;
+    return plants_[plant].model;
+  }
+  /// To change it between two steps. Set `previous_dt` to 0 with anything but the clamp's pose.
+  RodState& edit_state(int plant) { return plants_[plant].state; }
   /// Loads that act until they are changed.
   std::vector<Load>& loads(int plant) { return plants_[plant].loads; }
 
@@ -46,18 +53,21 @@ class RodSystem {
   struct Plant {
     RodModel model;
     RodState state;
-    std::unique_ptr<RodSolver> solver;
+    std::unique_ptr<RodSolver> solver;  // position-based: one a plant
+    bool model_changed = false;
     std::vector<std::unique_ptr<ContactSource>> sources;
     std::vector<ContactSource*> source_pointers;
     std::vector<Load> loads;
     StepReport report;
     std::vector<DetachEvent> detached;
   };
-  void step_plant(Plant& plant, double dt, const Vec3& gravity);
+  void step_directly(double dt, const Vec3& gravity);
 
   RodSettings settings_;
   ThreadPool pool_;
   std::vector<Plant> plants_;
+  std::unique_ptr<DirectSolver> direct_;  // of all plants; made by the first step after add_plant()
+  std::vector<DirectSolver::PlantStep> steps_;
 };
 
 }  // namespace pedicel::cosserat

@@ -2,8 +2,8 @@
 // motion; and the Hessian where it is exact.
 #include <gtest/gtest.h>
 
-#include "cosserat/assembly.h"
 #include "unit/cosserat/random_plants.h"
+#include "unit/cosserat/step_potential.h"
 
 namespace pedicel::cosserat::cases {
 namespace {
@@ -15,26 +15,27 @@ struct Step {
   RodModel model;
   RodState start, state;
   std::vector<Load> loads;
-  Assembly assembly;
+  StepPotential step;
   BlockSystem system;
 
   Step(Random& random, bool loops, bool first_order)
       : model(random_plant(random, 8, loops)),
-        start(random_state(model, random, 2e-3, 0.2, dt)),
+        start(random_state(model, random, 2e-3, 0.2)),
         state(start),
-        assembly(model),
+        step(model),
         system(model) {
+    const RodHistory history = random_history(model, start, random, dt);
     for (int e = 0; e < model.size(); ++e) {
       state.position[e] += random_vector(random, 1e-3);
       state.orientation[e] = state.orientation[e] * exp_map(random_vector(random, 0.1));
     }
     loads.push_back({3, 0.01, random_vector(random, 0.2), random_vector(random, 0.01)});
-    assembly.prepare(model, start, {dt, gravity, loads, {}}, first_order);
+    step.prepare(start, {dt, gravity, loads, {}}, first_order ? nullptr : &history);
   }
-  double slope(int e, int unknown, double step) const {
-    return (assembly.potential(model, nudged(state, e, unknown, step)) -
-            assembly.potential(model, nudged(state, e, unknown, -step))) /
-           (2.0 * step);
+  double slope(int e, int unknown, double by) {
+    return (step.potential(model, nudged(state, e, unknown, by)) -
+            step.potential(model, nudged(state, e, unknown, -by))) /
+           (2.0 * by);
   }
 };
 
@@ -44,7 +45,7 @@ TEST(RodEnergy, ForceIsMinusTheSlopeOfThePotential) {
   for (int run = 0; run < 6; ++run) {
     Random random(100 + run);
     Step step(random, run % 2 == 1, run >= 3);
-    step.assembly.linearise(step.model, step.state, step.system);
+    step.step.linearise(step.model, step.state, step.system);
     double largest = 0.0, worst = 0.0;
     for (int e = 0; e < step.model.size(); ++e) {
       for (int i = 0; i < 6; ++i) {
@@ -60,8 +61,8 @@ TEST(RodEnergy, ForceIsMinusTheSlopeOfThePotential) {
 TEST(RodEnergy, LineariseAndPotentialAgree) {
   Random random(7);
   Step step(random, true, false);
-  const double energy = step.assembly.linearise(step.model, step.state, step.system);
-  EXPECT_NEAR(energy, step.assembly.potential(step.model, step.state), 1e-12 * std::abs(energy));
+  const double energy = step.step.linearise(step.model, step.state, step.system);
+  EXPECT_NEAR(energy, step.step.potential(step.model, step.state), 1e-12 * std::abs(energy));
 }
 
 // Newton's matrix is positive definite however the plant is bent.
@@ -69,11 +70,12 @@ TEST(RodEnergy, HessianIsPositiveDefinite) {
   for (int run = 0; run < 20; ++run) {
     Random random(200 + run);
     const RodModel model = random_plant(random, 12, run % 2 == 1);
-    const RodState state = random_state(model, random, 0.02, 1.5, dt);
-    Assembly assembly(model);
+    const RodState state = random_state(model, random, 0.02, 1.5);
+    const RodHistory history = random_history(model, state, random, dt);
+    StepPotential step(model);
     BlockSystem system(model);
-    assembly.prepare(model, state, {dt, gravity, {}, {}}, false);
-    assembly.linearise(model, state, system);
+    step.prepare(state, {dt, gravity, {}, {}}, &history);
+    step.linearise(model, state, system);
     EXPECT_EQ(system.negative_eigenvalues(), 0) << "run " << run;
     EXPECT_TRUE(system.solve()) << "run " << run;
   }
@@ -85,16 +87,16 @@ TEST(RodEnergy, HessianAtRestIsTheSlopeOfTheForce) {
   Random random(8);
   const RodModel model = random_plant(random, 6, true);
   const RodState rest = drawn_state(model);
-  Assembly assembly(model);
+  StepPotential potential(model);
   BlockSystem system(model), moved(model);
-  assembly.prepare(model, rest, {dt, Vec3::Zero(), {}, {}}, true);
-  assembly.linearise(model, rest, system);
+  potential.prepare(rest, {dt, Vec3::Zero(), {}, {}}, nullptr);
+  potential.linearise(model, rest, system);
   constexpr double step = 1e-6;
   for (int e = 0; e < model.size(); ++e) {
     const double scale = system.diagonal(e).cwiseAbs().maxCoeff();
     const int p = model.elements[e].parent;
     for (int i = 0; i < 6; ++i) {
-      assembly.linearise(model, nudged(rest, e, i, step), moved);
+      potential.linearise(model, nudged(rest, e, i, step), moved);
       const Vec6 own = -moved.right_side(e) / step;
       EXPECT_LT((own - system.diagonal(e).col(i)).norm(), 1e-4 * scale) << e << " " << i;
       if (e == model.welds[0].b) {
@@ -124,7 +126,7 @@ TEST(RodEnergy, ZeroAtRest) {
 TEST(RodEnergy, UnchangedByRigidMotion) {
   Random random(10);
   const RodModel model = random_plant(random, 10, false);
-  const RodState state = random_state(model, random, 5e-3, 0.5, dt);
+  const RodState state = random_state(model, random, 5e-3, 0.5);
   const Pose motion{random_vector(random), exp_map(random_vector(random, 2.0))};
   RodState moved = state;
   moved.root = motion * state.root;
@@ -143,7 +145,7 @@ TEST(RodEnergy, UnchangedByRigidMotion) {
 TEST(RodEnergy, SlopeOfTheReportedEnergyIsTheJointsForce) {
   Random random(11);
   const RodModel model = random_plant(random, 1, false);  // one segment: no neighbours
-  const RodState state = random_state(model, random, 2e-3, 0.3, dt);
+  const RodState state = random_state(model, random, 2e-3, 0.3);
   constexpr double step = 1e-6;
   const Vec3 force = state.orientation[0] * joint_load(model, state, 0).force;
   for (int i = 0; i < 3; ++i) {

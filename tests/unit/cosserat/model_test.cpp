@@ -98,7 +98,7 @@ TEST(RodModel, OneShapeASegmentAndOneAFruit) {
 TEST(RodState, VelocityOfAPlace) {
   Random random(3);
   const RodModel model = random_plant(random, 5, false);
-  const RodState state = random_state(model, random, 0.0, 0.0, 0.0);
+  const RodState state = random_state(model, random, 0.0, 0.0);
   constexpr double dt = 1e-6;
   for (int e = 0; e < model.size(); ++e) {
     const double back = 0.3 * model.elements[e].length, com = model.elements[e].com_back;

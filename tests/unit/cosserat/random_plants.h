@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/random.h"
+#include "cosserat/rod_rows.h"
 #include "cosserat/rod_state.h"
 #include "cosserat/rotation.h"
 
@@ -65,25 +66,32 @@ inline RodModel random_plant(Random& random, int elements, bool loops) {
 }
 
 /// The drawn state with every node moved by up to `move` (m), every frame turned by up to `turn`
-/// (rad), random velocities, and a step of `dt` before it.
-inline RodState random_state(const RodModel& model, Random& random, double move, double turn,
-                             double dt) {
+/// (rad), and random velocities.
+inline RodState random_state(const RodModel& model, Random& random, double move, double turn) {
   RodState state = drawn_state(model);
   for (int e = 0; e < model.size(); ++e) {
     state.position[e] += random_vector(random, move);
     state.orientation[e] = state.orientation[e] * exp_map(random_vector(random, turn));
     state.velocity[e] = random_vector(random, 0.5);
     state.angular_velocity[e] = random_vector(random, 3.0);
-    state.previous_position[e] = state.position[e] - dt * state.velocity[e];
-    state.previous_orientation[e] = state.orientation[e] * exp_map(-dt * state.angular_velocity[e]);
-    state.previous_velocity[e] = state.velocity[e] + random_vector(random, 0.1);
-    state.previous_angular_velocity[e] = state.angular_velocity[e] + random_vector(random, 0.3);
-    const Strain strain = strain_of(model, state, e);
-    state.previous_stretch[e] = strain.stretch + random_vector(random, 1e-3);
-    state.previous_bend[e] = strain.bend + random_vector(random, 1e-2);
   }
-  state.previous_dt = dt;
   return state;
+}
+
+/// A step of `dt` before a state.
+inline RodHistory random_history(const RodModel& model, const RodState& state, Random& random,
+                                 double dt) {
+  RodHistory before;
+  for (int e = 0; e < model.size(); ++e) {
+    before.position.push_back(state.position[e] - dt * state.velocity[e]);
+    before.orientation.push_back(state.orientation[e] * exp_map(-dt * state.angular_velocity[e]));
+    before.velocity.push_back(state.velocity[e] + random_vector(random, 0.1));
+    before.angular_velocity.push_back(state.angular_velocity[e] + random_vector(random, 0.3));
+    const Strain strain = strain_of(model, state, e);
+    before.stretch.push_back(strain.stretch + random_vector(random, 1e-3));
+    before.bend.push_back(strain.bend + random_vector(random, 1e-2));
+  }
+  return before;
 }
 
 /// The state with one of the 6 unknowns of an element changed: position (0-2), rotation vector

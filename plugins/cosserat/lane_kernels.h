@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cosserat/lanes.h"
+
+namespace pedicel::cosserat {
+
+/// The inner loops of the direct solver, eight elements at a time, on the widest vectors that the
+/// processor has (Google Highway chooses at run time). All of them work lane by lane: what an
+/// element gets does not depend on its neighbours, so neither does it on how plants are packed.
+/// Different instruction sets agree to rounding (fused or separate multiply-adds).
+
+/// Sets the terms of the step that starts from `start` and `rate`, with `previous` and
+/// `previous_rate` one step before, and Newton's first guess into `iterate`: the motion continued.
+void prepare(const RowArrays& rows, const Pack& pack);
+
+/// Gradient and Hessian at `iterate`, and the elimination of every element into its parent, from
+/// the tips to the first element. Sets `energy`, `healthy` and `branch`.
+void linearise_and_eliminate(const RowArrays& rows, Pack& pack);
+
+/// Gradient and Hessian alone, left in `factor` (see FactorRow). Sets `energy`.
+void linearise(const RowArrays& rows, Pack& pack);
+
+/// From the parents' changes in the pack's first row to everyone's. Sets `turn`, `shift`, `change`.
+void substitute(const RowArrays& rows, Pack& pack);
+
+/// `turn`, `shift`, `change` of a solution that is in `factor` already.
+void measure_change(const RowArrays& rows, Pack& pack);
+
+/// iterate = base moved by `share` of the change; `keep` first makes base the iterate. The pack's
+/// first row must hold the parents' new poses. Sets `energy` to the potential there.
+void move(const RowArrays& rows, Pack& pack, bool keep);
+
+/// Velocities that the scheme gives to the end of the step, into `rate` (strains are left).
+void finish(const RowArrays& rows, const Pack& pack, RateRow* end);
+
+/// Instruction sets that the kernels are compiled for and this processor has, best first.
+std::vector<std::string> available_instruction_sets();
+/// Uses one of them from now on (tests, benchmarks); "" is the best.
+void use_instruction_set(const std::string& name);
+
+}  // namespace pedicel::cosserat

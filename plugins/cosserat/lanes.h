@@ -1,0 +1,97 @@
+#pragma once
+
+namespace pedicel::cosserat {
+
+/// Structure of arrays for the direct solver: a row holds eight elements side by side, one a lane,
+/// and the kernels of lane_kernels.h work on whole rows. Which element stands where: lane_layout.h.
+/// A number of a row is a `Lanes`; a vector quantity is one `Lanes` a component.
+inline constexpr int lane_count = 8;
+using Lanes = double[lane_count];
+
+/// Constants of eight elements (RodModel's Element; SI units, E unless said).
+struct alignas(64) ElementRow {
+  Lanes length, stretch_stiffness[3], bend_stiffness[3], rest_strain[3], rest_rotation[4];
+  Lanes mass, com_back, inertia[3], damping_time, mass_damping;
+  Lanes alive;  // 1, or 0 where there is no element (any more): its unknowns stay as they are
+};
+
+/// Where eight elements are: child nodes (m, W) and orientations (x, y, z, w; E to W).
+struct alignas(64) PoseRow {
+  Lanes position[3], orientation[4];
+};
+
+/// What else the scheme knows of a time: velocity of the centre of mass (m/s, W), angular velocity
+/// (rad/s, E), strains from rest (1 and rad, E; only where there is Kelvin-Voigt damping).
+struct alignas(64) RateRow {
+  Lanes velocity[3], angular_velocity[3], stretch[3], bend[3];
+};
+
+/// The terms of one step's incremental potential (plugins/cosserat/README.md). With h~ = beta dt
+/// (beta 1 for backward Euler, 2/3 for BDF2) and starred values the scheme's combination of the
+/// past, inertia, Kelvin-Voigt damping (dissipation K tau |strain - strain*|^2 / (2 h~)) and mass
+/// damping all fold into springs towards a target:
+///   inertia  1/2 mass/h~^2 (1 + rate h~) |c - c_target|^2   c_target = c* + h~ v* / (1 + rate h~)
+///   rods     1/2 K (1 + tau/h~) |strain - strain_target|^2  strain_target = strain* tau / (h~+tau)
+struct alignas(64) TermRow {
+  Lanes com_past[3], rotation_past[4];      // c* (m, W), q* (E to W)
+  Lanes com_target[3], rotation_target[4];  // m, W; E to W
+  Lanes stretch_target[3], bend_target[3];  // 1 and rad, E
+  Lanes stiffening;                         // 1: 1 + tau/h~
+  Lanes inertia_scale;                      // 1/s2: (1 + rate h~)/h~^2
+};
+
+/// Sizes of the blocks below. A symmetric 6x6 block is kept as its lower triangle by rows.
+inline constexpr int triangle6 = 21, block_size = triangle6 + 6;
+
+/// The factors of eight elements' blocks. First letters as in block_system.h: L L^T = diagonal
+/// block, W = L^-1 coupling (its upper right quarter is zero), y = L^-1 right side, then the
+/// solution. Where a row is not eliminated here (plants with loops): the block itself, the coupling
+/// (two symmetric quarters and the lower left one), what the parent's right side gets, the right
+/// side.
+struct alignas(64) FactorRow {
+  Lanes diagonal[triangle6], coupling[27], right[6];
+};
+
+/// What goes into one element's block from outside its row: a branch that starts at it, or springs
+/// and contacts. `values` are block_size numbers, `stride` apart.
+struct BlockSource {
+  const double* values = nullptr;
+  int stride = 1;
+  int lane = 0;
+  int next = -1;  // index of the next source of the same row
+};
+
+/// Chains of elements, up to one a lane, whose rows follow each other: the parent of row r is row
+/// r - 1 in the same lane. Row `begin` holds no elements but the poses of the parents of the first
+/// ones, and their changes.
+struct alignas(64) Pack {
+  // How each lane's plant steps. x' = (x - (past_now x_n - past_before x_{n-1})) / effective_step.
+  Lanes past_now, past_before, effective_step;
+  Lanes share;  // 1, of Newton's change that is applied; 0: the lane stays as it is
+  // Results.
+  Lanes energy;               // J
+  Lanes turn, shift, change;  // largest: rad; element lengths; m or rad
+  Lanes healthy;              // 1 where all pivots were positive
+  Lanes branch[block_size];   // what the first elements give to their parents' blocks
+  int begin = 0, end = 0;
+  bool active = true;   // some plant in it is still being solved
+  bool damped = false;  // some element has Kelvin-Voigt damping
+};
+
+/// Where the rows are; indices are rows.
+struct RowArrays {
+  const ElementRow* element = nullptr;
+  PoseRow *start = nullptr, *iterate = nullptr, *base = nullptr;
+  const PoseRow* previous = nullptr;
+  RateRow* rate = nullptr;
+  const RateRow* previous_rate = nullptr;
+  TermRow* term = nullptr;
+  FactorRow* factor = nullptr;
+  const int* first_branch = nullptr;  // a row, into `branches`; -1: none
+  const int* first_extra = nullptr;   // a row, into `extras`; -1: none
+  const BlockSource* branches = nullptr;
+  const BlockSource* extras = nullptr;
+  double gravity[3] = {0.0, 0.0, 0.0};  // m/s2, W
+};
+
+}  // namespace pedicel::cosserat

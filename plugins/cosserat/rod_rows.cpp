@@ -1,0 +1,450 @@
+#include "cosserat/rod_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat/lane_kernels.h"
+
+namespace pedicel::cosserat {
+
+namespace {
+
+void put(Lanes* to, int lane, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) to[i][lane] = v[i];
+}
+void put(Lanes* to, int lane, const Quat& q) {
+  for (int i = 0; i < 4; ++i) to[i][lane] = q.coeffs()[i];
+}
+Vec3 vector_at(const Lanes* from, int lane) {
+  return {from[0][lane], from[1][lane], from[2][lane]};
+}
+Quat rotation_at(const Lanes* from, int lane) {
+  return Quat(from[3][lane], from[0][lane], from[1][lane], from[2][lane]);
+}
+void put(PoseRow& row, int lane, const Vec3& position, const Quat& orientation) {
+  put(row.position, lane, position);
+  put(row.orientation, lane, orientation);
+}
+
+// Lanes without an element compute too: with unit masses and without stiffness nothing they do is
+// ill-defined, or reaches anyone.
+ElementRow empty_row() {
+  ElementRow row{};
+  for (int lane = 0; lane < lane_count; ++lane) {
+    row.length[lane] = row.mass[lane] = row.rest_rotation[3][lane] = 1.0;
+    put(row.inertia, lane, Vec3::Ones());
+  }
+  return row;
+}
+
+PoseRow identity_row() {
+  PoseRow row{};
+  for (double& w : row.orientation[3]) w = 1.0;
+  return row;
+}
+
+constexpr int at(int i, int j) {  // in a lower triangle by rows
+  return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
+}
+
+}  // namespace
+
+RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks)
+    : layout_(plants, threads, keep_blocks),
+      packs_(layout_.packs()),
+      element_(layout_.rows(), empty_row()),
+      start_(layout_.rows(), identity_row()),
+      iterate_(start_),
+      base_(start_),
+      previous_(start_),
+      rate_(layout_.rows(), RateRow{}),
+      previous_rate_(rate_),
+      term_(layout_.rows(), TermRow{}),
+      factor_(layout_.rows(), FactorRow{}),
+      first_branch_(layout_.rows(), -1),
+      first_extra_(layout_.rows(), -1),
+      anchors_(layout_.packs()),
+      roots_(plants.size()) {
+  for (int p = 0; p < layout_.packs(); ++p) {
+    packs_[p] = Pack{};
+    packs_[p].begin = layout_.first_row(p);
+    packs_[p].end = layout_.end_row(p);
+    std::fill(std::begin(packs_[p].effective_step), std::end(packs_[p].effective_step), 1.0);
+    std::fill(std::begin(packs_[p].past_now), std::end(packs_[p].past_now), 1.0);
+  }
+  // From the last chain to the first, so that the sources of a row are taken in their order.
+  for (int c = static_cast<int>(layout_.chains().size()) - 1; c >= 0; --c) {
+    const Chain& chain = layout_.chains()[c];
+    const RodModel& model = *plants[chain.plant];
+    const int parent = model.elements[chain.elements.front()].parent;
+    anchors_[chain.pack][chain.lane] = {chain.plant, parent};
+    if (parent < 0 || layout_.keeps_blocks(chain.pack)) continue;
+    const Slot slot = layout_.slot(chain.plant, parent);
+    branches_.push_back({packs_[chain.pack].branch[0] + chain.lane, lane_count, slot.lane,
+                         first_branch_[slot.row]});
+    first_branch_[slot.row] = static_cast<int>(branches_.size()) - 1;
+  }
+  for (int p = 0; p < static_cast<int>(plants.size()); ++p) read_model(p, *plants[p]);
+}
+
+RowArrays RodRows::arrays() {
+  RowArrays rows;
+  rows.element = element_.data();
+  rows.start = start_.data();
+  rows.iterate = iterate_.data();
+  rows.base = base_.data();
+  rows.previous = previous_.data();
+  rows.rate = rate_.data();
+  rows.previous_rate = previous_rate_.data();
+  rows.term = term_.data();
+  rows.factor = factor_.data();
+  rows.first_branch = first_branch_.data();
+  rows.first_extra = first_extra_.data();
+  rows.branches = branches_.data();
+  rows.extras = extras_.data();
+  for (int i = 0; i < 3; ++i) rows.gravity[i] = gravity_[i];
+  return rows;
+}
+
+// visit(lane, chain)
+template <class Visit>
+void RodRows::for_each_lane(int pack, const Visit& visit) const {
+  for (int lane = 0; lane < lane_count; ++lane)
+    if (const int c = layout_.chain(pack, lane); c >= 0) visit(lane, layout_.chains()[c]);
+}
+
+void RodRows::read_model(int plant, const RodModel& model) {
+  for (int e = 0; e < model.size(); ++e) {
+    const Element& element = model.elements[e];
+    const auto [row, lane] = layout_.slot(plant, e);
+    ElementRow& out = element_[row];
+    out.length[lane] = element.length;
+    put(out.stretch_stiffness, lane, element.stretch_stiffness);
+    put(out.bend_stiffness, lane, element.bend_stiffness);
+    put(out.rest_strain, lane, element.rest_strain);
+    put(out.rest_rotation, lane, element.rest_rotation);
+    out.mass[lane] = element.mass;
+    out.com_back[lane] = element.com_back;
+    put(out.inertia, lane, element.inertia);
+    out.damping_time[lane] = element.damping_time;
+    out.mass_damping[lane] = element.mass_damping;
+    out.alive[lane] = 1.0;
+  }
+  for (const int c : layout_.chains_of_plant(plant)) {
+    Pack& pack = packs_[layout_.chains()[c].pack];
+    for (const int e : layout_.chains()[c].elements)
+      if (model.elements[e].damping_time > 0.0) pack.damped = true;
+  }
+}
+
+void RodRows::set_scheme(int plant, double dt, bool first_order, const Pose& root) {
+  roots_[plant] = root;
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    Pack& pack = packs_[chain.pack];
+    pack.past_now[chain.lane] = first_order ? 1.0 : 4.0 / 3.0;
+    pack.past_before[chain.lane] = first_order ? 0.0 : 1.0 / 3.0;
+    pack.effective_step[chain.lane] = first_order ? dt : dt * (2.0 / 3.0);
+  }
+}
+
+void RodRows::set_gravity(const Vec3& gravity) {
+  gravity_ = gravity;
+}
+
+void RodRows::set_active(std::span<const char> plants) {
+  for (Pack& pack : packs_) pack.active = false;
+  for (const Chain& chain : layout_.chains())
+    if (plants[chain.plant]) packs_[chain.pack].active = true;
+}
+
+void RodRows::read_states(int pack, std::span<const RodState* const> states) {
+  for_each_lane(pack, [&](int lane, const Chain& chain) {
+    const RodState& state = *states[chain.plant];
+    const Anchor& anchor = anchors_[pack][lane];
+    int row = packs_[pack].begin;
+    if (anchor.element < 0) {
+      // Strains of the start are against the clamp of the start.
+      put(start_[row], lane, state.previous_root.position, state.previous_root.rotation);
+    } else {
+      put(start_[row], lane, state.position[anchor.element], state.orientation[anchor.element]);
+    }
+    for (const int e : chain.elements) {
+      ++row;
+      put(start_[row], lane, state.position[e], state.orientation[e]);
+      put(rate_[row].velocity, lane, state.velocity[e]);
+      put(rate_[row].angular_velocity, lane, state.angular_velocity[e]);
+      if (state.alive[e] || element_[row].alive[lane] == 0.0) continue;
+      // It came off: nothing ties it to its parent any more.
+      element_[row].alive[lane] = 0.0;
+      put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
+      put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
+    }
+  });
+}
+
+void RodRows::prepare(int group, std::span<const RodState* const> states) {
+  const RowArrays rows = arrays();
+  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
+    read_states(p, states);
+    cosserat::prepare(rows, packs_[p]);
+    place_anchors(p);
+  }
+}
+
+// The parents' iterates into a pack's first row: theirs must have been moved already.
+void RodRows::place_anchors(int pack) {
+  PoseRow& row = iterate_[packs_[pack].begin];
+  for_each_lane(pack, [&](int lane, const Chain& chain) {
+    const int parent = anchors_[pack][lane].element;
+    if (parent < 0) {
+      put(row, lane, roots_[chain.plant].position, roots_[chain.plant].rotation);
+      return;
+    }
+    const Slot slot = layout_.slot(chain.plant, parent);
+    const PoseRow& from = iterate_[slot.row];
+    for (int i = 0; i < 3; ++i) row.position[i][lane] = from.position[i][slot.lane];
+    for (int i = 0; i < 4; ++i) row.orientation[i][lane] = from.orientation[i][slot.lane];
+  });
+}
+
+void RodRows::change_anchors(int pack) {
+  FactorRow& row = factor_[packs_[pack].begin];
+  for_each_lane(pack, [&](int lane, const Chain& chain) {
+    const int parent = anchors_[pack][lane].element;
+    if (parent < 0) return;  // a clamp's change stays zero
+    const Slot slot = layout_.slot(chain.plant, parent);
+    for (int i = 0; i < 6; ++i) row.right[i][lane] = factor_[slot.row].right[i][slot.lane];
+  });
+}
+
+void RodRows::read_iterate(int plant, const RodState& state) {
+  for (int e = 0; e < state.size(); ++e) {
+    const Slot slot = layout_.slot(plant, e);
+    put(iterate_[slot.row], slot.lane, state.position[e], state.orientation[e]);
+  }
+  for (const int c : layout_.chains_of_plant(plant)) place_anchors(layout_.chains()[c].pack);
+}
+
+void RodRows::write_iterate(int plant, RodState& state) const {
+  for (int e = 0; e < state.size(); ++e) {
+    const Slot slot = layout_.slot(plant, e);
+    state.position[e] = vector_at(iterate_[slot.row].position, slot.lane);
+    state.orientation[e] = rotation_at(iterate_[slot.row].orientation, slot.lane);
+  }
+}
+
+void RodRows::clear_extras() {
+  for (const int row : extra_rows_) first_extra_[row] = -1;
+  extra_rows_.clear();
+  extra_values_.clear();
+  extras_.clear();
+}
+
+void RodRows::add_extras(int plant, const DiagonalBlocks& blocks) {
+  for (const DiagonalBlocks::Entry& entry : blocks.entries()) {
+    const Slot slot = layout_.slot(plant, entry.element);
+    std::array<double, block_size>& values = extra_values_.emplace_back();
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j <= i; ++j) values[at(i, j)] = entry.diagonal(i, j);
+      values[triangle6 + i] = entry.right_side[i];
+    }
+    extras_.push_back({nullptr, 1, slot.lane, first_extra_[slot.row]});
+    first_extra_[slot.row] = static_cast<int>(extras_.size()) - 1;
+    extra_rows_.push_back(slot.row);
+  }
+  for (std::size_t i = 0; i < extras_.size(); ++i) extras_[i].values = extra_values_[i].data();
+}
+
+void RodRows::eliminate(int group) {
+  const RowArrays rows = arrays();
+  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p) {
+    if (!packs_[p].active) continue;
+    if (layout_.keeps_blocks(p))
+      linearise(rows, packs_[p]);
+    else
+      linearise_and_eliminate(rows, packs_[p]);
+  }
+}
+
+void RodRows::copy_blocks(int plant, BlockSystem& system) const {
+  system.clear();
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    const int lane = chain.lane;
+    int parent = anchors_[chain.pack][lane].element;
+    for (const int e : chain.elements) {
+      const int row = layout_.slot(plant, e).row;
+      const FactorRow& from = factor_[row];
+      if (element_[row].alive[lane] == 0.0) {
+        system.diagonal(e).setIdentity();
+        parent = e;
+        continue;
+      }
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) system.diagonal(e)(i, j) += from.diagonal[at(i, j)][lane];
+        system.right_side(e)[i] += from.right[i][lane];
+      }
+      if (parent >= 0) {
+        for (int i = 0; i < 3; ++i) {
+          for (int j = 0; j < 3; ++j) {
+            const double stretch = from.coupling[at(i, j)][lane];
+            const double bend = from.coupling[15 + at(i, j)][lane];
+            system.coupling(e)(i, j) = stretch;
+            system.coupling(e)(3 + i, j) = from.coupling[6 + 3 * i + j][lane];
+            system.coupling(e)(3 + i, 3 + j) = bend;
+            system.diagonal(parent)(i, j) -= stretch;
+            system.diagonal(parent)(3 + i, 3 + j) -= bend;
+          }
+          system.right_side(parent)[i] += from.coupling[21 + i][lane];
+          system.right_side(parent)[3 + i] += from.coupling[24 + i][lane];
+        }
+      }
+      parent = e;
+    }
+  }
+}
+
+void RodRows::set_change(int plant, const BlockSystem& solved) {
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    for (const int e : chain.elements) {
+      const Slot slot = layout_.slot(plant, e);
+      const double alive = element_[slot.row].alive[slot.lane];
+      for (int i = 0; i < 6; ++i)
+        factor_[slot.row].right[i][slot.lane] = alive * solved.solution(e)[i];
+    }
+  }
+}
+
+void RodRows::substitute(int group) {
+  const RowArrays rows = arrays();
+  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
+    if (!packs_[p].active) continue;
+    if (layout_.keeps_blocks(p)) {
+      measure_change(rows, packs_[p]);
+    } else {
+      change_anchors(p);
+      cosserat::substitute(rows, packs_[p]);
+    }
+  }
+}
+
+void RodRows::set_share(int plant, double share) {
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    packs_[chain.pack].share[chain.lane] = share;
+  }
+}
+
+void RodRows::move(int group, bool keep) {
+  const RowArrays rows = arrays();
+  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
+    if (!packs_[p].active) continue;
+    place_anchors(p);
+    cosserat::move(rows, packs_[p], keep);
+  }
+}
+
+void RodRows::finish(int group) {
+  const RowArrays rows = arrays();
+  // What is two steps old makes room for the end of this one.
+  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p)
+    cosserat::finish(rows, packs_[p], previous_rate_.data());
+}
+
+void RodRows::write_end(int plant, RodState& state) const {
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    const int lane = chain.lane;
+    int row = packs_[chain.pack].begin;
+    for (const int e : chain.elements) {
+      ++row;
+      if (!state.alive[e]) continue;
+      state.position[e] = vector_at(iterate_[row].position, lane);
+      state.orientation[e] = rotation_at(iterate_[row].orientation, lane);
+      state.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
+      state.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
+    }
+  }
+}
+
+void RodRows::end_step() {
+  previous_.swap(start_);
+  previous_rate_.swap(rate_);
+}
+
+double RodRows::energy(int plant) const {
+  double sum = 0.0;
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    sum += packs_[chain.pack].energy[chain.lane];
+  }
+  return sum;
+}
+
+bool RodRows::healthy(int plant) const {
+  const auto chains = layout_.chains_of_plant(plant);
+  return std::all_of(chains.begin(), chains.end(), [&](int c) {
+    const Chain& chain = layout_.chains()[c];
+    return layout_.keeps_blocks(chain.pack) || packs_[chain.pack].healthy[chain.lane] > 0.0;
+  });
+}
+
+RodRows::Change RodRows::change(int plant) const {
+  Change change;
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    const Pack& pack = packs_[chain.pack];
+    change.turn = std::max(change.turn, pack.turn[chain.lane]);
+    change.shift = std::max(change.shift, pack.shift[chain.lane]);
+    change.largest = std::max(change.largest, pack.change[chain.lane]);
+  }
+  return change;
+}
+
+Vec6 RodRows::change(int plant, int element) const {
+  const auto [row, lane] = layout_.slot(plant, element);
+  Vec6 change;
+  for (int i = 0; i < 6; ++i) change[i] = factor_[row].right[i][lane];
+  return change;
+}
+
+int RodRows::largest_change(int plant, int elements) const {
+  int worst = -1;
+  double largest = 0.0;
+  for (int e = 0; e < elements; ++e) {
+    const double found = change(plant, e).cwiseAbs().maxCoeff();
+    if (found <= largest) continue;
+    largest = found;
+    worst = e;
+  }
+  return worst;
+}
+
+void RodRows::get_history(int plant, RodHistory& history) const {
+  const int n = static_cast<int>(history.position.size());
+  for (int e = 0; e < n; ++e) {
+    const auto [row, lane] = layout_.slot(plant, e);
+    history.position[e] = vector_at(previous_[row].position, lane);
+    history.orientation[e] = rotation_at(previous_[row].orientation, lane);
+    history.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
+    history.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
+    history.stretch[e] = vector_at(previous_rate_[row].stretch, lane);
+    history.bend[e] = vector_at(previous_rate_[row].bend, lane);
+  }
+}
+
+void RodRows::set_history(int plant, const RodHistory& history) {
+  const int n = static_cast<int>(history.position.size());
+  for (int e = 0; e < n; ++e) {
+    const auto [row, lane] = layout_.slot(plant, e);
+    put(previous_[row], lane, history.position[e], history.orientation[e]);
+    put(previous_rate_[row].velocity, lane, history.velocity[e]);
+    put(previous_rate_[row].angular_velocity, lane, history.angular_velocity[e]);
+    put(previous_rate_[row].stretch, lane, history.stretch[e]);
+    put(previous_rate_[row].bend, lane, history.bend[e]);
+  }
+}
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cosserat/block_system.h"
+#include "cosserat/diagonal_blocks.h"
+#include "cosserat/lane_layout.h"
+#include "cosserat/rod_state.h"
+
+namespace pedicel::cosserat {
+
+/// What BDF2 needs of the step before the one that a state ends, one entry an element.
+struct RodHistory {
+  std::vector<Vec3> position;          ///< m, W
+  std::vector<Quat> orientation;       ///< E to W
+  std::vector<Vec3> velocity;          ///< m/s, W, of the centre of mass
+  std::vector<Vec3> angular_velocity;  ///< rad/s, E
+  std::vector<Vec3> stretch, bend;     ///< 1 and rad, E: strains from rest
+};
+
+/// The incremental potential of some plants over one step, without loads, supports, welds and
+/// contact, in rows of eight elements (lanes.h): its value, its gradient with a positive definite
+/// Hessian (Gauss-Newton plus the tension's geometric stiffness), and the solution of Newton's
+/// system. The order of calls is DirectSolver's. Calls with a `group` may run at once on different
+/// groups below groups(); the group groups() carries the others and runs alone: last in
+/// eliminate(), first elsewhere.
+class RodRows {
+ public:
+  /// With `keep_blocks` trees are treated as plants with loops are.
+  RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks = false);
+
+  int groups() const { return layout_.groups() - 1; }
+  bool has_top() const { return layout_.group_begin(groups()) < layout_.group_end(groups()); }
+
+  /// Reads the constants of a plant (again).
+  void read_model(int plant, const RodModel& model);
+  /// How a plant steps: `first_order` is backward Euler. Its clamp stands at `root` at the end.
+  void set_scheme(int plant, double dt, bool first_order, const Pose& root);
+  void set_gravity(const Vec3& gravity);
+  /// Which plants the calls below are for, until told otherwise (others may be computed along,
+  /// without effect).
+  void set_active(std::span<const char> plants);
+
+  /// Starts a step from the plants' states.
+  void prepare(int group, std::span<const RodState* const> states);
+  void read_iterate(int plant, const RodState& state);
+  void write_iterate(int plant, RodState& state) const;
+
+  /// Newton's system at the iterate, reduced to y and factors (trees) or left as blocks (loops).
+  /// What springs and contacts add must have been given since the last call.
+  void eliminate(int group);
+  void clear_extras();
+  void add_extras(int plant, const DiagonalBlocks& blocks);
+  /// The blocks of a plant with loops.
+  void copy_blocks(int plant, BlockSystem& system) const;
+  void set_change(int plant, const BlockSystem& solved);
+  void substitute(int group);
+
+  /// Moves the iterate from where the line search began by `share` of the change, by lane.
+  /// `keep` first makes the iterate that beginning.
+  void set_share(int plant, double share);
+  void move(int group, bool keep);
+
+  /// Ends the step: velocities. Then end_step() makes this step the past.
+  void finish(int group);
+  void write_end(int plant, RodState& state) const;
+  void end_step();
+
+  /// Of the last eliminate() or move(), J.
+  double energy(int plant) const;
+  bool healthy(int plant) const;
+  struct Change {
+    double turn = 0.0;     ///< rad, largest of an element
+    double shift = 0.0;    ///< 1, largest, in element lengths
+    double largest = 0.0;  ///< m or rad, of any unknown
+  };
+  Change change(int plant) const;
+  Vec6 change(int plant, int element) const;
+  /// The element with the largest change, of `elements`.
+  int largest_change(int plant, int elements) const;
+
+  /// The past of a plant, for saving it and for putting it back.
+  void get_history(int plant, RodHistory& history) const;
+  void set_history(int plant, const RodHistory& history);
+
+ private:
+  struct Anchor {  // what stands in a lane of a pack's first row: an element of the same plant
+    int plant = -1, element = -1;
+  };
+
+  RowArrays arrays();
+  template <class Visit>
+  void for_each_lane(int pack, const Visit& visit) const;
+  void read_states(int pack, std::span<const RodState* const> states);
+  void place_anchors(int pack);
+  void change_anchors(int pack);
+
+  LaneLayout layout_;
+  std::vector<Pack> packs_;
+  std::vector<ElementRow> element_;
+  std::vector<PoseRow> start_, iterate_, base_, previous_;
+  std::vector<RateRow> rate_, previous_rate_;
+  std::vector<TermRow> term_;
+  std::vector<FactorRow> factor_;
+  std::vector<int> first_branch_, first_extra_;
+  std::vector<BlockSource> branches_, extras_;
+  std::vector<std::array<double, block_size>> extra_values_;
+  std::vector<int> extra_rows_;
+  std::vector<std::array<Anchor, lane_count>> anchors_;  // by pack
+  std::vector<Pose> roots_;                              // X_W of the clamps
+  Vec3 gravity_ = Vec3::Zero();
+};
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+
+#include "cosserat/attachments.h"
+#include "cosserat/block_system.h"
+#include "cosserat/rod_rows.h"
+
+namespace pedicel::cosserat::cases {
+
+/// The incremental potential of one plant over one step, without contact, as DirectSolver puts it
+/// together, at any state.
+class StepPotential {
+ public:
+  explicit StepPotential(const RodModel& model)
+      : rows_(std::array{&model}, 1, true), extras_(model.size()) {}
+
+  /// The step starts from `start`, which must outlive it.
+  void prepare(const RodState& start, const StepInput& input, const RodHistory* history) {
+    rows_.set_gravity(input.gravity);
+    rows_.set_scheme(0, input.dt, history == nullptr, start.root);
+    if (history) rows_.set_history(0, *history);
+    rows_.prepare(0, std::array{&start});
+    attachments_.prepare(start, input.loads);
+  }
+
+  /// Gradient and Hessian into `system`; returns the potential, J.
+  double linearise(const RodModel& model, const RodState& state, BlockSystem& system) {
+    rows_.read_iterate(0, state);
+    rows_.eliminate(0);
+    rows_.copy_blocks(0, system);
+    extras_.clear();
+    const double energy = attachments_.linearise(model, state, extras_);
+    for (const DiagonalBlocks::Entry& entry : extras_.entries()) {
+      system.diagonal(entry.element) += entry.diagonal;
+      system.right_side(entry.element) += entry.right_side;
+    }
+    for (std::size_t w = 0; w < model.welds.size(); ++w)
+      system.weld(static_cast<int>(w)) = weld_coupling(state, model.welds[w]);
+    return energy + rows_.energy(0);
+  }
+
+  double potential(const RodModel& model, const RodState& state) {
+    rows_.read_iterate(0, state);
+    rows_.set_share(0, 0.0);
+    rows_.move(0, true);
+    return rows_.energy(0) + attachments_.potential(model, state);
+  }
+
+ private:
+  RodRows rows_;
+  Attachments attachments_;
+  DiagonalBlocks extras_;
+};
+
+}  // namespace pedicel::cosserat::cases
