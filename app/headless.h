@@ -33,7 +33,8 @@ struct RunResult {
   double ms_per_step_p50 = 0.0, ms_per_step_p95 = 0.0;
   double largest_stretch = 0.0;  ///< 1
   std::uint64_t state_hash = 0;
-  std::string error;  ///< why it ended early; empty: it did not
+  std::string residual;  ///< Simulation::worst_residual()
+  std::string error;     ///< why it ended early; empty: it did not
   std::vector<world::Verdict> verdicts;
   std::vector<world::Event> events;
   std::vector<StalkLimits> limits;              ///< of every fruit, for the plots
