@@ -20,7 +20,8 @@ struct RunOptions {
   std::filesystem::path out;  ///< folder; empty: nothing is written
   bool pictures = true;
   bool video = true;
-  std::optional<double> fps;               ///< Hz, in place of the scene's
+  bool comparison = true;     ///< compare_solvers(), where the scene's sweep is one for it
+  std::optional<double> fps;  ///< Hz, in place of the scene's
   std::optional<std::array<int, 2>> size;  ///< px, in place of the scene's
   bool quiet = false;                      ///< no start line, end line and progress
 };

@@ -88,7 +88,9 @@ RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
     if (run.result.exit_code == 4 || run.result.exit_code == 130)
       result.exit_code = run.result.exit_code;
   if (options.out.empty()) return result;
-  write_scene_report(scene, result, runs, compare_solvers(scene, runs, options));
+  std::optional<SolverComparison> comparison;
+  if (options.comparison) comparison = compare_solvers(scene, runs, options);
+  write_scene_report(scene, result, runs, comparison);
   return result;
 }
 
