@@ -157,6 +157,7 @@ class Run {
     result_.ms_per_step_p95 = percentile(milliseconds_, 0.95);
     result_.largest_stretch = simulation_.measurements().largest_stretch();
     result_.state_hash = simulation_.state_hash();
+    result_.residual = simulation_.worst_residual();
     result_.events = recorder_.events();
     add_limits();
     simulation_.measurements().set_wall_seconds(result_.wall);

@@ -20,7 +20,8 @@ struct RunOptions {
   std::filesystem::path out;  ///< folder; empty: nothing is written
   bool pictures = true;
   bool video = true;
-  std::optional<double> fps;               ///< Hz, in place of the scene's
+  bool comparison = true;     ///< compare_solvers(), where the scene's sweep is one for it
+  std::optional<double> fps;  ///< Hz, in place of the scene's
   std::optional<std::array<int, 2>> size;  ///< px, in place of the scene's
   bool quiet = false;                      ///< no start line, end line and progress
 };
@@ -33,7 +34,8 @@ struct RunResult {
   double ms_per_step_p50 = 0.0, ms_per_step_p95 = 0.0;
   double largest_stretch = 0.0;  ///< 1
   std::uint64_t state_hash = 0;
-  std::string error;  ///< why it ended early; empty: it did not
+  std::string residual;  ///< Simulation::worst_residual()
+  std::string error;     ///< why it ended early; empty: it did not
   std::vector<world::Verdict> verdicts;
   std::vector<world::Event> events;
   std::vector<StalkLimits> limits;              ///< of every fruit, for the plots

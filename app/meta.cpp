@@ -50,11 +50,15 @@ void write_meta(const std::filesystem::path& path, const Simulation& simulation,
   json["plants"] = Json::array();
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
+    const PlantInfo& info = simulation.plants()[p];
     json["plants"].push_back({{"name", model.name},
                               {"elements", model.size()},
-                              {"sampled_nodes", simulation.plants()[p].sampled_nodes},
+                              {"sampled_nodes", info.sampled_nodes},
                               {"fruits", model.fruits.size()},
                               {"welds", model.welds.size()}});
+    if (info.residual)
+      json["plants"].back()["settles_from_drawing_mm"] = {
+          {"largest", 1.0e3 * info.residual->largest}, {"rms", 1.0e3 * info.residual->rms}};
   }
   io::write_file_atomically(path, json.dump(2) + "\n");
 }

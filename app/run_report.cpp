@@ -64,6 +64,12 @@ void add_sweep(HtmlReport& page, const RunSummary& summary) {
   add_pictures(page, summary.sweep_pictures);
 }
 
+void add_solvers(HtmlReport& page, const RunSummary& summary) {
+  add_table(page, "The direct and the position-based solver", summary.solvers);
+  add_table(page, "Their speed at equal error", summary.solver_speeds);
+  if (!summary.solver_note.empty()) page.paragraph(summary.solver_note);
+}
+
 }  // namespace
 
 void write_run_report(const RunSummary& summary, const std::filesystem::path& path) {
@@ -74,6 +80,7 @@ void write_run_report(const RunSummary& summary, const std::filesystem::path& pa
   add_pictures(page, summary.pictures);
   add_table(page, "What came off", summary.events);
   add_sweep(page, summary);
+  add_solvers(page, summary);
   if (!summary.plots.empty()) page.heading("Over time");
   for (const io::LinePlot& plot : summary.plots) page.plot(to_svg(plot));
   add_pairs(page, "Numbers", summary.numbers);

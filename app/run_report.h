@@ -39,6 +39,8 @@ struct RunSummary {
   ReportTable sweep;
   std::optional<io::LinePlot> sweep_plot;
   std::vector<ReportImage> sweep_pictures;
+  ReportTable solvers, solver_speeds;  ///< both solvers over a sweep, and at equal error
+  std::string solver_note;
   std::vector<std::pair<std::string, std::string>> numbers;   ///< speed, hash, steps
   std::vector<std::pair<std::string, std::string>> settings;  ///< with their units
   std::vector<std::pair<std::string, std::string>> files;     ///< name, what it holds

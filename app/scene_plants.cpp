@@ -80,6 +80,8 @@ class Builder {
     made.info.is_woody = wanted.source == ScenePlant::Source::mtg ||
                          file.material.youngs_modulus.value_or(0.0) > 5.0e8;
     made.info.sampled_nodes = built->nodes_sampled;
+    made.info.residual = built->residual;
+    made.info.residual_text = plant::residual_text(*built);
     for (const auto& triangle : built->blades) {
       Blade blade;
       for (int c = 0; c < 3; ++c)

@@ -49,21 +49,6 @@ std::vector<io::LinePlot> plots_of(const RunResult& result) {
   return log_plots(log, result.limits, events);
 }
 
-/// What a sweep is measured by: the quantity that the scene expects to change, else the first one.
-const world::Expectation* measured_by(const world::Scene& scene) {
-  for (const world::Expectation& e : scene.expectations)
-    if (e.over_sweep()) return &e;
-  return scene.expectations.empty() ? nullptr : &scene.expectations.front();
-}
-
-double measured_in(const world::Expectation& wanted, const RunResult& result) {
-  for (const world::Verdict& verdict : result.verdicts)
-    if (verdict.expectation.quantity == wanted.quantity && !verdict.measured.empty() &&
-        verdict.expectation.fruit == wanted.fruit)
-      return verdict.measured.front();
-  return std::nan("");
-}
-
 /// The picture of a run that shows most: the last one just before a break, else the last.
 std::optional<std::filesystem::path> telling_picture(const RunResult& run) {
   std::optional<std::filesystem::path> best;
@@ -103,17 +88,42 @@ void add_sweep(const world::Scene& scene, const std::vector<SweepRun>& sweep,
   io::write_file_atomically(folder / "sweep.csv", csv);
 }
 
+void add_comparison(const SolverComparison& comparison, const std::filesystem::path& folder,
+                    RunSummary& summary) {
+  const std::string& quantity = comparison.quantity;
+  summary.solvers.header = {"sampling.distance (m)", quantity + ", direct solver",
+                            quantity + ", position-based solver"};
+  for (const SolverComparison::Row& row : comparison.rows)
+    summary.solvers.rows.push_back(
+        {number(row.distance, 6), number(row.direct), number(row.position_based)});
+  summary.solver_speeds.header = {"solver", "sub-steps", quantity, "error", "real-time factor"};
+  for (const SolverComparison::Speed& speed : comparison.speeds)
+    summary.solver_speeds.rows.push_back({speed.solver, std::to_string(speed.substeps),
+                                          number(speed.measured), number(speed.error, 3),
+                                          number(speed.real_time_factor, 3)});
+  summary.solver_note =
+      "Error: from what the direct solver finds with " + number(comparison.fine_distance, 6) +
+      " m between nodes, " + number(comparison.fine) + ". " +
+      (comparison.equal ? "The last two lines are as good as the direct solver, within a tenth."
+                        : "The position-based solver does not become as good as the direct one.");
+  summary.files.emplace_back("solvers.csv", "both solvers over the sweep, and at equal error");
+  io::write_file_atomically(folder / "solvers.csv", to_csv(comparison));
+}
+
 std::vector<std::pair<std::string, std::string>> numbers_of(const RunResult& result) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(result.state_hash));
-  return {{"steps", std::to_string(result.steps)},
-          {"simulated", number(result.simulated) + " s"},
-          {"wall time of the steps", number(result.wall, 3) + " s"},
-          {"real-time factor", number(result.real_time_factor(), 3)},
-          {"a step, median", number(result.ms_per_step_p50, 3) + " ms"},
-          {"a step, 95th percentile", number(result.ms_per_step_p95, 3) + " ms"},
-          {"largest stretch", number(result.largest_stretch)},
-          {"state hash", hash}};
+  std::vector<std::pair<std::string, std::string>> all = {
+      {"steps", std::to_string(result.steps)},
+      {"simulated", number(result.simulated) + " s"},
+      {"wall time of the steps", number(result.wall, 3) + " s"},
+      {"real-time factor", number(result.real_time_factor(), 3)},
+      {"a step, median", number(result.ms_per_step_p50, 3) + " ms"},
+      {"a step, 95th percentile", number(result.ms_per_step_p95, 3) + " ms"},
+      {"largest stretch", number(result.largest_stretch)},
+      {"state hash", hash}};
+  if (!result.residual.empty()) all.emplace_back("standing as drawn", result.residual);
+  return all;
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const world::Scene& scene) {
@@ -131,7 +141,8 @@ std::vector<std::pair<std::string, std::string>> settings_of(const world::Scene&
 }  // namespace
 
 void write_scene_report(const world::Scene& scene, const RunResult& result,
-                        const std::vector<SweepRun>& sweep) {
+                        const std::vector<SweepRun>& sweep,
+                        const std::optional<SolverComparison>& comparison) {
   RunSummary summary;
   summary.title = scene.name;
   summary.purpose = scene.purpose;
@@ -150,6 +161,7 @@ void write_scene_report(const world::Scene& scene, const RunResult& result,
                    {"events.csv", "the fruits that came off"},
                    {"log.meta.json", "version, seed, settings and state hash of this run"}};
   add_sweep(scene, sweep, result.folder, summary);
+  if (comparison) add_comparison(*comparison, result.folder, summary);
   summary.machine = "pedicel " + version() + " (" + git_hash() + ") on " + machine();
   write_run_report(summary, result.folder / "report.html");
 }

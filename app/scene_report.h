@@ -1,21 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "app/headless.h"
+#include "app/solver_comparison.h"
+#include "app/sweep.h"
 
 namespace pedicel::app {
 
-/// One value of a sweep and its run.
-struct SweepRun {
-  double value = 0.0;
-  RunResult result;
-};
-
-/// Writes report.html, and sweep.csv where there was a sweep, into the folder of `result`: what the
-/// scene is for, its pictures, the plots of log.csv that matter, events, expectations, numbers.
-/// Throws io::WriteError.
+/// Writes report.html, sweep.csv where there was a sweep, and solvers.csv where there is a
+/// comparison, into the folder of `result`: what the scene is for, its pictures, the plots of
+/// log.csv that matter, events, expectations, numbers. Throws io::WriteError.
 void write_scene_report(const world::Scene& scene, const RunResult& result,
-                        const std::vector<SweepRun>& sweep);
+                        const std::vector<SweepRun>& sweep,
+                        const std::optional<SolverComparison>& comparison);
 
 }  // namespace pedicel::app

@@ -73,6 +73,14 @@ void Simulation::add_plants(Diagnostics& diagnostics) {
   }
 }
 
+std::string Simulation::worst_residual() const {
+  const PlantInfo* worst = nullptr;
+  for (const PlantInfo& plant : plants_)
+    if (plant.residual && (!worst || plant.residual->largest > worst->residual->largest))
+      worst = &plant;
+  return worst ? worst->residual_text : "";
+}
+
 void Simulation::add_bodies() {
   if (scene_.ground) world_.set_ground(*scene_.ground);
   for (const world::BodyDescription& body : scene_.bodies) world_.add_body(body);

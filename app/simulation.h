@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/measurements.h"
 #include "app/plant_step.h"
 #include "app/robot_control.h"
+#include "cosserat/standing.h"
 #include "coupling/coupling_settings.h"
 #include "world/scene.h"
 #include "world/sim_world.h"
@@ -27,6 +29,9 @@ struct PlantInfo {
   std::vector<Blade> blades;  ///< leaves, for drawing
   bool is_woody = false;      ///< drawn with bark
   int sampled_nodes = 0;      ///< before simplification; 0: not from curves
+  /// How far it settles from the drawn shape, and that in words; absent where it sags freely.
+  std::optional<cosserat::Residual> residual;
+  std::string residual_text;
 };
 
 /// A scene brought to life: Bullet's world, the robot, the plants and what they feel of each other.
@@ -45,6 +50,9 @@ class Simulation {
   const world::SimWorld& world() const { return world_; }
   const cosserat::RodSystem& rods() const { return *rods_; }
   const std::vector<PlantInfo>& plants() const { return plants_; }
+  /// Of the plant that settles farthest from its drawing: residual_text; empty where none is drawn
+  /// as it hangs.
+  std::string worst_residual() const;
   const PlantStep& plant_step() const { return *plant_step_; }
   const coupling::ColliderSet& colliders() const { return colliders_; }
   const Measurements& measurements() const { return *measurements_; }

@@ -1,8 +1,10 @@
-#include <algorithm>
+#include "app/sweep.h"
+
+#include <cmath>
 #include <cstdio>
 
-#include "app/headless.h"
 #include "app/scene_report.h"
+#include "app/solver_comparison.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -10,32 +12,6 @@ namespace pedicel::app {
 namespace {
 
 constexpr int exit_unmet = 5;
-
-/// What an expectation asks of each run of a sweep, as a plain expectation.
-double measured_in(const world::Expectation& wanted, const SweepRun& run) {
-  for (const world::Verdict& verdict : run.result.verdicts)
-    if (verdict.expectation.quantity == wanted.quantity &&
-        verdict.expectation.fruit == wanted.fruit && verdict.expectation.plant == wanted.plant &&
-        verdict.expectation.body == wanted.body && verdict.expectation.link == wanted.link)
-      return verdict.measured.front();
-  return 0.0;
-}
-
-/// The scene of one value: what is expected over the sweep is measured in each run, and the rest,
-/// which the scene expects of its own value, is not asked.
-world::Scene scene_of(const world::Scene& scene, double value) {
-  world::Scene one = scene;
-  world::apply_override(one, scene.sweep->key, io::format_number(value));
-  one.sweep.reset();
-  one.expectations.clear();
-  for (world::Expectation expectation : scene.expectations) {
-    if (!expectation.over_sweep()) continue;
-    expectation.test = world::Expectation::Test::above;
-    expectation.low = -1.0e300;  // whatever is measured meets it; not measured (NaN) does not
-    one.expectations.push_back(expectation);
-  }
-  return one;
-}
 
 // "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
 void say(const std::string& label, const RunResult& result) {
@@ -56,7 +32,7 @@ std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& opt
     one.quiet = true;
     const std::string label = scene.sweep->key + "=" + io::format_number(value);
     if (!options.out.empty()) one.out = options.out / ("sweep_" + label);
-    runs.push_back({value, run_scene(scene_of(scene, value), one)});
+    runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
     if (!options.quiet) say(label, runs.back().result);
     if (stop_requested) break;
   }
@@ -65,6 +41,36 @@ std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& opt
 
 }  // namespace
 
+world::Scene scene_of_value(const world::Scene& scene, double value) {
+  world::Scene one = scene;
+  world::apply_override(one, scene.sweep->key, io::format_number(value));
+  one.sweep.reset();
+  one.expectations.clear();
+  for (world::Expectation expectation : scene.expectations) {
+    if (!expectation.over_sweep()) continue;
+    expectation.test = world::Expectation::Test::above;
+    expectation.low = -1.0e300;  // whatever is measured meets it; not measured (NaN) does not
+    one.expectations.push_back(expectation);
+  }
+  return one;
+}
+
+const world::Expectation* measured_by(const world::Scene& scene) {
+  for (const world::Expectation& e : scene.expectations)
+    if (e.over_sweep()) return &e;
+  return scene.expectations.empty() ? nullptr : &scene.expectations.front();
+}
+
+double measured_in(const world::Expectation& wanted, const RunResult& run) {
+  for (const world::Verdict& verdict : run.verdicts) {
+    const world::Expectation& e = verdict.expectation;
+    if (e.quantity == wanted.quantity && e.fruit == wanted.fruit && e.plant == wanted.plant &&
+        e.body == wanted.body && e.link == wanted.link && !verdict.measured.empty())
+      return verdict.measured.front();
+  }
+  return std::nan("");
+}
+
 RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
   RunResult result = run_scene(scene, options);
   std::vector<SweepRun> runs;
@@ -72,7 +78,7 @@ RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
   for (const world::Expectation& expectation : scene.expectations) {
     if (!expectation.over_sweep()) continue;
     std::vector<double> values;
-    for (const SweepRun& run : runs) values.push_back(measured_in(expectation, run));
+    for (const SweepRun& run : runs) values.push_back(measured_in(expectation, run.result));
     result.verdicts.push_back(world::judge_sweep(expectation, values));
     if (!options.quiet)
       std::fprintf(stderr, "%s\n", world::to_string(result.verdicts.back()).c_str());
@@ -81,7 +87,10 @@ RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
   for (const SweepRun& run : runs)
     if (run.result.exit_code == 4 || run.result.exit_code == 130)
       result.exit_code = run.result.exit_code;
-  if (!options.out.empty()) write_scene_report(scene, result, runs);
+  if (options.out.empty()) return result;
+  std::optional<SolverComparison> comparison;
+  if (options.comparison) comparison = compare_solvers(scene, runs, options);
+  write_scene_report(scene, result, runs, comparison);
   return result;
 }
 

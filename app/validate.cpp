@@ -9,7 +9,7 @@
 #include "io/yaml.h"
 #include "plant/leaf_template.h"
 #include "plant/mtg_reader.h"
-#include "plant/plant_file.h"
+#include "plant/plant_builder.h"
 #include "robot/urdf_reader.h"
 #include "world/scene_reader.h"
 
@@ -19,47 +19,61 @@ namespace {
 
 using Packages = std::vector<std::string>;
 
-/// Reads one kind of file; faults go to the diagnostics, or come as InvalidFile.
+/// Reads one kind of file; faults go to the diagnostics, or come as InvalidFile. What is worth
+/// knowing of a good one comes back.
 struct Kind {
   const char* format;     ///< of `format:`; empty: none
   const char* extension;  ///< empty: none of its own
   const char* name;
-  void (*check)(const std::filesystem::path&, const Packages&, Diagnostics&);
+  std::string (*check)(const std::filesystem::path&, const Packages&, Diagnostics&);
 };
 
-void check_plant(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
-  plant::read_plant_file(path, diagnostics);
+std::string check_plant(const std::filesystem::path& path, const Packages&,
+                        Diagnostics& diagnostics) {
+  const std::optional<plant::PlantFile> file = plant::read_plant_file(path, diagnostics);
+  if (!file) return {};
+  plant::BuildOptions options;
+  options.leaf_folders = {path.parent_path(), path.parent_path() / "../assets/leaves"};
+  const auto built = plant::build_plant(*file, options, diagnostics);
+  return built ? plant::residual_text(*built) : "";
 }
 
-void check_mtg(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
+std::string check_mtg(const std::filesystem::path& path, const Packages&,
+                      Diagnostics& diagnostics) {
   plant::read_mtg(path, {}, diagnostics);
+  return {};
 }
 
-void check_leaf(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
+std::string check_leaf(const std::filesystem::path& path, const Packages&,
+                       Diagnostics& diagnostics) {
   plant::read_leaf_template(path, diagnostics);
+  return {};
 }
 
-void check_scene(const std::filesystem::path& path, const Packages& packages,
-                 Diagnostics& diagnostics) {
+std::string check_scene(const std::filesystem::path& path, const Packages& packages,
+                        Diagnostics& diagnostics) {
   const std::optional<world::Scene> scene = world::read_scene(path, diagnostics);
-  if (!scene) return;
+  if (!scene) return {};
   SimulationOptions options;
   options.packages = packages;
   // Builds everything that the scene names, and runs none of it.
-  const Simulation simulation(*scene, options);
+  return Simulation(*scene, options).worst_residual();
 }
 
-void check_urdf(const std::filesystem::path& path, const Packages& packages,
-                Diagnostics& diagnostics) {
+std::string check_urdf(const std::filesystem::path& path, const Packages& packages,
+                       Diagnostics& diagnostics) {
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
   for (const std::string& package : packages) paths.add(package);
   robot::read_urdf(path, paths, diagnostics);
+  return {};
 }
 
-void check_csv(const std::filesystem::path& path, const Packages&, Diagnostics& diagnostics) {
+std::string check_csv(const std::filesystem::path& path, const Packages&,
+                      Diagnostics& diagnostics) {
   io::CsvRules rules;
   rules.empty_cells = true;
   io::read_csv(path, rules, diagnostics);
+  return {};
 }
 
 constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
@@ -106,9 +120,11 @@ bool validate(const std::filesystem::path& path, const Packages& packages, std::
   Diagnostics diagnostics;
   try {
     const Kind& kind = kind_of(path);
-    kind.check(path, packages, diagnostics);
+    const std::string known = kind.check(path, packages, diagnostics);
     write_lines(diagnostics.text(), out);
-    if (!diagnostics.has_errors()) out << path.string() << ": " << kind.name << ", good\n";
+    if (!diagnostics.has_errors())
+      out << path.string() << ": " << kind.name << ", good" << (known.empty() ? "" : "; ") << known
+          << "\n";
   } catch (const InvalidFile& error) {
     write_lines(diagnostics.text(), out);
     write_lines(error.what(), out);

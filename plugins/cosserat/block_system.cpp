@@ -1,5 +1,6 @@
 #include "cosserat/block_system.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pedicel::cosserat {
@@ -58,107 +59,124 @@ void backward(const Mat6& factor, Vec6& vector) {
   }
 }
 
-// P <- P - W^T W
-void subtract_product(const Mat6& block, Mat6& parent) {
-  const double* w = block.data();
-  double* p = parent.data();
-  for (int k = 0; k < 6; ++k)
-    for (int i = 0; i < 6; ++i)
-      for (int c = 0; c < 6; ++c) p[6 * i + c] -= w[6 * k + i] * w[6 * k + c];
+// T <- T - V^T W
+void subtract_product(const Mat6& left, const Mat6& right, Mat6& target) {
+  const double* v = left.data();
+  const double* w = right.data();
+  for (int i = 0; i < 6; ++i) {
+    double row[6] = {};
+    for (int k = 0; k < 6; ++k)
+      for (int c = 0; c < 6; ++c) row[c] += v[6 * k + i] * w[6 * k + c];
+    for (int c = 0; c < 6; ++c) target.data()[6 * i + c] -= row[c];
+  }
 }
+
+// The factor A = L L^T of a pivot, and what its elimination does to the blocks beside it.
+struct CholeskyPivot {
+  static bool factorise(Mat6& pivot) { return cholesky(pivot); }
+  template <class Block>
+  static void reduce(const Mat6& pivot, Block& block) {
+    forward(pivot, block);
+  }
+  static const Mat6& weighted(const Mat6&, const Mat6& block) { return block; }
+};
+
+// The same with A = L D L^T, unit L below and D on the diagonal, for matrices that are not positive
+// definite. Without pivoting: exact in its signs wherever no pivot vanishes.
+struct IndefinitePivot {
+  static bool factorise(Mat6& pivot) {
+    for (int j = 0; j < 6; ++j) {
+      for (int k = 0; k < j; ++k) pivot(j, j) -= pivot(j, k) * pivot(j, k) * pivot(k, k);
+      if (pivot(j, j) == 0.0) return false;
+      for (int i = j + 1; i < 6; ++i) {
+        for (int k = 0; k < j; ++k) pivot(i, j) -= pivot(i, k) * pivot(k, k) * pivot(j, k);
+        pivot(i, j) /= pivot(j, j);
+      }
+    }
+    return true;
+  }
+  template <class Block>
+  static void reduce(const Mat6& pivot, Block& block) {
+    pivot.triangularView<Eigen::UnitLower>().solveInPlace(block);
+  }
+  static Mat6 weighted(const Mat6& pivot, const Mat6& block) {
+    return pivot.diagonal().cwiseInverse().asDiagonal() * block;
+  }
+};
 
 }  // namespace
 
-BlockSystem::BlockSystem(const RodModel& model) {
-  for (const Element& element : model.elements) parent_.push_back(element.parent);
-  for (const Weld& weld : model.welds) weld_ends_.emplace_back(weld.a, weld.b);
-  diagonal_.resize(parent_.size());
-  coupling_.resize(parent_.size());
-  right_.resize(parent_.size());
-  weld_.resize(weld_ends_.size());
+BlockSystem::BlockSystem(const RodModel& model)
+    : structure_(model), blocks_(structure_.blocks()), right_(model.elements.size()) {
   clear();
 }
 
 void BlockSystem::clear() {
-  for (Mat6& block : diagonal_) block.setZero();
-  for (Mat6& block : coupling_) block.setZero();
-  for (Mat6& block : weld_) block.setZero();
+  for (Mat6& block : blocks_) block.setZero();
   for (Vec6& vector : right_) vector.setZero();
 }
 
 bool BlockSystem::solve() {
-  if (!weld_ends_.empty()) return solve_sparse();
-  if (!eliminate()) return false;
+  place_blocks();
+  if (!eliminate<CholeskyPivot>()) return false;
   substitute();
   return true;
 }
 
+void BlockSystem::place_blocks() {
+  for (const auto& [from, to, transposed] : structure_.moves) {
+    if (transposed)
+      blocks_[to] += blocks_[from].transpose();
+    else
+      blocks_[to] += blocks_[from];
+  }
+}
+
+template <class Pivot>
 bool BlockSystem::eliminate() {
-  for (int e = static_cast<int>(parent_.size()) - 1; e >= 0; --e) {
-    if (!cholesky(diagonal_[e])) return false;
-    forward(diagonal_[e], right_[e]);
-    const int p = parent_[e];
-    if (p < 0) continue;
-    forward(diagonal_[e], coupling_[e]);
-    subtract_product(coupling_[e], diagonal_[p]);
-    right_[p].noalias() -= coupling_[e].transpose() * right_[e];
+  const int* target = structure_.targets.data();
+  for (const auto& [e, begin, end] : structure_.columns) {
+    Mat6& pivot = blocks_[structure_.diagonal(e)];
+    if (!Pivot::factorise(pivot)) return false;
+    Pivot::reduce(pivot, right_[e]);
+    for (int i = begin; i < end; ++i) Pivot::reduce(pivot, blocks_[structure_.entries[i].block]);
+    for (int i = begin; i < end; ++i) {
+      const auto [row, block] = structure_.entries[i];
+      const auto& weighted = Pivot::weighted(pivot, blocks_[block]);
+      for (int j = i; j < end; ++j)
+        subtract_product(weighted, blocks_[structure_.entries[j].block], blocks_[*target++]);
+      right_[row].noalias() -= weighted.transpose() * right_[e];
+    }
   }
   return true;
 }
 
 void BlockSystem::substitute() {
-  for (std::size_t e = 0; e < parent_.size(); ++e) {
-    if (parent_[e] >= 0) right_[e].noalias() -= coupling_[e] * right_[parent_[e]];
-    backward(diagonal_[e], right_[e]);
+  for (auto column = structure_.columns.rbegin(); column != structure_.columns.rend(); ++column) {
+    Vec6& x = right_[column->element];
+    for (int i = column->begin; i < column->end; ++i) {
+      const auto [row, block] = structure_.entries[i];
+      x.noalias() -= blocks_[block] * right_[row];
+    }
+    backward(blocks_[structure_.diagonal(column->element)], x);
   }
-}
-
-Eigen::SparseMatrix<double> BlockSystem::sparse_matrix() const {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](int row, int column, const Mat6& block, bool lower_only) {
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < (lower_only ? i + 1 : 6); ++j)
-        entries.emplace_back(6 * row + i, 6 * column + j, block(i, j));
-  };
-  const int n = static_cast<int>(parent_.size());
-  for (int e = 0; e < n; ++e) {
-    add(e, e, diagonal_[e], true);
-    if (parent_[e] >= 0) add(e, parent_[e], coupling_[e], false);
-  }
-  for (std::size_t k = 0; k < weld_ends_.size(); ++k) {
-    const auto [a, b] = weld_ends_[k];
-    if (a < b)
-      add(b, a, weld_[k], false);
-    else
-      add(a, b, weld_[k].transpose(), false);
-  }
-  Eigen::SparseMatrix<double> matrix(6 * n, 6 * n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-bool BlockSystem::solve_sparse() {
-  const Eigen::SparseMatrix<double> matrix = sparse_matrix();
-  if (!analysed_) factor_.analyzePattern(matrix);
-  analysed_ = true;
-  factor_.factorize(matrix);
-  if (factor_.info() != Eigen::Success || (factor_.vectorD().array() <= 0.0).any()) return false;
-  Eigen::Map<Eigen::VectorXd> all(right_.front().data(), 6 * static_cast<int>(right_.size()));
-  const Eigen::VectorXd solved = factor_.solve(all);
-  all = solved;
-  return true;
 }
 
 int BlockSystem::negative_eigenvalues() const {
+  BlockSystem factor = *this;
+  factor.place_blocks();
   // A shift far below every stiffness that matters keeps singular directions (an eigenvalue of
   // zero) from stopping the factorisation.
-  Eigen::SparseMatrix<double> matrix = sparse_matrix();
-  const double shift = 1.0e-14 * matrix.diagonal().cwiseAbs().maxCoeff();
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
-  factor.setShift(shift);
-  factor.compute(matrix);
-  if (factor.info() != Eigen::Success) return 1;  // a zero pivot: not positive definite
-  return static_cast<int>((factor.vectorD().array() < 0.0).count());
+  double largest = 0.0;
+  for (std::size_t e = 0; e < right_.size(); ++e)
+    largest = std::max(largest, blocks_[e].diagonal().cwiseAbs().maxCoeff());
+  for (std::size_t e = 0; e < right_.size(); ++e)
+    factor.blocks_[e].diagonal().array() += 1.0e-14 * largest;
+  if (!factor.eliminate<IndefinitePivot>()) return 1;  // a zero pivot: not positive definite
+  int count = 0;
+  for (std::size_t e = 0; e < right_.size(); ++e)
+    count += static_cast<int>((factor.blocks_[e].diagonal().array() < 0.0).count());
+  return count;
 }
 
 }  // namespace pedicel::cosserat

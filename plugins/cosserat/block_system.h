@@ -1,10 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <vector>
 
+#include "cosserat/block_structure.h"
 #include "cosserat/diagonal_blocks.h"
 #include "cosserat/rod_model.h"
 
@@ -14,19 +13,20 @@ namespace pedicel::cosserat {
 /// where the plant has loops, across its welds. Unknowns of an element: (position, rotation
 /// vector), both in W.
 ///
-/// A tree is solved in O(n) without fill: eliminating every element into its parent, leaves first,
-/// then substituting from the root. With welds a general sparse factorisation (Eigen's LDL^T) is
-/// used, its symbolic phase kept.
+/// Solved by a block Cholesky factorisation whose symbolic phase, BlockStructure, is made once from
+/// the whole plant; nothing allocates afterwards. In a tree that is: eliminate every element into
+/// its parent, leaves first, then substitute from the root, O(n); so too, with a few blocks an
+/// element more, where loops are small beside the plant.
 class BlockSystem {
  public:
   explicit BlockSystem(const RodModel& model);
 
   void clear();
-  Mat6& diagonal(int element) { return diagonal_[element]; }
+  Mat6& diagonal(int element) { return blocks_[structure_.diagonal(element)]; }
   /// Rows: the element; columns: its parent. Not used where the parent is the clamp.
-  Mat6& coupling(int element) { return coupling_[element]; }
+  Mat6& coupling(int element) { return blocks_[structure_.coupling(element)]; }
   /// Rows: the weld's b; columns: its a.
-  Mat6& weld(int index) { return weld_[index]; }
+  Mat6& weld(int index) { return blocks_[structure_.weld(index)]; }
   Vec6& right_side(int element) { return right_[element]; }
 
   /// Overwrites the blocks with their factors. False where the matrix is not positive definite.
@@ -34,21 +34,20 @@ class BlockSystem {
   const Vec6& solution(int element) const { return right_[element]; }
 
   /// The number of negative eigenvalues, by Sylvester's law of inertia (from the signs of the
-  /// pivots of LDL^T; 1 where a pivot is zero). Slow; for stability questions only. Keeps the blocks.
+  /// pivots of LDL^T; 1 where a pivot is zero). Keeps the blocks; allocates.
   int negative_eigenvalues() const;
 
+  const BlockStructure& structure() const { return structure_; }
+
  private:
+  void place_blocks();
+  template <class Pivot>
   bool eliminate();
   void substitute();
-  bool solve_sparse();
-  Eigen::SparseMatrix<double> sparse_matrix() const;
 
-  std::vector<int> parent_;
-  std::vector<std::pair<int, int>> weld_ends_;
-  std::vector<Mat6> diagonal_, coupling_, weld_;
+  BlockStructure structure_;
+  std::vector<Mat6> blocks_;  // as BlockStructure numbers them
   std::vector<Vec6> right_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  bool analysed_ = false;
 };
 
 }  // namespace pedicel::cosserat

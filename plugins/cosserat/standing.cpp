@@ -1,10 +1,12 @@
 #include "cosserat/standing.h"
 
-#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
-#include "cosserat/block_system.h"
+#include "cosserat/direct_solver.h"
+#include "cosserat/exact_hessian.h"
 #include "cosserat/rotation.h"
 
 namespace pedicel::cosserat {
@@ -39,53 +41,35 @@ Loads weights(const RodModel& model, const Vec3& gravity) {
   return outer;
 }
 
-// Compliance of a segment and its joint in its own axes: energy = 1/2 load^T C load.
-Vec6 compliance(const Element& element) {
-  Vec6 c;
-  c << element.length * element.stretch_stiffness.cwiseInverse(),
-      element.bend_stiffness.cwiseInverse();
-  return c;
+const Quat& rotation_before(const RodModel& model, int e) {
+  const int p = model.elements[e].parent;
+  return p < 0 ? model.root.rotation : model.elements[p].drawn_rotation;
 }
 
-Vec6 in_element(const Element& element, const Vec6& load) {
-  const Quat back = element.drawn_rotation.conjugate();
-  Vec6 turned;
-  turned << back * Vec3(load.head<3>()), back * Vec3(load.tail<3>());
-  return turned;
+// Stretch and shear from the straight segment, E: none but where open_welds() moved a node.
+Vec3 drawn_strain(const RodModel& model, int e) {
+  const Element& element = model.elements[e];
+  return element.drawn_rotation.conjugate() *
+             ((element.drawn_position - model.drawn_start(e)) / element.length) -
+         Vec3::UnitZ();
 }
 
-// The supports' reactions (6 each) that make the elastic energy of the drawn shape least.
-Eigen::VectorXd reactions(const RodModel& model, const Loads& gravity_loads) {
-  const int n = 6 * static_cast<int>(model.supports.size());
-  std::vector<Loads> unit;
-  for (int i = 0; i < n; ++i) {
-    const Support& support = model.supports[i / 6];
-    const Element& element = model.elements[support.element];
-    Loads outer(model.elements.size(), Vec6::Zero());
-    Vec6 load = Vec6::Unit(i % 6);
-    const Vec3 arm = -support.back * (element.drawn_rotation * Vec3::UnitZ());
-    load.tail<3>() += arm.cross(Vec3(load.head<3>()));
-    outer[support.element] = load;
-    unit.push_back(carried(model, outer));
-  }
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+// Displacement and rotation (W) of every element under `outer`, were the drawn shape unloaded: the
+// linear solution, the one of least elastic energy. Nothing where a part of the plant is not held.
+std::optional<Loads> displacements(const RodModel& model, const Loads& outer) {
+  RodModel unloaded = model;
   for (int e = 0; e < model.size(); ++e) {
-    const Vec6 c = compliance(model.elements[e]);
-    Eigen::Matrix<double, 6, Eigen::Dynamic> a(6, n);
-    for (int i = 0; i < n; ++i) a.col(i) = in_element(model.elements[e], unit[i][e]);
-    normal += a.transpose() * c.asDiagonal() * a;
-    right -= a.transpose() * c.asDiagonal() * in_element(model.elements[e], gravity_loads[e]);
+    Element& element = unloaded.elements[e];
+    element.rest_strain = drawn_strain(model, e);
+    element.rest_rotation = rotation_before(model, e).conjugate() * element.drawn_rotation;
   }
-  // A free joint (no rotational spring) takes no moment.
-  for (int i = 0; i < n; ++i) {
-    if (i % 6 < 3 || model.supports[i / 6].rotation_stiffness.maxCoeff() > 0.0) continue;
-    normal.row(i).setZero();
-    normal.col(i).setZero();
-    normal(i, i) = 1.0;
-    right[i] = 0.0;
-  }
-  return normal.ldlt().solve(right);
+  BlockSystem system(unloaded);
+  add_exact_hessian(unloaded, drawn_state(unloaded), Vec3::Zero(), {}, system);
+  for (int e = 0; e < model.size(); ++e) system.right_side(e) = outer[e];
+  if (!system.solve()) return std::nullopt;
+  Loads moved;
+  for (int e = 0; e < model.size(); ++e) moved.push_back(system.solution(e));
+  return moved;
 }
 
 // The moment (E) that a joint bent by phi carries.
@@ -120,61 +104,148 @@ std::optional<Vec3> bend_under(const Vec3& stiffness, const Vec3& moment) {
   return phi;
 }
 
-void preload(RodModel& model, const Eigen::VectorXd& reaction) {
-  for (std::size_t s = 0; s < model.supports.size(); ++s) {
-    Support& support = model.supports[s];
-    const Element& element = model.elements[support.element];
-    support.position = element.drawn_position -
-                       support.back * (element.drawn_rotation * Vec3::UnitZ()) +
-                       reaction.segment<3>(6 * s) / support.position_stiffness;
-    support.rotation = element.drawn_rotation;
-    if (support.rotation_stiffness.minCoeff() <= 0.0) continue;
-    const Vec3 moment = element.drawn_rotation.conjugate() * Vec3(reaction.segment<3>(6 * s + 3));
-    support.rotation =
-        element.drawn_rotation *
-        exp_map(-bend_under(support.rotation_stiffness, -moment).value_or(Vec3::Zero()));
+// The unloaded rotation from `before` to `rotation` of a joint that carries a moment (W) between
+// them.
+std::optional<Quat> rest_rotation(const Quat& before, const Quat& rotation, const Vec3& stiffness,
+                                  const Vec3& moment) {
+  const std::optional<Vec3> phi = bend_under(stiffness, rotation.conjugate() * moment);
+  if (!phi) return std::nullopt;
+  return (before.conjugate() * rotation * exp_map(-*phi)).normalized();
+}
+
+// The moment (W) with which a rotational spring in the axes of `rotation` opposes a small turn (W);
+// a spring that is free about an axis is left unloaded.
+Vec3 moment_under(const Vec3& stiffness, const Quat& rotation, const Vec3& turn) {
+  if (stiffness.minCoeff() <= 0.0) return Vec3::Zero();
+  return rotation * stiffness.cwiseProduct(rotation.conjugate() * turn);
+}
+
+Vec3 held_point_arm(const RodModel& model, const Support& support) {
+  return -support.back * (model.elements[support.element].drawn_rotation * Vec3::UnitZ());
+}
+
+// Loads a support as in the linear solution, and adds its reaction to the outer loads.
+bool load_support(const RodModel& model, const Loads& moved, Support& support, Loads& outer) {
+  const Element& element = model.elements[support.element];
+  const Vec3 arm = held_point_arm(model, support);
+  const Vec6& own = moved[support.element];
+  const Vec3 turn = own.tail<3>();
+  const Vec3 shift = own.head<3>() + turn.cross(arm);
+  const Vec3 force = -support.position_stiffness * shift;
+  const Vec3 moment = moment_under(support.rotation_stiffness, element.drawn_rotation, turn);
+  support.position = element.drawn_position + arm - shift;
+  support.rotation = element.drawn_rotation;
+  outer[support.element].head<3>() += force;
+  outer[support.element].tail<3>() += arm.cross(force) - moment;
+  if (moment.isZero(0.0)) return true;
+  const auto rest =
+      rest_rotation(Quat::Identity(), element.drawn_rotation, support.rotation_stiffness, moment);
+  support.rotation = rest.value_or(element.drawn_rotation);
+  return rest.has_value();
+}
+
+// Elements whose nodes are welded together, each by the first of them; the others by themselves.
+std::vector<int> first_of_welded(const RodModel& model) {
+  std::vector<int> first(model.elements.size());
+  std::iota(first.begin(), first.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Weld& weld : model.welds) {
+      const int lowest = std::min(first[weld.a], first[weld.b]);
+      changed |= first[weld.a] != lowest || first[weld.b] != lowest;
+      first[weld.a] = first[weld.b] = lowest;
+    }
   }
+  return first;
+}
+
+// A weld is drawn closed, and carries its force through a gap of force / stiffness: the nodes that
+// are welded to another one are moved by that.
+void open_welds(RodModel& model, const Loads& moved) {
+  const std::vector<int> first = first_of_welded(model);
+  for (int e = 0; e < model.size(); ++e)
+    if (first[e] != e)
+      model.elements[e].drawn_position =
+          model.elements[first[e]].drawn_position + (moved[e] - moved[first[e]]).head<3>();
+}
+
+// Loads a weld that was opened as in the linear solution, and adds what it does to the outer loads.
+bool load_weld(const RodModel& model, const Loads& moved, Weld& weld, Loads& outer) {
+  const Element &a = model.elements[weld.a], &b = model.elements[weld.b];
+  const Vec3 force = weld.position_stiffness * (b.drawn_position - a.drawn_position);
+  const Vec3 moment = moment_under(weld.bend_stiffness, b.drawn_rotation,
+                                   (moved[weld.b] - moved[weld.a]).tail<3>());
+  weld.rest_rotation = (a.drawn_rotation.conjugate() * b.drawn_rotation).normalized();
+  Vec6 pull;
+  pull << force, moment;
+  outer[weld.a] += pull;
+  outer[weld.b] -= pull;
+  if (moment.isZero(0.0)) return true;
+  const auto rest = rest_rotation(a.drawn_rotation, b.drawn_rotation, weld.bend_stiffness, moment);
+  weld.rest_rotation = rest.value_or(weld.rest_rotation);
+  return rest.has_value();
+}
+
+// Loads supports and welds, adding what they do to the outer loads. Comes back with the element of
+// one that cannot be loaded; -1: none.
+int load_redundants(RodModel& model, Loads& outer) {
+  if (model.supports.empty() && model.welds.empty()) return -1;
+  const std::optional<Loads> moved = displacements(model, outer);
+  if (!moved) return 0;  // so soft somewhere that rounding leaves nothing of it
+  open_welds(model, *moved);
+  for (Support& support : model.supports)
+    if (!load_support(model, *moved, support, outer)) return support.element;
+  for (Weld& weld : model.welds)
+    if (!load_weld(model, *moved, weld, outer)) return weld.b;
+  return -1;
 }
 
 }  // namespace
 
 Standing stand_as_drawn(RodModel& model, const Vec3& gravity) {
-  Loads outer = weights(model, gravity);
-  if (!model.supports.empty()) {
-    const Eigen::VectorXd reaction = reactions(model, carried(model, outer));
-    for (std::size_t s = 0; s < model.supports.size(); ++s) {
-      const Support& support = model.supports[s];
-      const Element& element = model.elements[support.element];
-      const Vec3 force = reaction.segment<3>(6 * s);
-      const Vec3 arm = -support.back * (element.drawn_rotation * Vec3::UnitZ());
-      outer[support.element].head<3>() += force;
-      outer[support.element].tail<3>() += arm.cross(force) + reaction.segment<3>(6 * s + 3);
-    }
-    preload(model, reaction);
-  }
-  const Loads loads = carried(model, outer);
   Standing standing;
+  Loads outer = weights(model, gravity);
+  standing.element = load_redundants(model, outer);
+  standing.solvable = standing.element < 0;
+  if (!standing.solvable) return standing;
+  const Loads loads = carried(model, outer);
   for (int e = 0; e < model.size(); ++e) {
     Element& element = model.elements[e];
-    const Vec6 load = in_element(element, loads[e]);
-    const std::optional<Vec3> bent = bend_under(element.bend_stiffness, load.tail<3>());
-    if (!bent) {
+    const Quat& before = rotation_before(model, e);
+    const auto rest =
+        rest_rotation(before, element.drawn_rotation, element.bend_stiffness, loads[e].tail<3>());
+    if (!rest) {
       standing.solvable = false;
       standing.element = e;
       return standing;
     }
-    const Vec3& phi = *bent;
-    if (phi.norm() > standing.largest_rest_bend) {
-      standing.largest_rest_bend = phi.norm();
-      standing.element = e;
-    }
-    const Quat before =
-        element.parent < 0 ? model.root.rotation : model.elements[element.parent].drawn_rotation;
-    element.rest_rotation =
-        (before.conjugate() * element.drawn_rotation * exp_map(-phi)).normalized();
-    element.rest_strain = -load.head<3>().cwiseQuotient(element.stretch_stiffness);
+    element.rest_rotation = *rest;
+    element.rest_strain =
+        drawn_strain(model, e) - (element.drawn_rotation.conjugate() * Vec3(loads[e].head<3>()))
+                                     .cwiseQuotient(element.stretch_stiffness);
+    const double bend =
+        log_map(rest->conjugate() * (before.conjugate() * element.drawn_rotation)).norm();
+    if (bend <= standing.largest_rest_bend) continue;
+    standing.largest_rest_bend = bend;
+    standing.element = e;
   }
   return standing;
+}
+
+Residual settled_from(const RodModel& drawn, const RodModel& standing, const Vec3& gravity) {
+  RodState state = drawn_state(standing);
+  Residual residual;
+  residual.settled = settle(standing, state, gravity).errors == 0;
+  double squares = 0.0;
+  for (int e = 0; e < drawn.size(); ++e) {
+    const double moved = (state.position[e] - drawn.elements[e].drawn_position).norm();
+    squares += moved * moved;
+    if (moved <= residual.largest) continue;
+    residual.largest = moved;
+    residual.element = e;
+  }
+  residual.rms = std::sqrt(squares / drawn.size());
+  return residual;
 }
 
 }  // namespace pedicel::cosserat

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cosserat/rotation.h"
-#include "cosserat/standing.h"
+#include "io/csv.h"
 #include "plant/apply_effects.h"
 
 namespace pedicel::plant {
@@ -190,6 +190,7 @@ class Builder {
   void stand() {
     if (plant_.shape == Shape::rest) return;
     cosserat::RodModel& model = built_.model;
+    const cosserat::RodModel drawn = model;
     const cosserat::Standing standing = cosserat::stand_as_drawn(model, options_.gravity);
     if (!standing.solvable) {
       diagnostics_.error(
@@ -205,6 +206,7 @@ class Builder {
           "plant \"" + plant_.name +
               "\" stands as drawn but is unstable: it is beyond its buckling load and "
               "falls over at a touch");
+    built_.residual = cosserat::settled_from(drawn, model, options_.gravity);
   }
 
   PlacedPoint locate(const CurvePlace& place) const {
@@ -235,6 +237,19 @@ PlacedPoint BuiltPlant::locate(int curve, double at) const {
     best = {span.element, (1.0 - t) * span.length};
   }
   return best;
+}
+
+std::string residual_text(const BuiltPlant& plant) {
+  if (!plant.residual) return {};
+  const auto millimetres = [](double metres) {
+    return io::format_number(1.0e3 * metres, 2) + " mm";
+  };
+  const cosserat::RodModel& model = plant.model;
+  const int e = plant.residual->element;
+  return std::string(plant.residual->settled ? "settles " : "does not settle: it is at least ") +
+         millimetres(plant.residual->largest) + " from its drawing" +
+         (e < 0 ? "" : " at " + model.organs[model.elements[e].organ]) + ", " +
+         millimetres(plant.residual->rms) + " rms";
 }
 
 std::optional<BuiltPlant> build_plant(const PlantFile& plant, const BuildOptions& options,

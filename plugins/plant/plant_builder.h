@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cosserat/rod_model.h"
+#include "cosserat/standing.h"
 #include "plant/leaf_template.h"
 #include "plant/placed_point.h"
 #include "plant/plant_file.h"
@@ -19,9 +20,10 @@ struct BuiltPlant {
   std::vector<BladeTriangle> blades;  ///< leaves, for drawing
   int nodes_sampled = 0;              ///< before simplification
   int nodes_kept = 0;
-  double length_drawn = 0.0;       ///< m, of all curves
-  double length_kept = 0.0;        ///< m, of the stems' elements
-  std::vector<std::string> notes;  ///< what a user should know, one sentence each
+  double length_drawn = 0.0;  ///< m, of all curves
+  double length_kept = 0.0;   ///< m, of the stems' elements
+  /// How far it settles from the drawn shape, where that is how it hangs (without effects).
+  std::optional<cosserat::Residual> residual;
 
   /// Where a fraction `at` of a curve's drawn arc length lies, by the curve's index in the file.
   PlacedPoint locate(int curve, double at) const;
@@ -41,6 +43,10 @@ struct BuildOptions {
   Vec3 gravity = Vec3(0, 0, -9.81);                 ///< m/s2
   std::vector<std::filesystem::path> leaf_folders;  ///< where NAME.leaf.yaml is looked for
 };
+
+/// "settles 0.002 mm from its drawing at tomato/leaf_1, 0.0005 mm rms"; empty where it has no
+/// residual.
+std::string residual_text(const BuiltPlant& plant);
 
 /// Curves to rods: samples, joins, simplifies, adds an element a kept node with the section of its
 /// curve at its middle, then masses, fruits, leaves, supports and effects; where `shape: drawn`,

@@ -21,6 +21,7 @@ TEST_P(ShippedScene, MeetsItsOwnCriteria) {
   options.out = std::filesystem::path(::testing::TempDir()) / "pedicel_scenes" / scene->name;
   options.pictures = false;
   options.video = false;
+  options.comparison = false;  // tests/unit/app/solver_comparison_test.cpp
   options.quiet = true;
   const app::RunResult result = app::run_with_sweep(*scene, options);
   EXPECT_EQ(result.exit_code, 0) << result.error;

@@ -32,7 +32,13 @@ TEST_P(ShippedPlant, BuildsAndStandsAsDrawn) {
   const auto built = build_plant(*plant, options, diagnostics);
   ASSERT_TRUE(built) << diagnostics.text();
   EXPECT_EQ(diagnostics.text(), "");  // no warning either: stable
+  ASSERT_EQ(built->residual.has_value(), plant->shape == Shape::drawn);
   if (plant->shape == Shape::rest) return;
+  // Welds open by force / stiffness: no leaf weighs more than 0.1 N, and an edge gives way a
+  // thousand times more than its weld, which leaves far less than a micrometre.
+  EXPECT_TRUE(built->residual->settled);
+  EXPECT_LT(built->residual->largest, 1.0e-6);
+  EXPECT_LE(built->residual->rms, built->residual->largest);
 
   cosserat::DirectSolver solver({}, built->model);
   cosserat::RodState state = cosserat::drawn_state(built->model);

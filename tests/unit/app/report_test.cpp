@@ -118,6 +118,9 @@ TEST_F(ReportTest, IsOnePageWithEverythingInside) {
   summary.plots = log_plots(truss_log(), {}, {});
   summary.sweep = {{"C_s^max", "time (s)"}, {{"0.05", "0.8"}, {"0.1", "1.2"}}};
   summary.sweep_plot = sweep_plot("C_s^max (1)", {0.05, 0.1}, "time to detach (s)", {0.8, 1.2});
+  summary.solvers = {{"distance (m)", "direct", "position-based"}, {{"0.02", "0.0175", "0.335"}}};
+  summary.solver_speeds = {{"solver", "error"}, {{"direct", "0.0004"}}};
+  summary.solver_note = "Error: from what the direct solver finds.";
   summary.numbers = {{"real-time factor", "3.1"}};
   const std::string page = written(summary);
   EXPECT_THAT(page, HasSubstr("<h1>cherry &lt;tomato&gt;</h1>"));
@@ -127,6 +130,9 @@ TEST_F(ReportTest, IsOnePageWithEverythingInside) {
   EXPECT_THAT(page, HasSubstr("src=\"run.mp4\""));
   EXPECT_THAT(page, HasSubstr("truss/fruit_3"));
   EXPECT_THAT(page, HasSubstr("time to detach (s) over C_s^max (1)"));
+  EXPECT_THAT(page, HasSubstr("<h2>The direct and the position-based solver</h2>"));
+  EXPECT_THAT(page, HasSubstr("<h2>Their speed at equal error</h2>"));
+  EXPECT_THAT(page, HasSubstr("Error: from what the direct solver finds."));
   EXPECT_THAT(page, HasSubstr("real-time factor"));
   EXPECT_THAT(page, Not(HasSubstr("<h2>Settings</h2>")));  // nothing was given
   EXPECT_THAT(page, Not(HasSubstr("src=\"http")));         // nothing from a network

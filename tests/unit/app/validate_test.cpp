@@ -12,6 +12,7 @@
 namespace pedicel::app {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 class Validate : public ::testing::Test {
@@ -49,6 +50,16 @@ TEST_F(Validate, OneBadFileIsEnough) {
   EXPECT_EQ(validate({bad, good}), 3);
   EXPECT_THAT(text_, HasSubstr("bad.plant.yaml:1:1: error: missing key"));
   EXPECT_THAT(text_, HasSubstr("cherry_tomato.plant.yaml: plant, good"));
+}
+
+// Whatever builds a plant says how far it settles from its drawing.
+TEST_F(Validate, SaysHowAPlantStands) {
+  const std::string folder = PEDICEL_SOURCE_DIR;
+  EXPECT_EQ(validate({folder + "/plants/cherry_tomato.plant.yaml"}), 0);
+  EXPECT_THAT(text_, ContainsRegex("plant, good; settles [0-9.e-]+ mm from its drawing at "
+                                   "cherry tomato/[a-z0-9_]+, [0-9.e-]+ mm rms\n"));
+  EXPECT_EQ(validate({folder + "/plants/young_plant.plant.yaml"}), 0);  // shape: rest
+  EXPECT_THAT(text_, HasSubstr("plant, good\n"));
 }
 
 TEST_F(Validate, SaysWhatItKnowsWhereTheKindIsUnknown) {

@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "cosserat/rod_state.h"
 #include "geometry/shapes.h"
-#include "unit/coupling/allocation_counter.h"
+#include "support/allocation_counter.h"
 #include "unit/coupling/plants.h"
 
 namespace pedicel::coupling {

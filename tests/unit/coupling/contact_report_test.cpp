@@ -5,7 +5,7 @@
 #include "core/random.h"
 #include "cosserat/self_contact.h"
 #include "geometry/shapes.h"
-#include "unit/coupling/allocation_counter.h"
+#include "support/allocation_counter.h"
 #include "unit/coupling/plants.h"
 
 namespace pedicel::coupling {

@@ -9,7 +9,7 @@
 #include "coupling/collider_source.h"
 #include "coupling/contact_report.h"
 #include "geometry/shapes.h"
-#include "unit/coupling/allocation_counter.h"
+#include "support/allocation_counter.h"
 #include "unit/coupling/plants.h"
 
 namespace pedicel::coupling {

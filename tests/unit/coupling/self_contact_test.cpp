@@ -9,7 +9,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
-#include "unit/coupling/allocation_counter.h"
+#include "support/allocation_counter.h"
 
 namespace pedicel::cosserat {
 namespace {

@@ -262,7 +262,7 @@ double largest_distance(const RodModel& model, const RodState& state) {
   return largest;
 }
 
-// The welds are unloaded in the drawn shape, so that the tree's own statics hold it exactly.
+// The welds carry their share of the leaf's weight, and the tree's own statics balance it exactly.
 TEST_P(ShippedLeaf, StandsAsDrawnForASecond) {
   Grown plant = grown(GetParam());
   const cosserat::Standing standing = cosserat::stand_as_drawn(plant.model, gravity);
