@@ -87,6 +87,22 @@ void self_contact_find(benchmark::State& state) {
 }
 BENCHMARK(self_contact_find)->Unit(benchmark::kMicrosecond);
 
+/// The same from scratch: exclusions, broad and narrow phase.
+void self_contact_build(benchmark::State& state) {
+  const cosserat::RodModel model = plant::hanging_tree();
+  const cosserat::RodState drawn = cosserat::drawn_state(model);
+  std::vector<cosserat::ContactPoint> found;
+  for (auto _ : state) {
+    found.clear();
+    cosserat::SelfContact contact(model, {});
+    contact.begin_step(model, drawn, dt);
+    contact.find(model, drawn, dt, found);
+    benchmark::DoNotOptimize(found.data());
+  }
+  per_item(state, model.size(), "per_element");
+}
+BENCHMARK(self_contact_build)->Unit(benchmark::kMicrosecond);
+
 /// Distances and gradients at points around a capsule of 5 cm and 20 cm, most of them near it.
 void query(benchmark::State& state, const geometry::SignedDistance& solid) {
   Random random(1);
