@@ -54,7 +54,8 @@ def cells(figures):
 def notes(rows, machine):
     lines = [
         f"Real-time factor = simulated s / wall s, median of {machine['rounds']} interleaved runs. "
-        f"{machine['cpu']}, {machine['cores']} cores; {machine['versions']}.",
+        f"{machine['cpu']}, {machine['cores']} cores, load average at the start {machine['load']} "
+        f"(above 0.5: other programs took part of the machine); {machine['versions']}.",
         "Work: forest, 38 plants of 59 elements; tree, one plant of 2,242 elements, 92 deep; "
         "cantilever, 0.4 m, against the heavy elastica's tip drop (0.227248 m) and 1.10599 Hz; "
         "droop: mean over the forest's 228 ends, -4.62 mm (-4.65 mm where rods also stretch, as "
