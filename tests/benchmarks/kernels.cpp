@@ -28,8 +28,8 @@ void per_item(benchmark::State& state, double items, const char* name) {
       items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// A row of forest plants (59 elements each) under gravity; one Newton iteration a step, so that the
-/// work does not lessen while the plants settle.
+/// A row of forest plants (59 elements each) under gravity; one Newton iteration a step, so that
+/// the work does not lessen while the plants settle.
 void direct_step(benchmark::State& state) {
   cosserat::RodSettings settings;
   settings.newton_iterations = 1;
