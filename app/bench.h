@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,32 +11,48 @@ namespace pedicel::app {
 
 /// What `pedicel bench` is asked to do.
 struct BenchOptions {
-  std::string name = "rods_2242";
+  std::string name = "rods_2242";  ///< one of bench_names()
   int threads = 1;
-  double dt = 1.0 / 240.0;  ///< s
-  double duration = 2.0;    ///< s, simulated, after the warm-up
+  double dt = 1.0 / 240.0;    ///< s
+  double duration = 2.0;      ///< s, simulated, after the warm-up
+  bool self_contact = false;  ///< organs of one plant may touch each other
+  bool accuracy = true;       ///< measure BenchAccuracy, too (some seconds)
   cosserat::RodSettings rods;
 };
 
-/// Speed and, at the same settings, accuracy: a real-time factor means nothing without its errors.
+/// What the settings of a speed are worth.
+struct BenchAccuracy {
+  /// 1, relative, of the heavy cantilever's tip drop, with 20 and 40 elements.
+  double cantilever_error = 0.0, cantilever_error_40 = 0.0;
+  /// 1, relative, of its first frequency without gravity, 20 elements, and its numerical damping
+  /// ratio. Nothing where it does not oscillate.
+  std::optional<double> frequency_error, damping_ratio;
+  double forest_droop = 0.0;  ///< m, mean over the forest's 228 ends, settled; -4.62 mm is right
+};
+
+/// Speed, memory and, at the same settings, accuracy: a real-time factor means nothing without its
+/// errors.
 struct BenchResult {
   int rods = 0;  ///< elements
   int threads = 0;
   double dt = 0.0;                ///< s
   double real_time_factor = 0.0;  ///< simulated s / wall s
   double ms_per_step_p50 = 0.0, ms_per_step_p95 = 0.0;
-  double cantilever_error = 0.0;  ///< 1, relative, of the heavy cantilever's tip drop, 20 elements
-  double frequency_error = 0.0;   ///< 1, relative, of its first frequency without gravity
-  std::uint64_t state_hash = 0;   ///< of the final state
+  double ns_per_element_step = 0.0;  ///< wall time
+  double bytes_per_element = 0.0;    ///< growth of the resident memory: plants, solvers, warm
+  double peak_megabytes = 0.0;       ///< MiB, of the whole process
+  std::optional<BenchAccuracy> accuracy;
+  std::uint64_t state_hash = 0;  ///< of the final state
 };
 
-/// The names that run_bench() knows.
+/// The names that run_bench() knows: the forest and the tree of plant/reference_plants.h, and rows
+/// of forest plants of about 1,000, 10,000 and 100,000 elements.
 const std::vector<std::string>& bench_names();
 
 /// Runs a benchmark. Throws UsageError for a name that it does not know, with the ones it does.
 BenchResult run_bench(const BenchOptions& options);
 
-/// The keys of BenchResult as JSON, one object.
+/// The keys of BenchResult and BenchAccuracy as JSON, one object; null: not measured, or no number.
 std::string to_json(const BenchResult& result);
 
 /// The same for people.

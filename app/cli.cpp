@@ -7,6 +7,7 @@
 
 #include "app/bench.h"
 #include "app/headless.h"
+#include "app/rod_options.h"
 #include "app/validate.h"
 #include "app/version.h"
 #include "core/check.h"
@@ -159,7 +160,17 @@ int sweep_verb(RunArguments a) {
   return result.exit_code;
 }
 
-int bench_verb(const BenchOptions& options, bool json) {
+int bench_verb(BenchOptions options, const std::vector<std::string>& set, bool json) {
+  std::vector<world::Setting> rods;
+  for (const std::string& assignment : set) {
+    const auto [key, value] = world::split_assignment(assignment);
+    if (!key.starts_with("rods."))
+      throw UsageError("--set " + assignment + ": expected rods.KEY=VALUE");
+    rods.push_back({key.substr(5), value, {"--set " + assignment}});
+  }
+  Diagnostics diagnostics;
+  apply_rod_settings(rods, options.rods, diagnostics);
+  if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
   const BenchResult result = run_bench(options);
   std::cout << (json ? to_json(result) : to_text(result)) << std::endl;
   return ok;
@@ -215,15 +226,20 @@ int run_cli(int argc, char** argv) {
   bool json = false;
   CLI::App* bench =
       app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
-  bench->add_option("name", bench_options.name, "rods_2242 or tree_2242");
+  std::string bench_list;
+  for (const std::string& name : bench_names())
+    bench_list += (bench_list.empty() ? "" : ", ") + name;
+  bench->add_option("name", bench_options.name, "one of " + bench_list);
   bench->add_option("--threads", bench_options.threads, "threads");
   bench->add_option("--dt", bench_options.dt, "time step, s")->check(CLI::Range(1e-6, 0.1));
   bench->add_option("--duration", bench_options.duration, "simulated time, s")
       ->check(CLI::Range(1e-3, 1e4));
-  bench
-      ->add_option("--newton-iterations", bench_options.rods.newton_iterations,
-                   "most Newton iterations a step")
-      ->check(CLI::Range(1, 1000));
+  std::vector<std::string> bench_set;
+  bench->add_option("--set", bench_set, "rods.KEY=VALUE as in a scene; may be repeated")
+      ->allow_extra_args(false);
+  bench->add_flag("--self-contact", bench_options.self_contact,
+                  "organs of one plant may touch each other");
+  bench->add_flag("!--no-accuracy", bench_options.accuracy, "measure the speed only");
   bench->add_flag("--json", json, "as JSON");
   app.require_subcommand(0, 1);
 
@@ -234,7 +250,7 @@ int run_cli(int argc, char** argv) {
   }
   if (*sweep) return guarded([&] { return sweep_verb(swept); });
   if (*validate) return guarded([&] { return validate_files(files, packages, std::cerr); });
-  if (*bench) return guarded([&] { return bench_verb(bench_options, json); });
+  if (*bench) return guarded([&] { return bench_verb(bench_options, bench_set, json); });
   return guarded([&] { return run_verb(run); });
 }
 

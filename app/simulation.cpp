@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/colliders.h"
+#include "app/rod_options.h"
 #include "app/scene_plants.h"
 #include "cosserat/self_contact.h"
 #include "coupling/collider_source.h"
@@ -52,17 +53,10 @@ Simulation::Simulation(const world::Scene& scene, const SimulationOptions& optio
 Simulation::~Simulation() = default;
 
 void Simulation::read_settings(Diagnostics& diagnostics) {
-  int solver = static_cast<int>(rod_settings_.solver);
-  int integrator = static_cast<int>(rod_settings_.integrator);
   int coupling = coupling_settings_.two_way ? 1 : 0;
-  world::apply_settings(scene_.rods, "rods", cosserat::parameters_of(rod_settings_),
-                        {{"solver", {"direct", "position_based"}, &solver},
-                         {"integrator", {"backward_euler", "bdf2"}, &integrator}},
-                        diagnostics);
+  apply_rod_settings(scene_.rods, rod_settings_, diagnostics);
   world::apply_settings(scene_.coupling, "coupling", coupling::parameters_of(coupling_settings_),
                         {{"direction", {"one_way", "two_way"}, &coupling}}, diagnostics);
-  rod_settings_.solver = static_cast<cosserat::SolverKind>(solver);
-  rod_settings_.integrator = static_cast<cosserat::Integrator>(integrator);
   coupling_settings_.two_way = coupling_settings_.two_way || coupling == 1;
 }
 

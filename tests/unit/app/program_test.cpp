@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "cosserat/rod_model.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 
@@ -101,6 +102,20 @@ TEST_F(Program, UsageErrorsEndWith2) {
   EXPECT_THAT(err_, HasSubstr("must be a number between"));
   EXPECT_EQ(run_scene("--size big"), 2);
   EXPECT_EQ(run("bench nothing"), 2);
+  EXPECT_THAT(err_, HasSubstr("expected one of rods_2242, tree_2242, row_1k"));
+  EXPECT_EQ(run("bench --set dt=1"), 2);
+  EXPECT_THAT(err_, HasSubstr("expected rods.KEY=VALUE"));
+  EXPECT_EQ(run("bench --set rods.iterations=0"), 2);
+  EXPECT_THAT(err_, HasSubstr("rods.iterations = 0: must be between"));
+}
+
+TEST_F(Program, BenchSaysSpeedAndMemory) {
+  ASSERT_EQ(run("bench row_1k --duration 0.01 --no-accuracy --self-contact --json"), 0) << err_;
+  const auto json = nlohmann::json::parse(out_);
+  EXPECT_EQ(json.at("rods"), 17 * 59);
+  EXPECT_GT(json.at("real_time_factor"), 0.0);
+  EXPECT_GT(json.at("bytes_per_element"), sizeof(cosserat::Element));
+  EXPECT_TRUE(json.at("cantilever_error").is_null());
 }
 
 TEST_F(Program, BadFilesEndWith3AndSayWhere) {

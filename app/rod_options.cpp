@@ -1,0 +1,19 @@
+#include "app/rod_options.h"
+
+#include "world/settings.h"
+
+namespace pedicel::app {
+
+void apply_rod_settings(const std::vector<world::Setting>& settings, cosserat::RodSettings& rods,
+                        Diagnostics& diagnostics) {
+  int solver = static_cast<int>(rods.solver);
+  int integrator = static_cast<int>(rods.integrator);
+  world::apply_settings(settings, "rods", cosserat::parameters_of(rods),
+                        {{"solver", {"direct", "position_based"}, &solver},
+                         {"integrator", {"backward_euler", "bdf2"}, &integrator}},
+                        diagnostics);
+  rods.solver = static_cast<cosserat::SolverKind>(solver);
+  rods.integrator = static_cast<cosserat::Integrator>(integrator);
+}
+
+}  // namespace pedicel::app

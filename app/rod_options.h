@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "cosserat/rod_solver.h"
+#include "world/scene.h"
+
+namespace pedicel::app {
+
+/// Applies what a scene's section `rods`, or `--set rods.KEY=VALUE`, says: the parameters of
+/// RodSettings and the words `solver` and `integrator`. Faults go to `diagnostics`.
+void apply_rod_settings(const std::vector<world::Setting>& settings, cosserat::RodSettings& rods,
+                        Diagnostics& diagnostics);
+
+}  // namespace pedicel::app
