@@ -5,9 +5,12 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cosserat/lane_kernels.cpp"
-#include "cosserat/lane_math-inl.h"
+// clang-format off: foreach_target.h includes this file again and must come first.
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+// clang-format on
+
+#include "cosserat/lane_math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
