@@ -40,10 +40,12 @@ StepReport DirectSolver::step(const RodModel& model, RodState& state, const Step
   const bool first_order =
       settings_.integrator == Integrator::backward_euler || state.previous_dt != input.dt;
   start_ = state;
+  start_.root = state.previous_root;  // strains of the start are against the clamp of the start
   for (ContactSource* source : input.contacts) source->begin_step(model, start_, input.dt);
   assembly_.prepare(model, start_, input, first_order);
   guess(model, state, first_order);
   if (!newton(model, state, input, report) || !is_finite(state)) {
+    start_.root = state.root;
     state = start_;
     state.previous_dt = 0.0;
     report.errors |= not_finite;
@@ -132,6 +134,7 @@ void DirectSolver::remember(const RodModel& model, RodState& state) const {
   state.previous_orientation = start_.orientation;
   state.previous_velocity = start_.velocity;
   state.previous_angular_velocity = start_.angular_velocity;
+  state.previous_root = state.root;
   for (int e = 0; e < model.size(); ++e) {
     if (model.elements[e].damping_time == 0.0) continue;
     const Strain strain = strain_of(model, start_, e);

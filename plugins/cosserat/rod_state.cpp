@@ -41,7 +41,7 @@ RodState drawn_state(const RodModel& model) {
   state.angular_velocity.assign(n, Vec3::Zero());
   state.alive.assign(n, 1);
   state.fruit_gone.assign(model.fruits.size(), false);
-  state.root = model.root;
+  state.root = state.previous_root = model.root;
   state.previous_position = state.position;
   state.previous_orientation = state.orientation;
   state.previous_velocity = state.velocity;

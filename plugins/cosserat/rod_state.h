@@ -17,7 +17,8 @@ struct RodState {
   Pose root;                           ///< X_W of the clamp, now
   double time = 0.0;                   ///< s
 
-  // The step before, for second order in time.
+  // The step before, for second order in time and for damping.
+  Pose previous_root;  ///< X_W of the clamp at its end: what `root` moved by since is its motion
   std::vector<Vec3> previous_position;
   std::vector<Quat> previous_orientation;
   std::vector<Vec3> previous_velocity;

@@ -39,6 +39,7 @@ const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
 void RodSystem::set_state(int plant, const RodState& state) {
   plants_[plant].state = state;
   plants_[plant].state.previous_dt = 0.0;
+  plants_[plant].state.previous_root = state.root;
   plants_[plant].solver->reset();
 }
 
