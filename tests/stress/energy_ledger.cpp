@@ -18,10 +18,6 @@ namespace {
 // J: below this, rounding is all there is.
 constexpr double rounding = 1.0e-12;
 
-double work_of(const Vec3& force, const Vec3& displacement, bool is_converged) {
-  return is_converged ? force.dot(displacement) : force.norm() * displacement.norm();
-}
-
 Vec3 turn_between(const Quat& before, const Quat& after) {
   return cosserat::log_map(after * before.conjugate());
 }
@@ -38,8 +34,9 @@ double spring_energy(const ContactForce& contact) {
 
 double collider_work(const ContactForce& contact, bool is_converged) {
   if (cosserat::is_self_contact(contact.point.collider)) return 0.0;
-  const Vec3 force = contact.normal * contact.point.normal_W + contact.tangential_W;
-  return work_of(force, contact.point.surface_motion_W, is_converged);
+  const Vec3& moved = contact.point.surface_motion_W;
+  if (!is_converged) return contact.tangential_W.norm() * moved.norm();
+  return (contact.normal * contact.point.normal_W + contact.tangential_W).dot(moved);
 }
 
 double load_work(const cosserat::Load& load, const BookedStep& step) {
@@ -68,13 +65,12 @@ double taken(const RodModel& model, const RodState& after, const Vec3& gravity,
 
 }  // namespace
 
-EnergyLedger::EnergyLedger(const RodModel& model, const RodState& start, const Vec3& gravity)
-    : gravity_(gravity) {
-  for (int e = 0; e < model.size(); ++e) {
-    if (model.elements[e].parent >= 0) continue;
-    roots_.push_back(e);
-    root_strain_.push_back(cosserat::strain_of(model, start, e));
-  }
+EnergyLedger::EnergyLedger(const RodModel& model, const RodState& start, const Vec3& gravity,
+                           cosserat::Integrator integrator)
+    : gravity_(gravity), is_second_order_(integrator == cosserat::Integrator::bdf2) {
+  for (int e = 0; e < model.size(); ++e)
+    if (model.elements[e].parent < 0)
+      roots_.push_back({e, cosserat::strain_of(model, start, e), {}});
   const cosserat::Energy energy = cosserat::energy_of(model, start, gravity);
   work_ = energy.total();
   found_ = put_in_ = largest_ = energy.kinetic + energy.elastic;
@@ -84,32 +80,57 @@ double EnergyLedger::slack() const {
   return std::max(largest_, 0.0) + rounding;
 }
 
+// The scheme's own rate at the end of a step.
+Vec3 EnergyLedger::rate(const Vec3& change, const Vec3& change_before, double dt) const {
+  if (!is_second_order_ || !has_history_) return change / dt;
+  return (1.5 * change - 0.5 * change_before) / dt;
+}
+
 // The clamp feels force and moment of the segments that start there, with their damping.
-double EnergyLedger::root_work(const RodModel& model, const BookedStep& step) {
+double EnergyLedger::clamp_work(const RodModel& model, const BookedStep& step) {
   const Vec3 shift = step.after.root.position - step.before.root.position;
   const Vec3 turn = turn_between(step.before.root.rotation, step.after.root.rotation);
   double work = 0.0;
-  for (std::size_t i = 0; i < roots_.size(); ++i) {
-    const int e = roots_[i];
-    const Element& element = model.elements[e];
-    const Strain before = root_strain_[i], now = cosserat::strain_of(model, step.after, e);
-    root_strain_[i] = now;
-    if (!step.before.alive[e]) continue;
-    const double viscous = element.damping_time / step.dt;
-    const Vec3 stretch = now.stretch + viscous * (now.stretch - before.stretch);
-    const Vec3 bend = now.bend + viscous * (now.bend - before.bend);
-    const Vec3 force = element.stretch_stiffness.cwiseProduct(stretch);
-    const Vec3 moment = cosserat::inverse_right_jacobian(now.bend).transpose() *
-                        element.bend_stiffness.cwiseProduct(bend);
-    const Quat& q = step.after.orientation[e];
-    work += work_of(q * force, -shift, step.is_converged) +
-            work_of(q * moment, -turn, step.is_converged);
+  for (Root& root : roots_) {
+    const Element& element = model.elements[root.element];
+    const Strain now = cosserat::strain_of(model, step.after, root.element);
+    const Strain change = {now.stretch - root.strain.stretch, now.bend - root.strain.bend};
+    const Vec3 stretch_rate = rate(change.stretch, root.change.stretch, step.dt);
+    const Vec3 bend_rate = rate(change.bend, root.change.bend, step.dt);
+    const Vec3 force =
+        element.stretch_stiffness.cwiseProduct(now.stretch + element.damping_time * stretch_rate);
+    const Vec3 moment =
+        cosserat::inverse_right_jacobian(now.bend).transpose() *
+        element.bend_stiffness.cwiseProduct(now.bend + element.damping_time * bend_rate);
+    const Quat& q = step.after.orientation[root.element];
+    if (step.before.alive[root.element])
+      work += step.is_converged ? -(q * force).dot(shift) - (q * moment).dot(turn)
+                                : pressed_by_clamp(model, step, root);
+    root.strain = now;
+    root.change = change;
   }
+  has_history_ = true;
   return work;
 }
 
-// The colliders go first, the plant holds still: their springs are pressed.
-double EnergyLedger::meeting_work(const BookedStep& step) const {
+double EnergyLedger::pressed_by_clamp(const RodModel& model, const BookedStep& step,
+                                      const Root& root) const {
+  const Element& element = model.elements[root.element];
+  RodState held = step.before;
+  held.root = step.after.root;
+  const Strain strain = cosserat::strain_of(model, held, root.element);
+  const auto pressed = [&](const Vec3& stiffness, const Vec3& before, const Vec3& now) {
+    const Vec3 change = now - before;
+    return 0.5 *
+           (now.dot(stiffness.cwiseProduct(now)) - before.dot(stiffness.cwiseProduct(before)) +
+            element.damping_time / step.dt * change.dot(stiffness.cwiseProduct(change)));
+  };
+  return std::max(0.0, element.length * pressed(element.stretch_stiffness, root.strain.stretch,
+                                                strain.stretch) +
+                           pressed(element.bend_stiffness, root.strain.bend, strain.bend));
+}
+
+double EnergyLedger::pressed_by_colliders(const BookedStep& step) const {
   double pressed = 0.0;
   for (const cosserat::ContactPoint& point : step.meeting)
     pressed += 0.5 * point.stiffness * std::pow(std::max(0.0, point.margin - point.gap), 2);
@@ -125,8 +146,8 @@ void EnergyLedger::book(const RodModel& model, const BookedStep& step) {
   for (const cosserat::Load& load : step.loads) work_ += load_work(load, step);
   for (const cosserat::DetachEvent& event : step.detached)
     work_ -= taken(model, step.after, gravity_, event);
-  work_ += root_work(model, step);
-  if (!step.is_converged) work_ += meeting_work(step);
+  work_ += clamp_work(model, step);
+  if (!step.is_converged) work_ += pressed_by_colliders(step);
   const cosserat::Energy energy = cosserat::energy_of(model, step.after, gravity_);
   springs_ = springs;
   found_ = energy.kinetic + energy.elastic + springs;

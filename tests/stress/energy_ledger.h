@@ -50,7 +50,7 @@ struct BookedStep {
 class EnergyLedger {
  public:
   EnergyLedger(const cosserat::RodModel& model, const cosserat::RodState& start,
-               const Vec3& gravity);
+               const Vec3& gravity, cosserat::Integrator integrator);
 
   void book(const cosserat::RodModel& model, const BookedStep& step);
 
@@ -60,14 +60,26 @@ class EnergyLedger {
   double excess() const { return (found_ - put_in_) / slack(); }
 
  private:
+  /// What is known of the clamp's joint with one element.
+  struct Root {
+    int element = 0;
+    cosserat::Strain strain;  // at the end of the step before
+    cosserat::Strain change;  // in the step before
+  };
   double slack() const;
-  double meeting_work(const BookedStep& step) const;
-  double root_work(const cosserat::RodModel& model, const BookedStep& step);
+  double clamp_work(const cosserat::RodModel& model, const BookedStep& step);
+  double pressed_by_clamp(const cosserat::RodModel& model, const BookedStep& step,
+                          const Root& root) const;
+  double pressed_by_colliders(const BookedStep& step) const;
+  Vec3 rate(const Vec3& change, const Vec3& change_before, double dt) const;
 
   Vec3 gravity_;
-  std::vector<int> roots_;                     // elements at the clamp
-  std::vector<cosserat::Strain> root_strain_;  // theirs, at the end of the step before
-  double work_ = 0.0;                          // J, the start's energy and all work since
+  bool is_second_order_;
+  bool has_history_ = false;
+  std::vector<Root> roots_;
+  Vec3 shift_ = Vec3::Zero(),
+       turn_ = Vec3::Zero();  // m and rad, W: of the clamp in the step before
+  double work_ = 0.0;         // J, the start's energy and all work since
   double springs_ = 0.0, found_ = 0.0, put_in_ = 0.0, largest_ = 0.0;  // J
 };
 

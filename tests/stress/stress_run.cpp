@@ -47,7 +47,7 @@ class Run {
   }
 
   Outcome run() {
-    EnergyLedger ledger(model(), system_.state(0), case_.gravity);
+    EnergyLedger ledger(model(), system_.state(0), case_.gravity, case_.rods.integrator);
     for (int i = 0; i < case_.steps && outcome_.fault.empty(); ++i) {
       const RodState before = system_.state(0);
       drive(i * case_.dt);
@@ -91,8 +91,10 @@ class Run {
     }
     const auto& contacts = system_.contact_forces(0);
     const auto& detached = system_.detached(0);
+    const bool is_converged =
+        errors == cosserat::none && system_.report(0).last_change <= case_.rods.tolerance;
     ledger.book(model(), {before, after, case_.dt, system_.loads(0), contacts, meeting_, detached,
-                          errors == cosserat::none});
+                          is_converged});
     outcome_.rough_steps += errors != cosserat::none;
     outcome_.contacts = std::max(outcome_.contacts, static_cast<int>(contacts.size()));
     outcome_.broken += static_cast<int>(detached.size());

@@ -66,7 +66,8 @@ class ShakenCantilever : public testing::Test {
   static constexpr double dt = 1.0 / 120.0;
   const Vec3 gravity{0, 0, -9.81};
   cosserat::RodSystem system_{to_convergence()};
-  EnergyLedger ledger_{cantilever(), cosserat::drawn_state(cantilever()), gravity};
+  EnergyLedger ledger_{cantilever(), cosserat::drawn_state(cantilever()), gravity,
+                       cosserat::Integrator::backward_euler};
 };
 
 // Backward Euler takes energy and never gives any: the books balance with a thousandth of the
