@@ -208,8 +208,8 @@ TEST(RodBalance, EnergyDriftIsTheSchemesOwnDamping) {
   EXPECT_NEAR(std::log(last / first) / expected, 1.0, 0.02);
 }
 
-// Galilei: a rod that its clamp carries along evenly is at rest in its own frame, and damping must not
-// tell. Straight and unloaded as drawn, so the strain is zero in exact arithmetic.
+// Galilei: a rod that its clamp carries along evenly is at rest in its own frame, and damping must
+// not tell. Straight and unloaded as drawn, so the strain is zero in exact arithmetic.
 TEST(RodBalance, AClampThatMovesEvenlyIsNotFelt) {
   const Vec3 carried(0.3, 0.2, 1.0);  // m/s
   const double dt = 1.0 / 240.0;
