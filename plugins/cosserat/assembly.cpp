@@ -53,6 +53,7 @@ void Assembly::prepare(const RodModel& model, const RodState& start, const StepI
   const double a = first_order ? 1.0 : 4.0 / 3.0, b = first_order ? 0.0 : 1.0 / 3.0;
   step_ = input.dt * (first_order ? 1.0 : 2.0 / 3.0);
   loads_ = input.loads;
+  moment_reference_ = start.orientation;
   for (int e = 0; e < model.size(); ++e) {
     if (!start.alive[e]) continue;
     const Element& element = model.elements[e];

@@ -64,15 +64,21 @@ StepReport DirectSolver::step(const RodModel& model, RodState& state, const Step
   return report;
 }
 
-// Newton starts from the motion continued, so that one iteration is second order in time too.
+// Newton starts from the motion continued, so that one iteration is second order in time too; or from
+// where the step starts if the potential is lower there: what turns fast cannot be continued along
+// straight lines, and few iterations would leave the strain of that in the rods as energy.
 void DirectSolver::guess(const RodModel& model, RodState& state, bool first_order) const {
   if (first_order) return;
+  const double held = assembly_.potential(model, state);
   for (int e = 0; e < model.size(); ++e) {
     state.position[e] = 2.0 * start_.position[e] - start_.previous_position[e];
     state.orientation[e] = (start_.orientation[e] *
                             (start_.previous_orientation[e].conjugate() * start_.orientation[e]))
                                .normalized();
   }
+  if (assembly_.potential(model, state) <= held) return;
+  state.position = start_.position;
+  state.orientation = start_.orientation;
 }
 
 bool DirectSolver::newton(const RodModel& model, RodState& state, const StepInput& input,
