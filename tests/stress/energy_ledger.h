@@ -36,11 +36,11 @@ struct BookedStep {
 /// rods lack in convexity is second order in the step. Colliders and clamps that stand still can do
 /// no work, nor can self-contact.
 ///
-/// Where the solver reports that a step did not converge, the force at its end is not what moved
-/// the plant. All that is left is that a step descends in its potential: the driven places go
-/// first, and the plant gets what they can have done while it held still. So there |force| |ds|
-/// counts, and the energy that colliders at their new places press into contact springs of the
-/// plant at its old one.
+/// Where a step did not converge, the force at its end is not what moved the plant. All that is
+/// left is that a step descends in its potential: the driven places go first, and the plant gets
+/// what they can have done while it held still. So there the energy counts that the clamp presses
+/// into the springs and dampers of the segments at it, and the colliders into the contact springs
+/// of the plant at its old place, with the work of friction |force| |ds|.
 ///
 /// Allowed: put in + as much again as was ever put in. BDF2 bounds not E but
 /// G(n) = 1/4 (|y(n)|^2 + |2 y(n) - y(n-1)|^2), y the state in the norm of energy (Dahlquist, BIT
