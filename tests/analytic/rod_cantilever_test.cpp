@@ -84,11 +84,12 @@ TEST(RodCantilever, AsGoodAsTheAccuratePeers) {
 // have, are a constant that spoils the ratio at the fine end, so the order is taken from the
 // differences between meshes.
 TEST(RodCantilever, SecondOrderInElementLength) {
-  double drop[4];
-  for (int i = 0; i < 4; ++i) drop[i] = settled(PeerCantilever::model(5 << i)).drop;
-  EXPECT_NEAR((drop[0] - drop[1]) / (drop[1] - drop[2]), 4.0, 0.4);
-  EXPECT_NEAR((drop[1] - drop[2]) / (drop[2] - drop[3]), 4.0, 0.2);
-  EXPECT_NEAR((drop[3] + (drop[3] - drop[2]) / 3.0) / peer_elastica().drop, 1.0, 3e-4);
+  double drop[3];
+  for (int i = 0; i < 3; ++i) drop[i] = settled(PeerCantilever::model(10 << i)).drop;
+  const double found = order(drop[0] - drop[1], drop[1] - drop[2]);
+  RecordProperty("order", std::to_string(found));
+  EXPECT_GE(found, 1.9);
+  EXPECT_NEAR((drop[2] + (drop[2] - drop[1]) / 3.0) / peer_elastica().drop, 1.0, 3e-4);
 }
 
 // The cantilever of the design page: L 0.4 m, r 4 mm, E 20 MPa, 600 kg/m3.

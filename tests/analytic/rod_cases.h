@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <complex>
 #include <memory>
 #include <span>
 #include <utility>
@@ -111,6 +112,18 @@ inline void set_mode_shape(const RodModel& model, RodState& state, const Cantile
     state.position[e] = start_of(model, state, e) + length * (state.orientation[e] * Vec3::UnitZ());
     s += length;
   }
+}
+
+/// What BDF2 makes of an undamped oscillation, with y = omega dt: a step multiplies it by
+/// xi = exp(growth), where 3/2 - 2/xi + 1/(2 xi^2) = i y, that is 1/xi = 2 - sqrt(1 + 2 i y). The
+/// real part of the growth is the damping, the imaginary one the angle that a step covers.
+inline std::complex<double> bdf2_growth(double y) {
+  return -std::log(2.0 - std::sqrt(std::complex<double>(1.0, 2.0 * y)));
+}
+
+/// The order of convergence that the errors of a step (or length) and of its half show.
+inline double order(double error, double error_of_half) {
+  return std::log2(error / error_of_half);
 }
 
 /// How much of a mode is in the deflection towards `side`: the modes of a uniform beam are
