@@ -10,6 +10,7 @@
 #include "app/drawing.h"
 #include "app/measurements.h"
 #include "app/plant_step.h"
+#include "app/reaction.h"
 #include "app/robot_control.h"
 #include "coupling/coupling_settings.h"
 #include "world/scene.h"
@@ -89,6 +90,7 @@ class Simulation {
   std::unique_ptr<RobotControl> robot_;
   coupling::ColliderSet colliders_;
   std::unique_ptr<PlantStep> plant_step_;
+  std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
   std::unique_ptr<Measurements> measurements_;
   std::unique_ptr<LoadStep> load_step_;
   std::vector<FruitLoad> loads_;

@@ -32,7 +32,7 @@ JointDrive::JointDrive(const RobotDescription& robot, const KinematicModel& mode
   multibody_.world().addMultiBodyConstraint(rows_.get());
   effort_ = model.effort_limits();
   velocity_.setZero(model.dofs());
-  acceleration_ = wanted_ = forward_ = velocity_;
+  acceleration_ = wanted_ = forward_ = recoil_ = velocity_;
 }
 
 JointDrive::~JointDrive() {
@@ -93,7 +93,7 @@ void JointDrive::plan(const std::vector<JointCommand>& commands, const Eigen::Ve
                       const Eigen::VectorXd& qd, std::span<const LinkForce> forces) {
   for (int i = 0; i < model_.dofs(); ++i) {
     const bool free = commands[i].mode == ControlMode::torque;
-    velocity_[i] = free ? qd[i] : planned_velocity(commands[i], i, q[i]);
+    velocity_[i] = free ? qd[i] : planned_velocity(commands[i], i, q[i]) - recoil_[i] / dt_;
     acceleration_[i] = (velocity_[i] - qd[i]) / dt_;
   }
   if (settings_.fixed_base)

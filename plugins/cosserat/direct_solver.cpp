@@ -14,6 +14,7 @@ constexpr double largest_turn =
 constexpr double converged_change = 1.0e-3;  // m or rad
 constexpr double rough_change = 0.3;         // rad, or element lengths
 constexpr int most_halvings = 12;
+constexpr int rough_contact_iterations = 4;  // times newton_iterations
 
 bool is_finite(const RodState& state) {
   double sum = 0.0;
@@ -85,7 +86,11 @@ bool DirectSolver::newton(const RodModel& model, RodState& state, const StepInpu
     // Hessian: there an iteration gains a fixed factor only, so a small change is not yet the end.
     const double tolerance = (contacts_.size() > 0 ? 1.0e-4 : 1.0) * settings_.tolerance;
     if (report.last_change <= tolerance) return true;
-    if (report.iterations >= settings_.newton_iterations) break;
+    // A contact that moves a stem by many of its radii in one step wants more iterations than a
+    // smooth motion: cut short, the stem may end inside a thin link.
+    const bool rough_contact = contacts_.size() > 0 && report.last_change > converged_change;
+    const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
+    if (report.iterations >= most) break;
   }
   if (report.last_change > converged_change) report.errors |= not_converged;
   return true;

@@ -153,6 +153,7 @@ void ColliderSource::touch(const RodModel& model, const Placed& placed, int coll
   point.friction = collider.friction.value_or(settings_.friction);
   point.stiffness = shape.fruit >= 0 ? settings_.fruit_stiffness : settings_.contact_stiffness;
   point.margin = settings_.margin;
+  point.give = at.give;
   found.push_back(point);
 }
 
