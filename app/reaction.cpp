@@ -29,10 +29,6 @@ void Reaction::push_robot(const coupling::ContactReport& contacts) {
       pushes_.push_back({colliders_.collider(i).link, sum.force_W, sum.place_W, sum.moment_W});
   }
   robot_->robot().push_back(pushes_, world_.dt());
-  if (pushes_.empty()) return;
-  for (int i = 0; i < colliders_.size(); ++i)
-    if (colliders_.collider(i).body == robot_body)
-      colliders_.correct(i, robot_->link_pose(colliders_.collider(i).link));
 }
 
 void Reaction::push_bodies(const coupling::ContactReport& contacts) {
@@ -42,9 +38,6 @@ void Reaction::push_bodies(const coupling::ContactReport& contacts) {
     if (body < 0 || sum.contacts == 0) continue;
     world_.push_back_body(body, sum.force_W, sum.place_W, sum.moment_W);
   }
-  for (int i = 0; i < colliders_.size(); ++i)
-    if (const int body = colliders_.collider(i).body; body >= 0)
-      colliders_.correct(i, world_.body_pose(body));
 }
 
 Vec3 Reaction::place_of(int collider, const std::vector<ContactSum>& sums) const {

@@ -136,8 +136,7 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
     if (normal == 0.0) continue;
     ContactPoint point = contact.point;
     point.gap += contact.give * normal;
-    const double own_share = contact.stiffness / point.stiffness;  // of the springs in series
-    memory_.push_back({point.shape, point.collider, own_share * now.stretch, normal});
+    memory_.push_back({point.shape, point.collider, now.stretch, normal});
     forces_.push_back({point, place(end, contact.element, contact.arm_E), normal,
                        now.friction_force, now.slipping});
   }

@@ -67,12 +67,6 @@ void ColliderSet::update(std::span<const Pose> X_WL) {
   }
 }
 
-void ColliderSet::correct(int index, const Pose& X_WL) {
-  Placement& placement = placements_[index];
-  placement.X_WC = X_WL * colliders_[index].X_LC;
-  placement.R_WC = placement.X_WC.rotation.toRotationMatrix();
-}
-
 Pose ColliderSet::link_pose(int index) const {
   return placements_[index].X_WC * colliders_[index].X_LC.inverse();
 }

@@ -47,9 +47,6 @@ class ColliderSet {
   void update(std::span<const Pose> X_WL);
   /// Puts one collider somewhere without any motion (after a reset, or a hidden thing's return).
   void put(int index, const Pose& X_WL);
-  /// After the plants moved: their reaction has pushed the collider's link to this pose within the
-  /// step that ends. The next motion starts there.
-  void correct(int index, const Pose& X_WL);
   /// m/N, >= 0: how far the collider's link gives way in a step for each newton (two-way coupling).
   void set_give(int index, double give) { placements_[index].give = give; }
   void set_active(int index, bool active) { placements_[index].is_active = active; }
