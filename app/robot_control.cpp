@@ -1,7 +1,5 @@
 #include "app/robot_control.h"
 
-#include "app/colliders.h"
-
 namespace pedicel::app {
 
 namespace {
@@ -55,13 +53,6 @@ void RobotControl::Reader::act(world::SimWorld&, world::StepReport& report) {
 Pose RobotControl::tool_pose() const {
   const Pose link = robot_.link_pose_W(tool_link_);
   return {link * tool_offset_, link.rotation};
-}
-
-void RobotControl::push(const coupling::ContactReport& contacts) {
-  for (std::size_t l = 0; l < description().links.size(); ++l) {
-    const coupling::ContactSum sum = contacts.sum_of_link(robot_body, static_cast<int>(l));
-    if (sum.contacts > 0) robot_.add_external_force(static_cast<int>(l), sum.force_W, sum.place_W);
-  }
 }
 
 }  // namespace pedicel::app

@@ -8,7 +8,6 @@
 
 #include "core/diagnostics.h"
 #include "core/state_hash.h"
-#include "coupling/contact_report.h"
 #include "robot/robot.h"
 #include "robot/trajectory.h"
 #include "world/scene.h"
@@ -41,8 +40,6 @@ class RobotControl : public world::Participant {
   Pose tool_pose() const;
   void set_trajectory(robot::Trajectory trajectory) { trajectory_ = std::move(trajectory); }
 
-  /// The plants' reaction on the links, for the next step (two-way coupling).
-  void push(const coupling::ContactReport& contacts);
   void add_to(StateHash& hash) const { robot_.add_to(hash); }
 
  private:

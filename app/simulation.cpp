@@ -108,9 +108,11 @@ void Simulation::add_contacts() {
   plant_step_ = std::make_unique<PlantStep>(
       *rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
   if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
-  if (robot_ && coupling_settings_.two_way)
+  if (coupling_settings_.two_way) {
+    reaction_ = std::make_unique<Reaction>(world_, robot_.get(), colliders_);
     plant_step_->set_reaction(
-        [this](const coupling::ContactReport& contacts) { robot_->push(contacts); });
+        [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
+  }
   load_step_ = std::make_unique<LoadStep>(*this);
   measurements_ = std::make_unique<Measurements>(*rods_, *plant_step_, colliders_);
   world_.add(*load_step_);

@@ -11,6 +11,7 @@
 #include "app/drawing.h"
 #include "app/measurements.h"
 #include "app/plant_step.h"
+#include "app/reaction.h"
 #include "app/robot_control.h"
 #include "cosserat/standing.h"
 #include "coupling/coupling_settings.h"
@@ -97,6 +98,7 @@ class Simulation {
   std::unique_ptr<RobotControl> robot_;
   coupling::ColliderSet colliders_;
   std::unique_ptr<PlantStep> plant_step_;
+  std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
   std::unique_ptr<Measurements> measurements_;
   std::unique_ptr<LoadStep> load_step_;
   std::vector<FruitLoad> loads_;

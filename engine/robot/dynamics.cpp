@@ -9,6 +9,8 @@ Dynamics::Dynamics(const RobotDescription& robot, const KinematicModel& model) :
   states_.resize(inertials_.size());
   element_torques_.resize(inertials_.size());
   torques_.setZero(model.dofs());
+  resting_ = one_ = torques_;
+  mass_.setZero(model.dofs(), model.dofs());
 }
 
 void Dynamics::forward(const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd) {
@@ -82,6 +84,15 @@ const Eigen::VectorXd& Dynamics::inverse(const Eigen::VectorXd& q, const Eigen::
   }
   backward();
   return torques_;
+}
+
+const Eigen::MatrixXd& Dynamics::mass_matrix(const Eigen::VectorXd& q) {
+  for (int i = 0; i < mass_.cols(); ++i) {
+    one_.setZero();
+    one_[i] = 1.0;
+    mass_.col(i) = inverse(q, resting_, one_, Vec3::Zero());
+  }
+  return mass_;
 }
 
 double Dynamics::kinetic_energy(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {

@@ -31,6 +31,10 @@ class Dynamics {
   /// The same for each element of the model (mimic joints by themselves), from the last inverse().
   const std::vector<double>& element_torques() const { return element_torques_; }
 
+  /// Joint-space mass matrix (kg, kg m, kg m2; dofs x dofs), one column an inverse() without
+  /// motion.
+  const Eigen::MatrixXd& mass_matrix(const Eigen::VectorXd& q);
+
   double kinetic_energy(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);  ///< J
   double potential_energy(const Eigen::VectorXd& q, const Vec3& gravity_W);    ///< J
 
@@ -49,7 +53,8 @@ class Dynamics {
   std::vector<Twist> twists_;
   std::vector<LinkState> states_;
   std::vector<double> element_torques_;
-  Eigen::VectorXd torques_;
+  Eigen::VectorXd torques_, resting_, one_;
+  Eigen::MatrixXd mass_;
 };
 
 }  // namespace pedicel::robot

@@ -32,7 +32,7 @@ JointDrive::JointDrive(const RobotDescription& robot, const KinematicModel& mode
   multibody_.world().addMultiBodyConstraint(rows_.get());
   effort_ = model.effort_limits();
   velocity_.setZero(model.dofs());
-  acceleration_ = wanted_ = forward_ = velocity_;
+  acceleration_ = wanted_ = forward_ = recoil_ = velocity_;
 }
 
 JointDrive::~JointDrive() {
@@ -93,16 +93,17 @@ void JointDrive::plan(const std::vector<JointCommand>& commands, const Eigen::Ve
                       const Eigen::VectorXd& qd, std::span<const LinkForce> forces) {
   for (int i = 0; i < model_.dofs(); ++i) {
     const bool free = commands[i].mode == ControlMode::torque;
-    velocity_[i] = free ? qd[i] : planned_velocity(commands[i], i, q[i]);
-    acceleration_[i] = (velocity_[i] - qd[i]) / dt_;
+    const double end = free ? qd[i] : planned_velocity(commands[i], i, q[i]);
+    velocity_[i] = end - recoil_[i] / dt_;
+    acceleration_[i] = free ? 0.0 : (velocity_[i] - qd[i]) / dt_;
   }
   if (settings_.fixed_base)
     wanted_ = dynamics_.inverse(q, qd, acceleration_, from_bullet(multibody_.world().getGravity()),
                                 forces);
   for (Drive& drive : drives_) {
     drive.velocity = drive.multiplier * velocity_[drive.dof];
-    drive.passive =
-        drive.joint->damping * drive.velocity + drive.joint->friction * sign(drive.velocity);
+    const double end = drive.velocity + drive.multiplier * recoil_[drive.dof] / dt_;
+    drive.passive = drive.joint->damping * end + drive.joint->friction * sign(end);
     wanted_[drive.dof] += drive.multiplier * drive.passive;
   }
   for (int i = 0; i < model_.dofs(); ++i) {
@@ -156,9 +157,11 @@ void JointDrive::set_passive_rows(const Drive& drive) {
   }
   if (drive.friction >= 0) {
     JointRows::Row& row = rows_->row(drive.friction);
-    const double friction = drive.joint->friction * dt_, ahead = sign(drive.velocity) * friction;
+    const double recoil = drive.multiplier * recoil_[drive.dof] / dt_;
+    const double friction = drive.joint->friction * dt_;
+    const double ahead = sign(drive.velocity + recoil) * friction;
     row.active = true;
-    row.target = 0.0;
+    row.target = -recoil;  // at rest at the step's very end
     row.lower = ahead - friction;
     row.upper = ahead + friction;
   }

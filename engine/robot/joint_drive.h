@@ -29,6 +29,9 @@ class JointDrive {
   /// Before Bullet's step, with the robot at q, qd and `forces` on its links. Does not allocate.
   void begin(const std::vector<JointCommand>& commands, const Eigen::VectorXd& q,
              const Eigen::VectorXd& qd, std::span<const LinkForce> forces, double dt);
+  /// rad or m: by how much the joints will be pushed back after the next step. Motors aim as much
+  /// farther, so that they end where they were told to.
+  void expect_recoil(const Eigen::VectorXd& recoil) { recoil_ = recoil; }
   void set_effort_limit(int dof, double effort) { effort_[dof] = effort; }
   /// Motor torques of the step that just ended.
   void end(Eigen::VectorXd& torques) const;
@@ -63,6 +66,7 @@ class JointDrive {
   std::unique_ptr<JointRows> rows_;
   double dt_ = 0.0;
   Eigen::VectorXd velocity_, acceleration_;  // planned, dofs
+  Eigen::VectorXd recoil_;                   // expected, dofs
   Eigen::VectorXd effort_;                   // limits of the motors, dofs
   Eigen::VectorXd wanted_;                   // motor torque that the plan needs, dofs
   Eigen::VectorXd forward_;                  // of it, what the effort allows: applied ahead

@@ -1,5 +1,7 @@
 #include "robot/robot.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
 #include <algorithm>
 
 #include "core/check.h"
@@ -36,13 +38,14 @@ struct Robot::Impl {
         drive(description, model, settings, multibody),
         dynamics(description, model) {
     q.setZero(model.dofs());
-    qd = torques = q;
+    qd = torques = recoil = q;
     commands.resize(model.dofs());
     forces.reserve(1024);  // a step allocates only beyond this many contacts
   }
 
   void place_joints(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity);
   void read();
+  const Jacobian& jacobian(int link, const Vec3& point_W) const;
   int checked_joint(int joint) const;
   int checked_link(const std::string& link) const;
 
@@ -52,6 +55,9 @@ struct Robot::Impl {
   MultiBody multibody;
   JointDrive drive;
   mutable Dynamics dynamics;  // only its work space changes
+  mutable Jacobian work_jacobian;
+  Eigen::LLT<Eigen::MatrixXd> mass;  // at q
+  Eigen::VectorXd recoil;            // rad or m, of the last push_back()
   Eigen::VectorXd q, qd, torques;
   std::vector<Pose> poses;
   std::vector<Twist> twists;
@@ -77,6 +83,11 @@ void Robot::Impl::read() {
   if (!settings.fixed_base) model.set_base_pose(multibody.base_pose());
   model.link_poses(q, poses);
   model.link_velocities(poses, qd, twists, multibody.base_twist());
+}
+
+const Jacobian& Robot::Impl::jacobian(int link, const Vec3& point_W) const {
+  model.jacobian(poses, link, poses[link].inverse() * point_W, work_jacobian);
+  return work_jacobian;
 }
 
 int Robot::Impl::checked_joint(int joint) const {
@@ -186,6 +197,33 @@ void Robot::add_external_force(int link, const Vec3& force_W, const Vec3& point_
   impl_->forces.push_back({link, force_W, point_W});
 }
 
+void Robot::push_back(std::span<const LinkPush> pushes, double dt) {
+  Impl& robot = *impl_;
+  robot.mass.compute(robot.dynamics.mass_matrix(robot.q));
+  robot.recoil.setZero();
+  for (const LinkPush& push : pushes) {
+    const Jacobian& j = robot.jacobian(push.link, push.point_W);
+    robot.recoil += j.topRows<3>().transpose() * push.force_W;
+    robot.recoil += j.bottomRows<3>().transpose() * push.moment_W;
+  }
+  robot.mass.solveInPlace(robot.recoil);
+  robot.recoil *= dt * dt;
+  robot.drive.expect_recoil(robot.recoil);
+  if (pushes.empty()) return;
+  robot.q += robot.recoil;
+  robot.qd += robot.recoil / dt;
+  robot.place_joints(robot.q, robot.qd);
+  robot.multibody.update_colliders();
+  robot.read();
+}
+
+double Robot::mobility(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const {
+  const Eigen::MatrixXd response =
+      impl_->mass.solve(impl_->jacobian(b, point_b_W).topRows<3>().transpose());
+  const Mat3 both = impl_->jacobian(a, point_a_W).topRows<3>() * response;
+  return both.jacobiSvd().singularValues()[0];
+}
+
 void Robot::begin_step(double dt) {
   for (const LinkForce& f : impl_->forces) impl_->multibody.add_force(f.link, f.force_W, f.point_W);
   impl_->drive.begin(impl_->commands, impl_->q, impl_->qd, impl_->forces, dt);
@@ -205,6 +243,9 @@ void Robot::reset(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
   impl_->multibody.update_colliders();
   impl_->torques.setZero();
   impl_->forces.clear();
+  impl_->recoil.setZero();
+  impl_->drive.expect_recoil(impl_->recoil);
+  impl_->mass.compute(impl_->dynamics.mass_matrix(q));
   for (int i = 0; i < model().dofs(); ++i) set_position_target(i, q[i]);
   impl_->read();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ enum class ControlMode { position, velocity, torque };
 struct RobotState {
   std::vector<double> joint_positions, joint_velocities;  ///< every moving joint, mimics too
   std::vector<double> base;  ///< floating base: position 3, rotation 4, angular and linear velocity
+};
+
+/// A force (N) and a moment (N m) about its point (m) on a link, world frame.
+struct LinkPush {
+  int link = 0;
+  Vec3 force_W = Vec3::Zero(), point_W = Vec3::Zero(), moment_W = Vec3::Zero();
 };
 
 /// A robot as a btMultiBody in a world. Owns its Bullet objects and takes them out of the world
@@ -85,6 +92,15 @@ class Robot {
 
   /// Force (N) on a link at a point, world frame, for the next step only (two-way coupling).
   void add_external_force(int link, const Vec3& force_W, const Vec3& point_W);
+
+  /// After end_step(): forces on links that belong to the step which has just ended (the reaction
+  /// of what was moved after Bullet: plants). Velocities change by M^-1 J^T f dt and positions by
+  /// dt times that, as if backward Euler had known of them; motors reckon with the same again in
+  /// the next step. To be called once every step, with none where there are none. Fixed bases only.
+  void push_back(std::span<const LinkPush> pushes, double dt);
+  /// 1/kg: the largest change of velocity of a point of link `a` for a unit impulse at a point of
+  /// link `b`, world frame: |J_a M^-1 J_b^T|. Fixed bases only.
+  double mobility(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const;
 
   /// Before world.stepSimulation(dt, 0): hands commands and external forces to Bullet.
   void begin_step(double dt);

@@ -2,6 +2,7 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <LinearMath/btTransformUtil.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>
@@ -202,6 +203,28 @@ void SimWorld::push_body(int index, const Vec3& force_W, const Vec3& point_W) {
   btRigidBody& body = *bodies_[index]->bullet;
   const btVector3 lever = to_bullet(point_W) - body.getWorldTransform().getOrigin();
   body.applyForce(to_bullet(force_W), lever);
+}
+
+void SimWorld::push_back_body(int index, const Vec3& force_W, const Vec3& point_W,
+                              const Vec3& moment_W) {
+  btRigidBody& body = *bodies_[index]->bullet;
+  if (body.getInvMass() == 0.0) return;
+  const btVector3 lever = to_bullet(point_W) - body.getWorldTransform().getOrigin();
+  const btVector3 linear = to_bullet(dt() * force_W) * body.getInvMass();
+  const btVector3 angular = body.getInvInertiaTensorWorld() *
+                            (lever.cross(to_bullet(dt() * force_W)) + to_bullet(dt() * moment_W));
+  btTransform moved;
+  btTransformUtil::integrateTransform(body.getWorldTransform(), linear, angular, dt(), moved);
+  body.setLinearVelocity(body.getLinearVelocity() + linear);
+  body.setAngularVelocity(body.getAngularVelocity() + angular);
+  body.setCenterOfMassTransform(moved);
+}
+
+double SimWorld::body_mobility(int index, const Vec3& point_W) const {
+  const btRigidBody& body = *bodies_[index]->bullet;
+  const Vec3 lever = point_W - from_bullet(body.getWorldTransform().getOrigin());
+  return body.getInvMass() +
+         lever.squaredNorm() * from_bullet(body.getInvInertiaDiagLocal()).maxCoeff();
 }
 
 btMultiBodyDynamicsWorld& SimWorld::bullet() {

@@ -29,10 +29,20 @@ Hinge hinge_of(const RodState& state, const Weld& weld) {
 
 }  // namespace
 
-double Attachments::linearise(const RodModel& model, const RodState& state,
-                              DiagonalBlocks& blocks) {
+void Attachments::prepare(const RodState& start, std::span<const Load> loads) {
+  start_ = &start;
+  loads_ = loads;
+  refer_moments_to(start);
+}
+
+void Attachments::refer_moments_to(const RodState& state) {
   moment_reference_.clear();
   for (const Load& one : loads_) moment_reference_.push_back(state.orientation[one.element]);
+}
+
+double Attachments::linearise(const RodModel& model, const RodState& state,
+                              DiagonalBlocks& blocks) {
+  refer_moments_to(state);
   return sum(model, state, &blocks);
 }
 

@@ -13,10 +13,7 @@ namespace pedicel::cosserat {
 class Attachments {
  public:
   /// The step starts at `start`: there loads have done no work.
-  void prepare(const RodState& start, std::span<const Load> loads) {
-    start_ = &start;
-    loads_ = loads;
-  }
+  void prepare(const RodState& start, std::span<const Load> loads);
 
   /// Adds gradient (negative, as right side) and Hessian at `state`, without what a weld couples;
   /// returns the potential (J). `state` becomes the one from which dead moments count their work.
@@ -26,6 +23,7 @@ class Attachments {
   double potential(const RodModel& model, const RodState& state) const;
 
  private:
+  void refer_moments_to(const RodState& state);
   double sum(const RodModel& model, const RodState& state, DiagonalBlocks* blocks) const;
   double load(const RodState& state, int index, DiagonalBlocks* blocks) const;
   double support(const RodState& state, const Support& support, DiagonalBlocks* blocks) const;

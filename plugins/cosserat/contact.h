@@ -19,6 +19,10 @@ struct ContactPoint {
   double friction = 0.0;   ///< 1, Coulomb
   double stiffness = 0.0;  ///< N/m
   double margin = 0.0;     ///< m, the contact begins to push at this gap
+  /// m/N: how far the collider, which is free to move, gives way over the step being solved for
+  /// each newton on it, other contacts of this plant not counted. It acts in series with
+  /// `stiffness`; `gap` is that before it gives way.
+  double give = 0.0;
 };
 
 /// What a contact point carried at the end of a step: the force ON THE PLANT.

@@ -33,10 +33,29 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
     contact.arm_E = Vec3(0, 0, -point.back) - point.radius * (q.conjugate() * point.normal_W);
     contact.place_W = place(iterate, contact.element, contact.arm_E);
     contact.start_W = place(start, contact.element, contact.arm_E);
-    if (const Memory* memory = remembered(point.shape, point.collider))
+    if (const Memory* memory = remembered(point.shape, point.collider)) {
       contact.stretch_W = memory->stretch_W;
-    contact.limit = point.friction * point.stiffness * std::max(0.0, point.margin - point.gap);
+      contact.limit = point.friction * memory->normal;
+    }
     active_.push_back(contact);
+  }
+  share_gives();
+}
+
+// Contacts that push one collider together move it together: each one counts the others' share as
+// if they carried what it carries.
+void ContactTerms::share_gives() {
+  const auto pushes = [](const Active& contact) {
+    return contact.point.gap < contact.point.margin;
+  };
+  for (Active& contact : active_) {
+    const ContactPoint& own = contact.point;
+    int together = pushes(contact) ? 0 : 1;
+    if (own.give > 0.0)
+      for (const Active& other : active_)
+        together += pushes(other) && other.point.collider == own.collider;
+    contact.give = together * own.give;
+    contact.stiffness = own.stiffness / (1.0 + own.stiffness * contact.give);
   }
 }
 
@@ -55,19 +74,22 @@ ContactTerms::Push ContactTerms::push(const Active& contact, const RodState& sta
   const double overlap =
       std::max(0.0, point.margin - point.gap - point.normal_W.dot(now - contact.place_W));
   Push push;
-  push.normal_force = point.stiffness * overlap * point.normal_W;
-  push.energy = 0.5 * point.stiffness * overlap * overlap;
+  push.normal_force = contact.stiffness * overlap * point.normal_W;
+  push.energy = 0.5 * contact.stiffness * overlap * overlap;
   push.stretch = tangential(contact.stretch_W + now - contact.start_W - point.surface_motion_W,
                             point.normal_W);
   const double length = push.stretch.norm();
-  push.slipping = point.stiffness * length > contact.limit;
-  if (push.slipping) {
-    push.energy += contact.limit * (length - 0.5 * contact.limit / point.stiffness);
+  push.slipping = contact.stiffness * length > contact.limit || contact.limit == 0.0;
+  if (contact.limit == 0.0) {
+    push.friction_force.setZero();
+    push.stretch.setZero();
+  } else if (push.slipping) {
+    push.energy += contact.limit * (length - 0.5 * contact.limit / contact.stiffness);
     push.friction_force = -contact.limit / length * push.stretch;
-    push.stretch *= contact.limit / (point.stiffness * length);
+    push.stretch *= contact.limit / (contact.stiffness * length);
   } else {
-    push.energy += 0.5 * point.stiffness * length * length;
-    push.friction_force = -point.stiffness * push.stretch;
+    push.energy += 0.5 * contact.stiffness * length * length;
+    push.friction_force = -contact.stiffness * push.stretch;
   }
   return push;
 }
@@ -81,7 +103,7 @@ double ContactTerms::linearise(const RodModel&, const RodState& iterate,
     energy += push_now.energy;
     const Mat3 normal = point.normal_W * point.normal_W.transpose();
     Mat3 hessian = Mat3::Zero();
-    if (push_now.normal_force != Vec3::Zero()) hessian += point.stiffness * normal;
+    if (push_now.normal_force != Vec3::Zero()) hessian += contact.stiffness * normal;
     if (push_now.slipping && contact.limit > 0.0) {
       // The sliding spring's secant stiffness: an upper bound of its Hessian, so Newton stays
       // stable.
@@ -90,7 +112,7 @@ double ContactTerms::linearise(const RodModel&, const RodState& iterate,
                      point.normal_W);
       hessian += contact.limit / total.norm() * (Mat3::Identity() - normal);
     } else if (!push_now.slipping) {
-      hessian += point.stiffness * (Mat3::Identity() - normal);
+      hessian += contact.stiffness * (Mat3::Identity() - normal);
     }
     const Vec3 arm = contact.place_W - iterate.position[contact.element];
     add_point_spring(blocks, contact.element, arm, hessian,
@@ -112,8 +134,10 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
     const Push now = push(contact, end);
     const double normal = now.normal_force.norm();
     if (normal == 0.0) continue;
-    memory_.push_back({contact.point.shape, contact.point.collider, now.stretch});
-    forces_.push_back({contact.point, place(end, contact.element, contact.arm_E), normal,
+    ContactPoint point = contact.point;
+    point.gap += contact.give * normal;
+    memory_.push_back({point.shape, point.collider, now.stretch, normal});
+    forces_.push_back({point, place(end, contact.element, contact.arm_E), normal,
                        now.friction_force, now.slipping});
   }
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) {

@@ -13,9 +13,18 @@ namespace pedicel::cosserat {
 /// Normal: 1/2 k max(0, margin - gap)^2, with the gap taken as linear around the iterate at which
 /// the contact was found. Tangential: a spring of the same stiffness whose stretch is the
 /// displacement of the plant's surface against the collider's since they met, and which slides
-/// where it would carry more than mu N: a Huber potential in the step, with N from the iterate, and
-/// a stretch that is remembered between steps (Cundall & Strack, Geotechnique 29, 1979). So a held
-/// fruit sticks without creeping.
+/// where it would carry more than mu N: a Huber potential in the step, with a stretch that is
+/// remembered between steps (Cundall & Strack, Geotechnique 29, 1979). So a held fruit sticks
+/// without creeping. N is that of the step before, as in Li et al., Incremental Potential Contact
+/// (2020), and so the first step of a contact is without friction: taken from the iterate, which
+/// may lie millimetres inside of a moving collider, N tears thin stems about and Newton does not
+/// converge.
+///
+/// A collider that gives way (ContactPoint::give, its inverse mass times dt^2) is one more spring
+/// in series: backward Euler for the collider's own motion, so that light links and stiff stems do
+/// not push each other to and fro. Gaps are
+/// reported as they are after it gave way; stretches are kept as they were before, and colliders'
+/// motions are those between poses before, too, so that what sticks does not creep.
 class ContactTerms {
  public:
   /// Collects the contacts of an iterate. `start` is the state at the start of the step.
@@ -43,10 +52,13 @@ class ContactTerms {
     Vec3 start_W = Vec3::Zero();    // m, where that point of the plant was at the step's start
     Vec3 stretch_W = Vec3::Zero();  // m, of the friction spring at the step's start
     double limit = 0.0;             // N, mu N
+    double give = 0.0;              // m/N, of the collider, with what pushes it beside this contact
+    double stiffness = 0.0;         // N/m, of contact and collider in series
   };
   struct Memory {
     int shape, collider;
     Vec3 stretch_W;
+    double normal;  // N
   };
   struct Push {
     Vec3 normal_force, friction_force;  // N, W, on the plant
@@ -54,6 +66,7 @@ class ContactTerms {
     double energy;
     bool slipping;
   };
+  void share_gives();
   Push push(const Active& contact, const RodState& state) const;
   const Memory* remembered(int shape, int collider) const;
 

@@ -13,6 +13,7 @@ constexpr double largest_turn =
     1.0;  // rad, of one Newton step: beyond it the quadratic model is void
 constexpr double converged_change = 1.0e-3;  // m or rad
 constexpr double rough_change = 0.3;         // rad, or element lengths
+constexpr double straight_turn = 0.03;       // rad
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
 
@@ -85,16 +86,58 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.extra_energy = 0.0;
     plant.last_change = 0.0;
   }
+  std::fill(working_.begin(), working_.end(), 1);
+  rows_.set_active(working_);
   root_outward(pool, [&](int group) { rows_.prepare(group, states_); });
-  if (std::none_of(plants_.begin(), plants_.end(), [](const Plant& p) { return p.touched; }))
-    return;
-  pool.for_each(size(), [&](int p) {
-    if (!plants_[p].touched) return;
-    plants_[p].iterate = *steps[p].state;
-    plants_[p].attachments.prepare(*steps[p].state, steps[p].loads);
-    for (ContactSource* source : steps[p].contacts)
-      source->begin_step(*steps[p].model, *steps[p].state, dt);
-  });
+  if (std::any_of(plants_.begin(), plants_.end(), [](const Plant& p) { return p.touched; })) {
+    pool.for_each(size(), [&](int p) {
+      if (!plants_[p].touched) return;
+      plants_[p].iterate = *steps[p].state;
+      plants_[p].attachments.prepare(*steps[p].state, steps[p].loads);
+      for (ContactSource* source : steps[p].contacts)
+        source->begin_step(*steps[p].model, *steps[p].state, dt);
+    });
+  }
+  choose_start(steps, pool);
+}
+
+// Newton starts from the motion continued, so that one iteration is second order in time too; or
+// from where the step starts if the potential is lower there: what turns fast cannot be continued
+// along straight lines, and few iterations would leave the strain of that in the rods as energy.
+void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
+  std::vector<char>& fast = searching_;
+  for (int p = 0; p < size(); ++p) fast[p] = rows_.change(p).turn > straight_turn;
+  if (!any(fast)) return;
+  const auto evaluate = [&] {
+    rows_.set_active(fast);
+    root_outward(pool, [&](int group) { rows_.move(group, true); });
+  };
+  for (int p = 0; p < size(); ++p) rows_.set_share(p, 0.0);
+  evaluate();
+  for (int p = 0; p < size(); ++p) {
+    if (!fast[p]) continue;
+    plants_[p].energy = potential(p, *steps[p].model);
+    rows_.hold(p);
+  }
+  evaluate();
+  for (int p = 0; p < size(); ++p)
+    if (fast[p] && potential(p, *steps[p].model) < plants_[p].energy) fast[p] = 2;
+  std::vector<char>& continued = working_;  // all of these packs, and then what is to be held
+  for (int p = 0; p < size(); ++p) continued[p] = fast[p] != 0;
+  rows_.set_active(continued);
+  root_outward(pool, [&](int group) { rows_.prepare(group, states_); });
+  for (int p = 0; p < size(); ++p) {
+    if (fast[p] == 2) rows_.hold(p);
+    fast[p] = 0;
+  }
+}
+
+// At the iterate whose energy move() has left.
+double DirectSolver::potential(int index, const RodModel& model) {
+  Plant& plant = plants_[index];
+  if (!plant.touched) return rows_.energy(index);
+  rows_.write_iterate(index, plant.iterate);
+  return rows_.energy(index) + plant.attachments.potential(model, plant.iterate);
 }
 
 void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool) {

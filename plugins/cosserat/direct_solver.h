@@ -67,6 +67,8 @@ class DirectSolver : public RodSolver {
   };
 
   void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
+  void choose_start(std::span<PlantStep> steps, ThreadPool& pool);
+  double potential(int index, const RodModel& model);
   void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void solve_loops(int index, const RodModel& model);

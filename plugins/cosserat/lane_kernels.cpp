@@ -70,7 +70,8 @@ HWY_INLINE void prepare_viscous(const RowArrays& rows, const Pack& pack, int row
   store3(share * (a * bend - b * load3(before.bend, lane)), term.bend_target, lane);
 }
 
-HWY_INLINE void prepare_row(const RowArrays& rows, const Pack& pack, int row, int lane) {
+// Returns sin^2 of half the angle by which the guess turns the element.
+HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int lane) {
   const ElementRow& element = rows.element[row];
   const RateRow &rate = rows.rate[row], &before_rate = rows.previous_rate[row];
   TermRow& term = rows.term[row];
@@ -112,11 +113,17 @@ HWY_INLINE void prepare_row(const RowArrays& rows, const Pack& pack, int row, in
   const V3 guess = add_scaled(now.position, again, now.position - before.position);
   const Q turned = normalized(now.orientation * turn);
   store_pose({guess, select(again > set(0.0), turned, now.orientation)}, rows.iterate[row], lane);
+  const V3 vec{turn.x, turn.y, turn.z};
+  return again * dot(vec, vec);
 }
 
-void Prepare(const RowArrays& rows, const Pack& pack) {
-  for (int lane = 0; lane < lane_count; lane += width)
-    for (int row = pack.begin + 1; row < pack.end; ++row) prepare_row(rows, pack, row, lane);
+void Prepare(const RowArrays& rows, Pack& pack) {
+  for (int lane = 0; lane < lane_count; lane += width) {
+    V largest = set(0.0);
+    for (int row = pack.begin + 1; row < pack.end; ++row)
+      largest = hn::Max(largest, prepare_row(rows, pack, row, lane));
+    store(set(2.0) * hn::Sqrt(largest), pack.turn + lane);
+  }
 }
 
 // ---- Potential ----------------------------------------------------------------------------------
@@ -622,7 +629,7 @@ HWY_EXPORT(MeasureChange);
 HWY_EXPORT(Move);
 HWY_EXPORT(Finish);
 
-void prepare(const RowArrays& rows, const Pack& pack) {
+void prepare(const RowArrays& rows, Pack& pack) {
   HWY_DYNAMIC_DISPATCH(Prepare)(rows, pack);
 }
 void linearise_and_eliminate(const RowArrays& rows, Pack& pack) {

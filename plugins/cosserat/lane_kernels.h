@@ -15,7 +15,8 @@ namespace pedicel::cosserat {
 
 /// Sets the terms of the step that starts from `start` and `rate`, with `previous` and
 /// `previous_rate` one step before, and Newton's first guess into `iterate`: the motion continued.
-void prepare(const RowArrays& rows, const Pack& pack);
+/// Sets `turn`: how far that turns an element, at most (2 sin of half the angle).
+void prepare(const RowArrays& rows, Pack& pack);
 
 /// Gradient and Hessian at `iterate`, and the elimination of every element into its parent, from
 /// the tips to the first element. Sets `energy`, `healthy` and `branch`.

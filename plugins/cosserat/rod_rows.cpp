@@ -186,6 +186,7 @@ void RodRows::read_states(int pack, std::span<const RodState* const> states) {
 void RodRows::prepare(int group, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
   for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
+    if (!packs_[p].active) continue;
     read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
     place_anchors(p);
@@ -216,6 +217,18 @@ void RodRows::change_anchors(int pack) {
     const Slot slot = layout_.slot(chain.plant, parent);
     for (int i = 0; i < 6; ++i) row.right[i][lane] = factor_[slot.row].right[i][slot.lane];
   });
+}
+
+void RodRows::hold(int plant) {
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    const auto copy = [&](int row) {
+      put(iterate_[row], chain.lane, vector_at(start_[row].position, chain.lane),
+          rotation_at(start_[row].orientation, chain.lane));
+    };
+    for (const int e : chain.elements) copy(layout_.slot(plant, e).row);
+  }
+  for (const int c : layout_.chains_of_plant(plant)) place_anchors(layout_.chains()[c].pack);
 }
 
 void RodRows::read_iterate(int plant, const RodState& state) {

@@ -44,8 +44,11 @@ class RodRows {
   /// without effect).
   void set_active(std::span<const char> plants);
 
-  /// Starts a step from the plants' states.
+  /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
+  /// then says how far that turns an element.
   void prepare(int group, std::span<const RodState* const> states);
+  /// Makes the step's start the iterate of a plant.
+  void hold(int plant);
   void read_iterate(int plant, const RodState& state);
   void write_iterate(int plant, RodState& state) const;
 

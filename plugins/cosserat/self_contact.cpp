@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "core/check.h"
 
@@ -15,6 +16,9 @@ using Box = Eigen::AlignedBox3d;
 using Cell = std::array<int, 3>;
 
 constexpr double midway = 1.0e-4;  // pull towards the middles, relative to the longer axis squared
+// In mean lengths of a shape. A larger skin collects pairs more rarely, but more of them.
+constexpr double skin = 0.35;
+constexpr double most_motion = 2.0;  // what moves farther in one step may pass through the plant
 
 double radius_at(const CollisionShape& shape, double fraction) {
   return shape.radius_near + fraction * (shape.radius_far - shape.radius_near);
@@ -148,16 +152,23 @@ void OverlappingBoxes::find(std::span<const Box> boxes, std::vector<std::pair<in
 }
 
 SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings)
-    : settings_(settings), bodies_(model.shapes.size()), fat_boxes_(model.shapes.size()) {
+    : settings_(settings), references_(model.elements.size()), boxes_(model.shapes.size()) {
   check(settings);
-  place_bodies(model, drawn_state(model));
-  double extent = 0.0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    extent += bodies_[i].along.norm() + 2.0 * radius_at(model.shapes[i], 0.5);
-  skin_ = 0.1 * extent / std::max<std::size_t>(1, bodies_.size());
-  rebuild_pairs(model);
-  exclude(model);
-  rebuild_pairs(model);
+  double sum = 0.0;
+  for (const CollisionShape& shape : model.shapes) {
+    sum += std::abs(shape.back_near - shape.back_far) + 2.0 * radius_at(shape, 0.5);
+    double& lever = references_[shape.element].lever;
+    lever = std::max({lever, std::abs(shape.back_near) + shape.radius_near,
+                      std::abs(shape.back_far) + shape.radius_far});
+  }
+  extent_ = sum / static_cast<double>(std::max<std::size_t>(1, model.shapes.size()));
+  const RodState drawn = drawn_state(model);
+  collect_pairs(model, drawn, skin * extent_);
+  for (const Pair& pair : pairs_)
+    if (pair.gap < settings_.margin) excluded_.emplace_back(pair.a, pair.b);
+  std::sort(excluded_.begin(), excluded_.end());
+  std::erase_if(pairs_, [&](const Pair& pair) { return pair.gap < settings_.margin; });
+  work_ = {};
 }
 
 void SelfContact::begin_step(const RodModel&, const RodState& start, double) {
@@ -165,60 +176,74 @@ void SelfContact::begin_step(const RodModel&, const RodState& start, double) {
   start_orientation_ = start.orientation;
 }
 
-void SelfContact::place_bodies(const RodModel& model, const RodState& state) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+SelfContact::Axis SelfContact::axis_of(const CollisionShape& shape, const RodState& state) {
+  const Vec3 axis = state.orientation[shape.element] * Vec3::UnitZ();
+  return {state.position[shape.element] - shape.back_near * axis,
+          (shape.back_near - shape.back_far) * axis};
+}
+
+// A place at the distance r from an element's node moves by at most d + 2 r sin(angle / 2), and so
+// by less than sqrt(2 (d^2 + 4 r^2 sin^2(angle / 2))), where the node moves by d and the element
+// turns by the angle, and sin^2(angle / 2) = 1 - (q . q')^2. What is no number is passed over.
+SelfContact::Moved SelfContact::farthest_moved(const RodState& state) const {
+  double since_reference = 0.0, in_step = 0.0;
+  for (std::size_t e = 0; e < references_.size(); ++e) {
+    const Reference& reference = references_[e];
+    const Vec3& x = state.position[e];
+    const auto q = state.orientation[e].coeffs();
+    const double span = 4.0 * reference.lever * reference.lever;
+    const double turn = q.dot(reference.orientation.coeffs());
+    const double turn_in_step = q.dot(start_orientation_[e].coeffs());
+    const double moved = (x - reference.position).squaredNorm() + span * (1.0 - turn * turn);
+    const double moved_in_step =
+        (x - start_position_[e]).squaredNorm() + span * (1.0 - turn_in_step * turn_in_step);
+    since_reference = moved > since_reference ? moved : since_reference;
+    in_step = moved_in_step > in_step ? moved_in_step : in_step;
+  }
+  return {std::sqrt(2.0 * since_reference), std::sqrt(2.0 * in_step)};
+}
+
+void SelfContact::collect_pairs(const RodModel& model, const RodState& state, double budget) {
+  ++work_.collections;
+  budget_ = budget;
+  for (std::size_t e = 0; e < references_.size(); ++e) {
+    references_[e].position = state.position[e];
+    references_[e].orientation = state.orientation[e];
+  }
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const CollisionShape& shape = model.shapes[i];
-    const Vec3 axis = state.orientation[shape.element] * Vec3::UnitZ();
-    bodies_[i].near = state.position[shape.element] - shape.back_near * axis;
-    bodies_[i].along = (shape.back_near - shape.back_far) * axis;
-    bodies_[i].live = state.alive[shape.element] &&
-                      (shape.fruit < 0 || !state.fruit_gone[shape.fruit]) &&
-                      std::isfinite(bodies_[i].near.sum() + axis.sum());
+    const Axis axis = axis_of(shape, state);
+    boxes_[i].setEmpty();
+    if (!std::isfinite(axis.near.sum() + axis.along.sum())) continue;
+    boxes_[i].extend(axis.near).extend(axis.near + axis.along);
+    const double reach =
+        std::max(shape.radius_near, shape.radius_far) + 0.5 * settings_.margin + budget;
+    boxes_[i].min().array() -= reach;
+    boxes_[i].max().array() += reach;
   }
-}
-
-Box SelfContact::box_around(const CollisionShape& shape, const Body& body, double more) const {
-  const double reach =
-      std::max(shape.radius_near, shape.radius_far) + 0.5 * settings_.margin + more;
-  Box box(body.near.cwiseMin(body.near + body.along), body.near.cwiseMax(body.near + body.along));
-  box.min().array() -= reach;
-  box.max().array() += reach;
-  return box;
-}
-
-bool SelfContact::pairs_hold(const RodModel& model) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].live && !fat_boxes_[i].contains(box_around(model.shapes[i], bodies_[i], 0.0)))
-      return false;
-  return true;
-}
-
-void SelfContact::rebuild_pairs(const RodModel& model) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    fat_boxes_[i].setEmpty();
-    if (bodies_[i].live) fat_boxes_[i] = box_around(model.shapes[i], bodies_[i], skin_);
+  overlapping_.find(boxes_, candidates_);
+  pairs_.clear();
+  for (const auto& [a, b] : candidates_) {
+    if (is_near_in_graph(model, model.shapes[a].element, model.shapes[b].element)) continue;
+    if (std::binary_search(excluded_.begin(), excluded_.end(), std::pair(a, b))) continue;
+    const double gap = nearest(model, state, a, b).gap();
+    if (gap <= settings_.margin + 2.0 * budget) pairs_.push_back({a, b, gap});
   }
-  overlapping_.find(fat_boxes_, pairs_);
-  std::erase_if(pairs_, [&](const auto& pair) {
-    return std::binary_search(excluded_.begin(), excluded_.end(), pair) ||
-           is_near_in_graph(model, model.shapes[pair.first].element,
-                            model.shapes[pair.second].element);
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
+    return std::tie(x.gap, x.a, x.b) < std::tie(y.gap, y.a, y.b);
   });
 }
 
-void SelfContact::exclude(const RodModel& model) {
-  for (const auto& [a, b] : pairs_)
-    if (nearest(model, a, b).gap() < settings_.margin) excluded_.emplace_back(a, b);
-}
-
-SelfContact::Touch SelfContact::nearest(const RodModel& model, int a, int b) const {
-  const Body &first = bodies_[a], &second = bodies_[b];
+SelfContact::Touch SelfContact::nearest(const RodModel& model, const RodState& state, int a,
+                                        int b) {
+  const CollisionShape &shape_a = model.shapes[a], &shape_b = model.shapes[b];
+  const Axis first = axis_of(shape_a, state), second = axis_of(shape_b, state);
   const auto at = nearest_fractions(first.near, first.along, second.near, second.along);
   Touch touch;
-  touch.back_a = back_at(model.shapes[a], at.a);
-  touch.back_b = back_at(model.shapes[b], at.b);
-  touch.radius_a = radius_at(model.shapes[a], at.a);
-  touch.radius_b = radius_at(model.shapes[b], at.b);
+  touch.back_a = back_at(shape_a, at.a);
+  touch.back_b = back_at(shape_b, at.b);
+  touch.radius_a = radius_at(shape_a, at.a);
+  touch.radius_b = radius_at(shape_b, at.b);
   touch.between_W = first.near + at.a * first.along - second.near - at.b * second.along;
   return touch;
 }
@@ -226,19 +251,33 @@ SelfContact::Touch SelfContact::nearest(const RodModel& model, int a, int b) con
 void SelfContact::find(const RodModel& model, const RodState& state, double dt,
                        std::vector<ContactPoint>& found) {
   if (start_position_.size() != state.position.size()) begin_step(model, state, dt);
-  place_bodies(model, state);
-  if (!pairs_hold(model)) rebuild_pairs(model);
-  for (const auto& [a, b] : pairs_)
-    if (bodies_[a].live && bodies_[b].live) touch(model, state, dt, a, b, found);
+  Moved moved = farthest_moved(state);
+  moved.in_step = std::min(moved.in_step, most_motion * extent_);
+  if (!(moved.since_reference + moved.in_step <= budget_)) {
+    collect_pairs(model, state, skin * extent_ + moved.in_step);
+    moved.since_reference = 0.0;
+  }
+  // Over the whole way of this step no gap is less than it was by more than both have moved.
+  const double reach = settings_.margin + 2.0 * (moved.since_reference + moved.in_step);
+  const auto is_live = [&](const CollisionShape& shape) {
+    return state.alive[shape.element] && (shape.fruit < 0 || !state.fruit_gone[shape.fruit]);
+  };
+  for (const Pair& pair : pairs_) {
+    if (pair.gap > reach) break;
+    ++work_.pairs;
+    if (is_live(model.shapes[pair.a]) && is_live(model.shapes[pair.b]))
+      touch(model, state, dt, moved.in_step, pair.a, pair.b, found);
+  }
 }
 
-void SelfContact::touch(const RodModel& model, const RodState& state, double dt, int a, int b,
-                        std::vector<ContactPoint>& found) const {
-  const Touch touch = nearest(model, a, b);
+void SelfContact::touch(const RodModel& model, const RodState& state, double dt, double in_step,
+                        int a, int b, std::vector<ContactPoint>& found) const {
+  const Touch touch = nearest(model, state, a, b);
+  double distance = touch.between_W.norm();
+  if (distance - touch.radius_a - touch.radius_b > settings_.margin + 2.0 * in_step) return;
   const int element_a = model.shapes[a].element, element_b = model.shapes[b].element;
   const Vec3 before_W = start_place(element_a, Vec3(0, 0, -touch.back_a)) -
                         start_place(element_b, Vec3(0, 0, -touch.back_b));
-  double distance = touch.between_W.norm();
   Vec3 normal_W = distance > 0.0 ? Vec3(touch.between_W / distance) : Vec3(Vec3::UnitZ());
   // Axes that went through each other in this step are pushed back to where they came from.
   if (before_W.dot(normal_W) < 0.0) {

@@ -59,6 +59,11 @@ class OverlappingBoxes {
 /// force of one spring and momentum balances. The plane is frozen within an iteration, so only
 /// block-diagonal parts of the Hessian arise.
 ///
+/// Broad phase: the pairs that could meet are collected rarely, with the gap that they had then (an
+/// element has moved by 0 since). While no element has moved by more than a skin since, a find
+/// costs one look at each element and at those few pairs whose gap then was below what has moved
+/// since.
+///
 /// The price: what moves both sides together converges like Jacobi's method, by 1 / (1 + 2 k
 /// dt^2/m) an iteration. A stiff spring would glue light parts to where they touched. So the spring
 /// is progressive, F = k o (1 + o / margin) at an overlap o of the margins, with k = min(stiffness,
@@ -74,10 +79,24 @@ class SelfContact : public ContactSource {
   void find(const RodModel& model, const RodState& state, double dt,
             std::vector<ContactPoint>& found) override;
 
+  /// What find() has done so far: how often it collected the pairs, and at how many it looked.
+  struct Work {
+    long collections = 0, pairs = 0;
+  };
+  const Work& work() const { return work_; }
+
  private:
-  struct Body {
-    Vec3 near = Vec3::Zero(), along = Vec3::Zero();  // m, W, axis of the shape
-    bool live = false;
+  struct Axis {
+    Vec3 near = Vec3::Zero(), along = Vec3::Zero();  // m, W
+  };
+  struct Reference {  // an element where the pairs were collected
+    Vec3 position = Vec3::Zero();
+    Quat orientation = Quat::Identity();
+    double lever = 0.0;  // m, from its node to the farthest place of its shapes
+  };
+  struct Pair {
+    int a = 0, b = 0;  // shapes, a < b
+    double gap = 0.0;  // m, where the pairs were collected
   };
   struct Touch {
     double back_a = 0.0, back_b = 0.0;      // m
@@ -85,23 +104,28 @@ class SelfContact : public ContactSource {
     Vec3 between_W = Vec3::Zero();          // m, from b's axis to a's
     double gap() const { return between_W.norm() - radius_a - radius_b; }
   };
-  void place_bodies(const RodModel& model, const RodState& state);
-  bool pairs_hold(const RodModel& model) const;
-  Eigen::AlignedBox3d box_around(const CollisionShape& shape, const Body& body, double more) const;
-  void rebuild_pairs(const RodModel& model);
-  void exclude(const RodModel& model);
-  Touch nearest(const RodModel& model, int a, int b) const;
-  void touch(const RodModel& model, const RodState& state, double dt, int a, int b,
+  struct Moved {
+    double since_reference = 0.0, in_step = 0.0;  // m, farthest that any place of a shape has moved
+  };
+  Moved farthest_moved(const RodState& state) const;
+  void collect_pairs(const RodModel& model, const RodState& state, double budget);
+  static Axis axis_of(const CollisionShape& shape, const RodState& state);
+  static Touch nearest(const RodModel& model, const RodState& state, int a, int b);
+  void touch(const RodModel& model, const RodState& state, double dt, double in_step, int a, int b,
              std::vector<ContactPoint>& found) const;
   Vec3 start_place(int element, const Vec3& arm_E) const;
   Vec3 motion(const RodState& state, int element, double back, const Vec3& outward_W) const;
 
   SelfContactSettings settings_;
-  std::vector<Body> bodies_;
-  std::vector<Eigen::AlignedBox3d> fat_boxes_;  // m, W; the pairs hold while the bodies stay inside
-  std::vector<std::pair<int, int>> pairs_, excluded_;
+  std::vector<Reference> references_;  // one an element
+  std::vector<Pair> pairs_;            // ascending gaps; all that had one below margin + 2 budget_
+  double budget_ = 0.0;                // m, the pairs hold while nothing has moved by more
+  double extent_ = 0.0;                // m, mean length of a shape
+  std::vector<std::pair<int, int>> excluded_;    // shapes, ascending
+  std::vector<std::pair<int, int>> candidates_;  // scratch
+  std::vector<Eigen::AlignedBox3d> boxes_;       // scratch, m, W
   OverlappingBoxes overlapping_;
-  double skin_ = 0.0;  // m, by which boxes are fattened
+  Work work_;
   std::vector<Vec3> start_position_;
   std::vector<Quat> start_orientation_;
 };

@@ -31,6 +31,7 @@ struct Placement {
   geometry::Aabb box_W;    ///< m, around both poses; infinite for a plane
   bool is_moving = false;  ///< the two poses differ
   bool is_active = true;   ///< false: plants pass through
+  double give = 0.0;       ///< m/N, ContactPoint::give; 0: it does not feel the plants
 };
 
 /// All colliders of a world, shared by the sources of all plants: those only read it, so plants may
@@ -46,6 +47,8 @@ class ColliderSet {
   void update(std::span<const Pose> X_WL);
   /// Puts one collider somewhere without any motion (after a reset, or a hidden thing's return).
   void put(int index, const Pose& X_WL);
+  /// m/N, >= 0: how far the collider's link gives way in a step for each newton (two-way coupling).
+  void set_give(int index, double give) { placements_[index].give = give; }
   void set_active(int index, bool active) { placements_[index].is_active = active; }
 
   int size() const { return static_cast<int>(colliders_.size()); }

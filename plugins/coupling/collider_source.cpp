@@ -31,88 +31,103 @@ bool ColliderSource::is_ignored(int shape, int collider) const {
   return std::binary_search(ignored_.begin(), ignored_.end(), std::pair(shape, collider));
 }
 
-void ColliderSource::begin_step(const RodModel&, const RodState& start, double) {
+void ColliderSource::begin_step(const RodModel& model, const RodState& start, double) {
+  if (!chunks_.is_built_for(model)) chunks_.build(model, settings_.margin);
   start_position_ = start.position;
   start_orientation_ = start.orientation;
+  chunks_.begin(start.position);
 }
 
 void ColliderSource::find(const RodModel& model, const RodState& state, double dt,
                           std::vector<ContactPoint>& found) {
   if (colliders_.size() == 0) return;
   if (start_position_.size() != state.position.size()) begin_step(model, state, dt);
-  place_shapes(model, state);
+  chunks_.extend(state.position);
   choose_colliders();
   if (near_.empty()) return;
-  for (int shape = 0; shape < static_cast<int>(model.shapes.size()); ++shape) {
-    if (boxes_[shape].isEmpty()) continue;
-    for (const int collider : near_)
-      if (boxes_[shape].intersects(colliders_.placement(collider).box_W) &&
-          !is_ignored(shape, collider))
-        touch(model, shape, collider, found);
+  for (const ElementChunks::Chunk& chunk : chunks_.chunks()) {
+    choose_for(chunk);
+    if (chunk_near_.empty()) continue;
+    for (int i = chunk.first_shape; i < chunk.last_shape; ++i) {
+      Placed shape;
+      shape.index = chunks_.shapes()[i];
+      if (!place(model, state, shape)) continue;
+      for (const int collider : chunk_near_)
+        if (shape.way_W.intersects(colliders_.placement(collider).box_W) &&
+            !is_ignored(shape.index, collider))
+          touch(model, shape, collider, found);
+    }
   }
 }
 
-ColliderSource::Axis ColliderSource::axis_of(const CollisionShape& shape,
-                                             const std::vector<Vec3>& position,
-                                             const std::vector<Quat>& orientation) const {
-  const Vec3& node = position[shape.element];
-  const Vec3 axis = orientation[shape.element] * Vec3::UnitZ();
-  return {node - shape.back_near * axis, node - shape.back_far * axis};
-}
-
-void ColliderSource::place_shapes(const RodModel& model, const RodState& state) {
-  const std::size_t count = model.shapes.size();
-  axes_.resize(count);
-  start_axes_.resize(count);
-  boxes_.resize(count);
-  box_.setEmpty();
-  for (std::size_t i = 0; i < count; ++i) {
-    const CollisionShape& shape = model.shapes[i];
-    boxes_[i].setEmpty();
-    if (!state.alive[shape.element]) continue;
-    if (shape.fruit >= 0 && state.fruit_gone[shape.fruit]) continue;
-    axes_[i] = axis_of(shape, state.position, state.orientation);
-    start_axes_[i] = axis_of(shape, start_position_, start_orientation_);
-    // An iterate that has run away meets nothing; the solver reports it.
-    if (!std::isfinite((axes_[i].near_W + axes_[i].far_W).sum())) continue;
-    const double reach = std::max(shape.radius_near, shape.radius_far) + settings_.margin;
-    boxes_[i].extend(axes_[i].near_W).extend(axes_[i].far_W);
-    boxes_[i].extend(start_axes_[i].near_W).extend(start_axes_[i].far_W);
-    boxes_[i].min().array() -= reach;
-    boxes_[i].max().array() += reach;
-    box_.extend(boxes_[i]);
-  }
-}
-
+// Colliders whose box meets the plant's.
 void ColliderSource::choose_colliders() {
   near_.clear();
-  if (box_.isEmpty()) return;
   for (int i = 0; i < colliders_.size(); ++i) {
     const Placement& placement = colliders_.placement(i);
-    if (placement.is_active && placement.box_W.intersects(box_)) near_.push_back(i);
+    if (placement.is_active && placement.box_W.intersects(chunks_.box_W())) near_.push_back(i);
   }
 }
 
-MovingCapsule ColliderSource::in_collider(const CollisionShape& shape, int index,
-                                          const Placement& at) const {
-  const Mat3 R_CW = at.R_WC.transpose();
-  MovingCapsule capsule;
-  capsule.near_C = R_CW * (axes_[index].near_W - at.X_WC.position);
-  capsule.far_C = R_CW * (axes_[index].far_W - at.X_WC.position);
-  const Mat3 R_before = at.R_WC_before.transpose();
-  capsule.near_before_C = R_before * (start_axes_[index].near_W - at.X_WC_before.position);
-  capsule.far_before_C = R_before * (start_axes_[index].far_W - at.X_WC_before.position);
-  capsule.radius_near = shape.radius_near;
-  capsule.radius_far = shape.radius_far;
-  return capsule;
+// Of them, those that the chunk's way may meet. A distance changes by at most the way that is gone,
+// so one look from the middle of the box tells of the whole box.
+void ColliderSource::choose_for(const ElementChunks::Chunk& chunk) {
+  chunk_near_.clear();
+  for (const int i : near_) {
+    const Placement& at = colliders_.placement(i);
+    if (!at.box_W.intersects(chunk.way_W)) continue;
+    if (!at.is_moving) {
+      const Vec3 middle_C = at.R_WC.transpose() * (chunk.way_W.center() - at.X_WC.position);
+      const double radius = 0.5 * chunk.way_W.sizes().norm();
+      if (colliders_.collider(i).shape->distance(middle_C) > radius) continue;
+    }
+    chunk_near_.push_back(i);
+  }
 }
 
-void ColliderSource::touch(const RodModel& model, int index, int collider_index,
+// False where there is nothing to touch.
+bool ColliderSource::place(const RodModel& model, const RodState& state, Placed& placed) const {
+  const CollisionShape& shape = model.shapes[placed.index];
+  const int e = shape.element;
+  if (!state.alive[e] || (shape.fruit >= 0 && state.fruit_gone[shape.fruit])) return false;
+  const auto axis_of = [&](const Vec3& node, const Quat& orientation) -> Axis {
+    const Vec3 axis = orientation * Vec3::UnitZ();
+    return {node - shape.back_near * axis, node - shape.back_far * axis};
+  };
+  placed.now = axis_of(state.position[e], state.orientation[e]);
+  placed.before = axis_of(start_position_[e], start_orientation_[e]);
+  // An iterate that has run away meets nothing; the solver reports it.
+  if (!std::isfinite((placed.now.near_W + placed.now.far_W).sum())) return false;
+  for (const Axis& axis : {placed.now, placed.before})
+    placed.way_W.extend(axis.near_W).extend(axis.far_W);
+  const double reach = std::max(shape.radius_near, shape.radius_far) + settings_.margin;
+  placed.way_W.min().array() -= reach;
+  placed.way_W.max().array() += reach;
+  return true;
+}
+
+namespace {
+
+MovingCapsule in_collider(const CollisionShape& shape, const Placement& at, const Vec3& near_W,
+                          const Vec3& far_W, const Vec3& near_before_W, const Vec3& far_before_W) {
+  const Mat3 now = at.R_WC.transpose(), before = at.R_WC_before.transpose();
+  return {now * (near_W - at.X_WC.position),
+          now * (far_W - at.X_WC.position),
+          before * (near_before_W - at.X_WC_before.position),
+          before * (far_before_W - at.X_WC_before.position),
+          shape.radius_near,
+          shape.radius_far};
+}
+
+}  // namespace
+
+void ColliderSource::touch(const RodModel& model, const Placed& placed, int collider_index,
                            std::vector<ContactPoint>& found) const {
-  const CollisionShape& shape = model.shapes[index];
+  const CollisionShape& shape = model.shapes[placed.index];
   const Collider& collider = colliders_.collider(collider_index);
   const Placement& at = colliders_.placement(collider_index);
-  const MovingCapsule capsule = in_collider(shape, index, at);
+  const MovingCapsule capsule = in_collider(shape, at, placed.now.near_W, placed.now.far_W,
+                                            placed.before.near_W, placed.before.far_W);
   SearchSettings search;
   search.samples = sample_count(shape.back_near - shape.back_far, collider.feature,
                                 settings_.samples_per_feature, settings_.most_samples);
@@ -123,7 +138,7 @@ void ColliderSource::touch(const RodModel& model, int index, int collider_index,
   if (!nearest) return;
 
   ContactPoint point;
-  point.shape = index;
+  point.shape = placed.index;
   point.collider = collider_index;
   point.back = shape.back_near + nearest->fraction * (shape.back_far - shape.back_near);
   point.radius = nearest->radius;
@@ -138,6 +153,7 @@ void ColliderSource::touch(const RodModel& model, int index, int collider_index,
   point.friction = collider.friction.value_or(settings_.friction);
   point.stiffness = shape.fruit >= 0 ? settings_.fruit_stiffness : settings_.contact_stiffness;
   point.margin = settings_.margin;
+  point.give = at.give;
   found.push_back(point);
 }
 

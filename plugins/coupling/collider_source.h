@@ -5,12 +5,17 @@
 #include "cosserat/contact.h"
 #include "coupling/collider.h"
 #include "coupling/coupling_settings.h"
+#include "coupling/element_chunks.h"
 #include "coupling/nearest_place.h"
 
 namespace pedicel::coupling {
 
 /// The contacts of one plant with the shared colliders: at most one for each pair of a shape of the
 /// plant and a collider, at their nearest place. ContactPoint::collider is the collider's index.
+///
+/// Three sieves stand before the exact search, so that what is far from everything costs a few
+/// comparisons an element: the box of the plant, the boxes of its chunks (element_chunks.h) with
+/// one look at the field of a resting collider, and the box of each shape's way.
 ///
 /// Axes are placed as the solver moves them: rigid segments behind their child nodes. Shapes of
 /// dead elements and of fruits that are gone are left out. find() does not allocate once warm.
@@ -33,24 +38,26 @@ class ColliderSource : public cosserat::ContactSource {
   struct Axis {
     Vec3 near_W, far_W;  // m
   };
-  Axis axis_of(const cosserat::CollisionShape& shape, const std::vector<Vec3>& position,
-               const std::vector<Quat>& orientation) const;
-  void place_shapes(const cosserat::RodModel& model, const cosserat::RodState& state);
+  // A shape, where it is and was.
+  struct Placed {
+    int index = 0;
+    Axis now, before;
+    geometry::Aabb way_W;  // m, around its way and the margin
+  };
+  bool place(const cosserat::RodModel& model, const cosserat::RodState& state, Placed& shape) const;
   void choose_colliders();
+  void choose_for(const ElementChunks::Chunk& chunk);
   bool is_ignored(int shape, int collider) const;
-  void touch(const cosserat::RodModel& model, int shape, int collider,
+  void touch(const cosserat::RodModel& model, const Placed& shape, int collider,
              std::vector<cosserat::ContactPoint>& found) const;
-  MovingCapsule in_collider(const cosserat::CollisionShape& shape, int index,
-                            const Placement& placement) const;
 
   const ColliderSet& colliders_;
   CouplingSettings settings_;
   std::vector<Vec3> start_position_;     // m, W
   std::vector<Quat> start_orientation_;  // E to W
-  std::vector<Axis> axes_, start_axes_;
-  std::vector<geometry::Aabb> boxes_;  // m, W, around the way of each shape; empty: not there
-  geometry::Aabb box_;                 // m, W, around all of them
-  std::vector<int> near_;              // colliders that may touch this plant
+  ElementChunks chunks_;
+  std::vector<int> near_;                     // colliders that may touch this plant
+  std::vector<int> chunk_near_;               // of them, those that may touch the chunk at hand
   std::vector<std::pair<int, int>> ignored_;  // (shape, collider), ascending
 };
 
