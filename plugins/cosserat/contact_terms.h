@@ -22,9 +22,9 @@ namespace pedicel::cosserat {
 ///
 /// A collider that gives way (ContactPoint::give, its inverse mass times dt^2) is one more spring
 /// in series: backward Euler for the collider's own motion, so that light links and stiff stems do
-/// not push each other to and fro. Gaps are
-/// reported as they are after it gave way; stretches are kept as they were before, and colliders'
-/// motions are those between poses before, too, so that what sticks does not creep.
+/// not push each other to and fro. Gaps are reported as they are after it gave way; stretches are
+/// kept as they were before, and colliders' motions are those between poses before, too, so that
+/// what sticks does not creep.
 class ContactTerms {
  public:
   /// Collects the contacts of an iterate. `start` is the state at the start of the step.

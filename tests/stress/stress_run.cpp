@@ -65,7 +65,7 @@ class Run {
   // Everything that is moved from outside goes to where it is at the end of the step.
   void drive(double begin) {
     const double end = begin + case_.dt;
-    if (case_.shake) system_.state(0).root = case_.shake->at(case_.plant.root, end);
+    if (case_.shake) system_.edit_state(0).root = case_.shake->at(case_.plant.root, end);
     if (case_.ram) {
       const Pose pose = case_.ram->at(end);
       colliders_.update({&pose, 1});

@@ -20,8 +20,10 @@ class SceneCase {
   }
 
   std::unique_ptr<Simulation> simulation(const std::string& scene) const {
-    write("case.scene.yaml",
-          "format: pedicel-scene\nversion: 1\nname: case\npurpose: test\nsee: test\nduration: 11\n" + scene);
+    write(
+        "case.scene.yaml",
+        "format: pedicel-scene\nversion: 1\nname: case\npurpose: test\nsee: test\nduration: 11\n" +
+            scene);
     Diagnostics diagnostics;
     const auto read = world::read_scene(folder_ / "case.scene.yaml", diagnostics);
     if (!read) throw InvalidFile(diagnostics);

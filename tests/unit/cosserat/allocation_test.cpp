@@ -29,7 +29,7 @@ long allocations_of_a_warm_run(const RodSettings& settings, int threads, bool lo
   for (int i = 0; i < 100; ++i) system.step(1.0 / 240.0, gravity);
   EXPECT_GT(system.contact_forces(0).size(), 0u);
   if (breaks)
-    for (int p = 0; p < 3; ++p) system.state(p).alive.back() = 0;
+    for (int p = 0; p < 3; ++p) system.edit_state(p).alive.back() = 0;
   const long before = allocations();
   for (int i = 0; i < 100; ++i) system.step(1.0 / 240.0, gravity);
   return allocations() - before;

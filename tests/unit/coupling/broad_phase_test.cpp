@@ -11,7 +11,7 @@
 #include "coupling/element_chunks.h"
 #include "geometry/shapes.h"
 #include "plant/reference_plants.h"
-#include "unit/coupling/allocation_counter.h"
+#include "support/allocation_counter.h"
 
 namespace pedicel::coupling {
 namespace {
