@@ -85,6 +85,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
                     !step.model->supports.empty() || plant.loops;
     plant.extra_energy = 0.0;
     plant.last_change = 0.0;
+    plant.presses = false;
   }
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
@@ -178,8 +179,9 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     rows_.write_iterate(p, plant.iterate);
     plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
     plant.extras.clear();
-    plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) +
-                         plant.contacts.linearise(model, plant.iterate, plant.extras);
+    const double pressed = plant.contacts.linearise(model, plant.iterate, plant.extras);
+    plant.presses = pressed > 0.0;
+    plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
   });
   for (int p = 0; p < size(); ++p)
     if (wanted(p) && !plants_[p].loops) rows_.add_extras(p, plants_[p].extras);
@@ -233,9 +235,9 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
   double found = rows_.energy(index);
   if (plant.touched) {
     rows_.write_iterate(index, plant.iterate);
-    plant.extra_energy = plant.attachments.potential(model, plant.iterate) +
-                         plant.contacts.potential(model, plant.iterate);
-    found += plant.extra_energy;
+    const double pressed = plant.contacts.potential(model, plant.iterate);
+    plant.presses = plant.presses || pressed > 0.0;
+    found += plant.attachments.potential(model, plant.iterate) + pressed;
   }
   // Rounding of the sum is the only ascent allowed.
   if (plant.share == 0.0 || found <= plant.energy + 1.0e-12 * (1.0 + std::abs(plant.energy))) {
@@ -258,22 +260,22 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   const double change = plant.change.largest;
   ++report.iterations;
   report.last_change = change;
+  const bool first = plant.last_change == 0.0;
   double gain = plant.gain * std::max(1.0, change / std::max(plant.gain_change, 1.0e-300));
-  if (plant.last_change > 0.0) {
+  if (!first) {
     gain = plant.gain = change / plant.last_change;
     plant.gain_change = plant.last_change;
   }
-  const bool first = plant.last_change == 0.0;
   plant.last_change = change;
   // A contact that moves a stem by many of its radii in one step wants more iterations than a
   // smooth motion: cut short, the stem may end inside a thin link.
-  const bool rough_contact = plant.contacts.size() > 0 && change > converged_change;
+  const bool rough_contact = plant.presses && change > converged_change;
   const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
   const bool last = report.iterations >= most;
   if (last && change > converged_change) report.errors |= not_converged;
   // Contacts are found anew in every iteration, and self-contact leaves its coupling out of the
   // Hessian: there a small change is not yet the end.
-  if (plant.contacts.size() > 0) return last || change <= 1.0e-4 * settings_.tolerance;
+  if (plant.presses) return last || change <= 1.0e-4 * settings_.tolerance;
   const bool small = change <= settings_.tolerance ||
                      (gain < 1.0 && gain / (1.0 - gain) * change <= settings_.tolerance);
   if (small && first) plant.gain = std::pow(plant.gain, 0.8);

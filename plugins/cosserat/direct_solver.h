@@ -57,6 +57,7 @@ class DirectSolver : public RodSolver {
     std::unique_ptr<BlockSystem> loops;  // where the plant has welds
     bool touched = false;                // by loads, supports, welds or contact sources
     RodState iterate;                    // where touched
+    bool presses = false;                // a contact did, in this iteration
     bool has_history = false;
     double energy = 0.0, extra_energy = 0.0;  // J, where the line search began; of `touched`
     double share = 0.0;                       // 1, of Newton's change that is tried

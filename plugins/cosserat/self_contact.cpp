@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <tuple>
 
 #include "core/check.h"
 
@@ -16,9 +15,11 @@ using Box = Eigen::AlignedBox3d;
 using Cell = std::array<int, 3>;
 
 constexpr double midway = 1.0e-4;  // pull towards the middles, relative to the longer axis squared
-// In mean lengths of a shape. A larger skin collects pairs more rarely, but more of them.
-constexpr double skin = 0.35;
-constexpr double most_motion = 2.0;  // what moves farther in one step may pass through the plant
+// A larger budget collects pairs more rarely, but more of them.
+constexpr double skin = 0.35;        // mean lengths of a shape
+constexpr double steps_ahead = 4.0;  // of the present motion
+constexpr double most_motion = 2.0;  // mean lengths: what moves farther in a step may pass through
+constexpr double most_stiffening = 10.0;  // 1, of the progressive spring
 
 double radius_at(const CollisionShape& shape, double fraction) {
   return shape.radius_near + fraction * (shape.radius_far - shape.radius_near);
@@ -152,22 +153,29 @@ void OverlappingBoxes::find(std::span<const Box> boxes, std::vector<std::pair<in
 }
 
 SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings)
-    : settings_(settings), references_(model.elements.size()), boxes_(model.shapes.size()) {
+    : settings_(settings), bodies_(model.elements.size()), boxes_(model.shapes.size()) {
   check(settings);
   double sum = 0.0;
   for (const CollisionShape& shape : model.shapes) {
     sum += std::abs(shape.back_near - shape.back_far) + 2.0 * radius_at(shape, 0.5);
-    double& lever = references_[shape.element].lever;
-    lever = std::max({lever, std::abs(shape.back_near) + shape.radius_near,
-                      std::abs(shape.back_far) + shape.radius_far});
+    Body& body = bodies_[shape.element];
+    body.middle_back = 0.5 * model.elements[shape.element].length;
+    body.lever =
+        std::max({body.lever, std::abs(shape.back_near - body.middle_back) + shape.radius_near,
+                  std::abs(shape.back_far - body.middle_back) + shape.radius_far});
   }
   extent_ = sum / static_cast<double>(std::max<std::size_t>(1, model.shapes.size()));
   const RodState drawn = drawn_state(model);
-  collect_pairs(model, drawn, skin * extent_);
+  begin_step(model, drawn, 0.0);
+  move_bodies(drawn);
+  collect_pairs(model, drawn);
+  const auto touches = [&](const Pair& pair) {
+    return nearest(model, drawn, pair.a, pair.b).gap() < settings_.margin;
+  };
   for (const Pair& pair : pairs_)
-    if (pair.gap < settings_.margin) excluded_.emplace_back(pair.a, pair.b);
+    if (touches(pair)) excluded_.emplace_back(pair.a, pair.b);
   std::sort(excluded_.begin(), excluded_.end());
-  std::erase_if(pairs_, [&](const Pair& pair) { return pair.gap < settings_.margin; });
+  std::erase_if(pairs_, touches);
   work_ = {};
 }
 
@@ -182,33 +190,40 @@ SelfContact::Axis SelfContact::axis_of(const CollisionShape& shape, const RodSta
           (shape.back_near - shape.back_far) * axis};
 }
 
-// A place at the distance r from an element's node moves by at most d + 2 r sin(angle / 2), and so
-// by less than sqrt(2 (d^2 + 4 r^2 sin^2(angle / 2))), where the node moves by d and the element
-// turns by the angle, and sin^2(angle / 2) = 1 - (q . q')^2. What is no number is passed over.
-SelfContact::Moved SelfContact::farthest_moved(const RodState& state) const {
-  double since_reference = 0.0, in_step = 0.0;
-  for (std::size_t e = 0; e < references_.size(); ++e) {
-    const Reference& reference = references_[e];
-    const Vec3& x = state.position[e];
-    const auto q = state.orientation[e].coeffs();
-    const double span = 4.0 * reference.lever * reference.lever;
-    const double turn = q.dot(reference.orientation.coeffs());
-    const double turn_in_step = q.dot(start_orientation_[e].coeffs());
-    const double moved = (x - reference.position).squaredNorm() + span * (1.0 - turn * turn);
-    const double moved_in_step =
-        (x - start_position_[e]).squaredNorm() + span * (1.0 - turn_in_step * turn_in_step);
-    since_reference = moved > since_reference ? moved : since_reference;
-    in_step = moved_in_step > in_step ? moved_in_step : in_step;
+// A place at most r from an element's middle moves against it by at most 2 r sin(angle / 2), and
+// sin^2(angle / 2) = 1 - (q . q')^2.
+void SelfContact::move_bodies(const RodState& state) {
+  const double most = most_motion * extent_;
+  for (std::size_t e = 0; e < bodies_.size(); ++e) {
+    Body& body = bodies_[e];
+    const Quat &q = state.orientation[e], &start = start_orientation_[e];
+    body.middle = state.position[e] - body.middle_back * (q * Vec3::UnitZ());
+    body.moved = body.middle - start_position_[e] + body.middle_back * (start * Vec3::UnitZ());
+    const double far = body.moved.norm();
+    if (far > most) body.moved *= most / far;
+    const double cosine = q.coeffs().dot(start.coeffs());
+    body.turned = 2.0 * body.lever * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   }
-  return {std::sqrt(2.0 * since_reference), std::sqrt(2.0 * in_step)};
 }
 
-void SelfContact::collect_pairs(const RodModel& model, const RodState& state, double budget) {
+bool SelfContact::pairs_hold(const RodState& state) const {
+  for (std::size_t e = 0; e < bodies_.size(); ++e) {
+    const Body& body = bodies_[e];
+    const double cosine = state.orientation[e].coeffs().dot(body.reference_orientation.coeffs());
+    const double turned = 2.0 * body.lever * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double moved = (body.middle - body.reference).norm() + turned;
+    if (moved + body.moved.norm() + body.turned > body.budget) return false;
+  }
+  return true;
+}
+
+void SelfContact::collect_pairs(const RodModel& model, const RodState& state) {
   ++work_.collections;
-  budget_ = budget;
-  for (std::size_t e = 0; e < references_.size(); ++e) {
-    references_[e].position = state.position[e];
-    references_[e].orientation = state.orientation[e];
+  for (std::size_t e = 0; e < bodies_.size(); ++e) {
+    Body& body = bodies_[e];
+    body.reference = body.middle;
+    body.reference_orientation = state.orientation[e];
+    body.budget = skin * extent_ + steps_ahead * (body.moved.norm() + body.turned);
   }
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const CollisionShape& shape = model.shapes[i];
@@ -216,22 +231,23 @@ void SelfContact::collect_pairs(const RodModel& model, const RodState& state, do
     boxes_[i].setEmpty();
     if (!std::isfinite(axis.near.sum() + axis.along.sum())) continue;
     boxes_[i].extend(axis.near).extend(axis.near + axis.along);
-    const double reach =
-        std::max(shape.radius_near, shape.radius_far) + 0.5 * settings_.margin + budget;
+    const double reach = std::max(shape.radius_near, shape.radius_far) + 0.5 * settings_.margin +
+                         bodies_[shape.element].budget;
     boxes_[i].min().array() -= reach;
     boxes_[i].max().array() += reach;
   }
   overlapping_.find(boxes_, candidates_);
   pairs_.clear();
   for (const auto& [a, b] : candidates_) {
-    if (is_near_in_graph(model, model.shapes[a].element, model.shapes[b].element)) continue;
+    const int element_a = model.shapes[a].element, element_b = model.shapes[b].element;
+    const Body &first = bodies_[element_a], &second = bodies_[element_b];
+    const double reach =
+        first.lever + second.lever + settings_.margin + first.budget + second.budget;
+    if ((first.middle - second.middle).squaredNorm() > reach * reach) continue;
+    if (is_near_in_graph(model, element_a, element_b)) continue;
     if (std::binary_search(excluded_.begin(), excluded_.end(), std::pair(a, b))) continue;
-    const double gap = nearest(model, state, a, b).gap();
-    if (gap <= settings_.margin + 2.0 * budget) pairs_.push_back({a, b, gap});
+    pairs_.push_back({a, b, element_a, element_b});
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) {
-    return std::tie(x.gap, x.a, x.b) < std::tie(y.gap, y.a, y.b);
-  });
 }
 
 SelfContact::Touch SelfContact::nearest(const RodModel& model, const RodState& state, int a,
@@ -251,31 +267,33 @@ SelfContact::Touch SelfContact::nearest(const RodModel& model, const RodState& s
 void SelfContact::find(const RodModel& model, const RodState& state, double dt,
                        std::vector<ContactPoint>& found) {
   if (start_position_.size() != state.position.size()) begin_step(model, state, dt);
-  Moved moved = farthest_moved(state);
-  moved.in_step = std::min(moved.in_step, most_motion * extent_);
-  if (!(moved.since_reference + moved.in_step <= budget_)) {
-    collect_pairs(model, state, skin * extent_ + moved.in_step);
-    moved.since_reference = 0.0;
-  }
-  // Over the whole way of this step no gap is less than it was by more than both have moved.
-  const double reach = settings_.margin + 2.0 * (moved.since_reference + moved.in_step);
+  move_bodies(state);
+  if (!pairs_hold(state)) collect_pairs(model, state);
   const auto is_live = [&](const CollisionShape& shape) {
     return state.alive[shape.element] && (shape.fruit < 0 || !state.fruit_gone[shape.fruit]);
   };
   for (const Pair& pair : pairs_) {
-    if (pair.gap > reach) break;
+    // On the whole way of this step the two middles are not nearer than now less what they have
+    // moved against each other, nor are any of their places.
+    const Body &a = bodies_[pair.element_a], &b = bodies_[pair.element_b];
+    const double reach = a.lever + b.lever + settings_.margin + a.turned + b.turned +
+                         (a.moved - b.moved).norm();
+    if ((a.middle - b.middle).squaredNorm() > reach * reach) continue;
     ++work_.pairs;
     if (is_live(model.shapes[pair.a]) && is_live(model.shapes[pair.b]))
-      touch(model, state, dt, moved.in_step, pair.a, pair.b, found);
+      touch(model, state, dt, pair.a, pair.b, found);
   }
 }
 
-void SelfContact::touch(const RodModel& model, const RodState& state, double dt, double in_step,
-                        int a, int b, std::vector<ContactPoint>& found) const {
+void SelfContact::touch(const RodModel& model, const RodState& state, double dt, int a, int b,
+                        std::vector<ContactPoint>& found) const {
   const Touch touch = nearest(model, state, a, b);
-  double distance = touch.between_W.norm();
-  if (distance - touch.radius_a - touch.radius_b > settings_.margin + 2.0 * in_step) return;
   const int element_a = model.shapes[a].element, element_b = model.shapes[b].element;
+  const Body &body_a = bodies_[element_a], &body_b = bodies_[element_b];
+  double distance = touch.between_W.norm();
+  if (distance - touch.radius_a - touch.radius_b >
+      settings_.margin + body_a.turned + body_b.turned + (body_a.moved - body_b.moved).norm())
+    return;
   const Vec3 before_W = start_place(element_a, Vec3(0, 0, -touch.back_a)) -
                         start_place(element_b, Vec3(0, 0, -touch.back_b));
   Vec3 normal_W = distance > 0.0 ? Vec3(touch.between_W / distance) : Vec3(Vec3::UnitZ());
@@ -296,9 +314,11 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
   const double stiffness =
       std::min(soft ? settings_.fruit_stiffness : settings_.stiffness, lighter / (dt * dt));
   const double overlap = std::max(0.0, settings_.margin - gap);
-  const double force = stiffness * overlap * (1.0 + overlap / settings_.margin);
+  const double stiffening = std::min(overlap / settings_.margin, most_stiffening);
+  const double force = stiffness * overlap * (1.0 + stiffening);
   // The progressive spring's tangent: the same force and slope at this iterate.
-  point.stiffness = 2.0 * stiffness * (1.0 + 2.0 * overlap / settings_.margin);
+  point.stiffness =
+      2.0 * stiffness * (1.0 + (stiffening < most_stiffening ? 2.0 : 1.0) * stiffening);
   point.gap = 0.5 * gap;
   point.margin = overlap > 0.0 ? point.gap + force / point.stiffness : 0.5 * settings_.margin;
   point.friction = settings_.friction;

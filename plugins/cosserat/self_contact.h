@@ -59,10 +59,10 @@ class OverlappingBoxes {
 /// force of one spring and momentum balances. The plane is frozen within an iteration, so only
 /// block-diagonal parts of the Hessian arise.
 ///
-/// Broad phase: the pairs that could meet are collected rarely, with the gap that they had then (an
-/// element has moved by 0 since). While no element has moved by more than a skin since, a find
-/// costs one look at each element and at those few pairs whose gap then was below what has moved
-/// since.
+/// Broad phase: the pairs that could meet are collected rarely, each element with a budget of
+/// motion that grows with its speed, and kept until one has used its budget up. A find costs one
+/// look at each element and a comparison of distances for each pair, against how far the two have
+/// moved relative to each other in the step: what falls or swings together costs no more than that.
 ///
 /// The price: what moves both sides together converges like Jacobi's method, by 1 / (1 + 2 k
 /// dt^2/m) an iteration. A stiff spring would glue light parts to where they touched. So the spring
@@ -89,14 +89,19 @@ class SelfContact : public ContactSource {
   struct Axis {
     Vec3 near = Vec3::Zero(), along = Vec3::Zero();  // m, W
   };
-  struct Reference {  // an element where the pairs were collected
-    Vec3 position = Vec3::Zero();
-    Quat orientation = Quat::Identity();
-    double lever = 0.0;  // m, from its node to the farthest place of its shapes
+  struct Body {                     // an element
+    double lever = 0.0;             // m, from its middle to the farthest place of its shapes
+    double middle_back = 0.0;       // m, of its middle
+    Vec3 reference = Vec3::Zero();  // m, W, middle where the pairs were collected
+    Quat reference_orientation = Quat::Identity();
+    double budget = 0.0;         // m, the pairs hold while no place of it has moved by more
+    Vec3 middle = Vec3::Zero();  // m, W, now
+    Vec3 moved = Vec3::Zero();   // m, W, of the middle, in this step
+    double turned = 0.0;         // m, in this step, of any place against the middle
   };
   struct Pair {
     int a = 0, b = 0;  // shapes, a < b
-    double gap = 0.0;  // m, where the pairs were collected
+    int element_a = 0, element_b = 0;
   };
   struct Touch {
     double back_a = 0.0, back_b = 0.0;      // m
@@ -104,23 +109,20 @@ class SelfContact : public ContactSource {
     Vec3 between_W = Vec3::Zero();          // m, from b's axis to a's
     double gap() const { return between_W.norm() - radius_a - radius_b; }
   };
-  struct Moved {
-    double since_reference = 0.0, in_step = 0.0;  // m, farthest that any place of a shape has moved
-  };
-  Moved farthest_moved(const RodState& state) const;
-  void collect_pairs(const RodModel& model, const RodState& state, double budget);
+  void move_bodies(const RodState& state);
+  bool pairs_hold(const RodState& state) const;
+  void collect_pairs(const RodModel& model, const RodState& state);
   static Axis axis_of(const CollisionShape& shape, const RodState& state);
   static Touch nearest(const RodModel& model, const RodState& state, int a, int b);
-  void touch(const RodModel& model, const RodState& state, double dt, double in_step, int a, int b,
+  void touch(const RodModel& model, const RodState& state, double dt, int a, int b,
              std::vector<ContactPoint>& found) const;
   Vec3 start_place(int element, const Vec3& arm_E) const;
   Vec3 motion(const RodState& state, int element, double back, const Vec3& outward_W) const;
 
   SelfContactSettings settings_;
-  std::vector<Reference> references_;  // one an element
-  std::vector<Pair> pairs_;            // ascending gaps; all that had one below margin + 2 budget_
-  double budget_ = 0.0;                // m, the pairs hold while nothing has moved by more
-  double extent_ = 0.0;                // m, mean length of a shape
+  std::vector<Body> bodies_;                     // one an element
+  std::vector<Pair> pairs_;                      // all that can meet within the budgets, ascending
+  double extent_ = 0.0;                          // m, mean length of a shape
   std::vector<std::pair<int, int>> excluded_;    // shapes, ascending
   std::vector<std::pair<int, int>> candidates_;  // scratch
   std::vector<Eigen::AlignedBox3d> boxes_;       // scratch, m, W

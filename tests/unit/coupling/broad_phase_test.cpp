@@ -139,9 +139,9 @@ TEST(ElementChunks, HoldTheWaysOfTheirShapes) {
   EXPECT_EQ(shapes, model.shapes.size());
 }
 
-// Drawn apart, the branches of a plant look at no pair while it sways by less than the skin, and
-// collect pairs anew only once it has swayed farther.
-TEST(BroadPhase, SelfContactLooksAtNoPairOfAPlantThatStaysApart) {
+// Drawn apart, the branches of a plant look at few pairs however far it is carried as a whole, and
+// collect pairs anew only once it has moved by the skin.
+TEST(BroadPhase, SelfContactLooksAtFewPairsOfAPlantThatStaysApart) {
   const RodModel model = plant::forest_plant(0);
   cosserat::SelfContact source(model, {});
   std::vector<ContactPoint> found;
@@ -153,11 +153,11 @@ TEST(BroadPhase, SelfContactLooksAtNoPairOfAPlantThatStaysApart) {
   };
   step_to(start);
   EXPECT_EQ(source.work().collections, 0);
-  EXPECT_EQ(source.work().pairs, 0);
-  // Of the 59 * 58 / 2 = 1711 pairs, those beside the forks come within twice what has moved.
+  // Of the 59 * 58 / 2 = 1711 pairs, those beside the forks.
+  EXPECT_LE(source.work().pairs, 4 * 11);
   for (int i = 1; i <= 10; ++i) step_to(shifted(model, {2.0e-4 * i, 0, 0}));
   EXPECT_EQ(source.work().collections, 0);
-  EXPECT_LT(source.work().pairs, 4 * 10 * model.size() / 4);
+  EXPECT_LE(source.work().pairs, 4 * 11 * 11);
   for (int i = 1; i <= 100; ++i) step_to(shifted(model, {2.0e-4 * (10 + i), 0, 0}));
   EXPECT_LE(source.work().collections, 100 / 10);
   EXPECT_GT(source.work().collections, 0);
