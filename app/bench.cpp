@@ -1,26 +1,21 @@
 #include "app/bench.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/process_memory.h"
 #include "core/check.h"
 #include "core/ring_down.h"
 #include "core/timer.h"
 #include "cosserat/direct_solver.h"
-#include "cosserat/rod_system.h"
 #include "cosserat/self_contact.h"
 #include "plant/reference_plants.h"
 
 namespace pedicel::app {
 
 namespace {
-
-const Vec3 earth(0, 0, -9.81);
 
 // The heavy elastica and the clamped-free beam of the reference cantilever (plant::cantilever).
 constexpr double cantilever_drop = 0.227248;      // m
@@ -40,23 +35,6 @@ std::vector<cosserat::RodModel> forest_plants(int count) {
   return plants;
 }
 
-std::vector<cosserat::RodModel> plants_of(const std::string& name) {
-  if (name == "rods_2242") return forest_plants(plant::forest_size);
-  if (name == "tree_2242") return {plant::hanging_tree()};
-  for (const auto& [row, plants] : rows)
-    if (name == row) return forest_plants(plants);
-  std::string known;
-  for (const std::string& other : bench_names()) known += (known.empty() ? "" : ", ") + other;
-  throw UsageError("bench \"" + name + "\": expected one of " + known);
-}
-
-void add_plant(cosserat::RodSystem& system, cosserat::RodModel model, const BenchOptions& options) {
-  const int plant = system.add_plant(std::move(model));
-  if (options.self_contact)
-    system.add_contact_source(plant, std::make_unique<cosserat::SelfContact>(
-                                         system.model(plant), cosserat::SelfContactSettings{}));
-}
-
 void step_for(cosserat::RodSystem& system, double seconds, double dt, const Vec3& gravity) {
   for (int i = 0; i < static_cast<int>(std::lround(seconds / dt)); ++i) system.step(dt, gravity);
 }
@@ -66,19 +44,6 @@ double percentile(std::vector<double> values, double share) {
       values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return *place;
-}
-
-double resident_bytes() {
-  long pages_total = 0, pages_resident = 0;
-  std::ifstream("/proc/self/statm") >> pages_total >> pages_resident;
-  return static_cast<double>(pages_resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-double peak_megabytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024.0;
-  return 0.0;
 }
 
 void damp(cosserat::RodModel& model) {
@@ -91,7 +56,7 @@ double cantilever_error(const BenchOptions& options, int elements) {
   damp(model);
   cosserat::RodSystem system(options.rods);
   system.add_plant(model);
-  step_for(system, 4.0, options.dt, earth);
+  step_for(system, 4.0, options.dt, bench_gravity);
   return -system.state(0).position.back().z() / cantilever_drop - 1.0;
 }
 
@@ -99,7 +64,7 @@ double cantilever_error(const BenchOptions& options, int elements) {
 std::optional<RingDown> cantilever_ring(const BenchOptions& options) {
   const cosserat::RodModel model = plant::cantilever(20);
   cosserat::RodState bent = cosserat::drawn_state(model);
-  cosserat::settle(model, bent, 0.005 * earth);
+  cosserat::settle(model, bent, 0.005 * bench_gravity);
   cosserat::RodSystem system(options.rods);
   system.add_plant(model);
   system.set_state(0, bent);
@@ -115,9 +80,9 @@ double forest_droop(const BenchOptions& options) {
   cosserat::RodSystem system(options.rods, options.threads);
   for (cosserat::RodModel& model : forest_plants(plant::forest_size)) {
     damp(model);
-    add_plant(system, std::move(model), options);
+    add_bench_plant(system, std::move(model), options);
   }
-  step_for(system, 1.5, options.dt, earth);
+  step_for(system, 1.5, options.dt, bench_gravity);
   double sum = 0.0;
   int ends = 0;
   for (int p = 0; p < system.size(); ++p) {
@@ -146,12 +111,6 @@ BenchAccuracy measure_accuracy(const BenchOptions& options) {
   return accuracy;
 }
 
-std::string hexadecimal(std::uint64_t number) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
-  return text;
-}
-
 std::string percent(const std::optional<double>& share) {
   if (!share) return "none (no oscillation)";
   char text[32];
@@ -167,15 +126,34 @@ const std::vector<std::string>& bench_names() {
   return names;
 }
 
+std::vector<cosserat::RodModel> bench_plants(const std::string& name) {
+  if (name == "rods_2242") return forest_plants(plant::forest_size);
+  if (name == "tree_2242") return {plant::hanging_tree()};
+  for (const auto& [row, plants] : rows)
+    if (name == row) return forest_plants(plants);
+  std::string known;
+  for (const std::string& other : bench_names()) known += (known.empty() ? "" : ", ") + other;
+  throw UsageError("bench \"" + name + "\": expected one of " + known +
+                   ", or a scene file (*.scene.yaml)");
+}
+
+void add_bench_plant(cosserat::RodSystem& system, cosserat::RodModel model,
+                     const BenchOptions& options) {
+  const int plant = system.add_plant(std::move(model));
+  if (options.self_contact)
+    system.add_contact_source(plant, std::make_unique<cosserat::SelfContact>(
+                                         system.model(plant), cosserat::SelfContactSettings{}));
+}
+
 BenchResult run_bench(const BenchOptions& options) {
   BenchResult result;
-  std::vector<cosserat::RodModel> plants = plants_of(options.name);
+  std::vector<cosserat::RodModel> plants = bench_plants(options.name);
   for (const cosserat::RodModel& model : plants) result.rods += model.size();
   const double before = resident_bytes();
   cosserat::RodSystem system(options.rods, options.threads);
-  for (const cosserat::RodModel& model : plants) add_plant(system, model, options);
+  for (const cosserat::RodModel& model : plants) add_bench_plant(system, model, options);
   const int warm_up = 10;
-  for (int i = 0; i < warm_up; ++i) system.step(options.dt, earth);
+  for (int i = 0; i < warm_up; ++i) system.step(options.dt, bench_gravity);
   result.bytes_per_element = (resident_bytes() - before) / result.rods;
 
   std::vector<double> milliseconds;
@@ -183,7 +161,7 @@ BenchResult run_bench(const BenchOptions& options) {
   const int steps = std::max(1, static_cast<int>(std::lround(options.duration / options.dt)));
   for (int i = 0; i < steps; ++i) {
     const Timer timer;
-    system.step(options.dt, earth);
+    system.step(options.dt, bench_gravity);
     milliseconds.push_back(1.0e3 * timer.seconds());
   }
   const double seconds = whole.seconds();
@@ -199,6 +177,12 @@ BenchResult run_bench(const BenchOptions& options) {
   result.state_hash = hash.value();
   if (options.accuracy) result.accuracy = measure_accuracy(options);
   return result;
+}
+
+std::string hexadecimal(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
 }
 
 std::string to_json(const BenchResult& r) {

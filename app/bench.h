@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "cosserat/rod_solver.h"
+#include "cosserat/rod_system.h"
 
 namespace pedicel::app {
+
+inline const Vec3 bench_gravity(0, 0, -9.81);  // m/s2, W
 
 /// What `pedicel bench` is asked to do.
 struct BenchOptions {
@@ -49,6 +51,11 @@ struct BenchResult {
 /// of forest plants of about 1,000, 10,000 and 100,000 elements.
 const std::vector<std::string>& bench_names();
 
+/// Their plants. Throws UsageError for a name that is none of them.
+std::vector<cosserat::RodModel> bench_plants(const std::string& name);
+void add_bench_plant(cosserat::RodSystem& system, cosserat::RodModel model,
+                     const BenchOptions& options);
+
 /// Runs a benchmark. Throws UsageError for a name that it does not know, with the ones it does.
 BenchResult run_bench(const BenchOptions& options);
 
@@ -57,5 +64,8 @@ std::string to_json(const BenchResult& result);
 
 /// The same for people.
 std::string to_text(const BenchResult& result);
+
+/// A state hash as it is printed, 16 digits.
+std::string hexadecimal(std::uint64_t number);
 
 }  // namespace pedicel::app

@@ -4,23 +4,23 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <thread>
 
-#include "app/bench.h"
-#include "app/headless.h"
+#include "app/parallel_worlds.h"
 #include "app/rod_options.h"
+#include "app/run_arguments.h"
 #include "app/validate.h"
 #include "app/version.h"
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "render/image.h"
-#include "world/scene_reader.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
 
 namespace {
 
-enum Exit { ok = 0, failure = 1, usage = 2, invalid = 3, unwritable = 6 };
+enum Exit { ok = 0, failure = 1, usage = 2, invalid = 3, unstable = 4, unwritable = 6 };
 
 constexpr const char* exit_codes =
     "Exit codes: 0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the "
@@ -30,89 +30,6 @@ constexpr const char* exit_codes =
 
 extern "C" void request_stop(int) {
   stop_requested = true;
-}
-
-/// What the command line says of a run; names as in the options.
-struct RunArguments {
-  std::string scene, out, size;
-  std::vector<std::string> set, packages;
-  std::optional<double> duration, dt, fps, log_rate;
-  std::optional<int> seed, threads;
-  bool headless = false, json = false, quiet = false, no_video = false, no_pictures = false,
-       no_sweep = false, print_scene = false;
-};
-
-void add_run_options(CLI::App& app, RunArguments& a) {
-  app.add_option("--out", a.out, "folder for everything that is written (default: out/<scene>)");
-  app.add_option("--set", a.set,
-                 "key=value: duration, dt, seed, threads, log_rate, rods.KEY, coupling.KEY, "
-                 "plants.NAME.KEY, or a key of every plant such as detach.stretch; may be repeated")
-      ->allow_extra_args(false);
-  app.add_option("--duration", a.duration, "simulated time, s");
-  app.add_option("--dt", a.dt, "time step, s");
-  app.add_option("--seed", a.seed, "seed of everything random");
-  app.add_option("--threads", a.threads, "threads for the plants");
-  app.add_option("--log-rate", a.log_rate, "rows a simulated second in log.csv, Hz");
-  app.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies; may be repeated")
-      ->allow_extra_args(false);
-  app.add_option("--fps", a.fps, "frames a simulated second of the video, Hz");
-  app.add_option("--size", a.size, "WxH of pictures and video, px");
-  app.add_flag("--no-video", a.no_video, "take no video");
-  app.add_flag("--no-pictures", a.no_pictures, "take neither pictures nor video");
-  app.add_flag("--no-sweep", a.no_sweep, "leave out the scene's sweep");
-  app.add_flag("--json", a.json, "the result as JSON on standard output");
-  app.add_flag("--quiet", a.quiet, "no progress, no start and end lines");
-}
-
-std::optional<std::array<int, 2>> parse_size(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  std::array<int, 2> size{};
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size[0], &size[1], &rest) != 2 || size[0] < 16 ||
-      size[1] < 16 || size[0] > 8192 || size[1] > 8192)
-    throw UsageError("--size " + text + ": expected WxH in pixels, 16 to 8192 each (1280x720)");
-  return size;
-}
-
-world::Scene load_scene(const RunArguments& a) {
-  Diagnostics diagnostics;
-  std::optional<world::Scene> scene = world::read_scene(a.scene, diagnostics);
-  if (!scene) throw InvalidFile(diagnostics);
-  for (const Diagnostic& warning : diagnostics.all())
-    std::fprintf(stderr, "%s\n", to_string(warning).c_str());
-  const auto set = [&](const char* key, auto value) {
-    if (value) world::apply_override(*scene, key, io::format_number(static_cast<double>(*value)));
-  };
-  set("duration", a.duration);
-  set("dt", a.dt);
-  set("log_rate", a.log_rate);
-  set("seed", a.seed);
-  set("threads", a.threads);
-  for (const std::string& assignment : a.set) {
-    const auto [key, value] = world::split_assignment(assignment);
-    world::apply_override(*scene, key, value);
-  }
-  if (a.no_sweep) {
-    scene->sweep.reset();
-    std::erase_if(scene->expectations, [](const auto& e) { return e.over_sweep(); });
-  }
-  return std::move(*scene);
-}
-
-RunOptions run_options(const RunArguments& a) {
-  RunOptions options;
-  options.simulation.packages = a.packages;
-  options.out = a.out;
-  if (options.out.empty()) {
-    std::string name = std::filesystem::path(a.scene).filename().string();
-    options.out = std::filesystem::path("out") / name.substr(0, name.find('.'));
-  }
-  options.pictures = !a.no_pictures;
-  options.video = !a.no_video;
-  options.fps = a.fps;
-  options.size = parse_size(a.size);
-  options.quiet = a.quiet;
-  return options;
 }
 
 int run_verb(const RunArguments& a) {
@@ -160,9 +77,42 @@ int sweep_verb(RunArguments a) {
   return result.exit_code;
 }
 
-int bench_verb(BenchOptions options, const std::vector<std::string>& set, bool json) {
+/// What the command line says of a benchmark. What is not given is the bench's or the scene's own.
+struct BenchArguments {
+  BenchOptions options;
+  std::optional<int> worlds, threads;
+  std::optional<double> dt, duration;
+  std::vector<std::string> set, packages;
+  bool json = false;
+};
+
+void add_bench_options(CLI::App& bench, BenchArguments& a) {
+  std::string list;
+  for (const std::string& name : bench_names()) list += name + ", ";
+  bench.add_option("name", a.options.name, "one of " + list + "or a scene file (*.scene.yaml)");
+  bench.add_option("--worlds", a.worlds, "independent copies, each stepped by one thread")
+      ->check(CLI::Range(1, 100000));
+  bench.add_option("--threads", a.threads, "threads (default: 1; with --worlds all cores)")
+      ->check(CLI::Range(1, 1024));
+  bench.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(1e-6, 0.1));
+  bench.add_option("--duration", a.duration, "simulated time, s")->check(CLI::Range(1e-3, 1e4));
+  bench.add_option("--set", a.set, "rods.KEY=VALUE, of a scene any of its keys; may be repeated")
+      ->allow_extra_args(false);
+  bench.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies")
+      ->allow_extra_args(false);
+  bench.add_flag("--self-contact", a.options.self_contact,
+                 "organs of one plant may touch each other");
+  bench.add_flag("!--no-accuracy", a.options.accuracy, "measure the speed only");
+  bench.add_flag("--json", a.json, "as JSON");
+}
+
+BenchOptions bench_options(const BenchArguments& a) {
+  BenchOptions options = a.options;
+  options.threads = a.threads.value_or(options.threads);
+  options.dt = a.dt.value_or(options.dt);
+  options.duration = a.duration.value_or(options.duration);
   std::vector<world::Setting> rods;
-  for (const std::string& assignment : set) {
+  for (const std::string& assignment : a.set) {
     const auto [key, value] = world::split_assignment(assignment);
     if (!key.starts_with("rods."))
       throw UsageError("--set " + assignment + ": expected rods.KEY=VALUE");
@@ -171,9 +121,37 @@ int bench_verb(BenchOptions options, const std::vector<std::string>& set, bool j
   Diagnostics diagnostics;
   apply_rod_settings(rods, options.rods, diagnostics);
   if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
-  const BenchResult result = run_bench(options);
-  std::cout << (json ? to_json(result) : to_text(result)) << std::endl;
-  return ok;
+  return options;
+}
+
+/// All cores, as far as there are worlds for them.
+WorldsOptions worlds_options(const BenchArguments& a, double dt, double duration) {
+  const int worlds = a.worlds.value_or(1);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return {worlds, a.threads.value_or(std::min(worlds, cores)), dt, duration};
+}
+
+WorldsResult bench_scene(const BenchArguments& a) {
+  if (a.options.self_contact)
+    throw UsageError("--self-contact: expected --set coupling.self_contact=1 for a scene");
+  RunArguments run;
+  run.scene = a.options.name;
+  run.set = a.set;
+  run.dt = a.dt;
+  run.duration = a.duration;
+  const world::Scene scene = load_scene(run);
+  return run_worlds(scene_worlds(scene, {a.packages}), worlds_options(a, scene.dt, scene.duration));
+}
+
+int bench_verb(const BenchArguments& a) {
+  const auto print = [&a](const auto& result) {
+    std::cout << (a.json ? to_json(result) : to_text(result)) << std::endl;
+    return ok;
+  };
+  if (a.options.name.ends_with(".scene.yaml")) return print(bench_scene(a));
+  const BenchOptions options = bench_options(a);
+  if (!a.worlds) return print(run_bench(options));
+  return print(run_worlds(rod_worlds(options), worlds_options(a, options.dt, options.duration)));
 }
 
 int guarded(const std::function<int()>& verb) {
@@ -185,6 +163,9 @@ int guarded(const std::function<int()>& verb) {
   } catch (const UsageError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return usage;
+  } catch (const UnstableWorld& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return unstable;
   } catch (const io::WriteError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return unwritable;
@@ -222,25 +203,10 @@ int run_cli(int argc, char** argv) {
   validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies")
       ->allow_extra_args(false);
 
-  BenchOptions bench_options;
-  bool json = false;
+  BenchArguments benched;
   CLI::App* bench =
       app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
-  std::string bench_list;
-  for (const std::string& name : bench_names())
-    bench_list += (bench_list.empty() ? "" : ", ") + name;
-  bench->add_option("name", bench_options.name, "one of " + bench_list);
-  bench->add_option("--threads", bench_options.threads, "threads");
-  bench->add_option("--dt", bench_options.dt, "time step, s")->check(CLI::Range(1e-6, 0.1));
-  bench->add_option("--duration", bench_options.duration, "simulated time, s")
-      ->check(CLI::Range(1e-3, 1e4));
-  std::vector<std::string> bench_set;
-  bench->add_option("--set", bench_set, "rods.KEY=VALUE as in a scene; may be repeated")
-      ->allow_extra_args(false);
-  bench->add_flag("--self-contact", bench_options.self_contact,
-                  "organs of one plant may touch each other");
-  bench->add_flag("!--no-accuracy", bench_options.accuracy, "measure the speed only");
-  bench->add_flag("--json", json, "as JSON");
+  add_bench_options(*bench, benched);
   app.require_subcommand(0, 1);
 
   try {
@@ -250,7 +216,7 @@ int run_cli(int argc, char** argv) {
   }
   if (*sweep) return guarded([&] { return sweep_verb(swept); });
   if (*validate) return guarded([&] { return validate_files(files, packages, std::cerr); });
-  if (*bench) return guarded([&] { return bench_verb(bench_options, bench_set, json); });
+  if (*bench) return guarded([&] { return bench_verb(benched); });
   return guarded([&] { return run_verb(run); });
 }
 

@@ -1,6 +1,7 @@
 #include "app/colliders.h"
 
 #include <algorithm>
+#include <map>
 
 #include "geometry/grid_cache.h"
 #include "geometry/shapes.h"
@@ -11,7 +12,17 @@ namespace {
 
 using Field = std::shared_ptr<const geometry::SignedDistance>;
 
-Field field_of(const robot::Geometry& g, std::vector<std::string>& notes) {
+using MeshFields = std::map<const geometry::TriangleMesh*, Field>;
+
+Field grid_of(const geometry::TriangleMesh& mesh, std::vector<std::string>& notes) {
+  geometry::GridReport report;
+  auto grid = std::make_shared<geometry::GridDistance>(
+      geometry::cached_grid(mesh, {}, geometry::default_cache_folder(), nullptr, &report));
+  if (!report.problem.empty()) notes.push_back(report.problem);
+  return grid;
+}
+
+Field field_of(const robot::Geometry& g, MeshFields& grids, std::vector<std::string>& notes) {
   switch (g.kind) {
     case robot::Geometry::Kind::box:
       return std::make_shared<geometry::BoxDistance>(g.size);
@@ -22,10 +33,8 @@ Field field_of(const robot::Geometry& g, std::vector<std::string>& notes) {
     case robot::Geometry::Kind::mesh:
       break;
   }
-  geometry::GridReport report;
-  auto grid = std::make_shared<geometry::GridDistance>(
-      geometry::cached_grid(*g.mesh, {}, geometry::default_cache_folder(), nullptr, &report));
-  if (!report.problem.empty()) notes.push_back(report.problem);
+  Field& grid = grids[g.mesh.get()];
+  if (!grid) grid = grid_of(*g.mesh, notes);
   return grid;
 }
 
@@ -45,17 +54,29 @@ Field field_of(const world::BodyPart& part) {
 
 }  // namespace
 
+ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::string>& notes) {
+  MeshFields grids;
+  ShapeFields fields;
+  for (const robot::Link& link : robot.links) {
+    fields.emplace_back();
+    for (const robot::Collision& collision : link.collisions)
+      fields.back().push_back(field_of(collision.geometry, grids, notes));
+  }
+  return fields;
+}
+
 void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
-                         const robot::RobotDescription& robot, const std::vector<Pose>& link_poses,
-                         std::vector<std::string>& notes) {
+                         const robot::RobotDescription& robot, const ShapeFields& fields,
+                         const std::vector<Pose>& link_poses) {
   for (std::size_t l = 0; l < robot.links.size(); ++l) {
-    for (const robot::Collision& collision : robot.links[l].collisions) {
+    const std::vector<robot::Collision>& collisions = robot.links[l].collisions;
+    for (std::size_t c = 0; c < collisions.size(); ++c) {
       coupling::Collider collider;
       collider.name = name + "/" + robot.links[l].name;
       collider.body = robot_body;
       collider.link = static_cast<int>(l);
-      collider.shape = field_of(collision.geometry, notes);
-      collider.X_LC = collision.X_LC;
+      collider.shape = fields[l][c];
+      collider.X_LC = collisions[c].X_LC;
       set.add(std::move(collider), link_poses[l]);
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,18 @@ namespace pedicel::app {
 inline constexpr int robot_body = -2;
 inline constexpr int ground_body = -1;
 
-/// Adds one collider a collision shape of every link, named "robot/LINK"; exact for primitives, a
-/// grid kept on disk for meshes (geometry/grid_cache.h). `link_poses` (X_WL) is where the links are
-/// now. A problem with the cache is added to `notes`, one sentence each.
+/// The distance field of every collision shape, [link][collision].
+using ShapeFields = std::vector<std::vector<std::shared_ptr<const geometry::SignedDistance>>>;
+
+/// Exact for primitives; for meshes a grid kept on disk (geometry/grid_cache.h), one for all shapes
+/// that share a mesh. A problem with the cache is added to `notes`, one sentence each.
+ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::string>& notes);
+
+/// Adds one collider a collision shape of every link, named "robot/LINK". `fields` is fields_of()
+/// the robot; `link_poses` (X_WL) is where the links are now.
 void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
-                         const robot::RobotDescription& robot, const std::vector<Pose>& link_poses,
-                         std::vector<std::string>& notes);
+                         const robot::RobotDescription& robot, const ShapeFields& fields,
+                         const std::vector<Pose>& link_poses);
 
 /// Adds one collider a part of a rigid body, named after the body.
 void add_body_colliders(coupling::ColliderSet& set, const world::BodyDescription& body, int index,

@@ -62,11 +62,17 @@ class RobotControl : public world::Participant {
   Eigen::VectorXd q_, qd_;
 };
 
-/// Reads the robot's files, puts it into the world and plans its program. Faults (an unreadable
-/// file, a joint that is not there, a waypoint that cannot be reached) go to `diagnostics`, and
-/// then nothing comes back. `find` tells where a scene's anchor is.
+/// Reads the robot's files. Faults (an unreadable file, a joint of the scene that is not there) go
+/// to `diagnostics`, and then nothing comes back. `packages`: "NAME=PATH" beside the scene's own.
+std::optional<robot::RobotDescription> read_robot(const world::SceneRobot& scene,
+                                                  const std::vector<std::string>& packages,
+                                                  Diagnostics& diagnostics);
+
+/// Puts the robot that read_robot() read into the world and plans its program. Faults (a waypoint
+/// that cannot be reached) go to `diagnostics`, and then nothing comes back. `find` tells where a
+/// scene's anchor is.
 std::unique_ptr<RobotControl> make_robot_control(
-    const world::SceneRobot& scene, const std::vector<std::string>& packages,
+    const world::SceneRobot& scene, const robot::RobotDescription& description,
     world::SimWorld& world, const std::function<std::optional<Vec3>(const world::Anchor&)>& find,
     Diagnostics& diagnostics);
 

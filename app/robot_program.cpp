@@ -70,18 +70,25 @@ void plan(const world::SceneRobot& scene, RobotControl& control, const FindPlace
 
 }  // namespace
 
-std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
-                                                 const std::vector<std::string>& packages,
-                                                 world::SimWorld& world, const FindPlace& find,
-                                                 Diagnostics& diagnostics) {
+std::optional<robot::RobotDescription> read_robot(const world::SceneRobot& scene,
+                                                  const std::vector<std::string>& packages,
+                                                  Diagnostics& diagnostics) {
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
   for (const auto& [name, path] : scene.packages) paths.add(name + "=" + path.string());
   for (const std::string& package : packages) paths.add(package);
   const int before = diagnostics.error_count();
-  const auto description = robot::read_urdf(scene.file, paths, diagnostics);
+  auto description = robot::read_urdf(scene.file, paths, diagnostics);
   if (description) check_names(scene, *description, diagnostics);
-  if (!description || diagnostics.error_count() > before) return nullptr;
-  auto control = std::make_unique<RobotControl>(scene, *description, world);
+  if (diagnostics.error_count() > before) return std::nullopt;
+  return description;
+}
+
+std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
+                                                 const robot::RobotDescription& description,
+                                                 world::SimWorld& world, const FindPlace& find,
+                                                 Diagnostics& diagnostics) {
+  const int before = diagnostics.error_count();
+  auto control = std::make_unique<RobotControl>(scene, description, world);
   plan(scene, *control, find, diagnostics);
   if (diagnostics.error_count() > before) return nullptr;
   return control;

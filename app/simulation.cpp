@@ -3,11 +3,9 @@
 #include <algorithm>
 
 #include "app/colliders.h"
-#include "app/rod_options.h"
-#include "app/scene_plants.h"
+#include "app/scene_assets.h"
 #include "cosserat/self_contact.h"
 #include "coupling/collider_source.h"
-#include "world/settings.h"
 
 namespace pedicel::app {
 
@@ -36,15 +34,22 @@ class Simulation::LoadStep : public world::Participant {
 };
 
 Simulation::Simulation(const world::Scene& scene, const SimulationOptions& options)
-    : scene_(scene), world_(world_settings(scene)) {
+    : Simulation(std::make_shared<const SceneAssets>(scene, options)) {}
+
+Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
+    : assets_(std::move(assets)),
+      scene_(assets_->scene),
+      rod_settings_(assets_->rods),
+      coupling_settings_(assets_->coupling),
+      plants_(assets_->plants),
+      world_(world_settings(scene_)),
+      notes_(assets_->notes) {
   Diagnostics diagnostics;
-  read_settings(diagnostics);
   rods_ = std::make_unique<cosserat::RodSystem>(rod_settings_, scene_.threads);
-  add_plants(diagnostics);
-  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  add_plants();
   add_bodies();
   add_loads(diagnostics);
-  add_robot(options, diagnostics);
+  add_robot(diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   add_contacts();
   for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
@@ -52,19 +57,8 @@ Simulation::Simulation(const world::Scene& scene, const SimulationOptions& optio
 
 Simulation::~Simulation() = default;
 
-void Simulation::read_settings(Diagnostics& diagnostics) {
-  int coupling = coupling_settings_.two_way ? 1 : 0;
-  apply_rod_settings(scene_.rods, rod_settings_, diagnostics);
-  world::apply_settings(scene_.coupling, "coupling", coupling::parameters_of(coupling_settings_),
-                        {{"direction", {"one_way", "two_way"}, &coupling}}, diagnostics);
-  coupling_settings_.two_way = coupling_settings_.two_way || coupling == 1;
-}
-
-void Simulation::add_plants(Diagnostics& diagnostics) {
-  for (ScenePlantModel& plant : build_plants(scene_, diagnostics, notes_)) {
-    rods_->add_plant(std::move(plant.model));
-    plants_.push_back(std::move(plant.info));
-  }
+void Simulation::add_plants() {
+  for (const cosserat::RodModel& model : assets_->models) rods_->add_plant(model);
 }
 
 std::string Simulation::worst_residual() const {
@@ -80,10 +74,10 @@ void Simulation::add_bodies() {
   for (const world::BodyDescription& body : scene_.bodies) world_.add_body(body);
 }
 
-void Simulation::add_robot(const SimulationOptions& options, Diagnostics& diagnostics) {
-  if (!scene_.robot) return;
+void Simulation::add_robot(Diagnostics& diagnostics) {
+  if (!assets_->robot) return;
   const auto find_place = [this](const world::Anchor& anchor) { return find(anchor); };
-  robot_ = make_robot_control(*scene_.robot, options.packages, world_, find_place, diagnostics);
+  robot_ = make_robot_control(*scene_.robot, *assets_->robot, world_, find_place, diagnostics);
   if (!robot_) return;
   world_.add(*robot_);
   world_.add(robot_->reader());
@@ -94,8 +88,8 @@ void Simulation::add_contacts() {
   for (int b = 0; b < world_.body_count(); ++b)
     add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
   if (robot_)
-    add_robot_colliders(colliders_, robot_->name(), robot_->description(), robot_->link_poses(),
-                        notes_);
+    add_robot_colliders(colliders_, robot_->name(), robot_->description(), assets_->robot_fields,
+                        robot_->link_poses());
   for (int p = 0; p < rods_->size(); ++p) {
     auto source = std::make_unique<coupling::ColliderSource>(colliders_, coupling_settings_);
     source->ignore_touching(rods_->model(p), rods_->state(p));

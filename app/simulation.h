@@ -20,6 +20,8 @@
 
 namespace pedicel::app {
 
+struct SceneAssets;
+
 struct SimulationOptions {
   std::vector<std::string> packages;  ///< "NAME=PATH" of `--package`
 };
@@ -40,6 +42,8 @@ class Simulation {
  public:
   /// Throws InvalidFile with every fault found, before anything runs.
   Simulation(const world::Scene& scene, const SimulationOptions& options);
+  /// One of several worlds of a scene; each keeps the assets alive.
+  explicit Simulation(std::shared_ptr<const SceneAssets> assets);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -72,10 +76,9 @@ class Simulation {
   std::uint64_t state_hash() const;
 
  private:
-  void read_settings(Diagnostics& diagnostics);
-  void add_plants(Diagnostics& diagnostics);
+  void add_plants();
   void add_bodies();
-  void add_robot(const SimulationOptions& options, Diagnostics& diagnostics);
+  void add_robot(Diagnostics& diagnostics);
   void add_contacts();
   void add_loads(Diagnostics& diagnostics);
   Pose link_pose(const coupling::Collider& collider) const;
@@ -89,12 +92,13 @@ class Simulation {
   };
   class LoadStep;
 
-  world::Scene scene_;
-  cosserat::RodSettings rod_settings_;
-  coupling::CouplingSettings coupling_settings_;
+  std::shared_ptr<const SceneAssets> assets_;  // what the references below are parts of
+  const world::Scene& scene_;
+  const cosserat::RodSettings& rod_settings_;
+  const coupling::CouplingSettings& coupling_settings_;
+  const std::vector<PlantInfo>& plants_;
   world::SimWorld world_;
   std::unique_ptr<cosserat::RodSystem> rods_;
-  std::vector<PlantInfo> plants_;
   std::unique_ptr<RobotControl> robot_;
   coupling::ColliderSet colliders_;
   std::unique_ptr<PlantStep> plant_step_;

@@ -118,6 +118,27 @@ TEST_F(Program, BenchSaysSpeedAndMemory) {
   EXPECT_TRUE(json.at("cantilever_error").is_null());
 }
 
+TEST_F(Program, BenchStepsWorldsOfRodsAndOfScenes) {
+  const std::string rods = "bench row_1k --duration 0.01 --json --worlds ";
+  std::vector<std::string> hashes;
+  for (const std::string worlds : {"1", "3 --threads 2"}) {
+    ASSERT_EQ(run(rods + worlds), 0) << err_;
+    const auto json = nlohmann::json::parse(out_);
+    EXPECT_EQ(json.at("worlds"), std::stoi(worlds));
+    EXPECT_GT(json.at("one_real_time_factor"), 0.0);
+    EXPECT_GT(json.at("real_time_factor"), 0.0);
+    hashes.push_back(json.at("state_hash"));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  ASSERT_EQ(run("bench " + path("quick.scene.yaml") + " --worlds 2 --threads 1"), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("2 worlds, 1 thread, dt 1/240 s, 0.10 s each: "));
+  EXPECT_THAT(out_, HasSubstr("state hash of every world and of one alone "));
+  EXPECT_EQ(run("bench " + path("none.scene.yaml") + " --worlds 2"), 3);
+  EXPECT_EQ(run("bench " + path("quick.scene.yaml") + " --self-contact"), 2);
+  EXPECT_THAT(err_, HasSubstr("expected --set coupling.self_contact=1 for a scene"));
+  EXPECT_EQ(run(rods + "0"), 2);
+}
+
 TEST_F(Program, BadFilesEndWith3AndSayWhere) {
   EXPECT_EQ(run_scene("", "none.scene.yaml"), 3);
   write("bad.scene.yaml", with(quick_scene, "duration: 0.1", "duration: soon"));
@@ -141,6 +162,8 @@ TEST_F(Program, UnstableRunEndsWith4NamesTheOrganAndKeepsItsRecord) {
   Diagnostics diagnostics;
   const io::CsvTable log = io::read_csv(folder_ / "out/log.csv", {true, true}, diagnostics);
   EXPECT_GE(log.rows.size(), 4u) << diagnostics.text();
+  EXPECT_EQ(run("bench " + path("wild.scene.yaml") + " --worlds 2"), 4);
+  EXPECT_THAT(err_, HasSubstr("world 1 is unstable: "));
 }
 
 TEST_F(Program, UnmetExpectationEndsWith5) {

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace pedicel::app {
+
+/// Resident memory of this process now, bytes.
+double resident_bytes();
+
+/// The most that it ever was, MiB.
+double peak_megabytes();
+
+}  // namespace pedicel::app

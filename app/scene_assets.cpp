@@ -1,0 +1,35 @@
+#include "app/scene_assets.h"
+
+#include "app/rod_options.h"
+#include "app/scene_plants.h"
+#include "world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+void read_settings(SceneAssets& assets, Diagnostics& diagnostics) {
+  int direction = assets.coupling.two_way ? 1 : 0;
+  apply_rod_settings(assets.scene.rods, assets.rods, diagnostics);
+  world::apply_settings(assets.scene.coupling, "coupling", coupling::parameters_of(assets.coupling),
+                        {{"direction", {"one_way", "two_way"}, &direction}}, diagnostics);
+  assets.coupling.two_way = assets.coupling.two_way || direction == 1;
+}
+
+}  // namespace
+
+SceneAssets::SceneAssets(const world::Scene& given, const SimulationOptions& options)
+    : scene(given) {
+  Diagnostics diagnostics;
+  read_settings(*this, diagnostics);
+  for (ScenePlantModel& plant : build_plants(scene, diagnostics, notes)) {
+    models.push_back(std::move(plant.model));
+    plants.push_back(std::move(plant.info));
+  }
+  if (scene.robot) robot = read_robot(*scene.robot, options.packages, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  if (robot) robot_fields = fields_of(*robot, notes);
+  for (const Diagnostic& warning : diagnostics.all()) notes.push_back(to_string(warning));
+}
+
+}  // namespace pedicel::app
