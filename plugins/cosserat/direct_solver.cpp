@@ -51,7 +51,7 @@ void DirectSolver::reset(int plant) {
 
 StepReport DirectSolver::step(const RodModel& model, RodState& state, const StepInput& input) {
   PlantStep one{&model, &state, input.loads, input.contacts, true, {}};
-  step({&one, 1}, input.dt, input.gravity, alone_);
+  step({&one, 1}, input.dt, input.gravity);
   return one.report;
 }
 

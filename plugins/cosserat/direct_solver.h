@@ -38,6 +38,10 @@ class DirectSolver : public RodSolver {
   };
   /// Steps all the plants that it was made for, in that order.
   void step(std::span<PlantStep> plants, double dt, const Vec3& gravity, ThreadPool& pool);
+  /// The same in the caller's thread alone.
+  void step(std::span<PlantStep> plants, double dt, const Vec3& gravity) {
+    step(plants, dt, gravity, alone_);
+  }
   StepReport step(const RodModel& model, RodState& state, const StepInput& input) override;
 
   const std::vector<ContactForce>& contact_forces() const override { return contact_forces(0); }

@@ -1,6 +1,14 @@
 #include "cosserat/rod_system.h"
 
+#include <algorithm>
+
 namespace pedicel::cosserat {
+
+namespace {
+// Elements. A bed of the first size stays in a core's own cache; below the second what is read
+// again comes from the shared cache, and full lanes and even shares count for more.
+constexpr int bed_size = 480, undivided = 2400;
+}  // namespace
 
 RodSystem::RodSystem(const RodSettings& settings, int threads)
     : settings_(settings), pool_(threads) {}
@@ -11,7 +19,7 @@ int RodSystem::add_plant(RodModel model) {
   if (settings_.solver == SolverKind::position_based) plant.solver = make_solver(settings_, model);
   plant.model = std::move(model);
   plants_.push_back(std::move(plant));
-  direct_.reset();
+  beds_.clear();
   return size() - 1;
 }
 
@@ -22,7 +30,12 @@ void RodSystem::add_contact_source(int plant, std::unique_ptr<ContactSource> sou
 
 void RodSystem::step(double dt, const Vec3& gravity) {
   if (settings_.solver == SolverKind::direct) {
-    step_directly(dt, gravity);
+    if (beds_.empty()) make_beds();
+    if (beds_.size() == 1)
+      step_bed(beds_[0], dt, gravity, &pool_);
+    else
+      pool_.for_each(static_cast<int>(beds_.size()),
+                     [&](int b) { step_bed(beds_[b], dt, gravity, nullptr); });
   } else {
     pool_.for_each(size(), [&](int i) {
       Plant& plant = plants_[i];
@@ -37,31 +50,56 @@ void RodSystem::step(double dt, const Vec3& gravity) {
   }
 }
 
-void RodSystem::step_directly(double dt, const Vec3& gravity) {
-  const bool is_new = !direct_;
-  if (is_new) {
+void RodSystem::make_beds() {
+  int total = 0, largest = 0;
+  for (const Plant& plant : plants_) {
+    total += plant.model.size();
+    largest = std::max(largest, plant.model.size());
+  }
+  // A multiple of the number of threads, so that none waits for the last bed.
+  const int threads = pool_.threads();
+  const int rounds = total <= threads * undivided ? 1 : total / (threads * bed_size);
+  double share = static_cast<double>(total) / (threads * rounds);
+  if (largest > share || total < bed_size) share = total;
+  int filled = 0;
+  for (int p = 0; p < size(); ++p) {
+    if (beds_.empty() || filled >= share * static_cast<double>(beds_.size()))
+      beds_.emplace_back().first = p;
+    plants_[p].bed = static_cast<int>(beds_.size()) - 1;
+    plants_[p].model_changed = true;
+    filled += plants_[p].model.size();
+  }
+  for (std::size_t b = 0; b < beds_.size(); ++b) {
+    const int end = b + 1 < beds_.size() ? beds_[b + 1].first : size();
     std::vector<const RodModel*> models;
-    for (const Plant& plant : plants_) models.push_back(&plant.model);
-    direct_ = std::make_unique<DirectSolver>(settings_, models, pool_.threads());
-    steps_.resize(plants_.size());
+    for (int p = beds_[b].first; p < end; ++p) models.push_back(&plants_[p].model);
+    beds_[b].solver =
+        std::make_unique<DirectSolver>(settings_, models, beds_.size() == 1 ? threads : 1);
+    beds_[b].steps.resize(models.size());
   }
-  for (int i = 0; i < size(); ++i) {
-    Plant& plant = plants_[i];
-    steps_[i] = {&plant.model,
-                 &plant.state,
-                 plant.loads,
-                 plant.source_pointers,
-                 is_new || plant.model_changed,
-                 {}};
+}
+
+// Without a pool it is one of several beds, and a thread steps it alone.
+void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool) {
+  for (std::size_t i = 0; i < bed.steps.size(); ++i) {
+    Plant& plant = plants_[bed.first + i];
+    bed.steps[i] = {&plant.model,          &plant.state,        plant.loads,
+                    plant.source_pointers, plant.model_changed, {}};
   }
-  direct_->step(steps_, dt, gravity, pool_);
-  for (int i = 0; i < size(); ++i) plants_[i].report = steps_[i].report;
+  if (pool)
+    bed.solver->step(bed.steps, dt, gravity, *pool);
+  else
+    bed.solver->step(bed.steps, dt, gravity);
+  for (std::size_t i = 0; i < bed.steps.size(); ++i)
+    plants_[bed.first + i].report = bed.steps[i].report;
 }
 
 const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
   static const std::vector<ContactForce> none;
   if (plants_[plant].solver) return plants_[plant].solver->contact_forces();
-  return direct_ ? direct_->contact_forces(plant) : none;
+  if (beds_.empty()) return none;
+  const Bed& bed = beds_[plants_[plant].bed];
+  return bed.solver->contact_forces(plant - bed.first);
 }
 
 void RodSystem::set_state(int plant, const RodState& state) {
@@ -69,7 +107,9 @@ void RodSystem::set_state(int plant, const RodState& state) {
   plants_[plant].state.previous_dt = 0.0;
   plants_[plant].state.previous_root = state.root;
   if (plants_[plant].solver) plants_[plant].solver->reset();
-  if (direct_) direct_->reset(plant);
+  if (beds_.empty() || settings_.solver != SolverKind::direct) return;
+  Bed& bed = beds_[plants_[plant].bed];
+  bed.solver->reset(plant - bed.first);
 }
 
 void RodSystem::add_to(StateHash& hash) const {

@@ -54,6 +54,7 @@ class RodSystem {
     RodModel model;
     RodState state;
     std::unique_ptr<RodSolver> solver;  // position-based: one a plant
+    int bed = -1;
     bool model_changed = false;
     std::vector<std::unique_ptr<ContactSource>> sources;
     std::vector<ContactSource*> source_pointers;
@@ -61,13 +62,21 @@ class RodSystem {
     StepReport report;
     std::vector<DetachEvent> detached;
   };
-  void step_directly(double dt, const Vec3& gravity);
+  /// Plants that are solved together: as many as stay in a core's cache from one phase of a step to
+  /// the next; one plant that is larger than a thread's share goes with all the others, and threads
+  /// then share the phases.
+  struct Bed {
+    std::unique_ptr<DirectSolver> solver;
+    int first = 0;  // its first plant
+    std::vector<DirectSolver::PlantStep> steps;
+  };
+  void make_beds();
+  void step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool);
 
   RodSettings settings_;
   ThreadPool pool_;
   std::vector<Plant> plants_;
-  std::unique_ptr<DirectSolver> direct_;  // of all plants; made by the first step after add_plant()
-  std::vector<DirectSolver::PlantStep> steps_;
+  std::vector<Bed> beds_;  // direct solver; made by the first step after add_plant()
 };
 
 }  // namespace pedicel::cosserat
