@@ -31,8 +31,8 @@ DirectSolver::DirectSolver(const RodSettings& settings, const RodModel& model)
     : DirectSolver(settings, std::array{&model}, 1) {}
 
 DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel* const> models,
-                           int threads)
-    : settings_(settings), rows_(models, threads) {
+                           int threads, std::shared_ptr<RowScratch> scratch)
+    : settings_(settings), rows_(models, threads, false, std::move(scratch)) {
   plants_.reserve(models.size());
   for (const RodModel* model : models) {
     plants_.emplace_back(*model);

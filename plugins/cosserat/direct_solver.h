@@ -25,7 +25,9 @@ class DirectSolver : public RodSolver {
   /// One plant.
   DirectSolver(const RodSettings& settings, const RodModel& model);
   /// Several; `threads` is how many will step them.
-  DirectSolver(const RodSettings& settings, std::span<const RodModel* const> models, int threads);
+  /// Solvers that never step at once may share `scratch`.
+  DirectSolver(const RodSettings& settings, std::span<const RodModel* const> models, int threads,
+               std::shared_ptr<RowScratch> scratch = nullptr);
 
   /// One plant of several. The model is read again where `model_changed` is set.
   struct PlantStep {

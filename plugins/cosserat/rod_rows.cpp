@@ -49,22 +49,28 @@ constexpr int at(int i, int j) {  // in a lower triangle by rows
 
 }  // namespace
 
-RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks)
+RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks,
+                 std::shared_ptr<RowScratch> scratch)
     : layout_(plants, threads, keep_blocks),
       packs_(layout_.packs()),
       element_(layout_.rows(), empty_row()),
-      start_(layout_.rows(), identity_row()),
-      iterate_(start_),
-      base_(start_),
-      previous_(start_),
-      rate_(layout_.rows(), RateRow{}),
-      previous_rate_(rate_),
-      term_(layout_.rows(), TermRow{}),
-      factor_(layout_.rows(), FactorRow{}),
+      previous_(layout_.rows(), identity_row()),
+      previous_rate_(layout_.rows(), RateRow{}),
+      scratch_(scratch ? std::move(scratch) : std::make_shared<RowScratch>()),
       first_branch_(layout_.rows(), -1),
       first_extra_(layout_.rows(), -1),
       anchors_(layout_.packs()),
       roots_(plants.size()) {
+  const auto grow = [&](auto& rows) {
+    if (static_cast<int>(rows.size()) < layout_.rows()) rows.resize(layout_.rows());
+  };
+  grow(scratch_->start);
+  grow(scratch_->iterate);
+  grow(scratch_->base);
+  grow(scratch_->rate);
+  grow(scratch_->end_rate);
+  grow(scratch_->term);
+  grow(scratch_->factor);
   for (int p = 0; p < layout_.packs(); ++p) {
     packs_[p] = Pack{};
     packs_[p].begin = layout_.first_row(p);
@@ -90,27 +96,20 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
 RowArrays RodRows::arrays() {
   RowArrays rows;
   rows.element = element_.data();
-  rows.start = start_.data();
-  rows.iterate = iterate_.data();
-  rows.base = base_.data();
+  rows.start = scratch_->start.data();
+  rows.iterate = scratch_->iterate.data();
+  rows.base = scratch_->base.data();
   rows.previous = previous_.data();
-  rows.rate = rate_.data();
+  rows.rate = scratch_->rate.data();
   rows.previous_rate = previous_rate_.data();
-  rows.term = term_.data();
-  rows.factor = factor_.data();
+  rows.term = scratch_->term.data();
+  rows.factor = scratch_->factor.data();
   rows.first_branch = first_branch_.data();
   rows.first_extra = first_extra_.data();
   rows.branches = branches_.data();
   rows.extras = extras_.data();
   for (int i = 0; i < 3; ++i) rows.gravity[i] = gravity_[i];
   return rows;
-}
-
-// visit(lane, chain)
-template <class Visit>
-void RodRows::for_each_lane(int pack, const Visit& visit) const {
-  for (int lane = 0; lane < lane_count; ++lane)
-    if (const int c = layout_.chain(pack, lane); c >= 0) visit(lane, layout_.chains()[c]);
 }
 
 void RodRows::read_model(int plant, const RodModel& model) {
@@ -159,28 +158,40 @@ void RodRows::set_active(std::span<const char> plants) {
 }
 
 void RodRows::read_states(int pack, std::span<const RodState* const> states) {
-  for_each_lane(pack, [&](int lane, const Chain& chain) {
-    const RodState& state = *states[chain.plant];
-    const Anchor& anchor = anchors_[pack][lane];
+  std::vector<PoseRow>& start = scratch_->start;
+  std::vector<RateRow>& rate = scratch_->rate;
+  for (int lane = 0; lane < lane_count; ++lane) {
     int row = packs_[pack].begin;
-    if (anchor.element < 0) {
+    const int c = layout_.chain(pack, lane);
+    if (c >= 0) {
+      const Chain& chain = layout_.chains()[c];
+      const RodState& state = *states[chain.plant];
+      const int anchor = anchors_[pack][lane].element;
       // Strains of the start are against the clamp of the start.
-      put(start_[row], lane, state.previous_root.position, state.previous_root.rotation);
-    } else {
-      put(start_[row], lane, state.position[anchor.element], state.orientation[anchor.element]);
-    }
-    for (const int e : chain.elements) {
+      if (anchor < 0)
+        put(start[row], lane, state.previous_root.position, state.previous_root.rotation);
+      else
+        put(start[row], lane, state.position[anchor], state.orientation[anchor]);
+      for (const int e : chain.elements) {
+        ++row;
+        put(start[row], lane, state.position[e], state.orientation[e]);
+        put(rate[row].velocity, lane, state.velocity[e]);
+        put(rate[row].angular_velocity, lane, state.angular_velocity[e]);
+        if (state.alive[e] || element_[row].alive[lane] == 0.0) continue;
+        // It came off: nothing ties it to its parent any more.
+        element_[row].alive[lane] = 0.0;
+        put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
+        put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
+      }
       ++row;
-      put(start_[row], lane, state.position[e], state.orientation[e]);
-      put(rate_[row].velocity, lane, state.velocity[e]);
-      put(rate_[row].angular_velocity, lane, state.angular_velocity[e]);
-      if (state.alive[e] || element_[row].alive[lane] == 0.0) continue;
-      // It came off: nothing ties it to its parent any more.
-      element_[row].alive[lane] = 0.0;
-      put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
-      put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
     }
-  });
+    // Whatever the scratch held must not reach a lane's sums.
+    for (; row < packs_[pack].end; ++row) {
+      put(start[row], lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
+      put(rate[row].velocity, lane, Vec3(0, 0, 0));
+      put(rate[row].angular_velocity, lane, Vec3(0, 0, 0));
+    }
+  }
 }
 
 void RodRows::prepare(int group, std::span<const RodState* const> states) {
@@ -195,36 +206,39 @@ void RodRows::prepare(int group, std::span<const RodState* const> states) {
 
 // The parents' iterates into a pack's first row: theirs must have been moved already.
 void RodRows::place_anchors(int pack) {
-  PoseRow& row = iterate_[packs_[pack].begin];
-  for_each_lane(pack, [&](int lane, const Chain& chain) {
-    const int parent = anchors_[pack][lane].element;
-    if (parent < 0) {
-      put(row, lane, roots_[chain.plant].position, roots_[chain.plant].rotation);
-      return;
+  PoseRow& row = scratch_->iterate[packs_[pack].begin];
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const auto [plant, parent] = anchors_[pack][lane];
+    if (plant < 0) {
+      put(row, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
+    } else if (parent < 0) {
+      put(row, lane, roots_[plant].position, roots_[plant].rotation);
+    } else {
+      const Slot slot = layout_.slot(plant, parent);
+      const PoseRow& from = scratch_->iterate[slot.row];
+      for (int i = 0; i < 3; ++i) row.position[i][lane] = from.position[i][slot.lane];
+      for (int i = 0; i < 4; ++i) row.orientation[i][lane] = from.orientation[i][slot.lane];
     }
-    const Slot slot = layout_.slot(chain.plant, parent);
-    const PoseRow& from = iterate_[slot.row];
-    for (int i = 0; i < 3; ++i) row.position[i][lane] = from.position[i][slot.lane];
-    for (int i = 0; i < 4; ++i) row.orientation[i][lane] = from.orientation[i][slot.lane];
-  });
+  }
 }
 
+// Likewise their changes; a clamp has none.
 void RodRows::change_anchors(int pack) {
-  FactorRow& row = factor_[packs_[pack].begin];
-  for_each_lane(pack, [&](int lane, const Chain& chain) {
-    const int parent = anchors_[pack][lane].element;
-    if (parent < 0) return;  // a clamp's change stays zero
-    const Slot slot = layout_.slot(chain.plant, parent);
-    for (int i = 0; i < 6; ++i) row.right[i][lane] = factor_[slot.row].right[i][slot.lane];
-  });
+  FactorRow& row = scratch_->factor[packs_[pack].begin];
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const auto [plant, parent] = anchors_[pack][lane];
+    const Slot slot = parent < 0 ? Slot{} : layout_.slot(plant, parent);
+    for (int i = 0; i < 6; ++i)
+      row.right[i][lane] = parent < 0 ? 0.0 : scratch_->factor[slot.row].right[i][slot.lane];
+  }
 }
 
 void RodRows::hold(int plant) {
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
     const auto copy = [&](int row) {
-      put(iterate_[row], chain.lane, vector_at(start_[row].position, chain.lane),
-          rotation_at(start_[row].orientation, chain.lane));
+      put(scratch_->iterate[row], chain.lane, vector_at(scratch_->start[row].position, chain.lane),
+          rotation_at(scratch_->start[row].orientation, chain.lane));
     };
     for (const int e : chain.elements) copy(layout_.slot(plant, e).row);
   }
@@ -234,7 +248,7 @@ void RodRows::hold(int plant) {
 void RodRows::read_iterate(int plant, const RodState& state) {
   for (int e = 0; e < state.size(); ++e) {
     const Slot slot = layout_.slot(plant, e);
-    put(iterate_[slot.row], slot.lane, state.position[e], state.orientation[e]);
+    put(scratch_->iterate[slot.row], slot.lane, state.position[e], state.orientation[e]);
   }
   for (const int c : layout_.chains_of_plant(plant)) place_anchors(layout_.chains()[c].pack);
 }
@@ -242,8 +256,8 @@ void RodRows::read_iterate(int plant, const RodState& state) {
 void RodRows::write_iterate(int plant, RodState& state) const {
   for (int e = 0; e < state.size(); ++e) {
     const Slot slot = layout_.slot(plant, e);
-    state.position[e] = vector_at(iterate_[slot.row].position, slot.lane);
-    state.orientation[e] = rotation_at(iterate_[slot.row].orientation, slot.lane);
+    state.position[e] = vector_at(scratch_->iterate[slot.row].position, slot.lane);
+    state.orientation[e] = rotation_at(scratch_->iterate[slot.row].orientation, slot.lane);
   }
 }
 
@@ -288,7 +302,7 @@ void RodRows::copy_blocks(int plant, BlockSystem& system) const {
     int parent = anchors_[chain.pack][lane].element;
     for (const int e : chain.elements) {
       const int row = layout_.slot(plant, e).row;
-      const FactorRow& from = factor_[row];
+      const FactorRow& from = scratch_->factor[row];
       if (element_[row].alive[lane] == 0.0) {
         system.diagonal(e).setIdentity();
         parent = e;
@@ -325,7 +339,7 @@ void RodRows::set_change(int plant, const BlockSystem& solved) {
       const Slot slot = layout_.slot(plant, e);
       const double alive = element_[slot.row].alive[slot.lane];
       for (int i = 0; i < 6; ++i)
-        factor_[slot.row].right[i][slot.lane] = alive * solved.solution(e)[i];
+        scratch_->factor[slot.row].right[i][slot.lane] = alive * solved.solution(e)[i];
     }
   }
 }
@@ -361,9 +375,8 @@ void RodRows::move(int group, bool keep) {
 
 void RodRows::finish(int group) {
   const RowArrays rows = arrays();
-  // What is two steps old makes room for the end of this one.
   for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p)
-    cosserat::finish(rows, packs_[p], previous_rate_.data());
+    cosserat::finish(rows, packs_[p], scratch_->end_rate.data());
 }
 
 void RodRows::write_end(int plant, RodState& state) const {
@@ -374,17 +387,17 @@ void RodRows::write_end(int plant, RodState& state) const {
     for (const int e : chain.elements) {
       ++row;
       if (!state.alive[e]) continue;
-      state.position[e] = vector_at(iterate_[row].position, lane);
-      state.orientation[e] = rotation_at(iterate_[row].orientation, lane);
-      state.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
-      state.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
+      state.position[e] = vector_at(scratch_->iterate[row].position, lane);
+      state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
+      state.velocity[e] = vector_at(scratch_->end_rate[row].velocity, lane);
+      state.angular_velocity[e] = vector_at(scratch_->end_rate[row].angular_velocity, lane);
     }
   }
 }
 
 void RodRows::end_step() {
-  previous_.swap(start_);
-  previous_rate_.swap(rate_);
+  std::copy_n(scratch_->start.begin(), layout_.rows(), previous_.begin());
+  std::copy_n(scratch_->rate.begin(), layout_.rows(), previous_rate_.begin());
 }
 
 double RodRows::energy(int plant) const {
@@ -419,7 +432,7 @@ RodRows::Change RodRows::change(int plant) const {
 Vec6 RodRows::change(int plant, int element) const {
   const auto [row, lane] = layout_.slot(plant, element);
   Vec6 change;
-  for (int i = 0; i < 6; ++i) change[i] = factor_[row].right[i][lane];
+  for (int i = 0; i < 6; ++i) change[i] = scratch_->factor[row].right[i][lane];
   return change;
 }
 

@@ -21,6 +21,15 @@ struct RodHistory {
   std::vector<Vec3> stretch, bend;     ///< 1 and rad, E: strains from rest
 };
 
+/// What a step needs and leaves nothing in: RodRows that are never stepped at once may share it,
+/// and then stay in a core's cache.
+struct RowScratch {
+  std::vector<PoseRow> start, iterate, base;
+  std::vector<RateRow> rate, end_rate;
+  std::vector<TermRow> term;
+  std::vector<FactorRow> factor;
+};
+
 /// The incremental potential of some plants over one step, without loads, supports, welds and
 /// contact, in rows of eight elements (lanes.h): its value, its gradient with a positive definite
 /// Hessian (Gauss-Newton plus the tension's geometric stiffness), and the solution of Newton's
@@ -30,7 +39,8 @@ struct RodHistory {
 class RodRows {
  public:
   /// With `keep_blocks` trees are treated as plants with loops are.
-  RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks = false);
+  RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks = false,
+          std::shared_ptr<RowScratch> scratch = nullptr);
 
   int groups() const { return layout_.groups() - 1; }
   bool has_top() const { return layout_.group_begin(groups()) < layout_.group_end(groups()); }
@@ -95,8 +105,6 @@ class RodRows {
   };
 
   RowArrays arrays();
-  template <class Visit>
-  void for_each_lane(int pack, const Visit& visit) const;
   void read_states(int pack, std::span<const RodState* const> states);
   void place_anchors(int pack);
   void change_anchors(int pack);
@@ -104,10 +112,9 @@ class RodRows {
   LaneLayout layout_;
   std::vector<Pack> packs_;
   std::vector<ElementRow> element_;
-  std::vector<PoseRow> start_, iterate_, base_, previous_;
-  std::vector<RateRow> rate_, previous_rate_;
-  std::vector<TermRow> term_;
-  std::vector<FactorRow> factor_;
+  std::vector<PoseRow> previous_;
+  std::vector<RateRow> previous_rate_;
+  std::shared_ptr<RowScratch> scratch_;
   std::vector<int> first_branch_, first_extra_;
   std::vector<BlockSource> branches_, extras_;
   std::vector<std::array<double, block_size>> extra_values_;

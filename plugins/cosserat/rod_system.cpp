@@ -34,8 +34,10 @@ void RodSystem::step(double dt, const Vec3& gravity) {
     if (beds_.size() == 1)
       step_bed(beds_[0], dt, gravity, &pool_);
     else
-      pool_.for_each(static_cast<int>(beds_.size()),
-                     [&](int b) { step_bed(beds_[b], dt, gravity, nullptr); });
+      pool_.for_each(pool_.threads(), [&](int thread) {
+        for (std::size_t b = thread; b < beds_.size(); b += pool_.threads())
+          step_bed(beds_[b], dt, gravity, nullptr);
+      });
   } else {
     pool_.for_each(size(), [&](int i) {
       Plant& plant = plants_[i];
@@ -69,12 +71,16 @@ void RodSystem::make_beds() {
     plants_[p].model_changed = true;
     filled += plants_[p].model.size();
   }
+  // The beds of a thread share the memory that a step needs.
+  std::vector<std::shared_ptr<RowScratch>> scratch;
+  for (int thread = 0; thread < threads; ++thread)
+    scratch.push_back(std::make_shared<RowScratch>());
   for (std::size_t b = 0; b < beds_.size(); ++b) {
     const int end = b + 1 < beds_.size() ? beds_[b + 1].first : size();
     std::vector<const RodModel*> models;
     for (int p = beds_[b].first; p < end; ++p) models.push_back(&plants_[p].model);
-    beds_[b].solver =
-        std::make_unique<DirectSolver>(settings_, models, beds_.size() == 1 ? threads : 1);
+    beds_[b].solver = std::make_unique<DirectSolver>(
+        settings_, models, beds_.size() == 1 ? threads : 1, scratch[b % threads]);
     beds_[b].steps.resize(models.size());
   }
 }
