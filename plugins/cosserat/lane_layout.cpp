@@ -9,8 +9,7 @@ namespace {
 
 constexpr int smallest_share = 400;  // elements: less is not worth waking a thread for
 
-// What a set of chains costs where none can stand beside another one: a row costs the same however
-// few of its lanes are used.
+// Chains that must stay with one thread, a chain after the one that it starts from.
 struct Part {
   std::vector<int> chains;
   int elements = 0;

@@ -43,11 +43,11 @@ struct alignas(64) TermRow {
 /// Sizes of the blocks below. A symmetric 6x6 block is kept as its lower triangle by rows.
 inline constexpr int triangle6 = 21, block_size = triangle6 + 6;
 
-/// The factors of eight elements' blocks. First letters as in block_system.h: L L^T = diagonal
-/// block, W = L^-1 coupling (its upper right quarter is zero), y = L^-1 right side, then the
-/// solution. Where a row is not eliminated here (plants with loops): the block itself, the coupling
-/// (two symmetric quarters and the lower left one), what the parent's right side gets, the right
-/// side.
+/// The factors of eight elements' blocks: L (L L^T is the diagonal block; with the inverses of its
+/// diagonal), W = L^-1 coupling by columns (its upper right quarter is zero), y = L^-1 right side,
+/// and then the solution. Where a row is not eliminated here (plants with loops): the block itself,
+/// the coupling (two symmetric quarters and the lower left one), what the parent's right side gets,
+/// the right side.
 struct alignas(64) FactorRow {
   Lanes diagonal[triangle6], coupling[27], right[6];
 };
