@@ -448,19 +448,6 @@ int RodRows::largest_change(int plant, int elements) const {
   return worst;
 }
 
-void RodRows::get_history(int plant, RodHistory& history) const {
-  const int n = static_cast<int>(history.position.size());
-  for (int e = 0; e < n; ++e) {
-    const auto [row, lane] = layout_.slot(plant, e);
-    history.position[e] = vector_at(previous_[row].position, lane);
-    history.orientation[e] = rotation_at(previous_[row].orientation, lane);
-    history.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
-    history.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
-    history.stretch[e] = vector_at(previous_rate_[row].stretch, lane);
-    history.bend[e] = vector_at(previous_rate_[row].bend, lane);
-  }
-}
-
 void RodRows::set_history(int plant, const RodHistory& history) {
   const int n = static_cast<int>(history.position.size());
   for (int e = 0; e < n; ++e) {

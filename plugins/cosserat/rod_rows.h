@@ -95,8 +95,7 @@ class RodRows {
   /// The element with the largest change, of `elements`.
   int largest_change(int plant, int elements) const;
 
-  /// The past of a plant, for saving it and for putting it back.
-  void get_history(int plant, RodHistory& history) const;
+  /// Gives a plant a past, one step before its state.
   void set_history(int plant, const RodHistory& history);
 
  private:
