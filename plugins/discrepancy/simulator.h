@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "discrepancy/experiment.h"
+
+namespace pedicel::discrepancy {
+
+/// Mesh and step of a prediction.
+struct Numerics {
+  double distance = 0.01;  ///< m between nodes, in place of the plant file's
+  double dt = 1.0 / 960;   ///< s
+};
+
+/// A force that no known effect gives, evaluated at the start of each step: N in W, from time (s),
+/// position (m, W) and velocity (m/s, W) of its point.
+struct PointForce {
+  plant::CurvePlace place;
+  std::function<Vec3(double t, const Vec3& position, const Vec3& velocity)> law;
+};
+
+/// What one prediction is made of, on top of what the experiment states. Effects of the plant, the
+/// grip and the sensor alike; `youngs_modulus`, `density` and `damping_time` with their `factor` are
+/// effects, too.
+struct Variant {
+  std::vector<plant::Effect> effects;
+  std::vector<PointForce> forces;
+};
+
+/// What the trial's instruments would have seen, at the trial's own sample times.
+struct Prediction {
+  Eigen::MatrixXd markers;  ///< samples x 3 markers, m, W
+  Eigen::MatrixXd force;    ///< samples x 3, N, W; empty where the trial has none
+  /// Of the plant itself, without the sensor's effects, for plots: velocity of the markers, m/s.
+  Eigen::MatrixXd marker_velocity;
+  bool healthy = true;  ///< false: the simulation failed; the rest is NaN from there on
+};
+
+/// Simulates an experiment's trials with many variants of the model side by side: up to eight equal
+/// plants share the solver's lanes, and groups of them run on all threads.
+class Simulator {
+ public:
+  /// Keeps a reference to the experiment.
+  Simulator(const Experiment& experiment, const Numerics& numerics, int threads);
+  ~Simulator();
+
+  struct Request {
+    const Variant* variant = nullptr;
+    int trial = 0;
+    double until = std::numeric_limits<double>::infinity();  ///< s; later samples stay NaN
+  };
+  /// One prediction a request, in their order; the result depends on nothing but the request.
+  /// Requests that differ only in effects of the sensor share one simulation.
+  std::vector<Prediction> run(std::span<const Request> requests);
+
+  /// The forces (N, W) that springs of `stiffness` (N/m) from each marker to its measured path
+  /// would have to give the model, so that it follows the data: rows as the trial's marker samples,
+  /// 3 columns a marker. Where a marker is not seen its spring is off.
+  Eigen::MatrixXd tracking_forces(const Variant& variant, int trial, double stiffness);
+
+  const Experiment& experiment() const;
+  const Numerics& numerics() const;
+  long simulations() const;  ///< trials simulated so far
+  /// Makes run() return early, everything not done NaN and unhealthy. May be called from anywhere.
+  void stop();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pedicel::discrepancy
