@@ -6,6 +6,7 @@
 #include <iostream>
 #include <thread>
 
+#include "app/diagnose.h"
 #include "app/parallel_worlds.h"
 #include "app/rod_options.h"
 #include "app/run_arguments.h"
@@ -26,7 +27,9 @@ constexpr const char* exit_codes =
     "Exit codes: 0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the "
     "simulation "
     "is unstable, 5 an expectation is not met, 6 output cannot be written, 77 pictures were asked "
-    "for and there is no OpenGL, 130 stopped by Ctrl-C.";
+    "for and there is no OpenGL, 130 stopped by Ctrl-C. diagnose: 0 the model is adequate, 10 a "
+    "cause is named, 11 several fit alike, 12 an unknown cause, 13 unusable data, 14 our own "
+    "numerical error is too large.";
 
 extern "C" void request_stop(int) {
   stop_requested = true;
@@ -207,6 +210,7 @@ int run_cli(int argc, char** argv) {
   CLI::App* bench =
       app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
   add_bench_options(*bench, benched);
+  const std::function<int()> diagnose = add_diagnose_verb(app);
   app.require_subcommand(0, 1);
 
   try {
@@ -217,6 +221,7 @@ int run_cli(int argc, char** argv) {
   if (*sweep) return guarded([&] { return sweep_verb(swept); });
   if (*validate) return guarded([&] { return validate_files(files, packages, std::cerr); });
   if (*bench) return guarded([&] { return bench_verb(benched); });
+  if (app.got_subcommand("diagnose")) return guarded(diagnose);
   return guarded([&] { return run_verb(run); });
 }
 

@@ -96,8 +96,8 @@ struct Experiment {
   std::vector<Trial> trials;
 };
 
-/// Reads an experiment folder (or its experiment.yaml). Every fault goes to `diagnostics` with file,
-/// line and column; nothing comes back where there is one.
+/// Reads an experiment folder (or its experiment.yaml). Every fault goes to `diagnostics` with
+/// file, line and column; nothing comes back where there is one.
 std::optional<Experiment> read_experiment(const std::filesystem::path& path,
                                           Diagnostics& diagnostics);
 

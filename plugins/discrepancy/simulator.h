@@ -25,8 +25,8 @@ struct PointForce {
 };
 
 /// What one prediction is made of, on top of what the experiment states. Effects of the plant, the
-/// grip and the sensor alike; `youngs_modulus`, `density` and `damping_time` with their `factor` are
-/// effects, too.
+/// grip and the sensor alike; `youngs_modulus`, `density` and `damping_time` with their `factor`
+/// are effects, too.
 struct Variant {
   std::vector<plant::Effect> effects;
   std::vector<PointForce> forces;

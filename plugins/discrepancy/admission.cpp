@@ -1,0 +1,163 @@
+#include "discrepancy/admission.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "plant/plant_builder.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr int reach = 20;     // samples on either side that say what scatter is usual
+constexpr double wild = 8.0;  // times that scatter
+constexpr int stuck_samples = 20;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Distance of each sample from the median of itself and its two neighbours on either side.
+std::vector<double> from_neighbours(const Eigen::VectorXd& x) {
+  std::vector<double> distance(x.size(), nothing);
+  std::vector<double> near;
+  for (int i = 0; i < x.size(); ++i) {
+    near.clear();
+    for (int k = std::max(0, i - 2); k <= std::min<int>(i + 2, static_cast<int>(x.size()) - 1); ++k)
+      if (std::isfinite(x[k])) near.push_back(x[k]);
+    if (std::isfinite(x[i]) && near.size() >= 4) distance[i] = std::abs(x[i] - median(near));
+  }
+  return distance;
+}
+
+int take_out_wild(Eigen::Ref<Eigen::VectorXd> x) {
+  const std::vector<double> distance = from_neighbours(x);
+  std::vector<double> all;
+  for (const double d : distance)
+    if (std::isfinite(d)) all.push_back(d);
+  if (all.size() < 2 * reach) return 0;
+  const double usual = median(all);
+  int count = 0;
+  std::vector<double> near;
+  for (int i = 0; i < static_cast<int>(distance.size()); ++i) {
+    if (!(distance[i] > wild * usual)) continue;
+    near.clear();
+    for (int k = std::max(0, i - reach);
+         k <= std::min<int>(i + reach, static_cast<int>(distance.size()) - 1); ++k)
+      if (std::isfinite(distance[k])) near.push_back(distance[k]);
+    // Where everything moves fast the neighbours scatter as well; a wild sample stands out there,
+    // too.
+    const double local = std::max(usual, median(near));
+    // 1.4826 turns a median into the deviation of a normal distribution.
+    if (distance[i] <= wild * 1.4826 * local) continue;
+    x[i] = nothing;
+    ++count;
+  }
+  return count;
+}
+
+int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {
+  int count = 0, begin = 0;
+  for (int i = 1; i <= x.size(); ++i) {
+    if (i < x.size() && x[i] == x[begin]) continue;
+    if (i - begin >= stuck_samples && std::isfinite(x[begin])) {
+      count += i - begin;
+      x.segment(begin, i - begin).setConstant(nothing);
+    }
+    begin = i;
+  }
+  return count;
+}
+
+// Markers that exchange their places from one sample to the next, far beyond their usual steps.
+int put_back_labels(Eigen::MatrixXd& value) {
+  const int markers = static_cast<int>(value.cols()) / 3;
+  int swaps = 0;
+  const auto at = [&](int row, int m) { return Vec3(value.block<1, 3>(row, 3 * m).transpose()); };
+  for (int row = 1; row < value.rows(); ++row)
+    for (int a = 0; a < markers; ++a)
+      for (int b = a + 1; b < markers; ++b) {
+        const Vec3 a0 = at(row - 1, a), b0 = at(row - 1, b), a1 = at(row, a), b1 = at(row, b);
+        if (!(a0 + b0 + a1 + b1).allFinite()) continue;
+        const double kept = (a1 - a0).norm() + (b1 - b0).norm();
+        const double exchanged = (a1 - b0).norm() + (b1 - a0).norm();
+        if (exchanged > 0.2 * kept || (a0 - b0).norm() < 1.0e-3) continue;
+        const Vec3 keep = a1;
+        value.block<1, 3>(row, 3 * a) = b1.transpose();
+        value.block<1, 3>(row, 3 * b) = keep.transpose();
+        ++swaps;
+      }
+  return swaps;
+}
+
+int count_finite(const Eigen::MatrixXd& value) {
+  return static_cast<int>(value.array().isFinite().count());
+}
+
+// Markers must be about where the plant is: a factor of 1000 is a unit.
+void check_units(Admission& admission) {
+  Diagnostics diagnostics;
+  const auto built = plant::build_plant(admission.experiment.plant, {}, diagnostics);
+  if (!built) return;
+  double size = 0.0;
+  for (const double length : built->curve_lengths) size += length;
+  std::vector<double> distances;
+  for (const Trial& trial : admission.experiment.trials)
+    for (std::size_t m = 0; m < admission.experiment.markers.size(); ++m) {
+      const plant::CurvePlace& place = admission.experiment.markers[m].place;
+      const auto point =
+          built->locate(admission.experiment.plant.curve_index(place.curve), place.at);
+      const cosserat::RodState state = cosserat::drawn_state(built->model);
+      const Vec3 drawn = cosserat::point_on(built->model, state, point.element, point.back);
+      for (int row = 0; row < trial.markers.size(); ++row) {
+        const Vec3 seen = trial.markers.value.block<1, 3>(row, 3 * static_cast<int>(m)).transpose();
+        if (!seen.allFinite()) continue;
+        distances.push_back((seen - drawn).norm());
+        break;
+      }
+    }
+  if (distances.empty() || median(distances) < 3.0 * size) return;
+  admission.refusal = "the markers stand " + std::to_string(median(distances)) +
+                      " m from where the plant has them, and the plant measures " +
+                      std::to_string(size) + " m: expected metres in the plant's own frame";
+}
+
+}  // namespace
+
+Admission admit(const Experiment& experiment) {
+  Admission admission;
+  admission.experiment = experiment;
+  for (Trial& trial : admission.experiment.trials) {
+    const int before = count_finite(trial.markers.value);
+    admission.missing += static_cast<int>(trial.markers.value.size()) - before;
+    admission.swaps += put_back_labels(trial.markers.value);
+    for (Samples* samples : {&trial.markers, &trial.force})
+      for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
+        admission.samples += count_finite(samples->value.col(c));
+        // A force that is exactly zero after the release is what the format asks for.
+        if (samples == &trial.markers) admission.stuck += take_out_stuck(samples->value.col(c));
+        admission.outliers += take_out_wild(samples->value.col(c));
+      }
+    if (count_finite(trial.markers.value) + count_finite(trial.force.value) == 0)
+      admission.refusal = "trial " + trial.name + " holds no usable sample";
+  }
+  const auto remark = [&](int count, const std::string& what) {
+    if (count > 0) admission.remarks.push_back(std::to_string(count) + " " + what);
+  };
+  remark(admission.missing, "cells are empty");
+  remark(admission.outliers, "samples are far from their neighbours and were left out");
+  remark(admission.stuck, "samples repeat one value and were left out");
+  remark(admission.swaps, "samples had two markers' labels exchanged, which was put back");
+  if (admission.samples == 0) admission.refusal = "there is no sample at all";
+  if (admission.outlier_fraction() > 0.2)
+    admission.refusal = "every fifth sample is far from its neighbours";
+  if (admission.refusal.empty()) check_units(admission);
+  return admission;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "discrepancy/experiment.h"
+
+namespace pedicel::discrepancy {
+
+/// What was wrong with the data before any physics, and the data without it.
+struct Admission {
+  Experiment experiment;  ///< wrong samples taken out, swapped labels put back
+  int samples = 0, outliers = 0, stuck = 0, swaps = 0, missing = 0;
+  std::vector<std::string> remarks;  ///< one sentence each
+  std::string refusal;               ///< why the data cannot be used; empty: they can
+
+  double outlier_fraction() const {
+    return samples > 0 ? static_cast<double>(outliers) / samples : 0.0;
+  }
+};
+
+/// Looks for single wild samples (far from the median of their neighbours, against the scatter
+/// around them), channels that stand still to the last digit, labels that two markers exchange,
+/// trials without data, and units that cannot be metres.
+Admission admit(const Experiment& experiment);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,419 @@
+#include "discrepancy/causes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "plant/plant_builder.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+using plant::Effect;
+
+Vanishes vanishing(const std::string& cause, const std::string& parameter) {
+  static const std::map<std::string, Vanishes> by_parameter = {
+      {"mass", Vanishes::at_zero},          {"gradient", Vanishes::at_zero},
+      {"stiffness", Vanishes::at_infinity}, {"factor", Vanishes::at_one},
+      {"coefficient", Vanishes::at_zero},   {"rate", Vanishes::at_zero},
+      {"loss_factor", Vanishes::at_zero},   {"fraction", Vanishes::at_zero},
+      {"velocity", Vanishes::at_zero},      {"delay", Vanishes::at_zero},
+      {"offset", Vanishes::at_zero},        {"rotation", Vanishes::at_zero},
+      {"gain", Vanishes::at_one},           {"distance", Vanishes::at_zero}};
+  if (parameter == "ratio") return cause == "anisotropy" ? Vanishes::at_one : Vanishes::at_zero;
+  if (cause == "yield") return Vanishes::at_infinity;
+  if (cause == "leaf_drag") return Vanishes::at_zero;
+  const auto found = by_parameter.find(parameter);
+  return found == by_parameter.end() ? Vanishes::never : found->second;
+}
+
+// A hypothesis under construction.
+class Start {
+ public:
+  Start(const std::string& name) {
+    made_.name = name;
+    made_.effects.push_back(Effect{name, {}, {}, {}, {}});
+  }
+  Start& place(const std::string& curve, double at) {
+    made_.effects[0].place = plant::CurvePlace{curve, at, {}};
+    return *this;
+  }
+  Start& moving_place(const std::string& curve, double at) {
+    place(curve, at);
+    return parameter("at", 0, false, 0.1, 0.0, 1.0);
+  }
+  Start& fixed(const std::string& name, std::vector<double> value) {
+    made_.effects[0].numbers[name] = std::move(value);
+    return *this;
+  }
+  Start& word(const std::string& name, const std::string& value) {
+    made_.effects[0].words[name] = value;
+    return *this;
+  }
+  /// A positive quantity on a logarithmic scale.
+  Start& positive(const std::string& name, double value, double low, double high) {
+    fixed(name, {std::clamp(value, low, high)});
+    return parameter(name, 0, true, 1.0, low, high);
+  }
+  Start& signed_number(const std::string& name, double value, double scale, double low,
+                       double high) {
+    fixed(name, {value});
+    return parameter(name, 0, false, scale, low, high);
+  }
+  Start& vector(const std::string& name, const Vec3& value, double scale, double most,
+                int components = 3) {
+    fixed(name, {value.x(), value.y(), value.z()});
+    for (int i = 0; i < components; ++i) parameter(name, i, false, scale, -most, most);
+    return *this;
+  }
+  Start& heading(double angle) {
+    fixed("direction", {std::cos(angle), std::sin(angle), 0.0});
+    return parameter("heading", 0, false, 0.3, -10.0, 10.0);
+  }
+  Start& prior(double deviation, double centre) {
+    made_.free.back().prior = deviation;
+    made_.free.back().prior_centre = centre;
+    return *this;
+  }
+  operator Hypothesis() const { return made_; }
+
+ private:
+  Start& parameter(const std::string& name, int component, bool logarithmic, double scale,
+                   double low, double high) {
+    FreeParameter free{0, name, component, logarithmic, scale, low, high, {}};
+    free.unit = unit_of(made_.name, name);
+    free.vanishes = vanishing(made_.name, name);
+    made_.free.push_back(free);
+    return *this;
+  }
+  Hypothesis made_;
+};
+
+class Candidates {
+ public:
+  Candidates(const Experiment& experiment, const Scales& scales)
+      : experiment_(experiment), plant_(experiment.plant), scales_(scales) {}
+
+  std::vector<Cause> run() {
+    masses();
+    softness();
+    material();
+    dissipation();
+    air();
+    grip();
+    sensors();
+    return std::move(causes_);
+  }
+
+ private:
+  void add(const std::string& name, std::vector<Hypothesis> starts) {
+    if (!starts.empty()) causes_.push_back({name, std::move(starts)});
+  }
+
+  void masses() {
+    std::vector<Hypothesis> starts;
+    const double m = scales_.mass;
+    for (const plant::PlantCurve& curve : plant_.curves)
+      for (const double at : {0.35, 0.65, 0.95})
+        starts.push_back(Start("extra_mass")
+                             .moving_place(curve.name, at)
+                             .positive("mass", 0.1 * m, 1.0e-4 * m, 30.0 * m));
+    add("extra_mass", starts);
+    add("mass_distribution",
+        {Start("mass_distribution").signed_number("gradient", 0.2, 0.3, -1.95, 1.95),
+         Start("mass_distribution").signed_number("gradient", -0.2, 0.3, -1.95, 1.95)});
+  }
+
+  void softness() {
+    const double k = scales_.root_stiffness;
+    std::vector<Hypothesis> base, junction, weak;
+    for (const double part : {30.0, 5.0})
+      base.push_back(Start("base_compliance").positive("stiffness", part * k, 1e-3 * k, 1e4 * k));
+    for (std::size_t c = 0; c < plant_.curves.size(); ++c) {
+      const plant::PlantCurve& curve = plant_.curves[c];
+      if (!is_root(curve))
+        for (const double part : {10.0, 1.0})
+          junction.push_back(Start("attachment_compliance")
+                                 .place(curve.name, 0.0)
+                                 .positive("stiffness", part * k, 1e-5 * k, 1e4 * k));
+      for (const double at : {0.15, 0.4, 0.7}) {
+        const double length = 0.1 * length_of(curve);
+        weak.push_back(Start("weak_segment")
+                           .moving_place(curve.name, at)
+                           .positive("factor", 0.6, 0.01, 10.0)
+                           .positive("length", length, 0.2 * length, 5.0 * length)
+                           .prior(0.5, length));
+      }
+    }
+    add("base_compliance", base);
+    add("attachment_compliance", junction);
+    add("weak_segment", weak);
+    add("stiffness_gradient",
+        {Start("stiffness_gradient").signed_number("gradient", 0.2, 0.3, -1.95, 1.95),
+         Start("stiffness_gradient").signed_number("gradient", -0.2, 0.3, -1.95, 1.95)});
+  }
+
+  void material() {
+    std::vector<Hypothesis> nonlinear, anisotropy, drift;
+    for (const double b : {0.1, -0.1})
+      nonlinear.push_back(Start("material_nonlinearity")
+                              .fixed("k0", {scales_.curvature})
+                              .signed_number("coefficient", b, 0.2, -20.0, 20.0));
+    for (int i = 0; i < 4; ++i)
+      anisotropy.push_back(Start("anisotropy")
+                               .positive("ratio", 0.8, 0.05, 1.0)
+                               .heading(0.25 * i * std::numbers::pi));
+    add("material_nonlinearity", nonlinear);
+    add("anisotropy", anisotropy);
+    const double long_time = std::max(clock_span(), scales_.duration);
+    for (const double change : {0.05, -0.05})
+      drift.push_back(Start("stiffness_drift")
+                          .signed_number("rate", change / long_time, 0.1 / long_time,
+                                         -0.9 / long_time, 5.0 / long_time));
+    add("stiffness_drift", drift);
+    std::vector<Hypothesis> yield;
+    for (const double part : {0.3, 0.6, 1.0})
+      yield.push_back(Start("yield").positive("curvature", part * scales_.curvature,
+                                              1e-2 * scales_.curvature, 20 * scales_.curvature));
+    add("yield", yield);
+  }
+
+  void dissipation() {
+    add("mass_damping", {Start("mass_damping").positive("rate", 0.3, 1e-4, 1e3)});
+    add("structural_damping",
+        {Start("structural_damping").positive("loss_factor", 0.05, 1e-4, 2.0)});
+    std::vector<Hypothesis> friction, relaxation, creep;
+    for (const double slip : {0.03, 0.1, 0.3})
+      for (const double ratio : {0.1, 0.3})
+        friction.push_back(Start("internal_friction")
+                               .positive("curvature", slip * scales_.curvature,
+                                         1e-4 * scales_.curvature, 20 * scales_.curvature)
+                               .positive("ratio", ratio, 1e-3, 0.95));
+    add("internal_friction", friction);
+    const double longest = scales_.duration;
+    for (const char* from : {"settled", "unloaded"}) {
+      for (const double time : {0.02, 0.1, 0.4})
+        relaxation.push_back(Start("relaxation")
+                                 .word("start", from)
+                                 .positive("fraction", 0.1, 1e-3, 0.95)
+                                 .positive("time", time * longest, 1e-3 * longest, longest));
+      creep.push_back(Start("creep")
+                          .word("start", from)
+                          .positive("fraction", 0.2, 1e-3, 0.95)
+                          .positive("time", 2.0 * longest, longest, 50.0 * longest));
+    }
+    add("relaxation", relaxation);
+    add("creep", creep);
+  }
+
+  void air() {
+    std::vector<Hypothesis> drag, wind, gust;
+    for (const double area : {0.01, 0.1})
+      drag.push_back(Start("leaf_drag").positive("drag_area", area, 1e-5, 10.0));
+    add("leaf_drag", drag);
+    for (int i = 0; i < 4; ++i) {
+      const double angle = 0.5 * i * std::numbers::pi;
+      const Vec3 along(std::cos(angle), std::sin(angle), 0.0);
+      for (const double speed : {0.3, 1.5})
+        wind.push_back(Start("wind")
+                           .vector("velocity", speed * along, 0.3, 30.0)
+                           .positive("drag_area", 0.02, 1e-4, 1.0)
+                           .prior(1.5, 0.02));
+    }
+    add("wind", wind);
+    for (const double frequency : {0.15, 0.3, 0.5, 0.8, 1.2, 1.8})
+      for (int i = 0; i < 2; ++i)
+        gust.push_back(
+            Start("gust")
+                .vector("velocity", 0.7 * (i ? Vec3::UnitY() : Vec3::UnitX()), 0.3, 30.0, 2)
+                .positive("drag_area", 0.02, 1e-4, 1.0)
+                .prior(1.5, 0.02)
+                .positive("frequency", frequency, 0.03, 5.0)
+                .positive("amplitude", 0.3, 1e-3, 5.0));
+    add("gust", gust);
+  }
+
+  void grip() {
+    double stiffness = 0.0;
+    bool held = false;
+    for (const Trial& trial : experiment_.trials)
+      for (const Hold& hold : trial.holds) {
+        held = true;
+        stiffness = std::max(stiffness, hold.stiffness.value_or(0.0));
+      }
+    if (!held) return;
+    const double soft = scales_.root_stiffness / (scales_.length * scales_.length);
+    const double from = stiffness > 0.0 ? stiffness : 300.0 * soft;
+    std::vector<Hypothesis> compliance, slip;
+    for (const double part : {0.6, 0.1})
+      compliance.push_back(
+          Start("grip_compliance").positive("stiffness", part * from, 0.1 * soft, 1e5 * soft));
+    add("grip_compliance", compliance);
+    for (const Trial& trial : experiment_.trials) {
+      if (trial.holds.empty()) continue;
+      const double end = std::min(trial.holds[0].release, trial.duration());
+      for (const double part : {0.3, 0.6})
+        for (const double distance : {0.01, -0.01})
+          slip.push_back(Start("grip_slip")
+                             .word("trial", trial.name)
+                             .signed_number("distance", distance, 0.01, -0.1, 0.1)
+                             .signed_number("time", part * end, 0.2 * end, 0.0, end));
+    }
+    add("grip_slip", slip);
+  }
+
+  void sensors() {
+    std::vector<Hypothesis> latency, offset;
+    for (const double delay : {0.01, -0.01})
+      latency.push_back(Start("latency").signed_number("delay", delay, 0.01, -1.0, 1.0));
+    add("latency", latency);
+    for (const Marker& marker : experiment_.markers)
+      offset.push_back(Start("marker_offset")
+                           .word("marker", marker.name)
+                           .vector("offset", Vec3::Constant(1e-4), 1e-3, 0.2));
+    add("marker_offset", offset);
+    add("frame_rotation",
+        {Start("frame_rotation").vector("rotation", Vec3::Constant(1e-4), 0.01, 0.7)});
+    add("marker_scale", {Start("marker_scale").positive("factor", 1.001, 0.3, 3.0)});
+    const bool force = std::ranges::any_of(
+        experiment_.trials, [](const Trial& trial) { return trial.force.size() > 0; });
+    if (force)
+      add("force_gain", {Start("force_gain")
+                             .positive("gain", 1.01, 0.1, 10.0)
+                             .vector("offset", Vec3::Zero(), 0.01, 100.0)});
+  }
+
+  double clock_span() const {
+    double first = 1e300, last = -1e300;
+    for (const Trial& trial : experiment_.trials) {
+      first = std::min(first, trial.clock);
+      last = std::max(last, trial.clock + trial.duration());
+    }
+    return last - first;
+  }
+
+  static double length_of(const plant::PlantCurve& curve) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < curve.points.size(); ++i)
+      length += (curve.points[i] - curve.points[i - 1]).norm();
+    return length;
+  }
+
+  bool is_root(const plant::PlantCurve& curve) const {
+    double nearest = 1e300;
+    for (const plant::PlantCurve& other : plant_.curves)
+      nearest = std::min(nearest, end_distance(other));
+    return end_distance(curve) <= nearest + 1e-9;
+  }
+  double end_distance(const plant::PlantCurve& curve) const {
+    return std::min((curve.points.front() - plant_.root).norm(),
+                    (curve.points.back() - plant_.root).norm());
+  }
+
+  const Experiment& experiment_;
+  const plant::PlantFile& plant_;
+  const Scales& scales_;
+  std::vector<Cause> causes_;
+};
+
+}  // namespace
+
+Scales scales_of(const Experiment& experiment) {
+  Scales scales;
+  Diagnostics diagnostics;
+  const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
+  if (!built) throw InvalidFile(diagnostics);
+  for (const double length : built->curve_lengths) scales.length = std::max(scales.length, length);
+  for (const cosserat::Element& element : built->model.elements) scales.mass += element.mass;
+  const cosserat::Element& root = built->model.elements.front();
+  scales.root_stiffness = root.bend_stiffness.head<2>().mean() * 0.5 * root.length / scales.length;
+  double moved = 1.0e-3 * scales.length;
+  for (const Trial& trial : experiment.trials) {
+    scales.duration = std::max(scales.duration, trial.duration());
+    const Samples& markers = trial.markers;
+    if (markers.size() > 1)
+      scales.sample_time = (markers.time.back() - markers.time.front()) / (markers.size() - 1);
+    for (Eigen::Index c = 0; c < markers.value.cols(); ++c) {
+      double low = 1e300, high = -1e300;
+      for (const double x : markers.value.col(c))
+        if (std::isfinite(x)) {
+          low = std::min(low, x);
+          high = std::max(high, x);
+        }
+      if (high > low) moved = std::max(moved, 0.5 * (high - low));
+    }
+  }
+  // A cantilever with a force at its tip is bent most at the root, by 3 times its drop / length^2.
+  scales.curvature = 3.0 * moved / (scales.length * scales.length);
+  return scales;
+}
+
+std::string unit_of(const std::string& cause, const std::string& parameter) {
+  static const std::map<std::string, std::string> units = {
+      {"mass", "kg"},    {"rate", "1/s"},     {"time", "s"},           {"curvature", "1/m"},
+      {"k0", "1/m"},     {"velocity", "m/s"}, {"drag_area", "m2/m"},   {"frequency", "Hz"},
+      {"distance", "m"}, {"delay", "s"},      {"length", "m"},         {"rotation", "rad"},
+      {"moment", "N m"}, {"heading", "rad"},  {"stiffness", "N m/rad"}};
+  if (parameter == "stiffness" && cause == "grip_compliance") return "N/m";
+  if (parameter == "offset") return cause == "force_gain" ? "N" : "m";
+  const auto found = units.find(parameter);
+  return found == units.end() ? "1" : found->second;
+}
+
+std::string plain_name(const std::string& cause) {
+  static const std::map<std::string, std::string> names = {
+      {"youngs_modulus", "another modulus"},
+      {"density", "another density"},
+      {"damping_time", "another internal damping"},
+      {"extra_mass", "a mass that the model lacks"},
+      {"mass_distribution", "mass spread otherwise along the curves"},
+      {"base_compliance", "a root that turns elastically"},
+      {"attachment_compliance", "a branch whose junction gives"},
+      {"weak_segment", "a weak stretch"},
+      {"stiffness_gradient", "a modulus that changes along the curves"},
+      {"material_nonlinearity", "a material that is not linear"},
+      {"anisotropy", "bending that is softer in one direction"},
+      {"mass_damping", "damping proportional to mass"},
+      {"structural_damping", "damping that does not depend on the rate"},
+      {"internal_friction", "friction inside the stem"},
+      {"relaxation", "stress that relaxes"},
+      {"creep", "slow creep"},
+      {"yield", "bending that stays (yield)"},
+      {"stiffness_drift", "a stiffness that drifts with the clock"},
+      {"wind", "a steady wind"},
+      {"gust", "a gusting wind"},
+      {"leaf_drag", "air drag of the leaves"},
+      {"grip_compliance", "a soft grip"},
+      {"grip_slip", "a grip that slipped"},
+      {"detachment_law", "another law of detachment"},
+      {"latency", "markers that come late"},
+      {"marker_offset", "a marker that sits elsewhere"},
+      {"frame_rotation", "a measuring frame that is turned"},
+      {"marker_scale", "a measuring scale that is off"},
+      {"force_gain", "a force sensor that is off"},
+      {"outliers", "samples that are wrong"}};
+  const auto found = names.find(cause);
+  return found == names.end() ? cause : found->second;
+}
+
+Hypothesis baseline() {
+  Hypothesis all;
+  for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
+    const double reach = std::string(name) == "damping_time" ? 300.0 : 10.0;
+    // The prior is wide; it only keeps apart what some data leave entirely open (a free vibration
+    // sees modulus over density alone).
+    all.add(Start(name)
+                .positive("factor", 1.0, 1.0 / reach, reach)
+                .prior(std::string(name) == "density" ? 0.3 : 1.5, 1.0));
+  }
+  all.name.clear();
+  return all;
+}
+
+std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales) {
+  return Candidates(experiment, scales).run();
+}
+
+}  // namespace pedicel::discrepancy

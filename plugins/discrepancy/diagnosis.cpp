@@ -1,0 +1,512 @@
+#include "discrepancy/diagnosis.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "discrepancy/trial_split.h"
+#include "plant/effects.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double enough_evidence = 8.0;  // nats that a named cause must be worth
+constexpr double clear_margin = 5.0;     // nats by which a rival must lose
+constexpr double margin_share = 0.01;    // and of the gain: our model errors scale with it
+constexpr double allowed_error = 0.15;   // of the noise, RMS, before it is corrected for
+constexpr double numerical_limit = 0.5;
+constexpr double left_uncorrected = 0.3;  // of our numerical error, and of the data's own
+constexpr int most_causes = 3;
+constexpr double interval95 = 1.96;
+
+std::string text(const char* format, double a, double b = 0.0) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+/// One diagnosis on its way from the data to the verdict.
+class Procedure {
+ public:
+  Procedure(const Experiment& experiment, const DiagnosisOptions& options)
+      : options_(options), start_(std::chrono::steady_clock::now()) {
+    result_.admission = admit(experiment);
+  }
+
+  Diagnosis run() {
+    if (!result_.admission.refusal.empty()) {
+      result_.verdict.outcome = Outcome::bad_data;
+      result_.verdict.remainder = result_.admission.refusal;
+      return finished();
+    }
+    prepare();
+    fit_baseline();
+    if (result_.verdict.outcome == Outcome::numerical) return finished();
+    look();
+    if (result_.before.raised) {
+      search();
+      extend();
+    }
+    conclude();
+    return finished();
+  }
+
+ private:
+  const Experiment& experiment() const { return result_.admission.experiment; }
+  bool stopped() const { return options_.stop && *options_.stop; }
+  void say(const std::string& what, double share) {
+    if (options_.progress) options_.progress(what, share);
+  }
+  void note(const std::string& sentence) { result_.steps.push_back(sentence); }
+
+  // ---- Steps 0 and 1 ----------------------------------------------------------------------------
+
+  void prepare() {
+    say("reading the noise", 0.0);
+    for (const std::string& remark : result_.admission.remarks) note(remark + ".");
+    data_ = std::make_unique<DataSet>(experiment());
+    std::vector<Series> position, force;
+    measured_series(experiment(), position, force);
+    set_noise(position, force);
+    const TrialSplit split = split_trials(experiment());
+    result_.fit_trials = split.fit;
+    result_.check_trials = split.check;
+    fit_options_.trials = split.fit;
+    scales_ = scales_of(experiment());
+    causes_ = candidate_causes(experiment(), scales_);
+    result_.numerics = {experiment().plant.distance, 1.0 / 480.0};
+  }
+
+  void set_noise(const std::vector<Series>& position, const std::vector<Series>& force) {
+    const StatedNoise& stated = experiment().noise;
+    const auto choose = [](const std::vector<Series>& series, double std) {
+      Noise noise = estimate_noise(series, std);
+      // Motion that no window is free of can only raise the estimate: what is stated bounds it.
+      if (std > 0.0 && noise.std > 1.2 * std) {
+        const double share = std / noise.std;
+        noise.std = std;
+        for (double& innovation : noise.innovation) innovation *= share;
+      }
+      return noise;
+    };
+    result_.position_noise = choose(position, stated.position_std.value_or(0.0));
+    result_.force_noise = choose(force, stated.force_std.value_or(0.0));
+    data_->set_noise(result_.position_noise, result_.force_noise);
+  }
+
+  void make_workers() {
+    simulators_.clear();
+    workers_.clear();
+    for (int i = 0; i < options_.threads; ++i) {
+      simulators_.push_back(std::make_unique<Simulator>(experiment(), result_.numerics, 1));
+      workers_.emplace_back(*simulators_.back(), *data_, corrections());
+    }
+    wide_ = std::make_unique<Simulator>(experiment(), result_.numerics, options_.threads);
+  }
+  const Corrections* corrections() const { return corrections_.empty() ? nullptr : &corrections_; }
+  Evaluator wide() { return Evaluator(*wide_, *data_, corrections()); }
+  void count_simulations() {
+    for (const auto& simulator : simulators_)
+      result_.verdict.simulations += simulator->simulations();
+    if (wide_) result_.verdict.simulations += wide_->simulations();
+  }
+
+  // Parameters that move nothing by a tenth of the noise when they change by a tenth.
+  Hypothesis seen_baseline() {
+    const Hypothesis all = baseline();
+    Evaluator evaluator = wide();
+    std::vector<Hypothesis> models{all};
+    for (int p = 0; p < all.size(); ++p) {
+      models.push_back(all);
+      models.back().set_value(p, 1.1);
+    }
+    const Eigen::MatrixXd r = evaluator.residuals(models, fit_options_);
+    Hypothesis seen;
+    for (int p = 0; p < all.size(); ++p) {
+      if ((r.col(p + 1) - r.col(0)).cwiseAbs().maxCoeff() < 0.1) {
+        result_.unseen.push_back(all.effects[p].name);
+        continue;
+      }
+      Hypothesis one;
+      one.effects.push_back(all.effects[p]);
+      one.free.push_back(all.free[p]);
+      one.free.back().effect = 0;
+      seen.add(one);
+    }
+    return seen;
+  }
+
+  void fit_baseline() {
+    say("refitting modulus, density and damping", 0.02);
+    make_workers();
+    Hypothesis start = seen_baseline();
+    Evaluator evaluator = wide();
+    if (start.size() > 0) {
+      std::vector<Hypothesis> starts;
+      for (const double factor : {1.0, 0.4, 0.55, 0.7, 0.85, 1.2, 1.5, 2.2}) {
+        starts.push_back(start);
+        starts.back().set_value(0, factor);
+      }
+      FitOptions early = fit_options_;
+      early.horizon = 0.3;
+      start = starts[scan(evaluator, starts, early).best];
+    }
+    constexpr std::array horizons{0.3, 1.0};
+    result_.base = fit_growing(evaluator, start, fit_options_, horizons);
+    refine();
+    renew_noise(result_.base);
+    Evaluator again = wide();
+    result_.base = fit(again, result_.base.hypothesis, fit_options_);
+  }
+
+  // Mesh and step, until our own error is a small part of the noise, or until that costs too much.
+  void refine() {
+    for (int round = 0;; ++round) {
+      say("checking our own numerical error", 0.05 + 0.03 * round);
+      const NumericsCheck check =
+          check_numerics(experiment(), *data_, result_.base, result_.numerics, fit_options_,
+                         options_.threads, result_.verdict.simulations);
+      result_.numerical_error = check.largest;
+      numerical_ = left_uncorrected * check.correction;
+      parameter_shift_ = check.parameter_shift;
+      if (check.largest <= allowed_error || round == 3) {
+        corrections_ = check.corrections;
+        if (check.largest > numerical_limit && !too_wrong(check)) {
+          result_.verdict.outcome = Outcome::numerical;
+          result_.verdict.remainder = text(
+              "half the step and half the mesh still move the prediction by %.2g times the "
+              "noise",
+              check.largest);
+        }
+        break;
+      }
+      count_simulations();
+      result_.numerics = refined(check);
+      make_workers();
+      Evaluator evaluator = wide();
+      result_.base = fit(evaluator, result_.base.hypothesis, fit_options_);
+    }
+    note(text("Nodes every %.3g mm and a step of %.3g ms", 1e3 * result_.numerics.distance,
+              1e3 * result_.numerics.dt) +
+         text(": the numerical error was %.2g of the noise and was corrected for.",
+              result_.numerical_error));
+    count_simulations();
+    make_workers();
+    Evaluator evaluator = wide();
+    result_.base = fit(evaluator, result_.base.hypothesis, fit_options_);
+  }
+
+  // Against a residual many times larger a numerical error above the noise does not matter.
+  bool too_wrong(const NumericsCheck& check) const {
+    const double rms = std::sqrt(2.0 * result_.base.cost / std::max(1, samples()));
+    return check.largest < 0.1 * rms;
+  }
+
+  void renew_noise(const FitSummary& model) {
+    Evaluator evaluator = wide();
+    std::vector<Series> position, force;
+    const auto predicted =
+        evaluator.predictions(std::span(&model.hypothesis, 1), all_trials()).front();
+    for (int t = 0; t < trial_count(); ++t) data_->raw_residuals(t, predicted[t], position, force);
+    set_noise(position, force);
+  }
+
+  // ---- Step 2 -----------------------------------------------------------------------------------
+
+  void look() {
+    say("looking for anything that is wrong", 0.15);
+    Evaluator evaluator = wide();
+    result_.directions = directions_of(evaluator, result_.base, causes_, fit_options_);
+    result_.before = judge(result_.directions, result_.base, numerical_, options_.seed);
+    result_.best = result_.base;
+    note(text("Largest directed statistic %.3g, level %.3g.", result_.before.statistic,
+              result_.before.level));
+  }
+
+  // ---- Steps 4 to 7 -----------------------------------------------------------------------------
+
+  RefitOptions refit_options(double from, double to, const std::string& what) {
+    RefitOptions refit{fit_options_, options_.threads, {}, options_.stop};
+    refit.progress = [this, from, to, what](double share) {
+      say(what, from + share * (to - from));
+    };
+    return refit;
+  }
+
+  void search() {
+    result_.ranking =
+        refit_all(workers_, result_.base, causes_, refit_options(0.2, 0.6, "refitting candidates"));
+    if (result_.ranking.empty() || result_.ranking.front().evidence < enough_evidence) return;
+    result_.best = result_.ranking.front().fit;
+    chain_ = {result_.ranking.front()};
+  }
+
+  // Adds causes while something is left.
+  void extend() {
+    while (!chain_.empty() && static_cast<int>(chain_.size()) < most_causes && !stopped()) {
+      Evaluator evaluator = wide();
+      std::vector<Direction> directions =
+          directions_of(evaluator, result_.best, causes_, fit_options_);
+      result_.after = judge(directions, result_.best, numerical_, options_.seed);
+      if (!result_.after.raised) return;
+      const double from = 0.5 + 0.15 * static_cast<double>(chain_.size());
+      const std::vector<Candidate> next =
+          refit_all(workers_, result_.best, promising(directions),
+                    refit_options(from, from + 0.15, "looking for another cause"));
+      if (next.empty() || next.front().evidence < enough_evidence) return;
+      chain_.push_back(next.front());
+      result_.best = next.front().fit;
+    }
+    if (chain_.empty()) return;
+    Evaluator evaluator = wide();
+    std::vector<Direction> directions =
+        directions_of(evaluator, result_.best, causes_, fit_options_);
+    result_.after = judge(directions, result_.best, numerical_, options_.seed);
+  }
+
+  // Causes whose direction shows in what is left; the loudest dozen.
+  std::vector<Cause> promising(const std::vector<Direction>& directions) const {
+    std::vector<std::pair<double, const Cause*>> order;
+    for (const Cause& cause : causes_) {
+      double loudest = 0.0;
+      for (const Direction& direction : directions)
+        if (direction.cause == cause.name)
+          loudest = std::max(loudest, std::abs(direction.statistic));
+      order.emplace_back(loudest, &cause);
+    }
+    std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Cause> chosen;
+    for (std::size_t i = 0; i < std::min<std::size_t>(12, order.size()); ++i)
+      chosen.push_back(*order[i].second);
+    return chosen;
+  }
+
+  // ---- Step 9 -----------------------------------------------------------------------------------
+
+  void conclude() {
+    say("writing the verdict", 0.95);
+    Verdict& verdict = result_.verdict;
+    predict();
+    measure_errors();
+    if (!result_.before.raised) {
+      conclude_parameters();
+    } else if (chain_.empty()) {
+      verdict.outcome = Outcome::unknown;
+    } else {
+      conclude_causes();
+    }
+    report_parameters();
+    what_could_hide();
+  }
+
+  void predict() {
+    Evaluator evaluator = wide();
+    Hypothesis plain;
+    const std::array<Hypothesis, model_count> models{plain, result_.base.hypothesis,
+                                                     result_.best.hypothesis};
+    auto all = evaluator.predictions(models, all_trials());
+    for (int m = 0; m < model_count; ++m) result_.predictions[m] = std::move(all[m]);
+  }
+
+  double error_over(const std::vector<int>& trials, Model model) const {
+    double sum = 0.0;
+    int count = 0;
+    for (const int t : trials) {
+      const Eigen::MatrixXd r = data_->scaled_residual(t, result_.predictions[model][t]);
+      for (const double x : r.reshaped())
+        if (std::isfinite(x)) {
+          sum += x * x;
+          ++count;
+        }
+    }
+    return count > 0 ? std::sqrt(sum / count) : 0.0;
+  }
+
+  void measure_errors() {
+    const auto measure = [&](const std::vector<int>& trials, Errors& errors) {
+      if (trials.empty()) return;
+      errors.nominal = error_over(trials, nominal);
+      errors.refitted = error_over(trials, refitted);
+      errors.extended = error_over(trials, extended);
+    };
+    measure(result_.fit_trials, result_.verdict.fit);
+    measure(result_.check_trials, result_.verdict.check);
+    const Errors& check = result_.verdict.check;
+    if (!chain_.empty() && check.refitted && *check.refitted > 1.0)
+      result_.verdict.gain = (*check.refitted - *check.extended) / (*check.refitted - 1.0);
+  }
+
+  Estimate estimate_of(const FitSummary& fit, int p) const {
+    const FreeParameter& free = fit.hypothesis.free[p];
+    const double u = free.to_unknown(fit.hypothesis.value(p));
+    double error = interval95 * fit.standard_error[p] * spread(fit);
+    if (p < parameter_shift_.size()) error += left_uncorrected * std::abs(parameter_shift_[p]);
+    return {free.to_value(u), free.to_value(u - error), free.to_value(u + error), free.unit};
+  }
+  // Where more than noise is left, intervals are wider.
+  double spread(const FitSummary& fit) const {
+    return std::sqrt(std::max(1.0, 2.0 * fit.cost / std::max(1, samples())));
+  }
+
+  // Modulus, density or damping, where nothing else is wrong and their interval leaves out 1.
+  void conclude_parameters() {
+    Verdict& verdict = result_.verdict;
+    for (int p = 0; p < result_.base.hypothesis.size(); ++p) {
+      const FreeParameter& free = result_.base.hypothesis.free[p];
+      const double u = free.to_unknown(result_.base.hypothesis.value(p));
+      double error = result_.base.standard_error[p];
+      const double shift = p < parameter_shift_.size() ? std::abs(parameter_shift_[p]) : 0.0;
+      // Three parameters share the few false alarms that are allowed.
+      if (std::abs(u) < 3.5 * error + shift + least_parameter_change(p)) continue;
+      NamedCause cause;
+      cause.name = result_.base.hypothesis.effects[free.effect].name;
+      cause.parameters["factor"] = {estimate_of(result_.base, p)};
+      cause.evidence = 0.5 * std::pow(u / error, 2);
+      cause.because =
+          "The refitted value is " +
+          text("%.4g times the nominal one, and nothing else is needed.", free.to_value(u));
+      verdict.causes.push_back(cause);
+    }
+    verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
+  }
+  // What a mesh as coarse as the plant file's own would have moved it by: data made, or a modulus
+  // tuned, with such a mesh carry that error.
+  double least_parameter_change(int) const { return 0.005; }
+
+  NamedCause named(const Candidate& candidate, const FitSummary& fit, int first_effect) const {
+    NamedCause cause;
+    cause.name = candidate.cause;
+    cause.evidence = candidate.evidence;
+    const plant::Effect& effect = fit.hypothesis.effects[first_effect];
+    cause.where = effect.place;
+    cause.words = effect.words;
+    for (int p = 0; p < fit.hypothesis.size(); ++p) {
+      const FreeParameter& free = fit.hypothesis.free[p];
+      if (free.effect != first_effect || free.name == "at") continue;
+      cause.parameters[free.name].push_back(estimate_of(fit, p));
+    }
+    for (const auto& [name, numbers] : effect.numbers)
+      if (!cause.parameters.contains(name))
+        for (const double x : numbers)
+          cause.parameters[name].push_back({x, x, x, unit_of(cause.name, name)});
+    cause.because =
+        text("With it the fitted records are %.4g times likelier in log units", cause.evidence);
+    return cause;
+  }
+
+  void conclude_causes() {
+    Verdict& verdict = result_.verdict;
+    const int base_effects = static_cast<int>(result_.base.hypothesis.effects.size());
+    for (std::size_t c = 0; c < chain_.size(); ++c)
+      verdict.causes.push_back(named(chain_[c], result_.best, base_effects + static_cast<int>(c)));
+    verdict.outcome = Outcome::named;
+    const Candidate& best = result_.ranking.front();
+    const double margin = clear_margin + margin_share * best.gain;
+    for (std::size_t i = 1; i < result_.ranking.size(); ++i) {
+      const Candidate& rival = result_.ranking[i];
+      const double behind = best.evidence - rival.evidence;
+      if (rival.evidence < 0.0) break;
+      if (behind > margin || chain_.size() > 1) {
+        verdict.rivals.push_back({rival.cause, behind});
+        continue;
+      }
+      verdict.causes.push_back(named(rival, rival.fit, base_effects));
+      verdict.outcome = Outcome::ambiguous;
+    }
+    judge_remainder();
+  }
+
+  void judge_remainder() {
+    Verdict& verdict = result_.verdict;
+    if (!result_.after.raised) return;
+    const double excess_before = result_.base.cost - 0.5 * samples();
+    const double excess_after = result_.best.cost - 0.5 * samples();
+    const double left = excess_after / std::max(excess_before, 1.0);
+    verdict.remainder = text("%.2g %% of what the refitted model left above the noise",
+                             100.0 * std::max(left, 0.0));
+    if (left > 0.05) verdict.outcome = Outcome::unknown;
+  }
+
+  void report_parameters() {
+    const FitSummary& fit = result_.best;
+    for (int p = 0; p < fit.hypothesis.size(); ++p) {
+      const FreeParameter& free = fit.hypothesis.free[p];
+      const std::string& effect = fit.hypothesis.effects[free.effect].name;
+      const plant::MaterialValues& material = experiment().plant.material;
+      const std::optional<double> value = effect == "youngs_modulus" ? material.youngs_modulus
+                                          : effect == "density"      ? material.density
+                                          : effect == "damping_time" ? material.damping_time
+                                                                     : std::nullopt;
+      if (!value) continue;
+      Estimate estimate = estimate_of(fit, p);
+      for (double* x : {&estimate.value, &estimate.low, &estimate.high}) *x *= *value;
+      estimate.unit = effect == "youngs_modulus" ? "Pa" : effect == "density" ? "kg/m3" : "s";
+      result_.verdict.parameters[effect] = estimate;
+    }
+  }
+
+  void what_could_hide() {
+    for (const Cause& cause : causes_) {
+      CouldHide least;
+      least.name = cause.name;
+      double best = 0.0;
+      for (const Direction& direction : result_.directions) {
+        if (direction.cause != cause.name || direction.change.norm() < best) continue;
+        best = direction.change.norm();
+        least.smallest_seen =
+            smallest_seen(direction, result_.before.level + direction.systematic, least.parameter);
+      }
+      least.unit = unit_of(cause.name, least.parameter);
+      result_.verdict.could_hide.push_back(least);
+    }
+  }
+
+  Diagnosis finished() {
+    count_simulations();
+    result_.verdict.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return std::move(result_);
+  }
+
+  int trial_count() const { return static_cast<int>(experiment().trials.size()); }
+  int samples() const { return data_->samples(fit_options_.trials); }
+  FitOptions all_trials() const {
+    FitOptions all = fit_options_;
+    all.trials.clear();
+    for (int t = 0; t < trial_count(); ++t) all.trials.push_back(t);
+    return all;
+  }
+
+  DiagnosisOptions options_;
+  std::chrono::steady_clock::time_point start_;
+  Diagnosis result_;
+  Scales scales_;
+  std::vector<Cause> causes_;
+  FitOptions fit_options_;
+  std::unique_ptr<DataSet> data_;
+  Corrections corrections_;
+  Eigen::VectorXd numerical_, parameter_shift_;
+  std::vector<std::unique_ptr<Simulator>> simulators_;
+  std::unique_ptr<Simulator> wide_;
+  std::vector<Evaluator> workers_;
+  std::vector<Candidate> chain_;  // causes found so far, in their order
+};
+
+}  // namespace
+
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
+  return Procedure(experiment, options).run();
+}
+
+plant::PlantFile extended_plant(const Experiment& experiment, const Hypothesis& hypothesis) {
+  plant::PlantFile plant = experiment.plant;
+  for (const plant::Effect& effect : hypothesis.effects) {
+    const plant::EffectKind* kind = plant::find_effect(effect.name);
+    if (kind && kind->home == plant::EffectHome::plant) plant.effects.push_back(effect);
+  }
+  return plant;
+}
+
+}  // namespace pedicel::discrepancy

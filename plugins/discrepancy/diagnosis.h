@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "discrepancy/admission.h"
+#include "discrepancy/candidates.h"
+#include "discrepancy/numerics.h"
+#include "discrepancy/statistics.h"
+#include "discrepancy/verdict.h"
+
+namespace pedicel::discrepancy {
+
+struct DiagnosisOptions {
+  int threads = 1;
+  std::uint64_t seed = 1;
+  /// What is being done, and the share of the whole that is done (an estimate); from any thread.
+  std::function<void(const std::string&, double)> progress;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// The three models that a diagnosis compares.
+enum Model { nominal, refitted, extended };
+inline constexpr int model_count = 3;
+
+/// Everything that a diagnosis found out, for its report.
+struct Diagnosis {
+  Verdict verdict;
+  Admission admission;
+  Noise position_noise, force_noise;
+  Numerics numerics;
+  double numerical_error = 0.0;  ///< RMS over the noise, before it was corrected for
+  std::vector<int> fit_trials, check_trials;
+  std::vector<std::string> unseen;  ///< parameters that these data cannot see
+  FitSummary base, best;            ///< refitted and extended
+  std::vector<Candidate> ranking;   ///< first round, best first
+  Alarm before, after;
+  std::vector<Direction> directions;
+  /// [model][trial]; of `extended` as refitted where no cause was found.
+  std::array<std::vector<Prediction>, model_count> predictions;
+  std::vector<std::string> steps;  ///< what was done, one sentence each
+};
+
+/// The procedure of the folder's README, from the data to the verdict. Throws InvalidFile where the
+/// plant cannot be built.
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options);
+
+/// The nominal plant with what was found: refitted factors and causes that belong to the plant.
+plant::PlantFile extended_plant(const Experiment& experiment, const Hypothesis& hypothesis);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,238 @@
+#include "discrepancy/fit.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// A difference should change the data by some noise units in all: enough to stand above what the
+// solver's own tolerance leaves, little enough to stay linear.
+constexpr double wanted_change = 5.0;
+constexpr double first_difference = 0.01, least_difference = 1.0e-4, most_difference = 0.05;
+constexpr double open_direction = 1.0e-3;  // noise units an unknown: nothing to be seen
+
+/// Residuals and their derivatives at a point; the last one is kept, because Ceres asks for the
+/// derivatives at a point whose residuals it has seen.
+class Problem : public ceres::CostFunction {
+ public:
+  Problem(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options)
+      : evaluator_(evaluator),
+        hypothesis_(start),
+        options_(options),
+        start_(start.unknowns()),
+        difference_(Eigen::VectorXd::Constant(start.size(), first_difference)),
+        samples_(evaluator.data().size(options.trials)) {
+    set_num_residuals(samples_ + start.size());
+    mutable_parameter_block_sizes()->push_back(start.size());
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Eigen::Map<const Eigen::VectorXd> u(parameters[0], start_.size());
+    if (at_.size() == 0 || u != at_) compute(u);
+    Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
+    r.head(samples_) = residual_;
+    for (int p = 0; p < start_.size(); ++p) r[samples_ + p] = prior(p) * (u[p] - centre(p));
+    if (!jacobians || !jacobians[0]) return true;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
+        jacobians[0], num_residuals(), start_.size());
+    j.setZero();
+    j.topRows(samples_) = -jacobian_;
+    for (int p = 0; p < start_.size(); ++p) j(samples_ + p, p) = prior(p);
+    return true;
+  }
+
+  void compute(const Eigen::VectorXd& u) const {
+    std::vector<Hypothesis> points(start_.size() + 1, hypothesis_);
+    Eigen::VectorXd step = difference_;
+    const Eigen::VectorXd high = hypothesis_.high();
+    points[0].set_unknowns(u);
+    for (int p = 0; p < start_.size(); ++p) {
+      if (u[p] + step[p] > high[p]) step[p] = -step[p];
+      Eigen::VectorXd moved = u;
+      moved[p] += step[p];
+      points[p + 1].set_unknowns(moved);
+    }
+    const Eigen::MatrixXd r = evaluator_.residuals(points, options_);
+    at_ = u;
+    residual_ = r.col(0);
+    jacobian_.resize(samples_, start_.size());
+    for (int p = 0; p < start_.size(); ++p) {
+      jacobian_.col(p) = (r.col(0) - r.col(p + 1)) / step[p];
+      const double size = jacobian_.col(p).norm();
+      difference_[p] =
+          std::clamp(wanted_change / std::max(size, 1.0e-12), least_difference, most_difference);
+    }
+  }
+
+  const Eigen::VectorXd& residual() const { return residual_; }
+  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+
+ private:
+  double prior(int p) const {
+    return hypothesis_.free[p].prior > 0.0 ? 1.0 / hypothesis_.free[p].prior : 0.0;
+  }
+
+  double centre(int p) const {
+    const FreeParameter& parameter = hypothesis_.free[p];
+    return parameter.prior > 0.0 ? parameter.to_unknown(parameter.prior_centre) : 0.0;
+  }
+
+  Evaluator& evaluator_;
+  Hypothesis hypothesis_;
+  FitOptions options_;
+  Eigen::VectorXd start_;
+  mutable Eigen::VectorXd difference_;
+  int samples_;
+  mutable Eigen::VectorXd at_, residual_;
+  mutable Eigen::MatrixXd jacobian_;
+};
+
+void judge(FitSummary& fit) {
+  const int n = fit.hypothesis.size();
+  const Eigen::VectorXd u = fit.hypothesis.unknowns();
+  fit.standard_error = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
+  Eigen::MatrixXd information = fit.jacobian.transpose() * fit.jacobian;
+  Eigen::VectorXd size(n);
+  for (int p = 0; p < n; ++p) {
+    const double prior = fit.hypothesis.free[p].prior;
+    if (prior > 0.0) information(p, p) += 1.0 / (prior * prior);
+    size[p] = std::sqrt(information(p, p));
+    const double low = fit.hypothesis.low()[p], high = fit.hypothesis.high()[p];
+    const double near = 1.0e-6 * (1.0 + high - low);
+    if (u[p] - low < near || high - u[p] < near) fit.at_bound.push_back(p);
+  }
+  if (n == 0 || size.minCoeff() < open_direction) {
+    fit.condition = n == 0 ? 1.0 : std::numeric_limits<double>::infinity();
+    for (int p = 0; p < n; ++p)
+      if (size[p] >= open_direction) fit.standard_error[p] = 1.0 / size[p];
+    return;
+  }
+  const Eigen::MatrixXd scaled =
+      size.cwiseInverse().asDiagonal() * information * size.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(1.0e-14);
+  fit.condition = std::sqrt(values[n - 1] / values[0]);
+  const Eigen::MatrixXd inverse =
+      eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  for (int p = 0; p < n; ++p) fit.standard_error[p] = std::sqrt(inverse(p, p)) / size[p];
+}
+
+}  // namespace
+
+std::vector<std::vector<Prediction>> Evaluator::predictions(std::span<const Hypothesis> hypotheses,
+                                                            const FitOptions& options) {
+  std::vector<Variant> variants;
+  for (const Hypothesis& hypothesis : hypotheses) variants.push_back(hypothesis.variant());
+  std::vector<Simulator::Request> requests;
+  for (const Variant& variant : variants)
+    for (const int trial : options.trials)
+      requests.push_back({&variant, trial, data_->end_of(trial, options.horizon)});
+  std::vector<Prediction> all = simulator_->run(requests);
+  std::vector<std::vector<Prediction>> result(hypotheses.size());
+  std::size_t next = 0;
+  for (std::vector<Prediction>& row : result)
+    for (const int trial : options.trials) {
+      Prediction& prediction = all[next++];
+      if (corrections_) {
+        prediction.markers += (*corrections_)[trial].markers;
+        if (prediction.force.size() > 0) prediction.force += (*corrections_)[trial].force;
+      }
+      row.push_back(std::move(prediction));
+    }
+  return result;
+}
+
+Eigen::MatrixXd Evaluator::residuals(std::span<const Hypothesis> hypotheses,
+                                     const FitOptions& options) {
+  const auto predicted = predictions(hypotheses, options);
+  Eigen::MatrixXd result(data_->size(options.trials), hypotheses.size());
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    Eigen::Index row = 0;
+    for (std::size_t t = 0; t < options.trials.size(); ++t) {
+      const int size = data_->size(std::span(&options.trials[t], 1));
+      data_->residual(options.trials[t], predicted[h][t], options.horizon,
+                      result.col(h).segment(row, size));
+      row += size;
+    }
+  }
+  return result;
+}
+
+FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options) {
+  FitSummary result;
+  result.hypothesis = start;
+  Problem problem(evaluator, start, options);
+  Eigen::VectorXd u = start.unknowns();
+  const Eigen::VectorXd low = start.low(), high = start.high();
+  u = u.cwiseMax(low).cwiseMin(high);
+  if (start.size() == 0) {
+    problem.compute(u);
+    result.converged = true;
+    result.why = "nothing is free";
+  } else {
+    ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem ceres_problem(ownership);
+    ceres_problem.AddResidualBlock(&problem, nullptr, u.data());
+    for (int p = 0; p < start.size(); ++p) {
+      ceres_problem.SetParameterLowerBound(u.data(), p, low[p]);
+      ceres_problem.SetParameterUpperBound(u.data(), p, high[p]);
+    }
+    ceres::Solver::Options settings;
+    settings.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    settings.max_num_iterations = options.iterations;
+    settings.function_tolerance = options.tolerance;
+    settings.parameter_tolerance = 1.0e-6;
+    settings.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(settings, &ceres_problem, &summary);
+    result.converged = summary.termination_type == ceres::CONVERGENCE;
+    result.why = summary.message;
+    problem.compute(u);
+  }
+  result.hypothesis.set_unknowns(u);
+  result.residual = problem.residual();
+  result.jacobian = problem.jacobian();
+  result.cost = 0.5 * result.residual.squaredNorm();
+  judge(result);
+  return result;
+}
+
+FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions options,
+                       std::span<const double> horizons) {
+  FitSummary result;
+  result.hypothesis = start;
+  for (const double horizon : horizons) {
+    options.horizon = horizon;
+    result = fit(evaluator, result.hypothesis, options);
+  }
+  return result;
+}
+
+Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOptions& options) {
+  const Eigen::MatrixXd residuals = evaluator.residuals(starts, options);
+  Scan result;
+  for (Eigen::Index i = 0; i < residuals.cols(); ++i) {
+    result.cost.push_back(0.5 * residuals.col(i).squaredNorm());
+    if (result.cost.back() < result.cost[result.best]) result.best = static_cast<int>(i);
+  }
+  return result;
+}
+
+Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
+  if (jacobian.cols() == 0) return Eigen::VectorXd();
+  return jacobian.colPivHouseholderQr().solve(residual);
+}
+
+Eigen::VectorXd left_over(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
+  if (jacobian.cols() == 0) return residual;
+  return residual - jacobian * absorbed(jacobian, residual);
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "discrepancy/data_set.h"
+#include "discrepancy/hypothesis.h"
+
+namespace pedicel::discrepancy {
+
+struct FitOptions {
+  std::vector<int> trials;
+  double horizon = 1.0;       ///< share of each trial's duration that counts
+  int iterations = 20;        ///< at most
+  double tolerance = 1.0e-4;  ///< relative change of the cost below which it stops
+};
+
+/// What a fit found. Starts as "not run".
+struct FitSummary {
+  Hypothesis hypothesis;     ///< with the values found
+  double cost = 0.0;         ///< 1/2 sum of squared whitened residuals (priors not counted)
+  Eigen::VectorXd residual;  ///< whitened, see DataSet
+  Eigen::MatrixXd jacobian;  ///< of the whitened prediction by the unknowns: residual = data - it
+  Eigen::VectorXd standard_error;  ///< of the unknowns, infinite where the data leave one open
+  double condition = 0.0;          ///< of the scaled Jacobian
+  std::vector<int> at_bound;       ///< parameters that stand at one of their bounds
+  bool converged = false;
+  std::string why = "not run";  ///< why it stopped
+};
+
+/// Corrections added to predictions, one a trial: what a finer mesh and step would change
+/// (numerics.h).
+using Corrections = std::vector<Prediction>;
+
+/// Simulates a list of hypotheses over the same trials at once.
+class Evaluator {
+ public:
+  Evaluator(Simulator& simulator, const DataSet& data, const Corrections* corrections = nullptr)
+      : simulator_(&simulator), data_(&data), corrections_(corrections) {}
+
+  /// Whitened residuals, one column a hypothesis.
+  Eigen::MatrixXd residuals(std::span<const Hypothesis> hypotheses, const FitOptions& options);
+  /// Predictions with their corrections: [hypothesis][trial of options.trials].
+  std::vector<std::vector<Prediction>> predictions(std::span<const Hypothesis> hypotheses,
+                                                   const FitOptions& options);
+  const DataSet& data() const { return *data_; }
+  Simulator& simulator() { return *simulator_; }
+
+ private:
+  Simulator* simulator_;
+  const DataSet* data_;
+  const Corrections* corrections_;
+};
+
+/// Bounded least squares (Ceres, Levenberg-Marquardt) on whitened residuals, with the derivatives
+/// by differences: a point and all its derivatives are simulated side by side.
+FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options);
+
+/// Fits over growing shares of the records, so that oscillations do not slip by a period.
+FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions options,
+                       std::span<const double> horizons);
+
+/// The hypothesis with the least cost, and its cost.
+struct Scan {
+  int best = 0;
+  std::vector<double> cost;
+};
+Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOptions& options);
+
+/// Least-squares step of the unknowns that a change of the residual would make (pseudo-inverse of
+/// the Jacobian), and what is left of a residual after the parameters have taken their share.
+Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
+Eigen::VectorXd left_over(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,91 @@
+#include "discrepancy/hypothesis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pedicel::discrepancy {
+
+double FreeParameter::to_unknown(double value) const {
+  return logarithmic ? std::log(value) : value / scale;
+}
+
+double FreeParameter::to_value(double unknown) const {
+  return logarithmic ? std::exp(unknown) : unknown * scale;
+}
+
+double Hypothesis::value(int parameter) const {
+  const FreeParameter& p = free[parameter];
+  const plant::Effect& effect = effects[p.effect];
+  if (p.name == "at") return effect.place->at;
+  if (p.name == "heading") {
+    const std::vector<double>& direction = effect.numbers.at("direction");
+    return std::atan2(direction[1], direction[0]);
+  }
+  return effect.numbers.at(p.name)[p.component];
+}
+
+void Hypothesis::set_value(int parameter, double value) {
+  const FreeParameter& p = free[parameter];
+  plant::Effect& effect = effects[p.effect];
+  if (p.name == "at")
+    effect.place->at = value;
+  else if (p.name == "heading")
+    effect.numbers["direction"] = {std::cos(value), std::sin(value), 0.0};
+  else
+    effect.numbers[p.name][p.component] = value;
+}
+
+Eigen::VectorXd Hypothesis::unknowns() const {
+  Eigen::VectorXd u(size());
+  for (int i = 0; i < size(); ++i) u[i] = free[i].to_unknown(value(i));
+  return u;
+}
+
+void Hypothesis::set_unknowns(const Eigen::VectorXd& unknowns) {
+  for (int i = 0; i < size(); ++i)
+    set_value(i, std::clamp(free[i].to_value(unknowns[i]), free[i].low, free[i].high));
+}
+
+Eigen::VectorXd Hypothesis::low() const {
+  Eigen::VectorXd u(size());
+  for (int i = 0; i < size(); ++i) u[i] = free[i].to_unknown(free[i].low);
+  return u;
+}
+
+Eigen::VectorXd Hypothesis::high() const {
+  Eigen::VectorXd u(size());
+  for (int i = 0; i < size(); ++i) u[i] = free[i].to_unknown(free[i].high);
+  return u;
+}
+
+void Hypothesis::add(const Hypothesis& other) {
+  const int shift = static_cast<int>(effects.size());
+  effects.insert(effects.end(), other.effects.begin(), other.effects.end());
+  for (FreeParameter parameter : other.free) {
+    parameter.effect += shift;
+    free.push_back(parameter);
+  }
+}
+
+Hypothesis Hypothesis::shrunk(double share) const {
+  Hypothesis result = *this;
+  for (int i = 0; i < size(); ++i) {
+    const double v = value(i);
+    switch (free[i].vanishes) {
+      case Vanishes::never:
+        break;
+      case Vanishes::at_zero:
+        result.set_value(i, share * v);
+        break;
+      case Vanishes::at_one:
+        result.set_value(i, 1.0 + share * (v - 1.0));
+        break;
+      case Vanishes::at_infinity:
+        result.set_value(i, v / share);
+        break;
+    }
+  }
+  return result;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "discrepancy/simulator.h"
+
+namespace pedicel::discrepancy {
+
+/// The value at which an effect vanishes, for the parameters that are its size; `never` for the
+/// others.
+enum class Vanishes { never, at_zero, at_one, at_infinity };
+
+/// A number of an effect that a fit may change. Fits work on a scaled unknown u: value = scale u,
+/// or value = exp(u) for positive quantities whose size is not known (`logarithmic`).
+struct FreeParameter {
+  int effect = 0;     ///< index into Hypothesis::effects
+  std::string name;   ///< of the effect's parameter; "at": of its place; "heading": see below
+  int component = 0;  ///< of a vector
+  bool logarithmic = false;
+  double scale = 1.0;            ///< of the value, where not logarithmic
+  double low = 0.0, high = 0.0;  ///< of the value
+  std::string unit;
+  /// Standard deviation and centre (a value) of a prior on u, where data may leave it open; 0:
+  /// none.
+  double prior = 0.0, prior_centre = 0.0;
+  Vanishes vanishes = Vanishes::never;
+
+  double to_unknown(double value) const;
+  double to_value(double unknown) const;
+};
+
+/// A model to be fitted: effects, some of whose numbers are free. The parameter name "heading" of a
+/// direction stands for the angle (rad) of a horizontal unit vector.
+struct Hypothesis {
+  std::string name;  ///< of the cause it stands for; empty: the baseline
+  std::vector<plant::Effect> effects;
+  std::vector<FreeParameter> free;
+
+  int size() const { return static_cast<int>(free.size()); }
+  double value(int parameter) const;
+  void set_value(int parameter, double value);
+  /// Values of the free parameters as unknowns, and back.
+  Eigen::VectorXd unknowns() const;
+  void set_unknowns(const Eigen::VectorXd& unknowns);
+  Eigen::VectorXd low() const;
+  Eigen::VectorXd high() const;
+  Variant variant() const { return {effects, {}}; }
+  /// Adds the effects and free parameters of another one behind its own.
+  void add(const Hypothesis& other);
+  /// The same with its sizes brought nearer to where its effects vanish: `share` 1 changes nothing,
+  /// 0 would be no effect at all.
+  Hypothesis shrunk(double share) const;
+};
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,72 @@
+#include "discrepancy/numerics.h"
+
+#include <cmath>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double extrapolation = 4.0 / 3.0;
+
+// RMS per sample of a whitened vector.
+double rms(const Eigen::VectorXd& v, int samples) {
+  return samples > 0 ? v.norm() / std::sqrt(static_cast<double>(samples)) : 0.0;
+}
+
+}  // namespace
+
+NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
+                             const FitSummary& base, const Numerics& numerics,
+                             const FitOptions& options, int threads, long& simulations) {
+  NumericsCheck check;
+  check.numerics = numerics;
+  FitOptions all = options;
+  all.trials.clear();
+  for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t) all.trials.push_back(t);
+  const auto run = [&](double distance, double dt) {
+    Simulator simulator(experiment, {distance, dt}, threads);
+    Evaluator evaluator(simulator, data);
+    auto predicted = evaluator.predictions(std::span(&base.hypothesis, 1), all);
+    simulations += simulator.simulations();
+    return std::move(predicted.front());
+  };
+  const auto now = run(numerics.distance, numerics.dt);
+  const auto step = run(numerics.distance, 0.5 * numerics.dt);
+  const auto mesh = run(0.5 * numerics.distance, numerics.dt);
+  const auto whitened = [&](const std::vector<Prediction>& finer) {
+    Eigen::VectorXd change(data.size(options.trials));
+    Eigen::Index row = 0;
+    for (const int t : options.trials) {
+      const int size = data.size(std::span(&t, 1));
+      Eigen::VectorXd coarse(size), fine(size);
+      data.residual(t, now[t], options.horizon, coarse);
+      data.residual(t, finer[t], options.horizon, fine);
+      change.segment(row, size) = coarse - fine;
+      row += size;
+    }
+    return Eigen::VectorXd(extrapolation * change);
+  };
+  const Eigen::VectorXd by_step = whitened(step), by_mesh = whitened(mesh);
+  const int samples = data.samples(options.trials, options.horizon);
+  check.by_step = rms(left_over(base.jacobian, by_step), samples);
+  check.by_mesh = rms(left_over(base.jacobian, by_mesh), samples);
+  check.parameter_shift = absorbed(base.jacobian, by_step + by_mesh);
+  check.correction = left_over(base.jacobian, by_step + by_mesh);
+  check.largest = rms(check.correction, samples);
+  for (std::size_t t = 0; t < now.size(); ++t) {
+    Prediction sum = now[t];
+    sum.markers = extrapolation * (step[t].markers + mesh[t].markers - 2.0 * now[t].markers);
+    sum.force = extrapolation * (step[t].force + mesh[t].force - 2.0 * now[t].force);
+    check.corrections.push_back(std::move(sum));
+  }
+  return check;
+}
+
+Numerics refined(const NumericsCheck& check) {
+  Numerics finer = check.numerics;
+  if (check.by_step >= 0.5 * check.by_mesh) finer.dt *= 0.5;
+  if (check.by_mesh >= 0.5 * check.by_step) finer.distance *= 0.5;
+  return finer;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "discrepancy/fit.h"
+
+namespace pedicel::discrepancy {
+
+/// How well our own numbers hold: what half the step and half the mesh would change.
+struct NumericsCheck {
+  Numerics numerics;
+  /// What to add to predictions: second order in both, so 4/3 of the differences (Richardson).
+  Corrections corrections;
+  /// Whitened: the correction of the chosen trials, less what the free parameters can absorb.
+  Eigen::VectorXd correction;
+  double largest = 0.0;                 ///< RMS of it in units of the noise
+  double by_step = 0.0, by_mesh = 0.0;  ///< RMS of its two parts
+  Eigen::VectorXd parameter_shift;      ///< of the unknowns, that the correction makes
+};
+
+/// Simulates the fitted model with half the step and with half the mesh.
+NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
+                             const FitSummary& base, const Numerics& numerics,
+                             const FitOptions& options, int threads, long& simulations);
+
+/// The next finer numerics by what weighs more.
+Numerics refined(const NumericsCheck& check);
+
+}  // namespace pedicel::discrepancy

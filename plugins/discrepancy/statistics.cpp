@@ -1,0 +1,111 @@
+#include "discrepancy/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// Noise units in all: well above what the solver's tolerance leaves, and still a small change.
+constexpr double wanted_change = 15.0, most_change = 60.0;
+constexpr double least_level = 4.0;
+constexpr int bootstraps = 400;
+
+Hypothesis with(const Hypothesis& base, const Hypothesis& start) {
+  Hypothesis both = base;
+  both.add(start);
+  both.name = start.name;
+  return both;
+}
+
+}  // namespace
+
+std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& base,
+                                     const std::vector<Cause>& causes, const FitOptions& options) {
+  std::vector<Direction> directions;
+  std::vector<Hypothesis> models{base.hypothesis};
+  for (const Cause& cause : causes)
+    for (const Hypothesis& start : cause.starts) {
+      directions.push_back({cause.name, start.shrunk(0.1), {}});
+      models.push_back(with(base.hypothesis, directions.back().start));
+    }
+  // Twice: the first pass says how large a start is in units of the noise.
+  for (int pass = 0; pass < 2; ++pass) {
+    const Eigen::MatrixXd residuals = evaluator.residuals(models, options);
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      Direction& direction = directions[d];
+      direction.change = residuals.col(0) - residuals.col(static_cast<Eigen::Index>(d) + 1);
+      const double size = direction.change.norm();
+      if (pass == 1 || size == 0.0) continue;
+      if (size > most_change || size < 0.2 * wanted_change) {
+        const double share = std::clamp(wanted_change / size, 1.0e-4, 20.0);
+        direction.start = direction.start.shrunk(share);
+        models[d + 1] = with(base.hypothesis, direction.start);
+      }
+    }
+  }
+  for (Direction& direction : directions)
+    direction.change = left_over(base.jacobian, direction.change);
+  return directions;
+}
+
+Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
+            const Eigen::VectorXd& numerical, std::uint64_t seed) {
+  Alarm alarm;
+  std::vector<Eigen::VectorXd> unit;
+  double most = 0.0;
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    Direction& direction = directions[d];
+    const double size = direction.change.norm();
+    unit.push_back(size > 1.0e-3 ? Eigen::VectorXd(direction.change / size)
+                                 : Eigen::VectorXd::Zero(direction.change.size()));
+    direction.statistic = unit.back().dot(base.residual);
+    direction.systematic = numerical.size() > 0 ? std::abs(unit.back().dot(numerical)) : 0.0;
+    const double beyond = std::abs(direction.statistic) - direction.systematic;
+    if (beyond <= most) continue;
+    most = beyond;
+    alarm.statistic = std::abs(direction.statistic);
+    alarm.loudest = static_cast<int>(d);
+  }
+  // Where nothing is wrong the statistics are jointly normal with the directions' own correlations:
+  // noise through them is the bootstrap of the whole linear pipeline, the refit included, because
+  // the directions hold nothing that the parameters can absorb.
+  const auto count = static_cast<Eigen::Index>(unit.size());
+  Eigen::MatrixXd correlation(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j)
+      correlation(i, j) = correlation(j, i) = unit[i].dot(unit[j]);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
+  const Eigen::MatrixXd root =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  Random random(seed);
+  std::vector<double> largest;
+  for (int b = 0; b < bootstraps; ++b) {
+    Eigen::VectorXd normal(count);
+    for (double& x : normal) x = random.normal();
+    largest.push_back(count > 0 ? (root * normal).cwiseAbs().maxCoeff() : 0.0);
+  }
+  std::sort(largest.begin(), largest.end());
+  alarm.level = std::max(least_level, largest[static_cast<std::size_t>(0.995 * bootstraps)]);
+  alarm.raised = most > alarm.level;
+  return alarm;
+}
+
+double smallest_seen(const Direction& direction, double sigma, std::string& parameter) {
+  const double size = direction.change.norm();
+  for (int i = 0; i < direction.start.size(); ++i) {
+    const FreeParameter& free = direction.start.free[i];
+    if (free.vanishes == Vanishes::never) continue;
+    parameter = free.name;
+    if (size < 1.0e-3) break;
+    const Hypothesis seen = direction.start.shrunk(sigma / size);
+    return free.name == "factor" || free.name == "ratio" ? seen.value(i) : std::abs(seen.value(i));
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace pedicel::discrepancy

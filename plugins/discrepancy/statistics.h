@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "discrepancy/causes.h"
+#include "discrepancy/fit.h"
+
+namespace pedicel::discrepancy {
+
+/// How the data would change if a cause were there, small, and the free parameters took their
+/// share: what a directed test looks for.
+struct Direction {
+  std::string cause;
+  Hypothesis start;         ///< the cause at the size that `change` stands for
+  Eigen::VectorXd change;   ///< whitened, what the parameters cannot absorb
+  double statistic = 0.0;   ///< standard normal where nothing is wrong
+  double systematic = 0.0;  ///< how far our own numerical error could move it
+};
+
+/// Directions of every start of every cause, at sizes at which the response is about linear.
+std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& base,
+                                     const std::vector<Cause>& causes, const FitOptions& options);
+
+/// Whether anything is wrong: the largest of the directed statistics against the level that pure
+/// noise reaches through the same projections.
+struct Alarm {
+  double statistic = 0.0;  ///< the largest
+  double level = 0.0;      ///< that noise alone exceeds once in 200 times
+  int loudest = -1;        ///< direction
+  bool raised = false;
+};
+
+/// Fills in the directions' statistics for a residual and judges them. `numerical` is the whitened
+/// error of our own predictions (may be empty).
+Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
+            const Eigen::VectorXd& numerical, std::uint64_t seed);
+
+/// The smallest size of a cause that these data would show: its sizes where the directed statistic
+/// is expected to be `sigma`. Infinite where nothing would ever be seen.
+double smallest_seen(const Direction& direction, double sigma, std::string& parameter);
+
+}  // namespace pedicel::discrepancy

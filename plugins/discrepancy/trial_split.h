@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "discrepancy/experiment.h"
+
+namespace pedicel::discrepancy {
+
+/// Which trials are fitted and which are kept back for checking: as the experiment says; where it
+/// says nothing, whole trials are kept back, one of every three, of the kinds that occur more than
+/// once first, so that each kind of test is still fitted. A single trial is fitted.
+struct TrialSplit {
+  std::vector<int> fit, check;
+};
+TrialSplit split_trials(const Experiment& experiment);
+
+}  // namespace pedicel::discrepancy
