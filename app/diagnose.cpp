@@ -24,7 +24,7 @@ namespace {
 struct DiagnoseArguments {
   std::string experiment, out;
   int threads = 0, seed = 1;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, verbose = false;
 };
 
 /// Says on standard error what is being done, how far it is and how long it will take: on a
@@ -81,6 +81,10 @@ int run(const DiagnoseArguments& a) {
     options.progress = [&progress](const std::string& what, double share) {
       progress(what, share);
     };
+  if (a.verbose)
+    options.note = [](const std::string& sentence) {
+      std::fprintf(stderr, "%s\n", sentence.c_str());
+    };
   discrepancy::Diagnosis diagnosis = discrepancy::diagnose(*experiment, options);
   progress.end();
   if (stop_requested) return 130;
@@ -110,6 +114,7 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
   verb->add_option("--seed", a->seed, "of the bootstrap")->check(CLI::NonNegativeNumber);
   verb->add_flag("--json", a->json, "the verdict as JSON, and nothing else, on standard output");
   verb->add_flag("--quiet", a->quiet, "no progress");
+  verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
   return [a] { return run(*a); };
 }
 

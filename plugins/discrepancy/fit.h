@@ -31,9 +31,11 @@ struct FitSummary {
   std::string why = "not run";  ///< why it stopped
 };
 
-/// Corrections added to predictions, one a trial: what a finer mesh and step would change
-/// (numerics.h).
-using Corrections = std::vector<Prediction>;
+/// What is added to predictions, one entry a trial (numerics.h): `step` in full, what a step without
+/// error would change; of `mesh` the share that a hypothesis chooses.
+struct Corrections {
+  std::vector<Prediction> step, mesh;
+};
 
 /// Simulates a list of hypotheses over the same trials at once.
 class Evaluator {

@@ -6,11 +6,18 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double extrapolation = 4.0 / 3.0;
+constexpr double of_step = 4.0 / 3.0, of_mesh = 2.0;
 
 // RMS per sample of a whitened vector.
 double rms(const Eigen::VectorXd& v, int samples) {
   return samples > 0 ? v.norm() / std::sqrt(static_cast<double>(samples)) : 0.0;
+}
+
+Prediction difference(const Prediction& finer, const Prediction& coarser, double share) {
+  Prediction change;
+  change.markers = share * (finer.markers - coarser.markers);
+  change.force = share * (finer.force - coarser.force);
+  return change;
 }
 
 }  // namespace
@@ -33,7 +40,7 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
   const auto now = run(numerics.distance, numerics.dt);
   const auto step = run(numerics.distance, 0.5 * numerics.dt);
   const auto mesh = run(0.5 * numerics.distance, numerics.dt);
-  const auto whitened = [&](const std::vector<Prediction>& finer) {
+  const auto whitened = [&](const std::vector<Prediction>& finer, double share) {
     Eigen::VectorXd change(data.size(options.trials));
     Eigen::Index row = 0;
     for (const int t : options.trials) {
@@ -44,9 +51,9 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
       change.segment(row, size) = coarse - fine;
       row += size;
     }
-    return Eigen::VectorXd(extrapolation * change);
+    return Eigen::VectorXd(share * change);
   };
-  const Eigen::VectorXd by_step = whitened(step), by_mesh = whitened(mesh);
+  const Eigen::VectorXd by_step = whitened(step, of_step), by_mesh = whitened(mesh, of_mesh);
   const int samples = data.samples(options.trials, options.horizon);
   check.by_step = rms(left_over(base.jacobian, by_step), samples);
   check.by_mesh = rms(left_over(base.jacobian, by_mesh), samples);
@@ -54,10 +61,8 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
   check.correction = left_over(base.jacobian, by_step + by_mesh);
   check.largest = rms(check.correction, samples);
   for (std::size_t t = 0; t < now.size(); ++t) {
-    Prediction sum = now[t];
-    sum.markers = extrapolation * (step[t].markers + mesh[t].markers - 2.0 * now[t].markers);
-    sum.force = extrapolation * (step[t].force + mesh[t].force - 2.0 * now[t].force);
-    check.corrections.push_back(std::move(sum));
+    check.corrections.step.push_back(difference(step[t], now[t], of_step));
+    check.corrections.mesh.push_back(difference(mesh[t], now[t], of_mesh));
   }
   return check;
 }

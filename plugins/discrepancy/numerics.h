@@ -7,7 +7,8 @@ namespace pedicel::discrepancy {
 /// How well our own numbers hold: what half the step and half the mesh would change.
 struct NumericsCheck {
   Numerics numerics;
-  /// What to add to predictions: second order in both, so 4/3 of the differences (Richardson).
+  /// 4/3 of the difference for the step, whose error is of second order (Richardson); 2 of that for
+  /// the mesh, whose largest part, half a parent's segment at a branch's joint, is of first order.
   Corrections corrections;
   /// Whitened: the correction of the chosen trials, less what the free parameters can absorb.
   Eigen::VectorXd correction;
