@@ -8,6 +8,10 @@
 
 namespace pedicel::discrepancy {
 
+namespace {
+constexpr double junction = 0.05;  // 1, of the node distance: the short segment below a junction
+}
+
 bool is_of_experiment(const plant::Effect& effect) {
   const plant::EffectKind* kind = plant::find_effect(effect.name);
   return kind && kind->home == plant::EffectHome::experiment;
@@ -24,6 +28,7 @@ PlantMaker::PlantMaker(const Experiment& experiment, double distance) : file_(ex
   plant::BuildOptions options;
   const std::filesystem::path folder = experiment.plant_path.parent_path();
   options.leaf_folders = {folder, folder / "../assets/leaves"};
+  options.junction = junction * distance;
   Diagnostics diagnostics;
   auto built = plant::build_plant(file_, options, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
