@@ -46,7 +46,8 @@ struct Prediction {
 class Simulator {
  public:
   /// Keeps a reference to the experiment.
-  /// Throws InvalidFile where the plant cannot be built.
+  /// Throws InvalidFile where the plant cannot be built, UsageError where the experiment names a
+  /// curve that it lacks.
   Simulator(const Experiment& experiment, const Numerics& numerics, int threads);
   ~Simulator();
 
