@@ -63,7 +63,10 @@ struct Group {
 
 struct Simulator::Impl {
   Impl(const Experiment& given, const Numerics& how, int threads)
-      : experiment(given), numerics(how), maker(given, how.distance), pool(threads) {
+      : experiment(given),
+        numerics(how),
+        maker(given, how.distance, how.junction * how.distance),
+        pool(threads) {
     check_places();
   }
 

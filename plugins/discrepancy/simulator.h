@@ -15,6 +15,9 @@ namespace pedicel::discrepancy {
 struct Numerics {
   double distance = 0.01;  ///< m between nodes, in place of the plant file's
   double dt = 1.0 / 960;   ///< s
+  /// 1, of `distance`: the short segment below a junction (plant::BuildOptions). 0: none, and the
+  /// branches' places err with the first power of `distance`.
+  double junction = 0.05;
 };
 
 /// A force that no known effect gives, evaluated at the start of each step: N in W, from time (s),

@@ -48,6 +48,26 @@ TEST(Simulator, RestsUnderItsLoadAtTimeZero) {
   }
 }
 
+// A branch across a loaded stem, weightless: it turns with the junction, by F x (2 L - x) / (2 EI).
+// Without a short segment below, half of the segment there does not bend for it: 0.02 of 0.3 m.
+TEST(Simulator, ABranchTurnsWithItsJunction) {
+  const Beam beam;
+  Experiment experiment = loaded(-1.0, 1.0);
+  experiment.trials[0].loads[0].force *= 0.1;
+  plant::PlantCurve branch = experiment.plant.curves[0];
+  branch.name = "branch";
+  branch.points = {Vec3(0, 0, 0.2), Vec3(0.1, 0, 0.2)};
+  experiment.plant.curves.push_back(branch);
+  experiment.markers = {{"foot", {"branch", 0.0, {}}}, {"end", {"branch", 1.0, {}}}};
+  const double turn = 0.001 * 0.2 * (2.0 * beam.length - 0.2) / (2.0 * beam.stiffness());
+  const auto found = [&](double junction) {
+    const Eigen::MatrixXd at = predict(experiment, {}, {0.04, 1.0 / 480, junction}).markers;
+    return (at(0, 2) - at(0, 5)) / 0.1 / turn;
+  };
+  EXPECT_NEAR(found(0.05), 1.0, 0.01);
+  EXPECT_NEAR(found(0.0), 1.0 - 0.02 / 0.3, 0.01);
+}
+
 // Two springs in series: the hold and the beam's tip.
 TEST(Simulator, AHoldPullsThroughItsSpring) {
   const Beam beam;
@@ -97,9 +117,10 @@ TEST(Simulator, AGripThatSlipsHoldsElsewhere) {
   EXPECT_NEAR(found.force(20, 2), -100.0 * 0.1, 0.05);
 }
 
-// Much slower than the first frequency (5.2 Hz) the plant goes along as it is, bent by its inertia
-// as by a load along it: the tip lags by rho A a L^4 / (8 EI), 0.9 mm at most; what is left are
-// terms of (w / w1)^2 = 1 %, and what rings of them.
+// Much slower than the first frequency (w1 = 33 rad/s) the plant goes along as it is, bent by its
+// inertia as by a load along it: the tip lags by rho A a L^4 / (8 EI), 0.9 mm at most. What is left
+// comes with that lag's rate, 2.8 mm/s at first: ringing of rate / w1 = 85 um, and the damping's
+// delay of 0.02 s, 56 um.
 TEST(Simulator, ASlowBaseCarriesThePlant) {
   const Beam beam;
   Experiment experiment = experiment_of(beam, 2.0, 0.1);
@@ -118,8 +139,8 @@ TEST(Simulator, ASlowBaseCarriesThePlant) {
     const double acceleration = 0.05 * M_PI * std::sin(M_PI * 0.1 * s);
     const double lag =
         beam.mass_per_length() * acceleration * std::pow(beam.length, 4) / (8.0 * beam.stiffness());
-    EXPECT_NEAR(found.markers(s, 3), base.position_at(0.1 * s).x() - lag, 1e-4) << s;
-    EXPECT_NEAR(found.markers(s, 4), 0.2, 1e-6) << s;
+    EXPECT_NEAR(found.markers(s, 3), base.position_at(0.1 * s).x() - lag, 2e-4) << s;
+    EXPECT_NEAR(found.markers(s, 4), 0.2, 1e-5) << s;
   }
 }
 
