@@ -63,7 +63,22 @@ struct Group {
 
 struct Simulator::Impl {
   Impl(const Experiment& given, const Numerics& how, int threads)
-      : experiment(given), numerics(how), maker(given, how.distance), pool(threads) {}
+      : experiment(given),
+        numerics(how),
+        maker(given, how.distance, how.junction * how.distance),
+        pool(threads) {
+    check_places();
+  }
+
+  // Here, because nothing may throw within threads.
+  void check_places() const {
+    for (const Marker& marker : experiment.markers) maker.locate(marker.place);
+    for (const Trial& trial : experiment.trials) {
+      for (const plant::PlantMass& mass : trial.masses) maker.locate(mass.place);
+      for (const Hold& hold : trial.holds) maker.locate(hold.place);
+      for (const TimedLoad& load : trial.loads) maker.locate(load.place);
+    }
+  }
 
   Wanted want(const Request& request) const {
     const Trial& trial = experiment.trials[request.trial];

