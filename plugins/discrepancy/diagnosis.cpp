@@ -121,7 +121,7 @@ class Procedure {
     wide_ = std::make_unique<Simulator>(experiment(), result_.numerics, options_.threads);
   }
   const Corrections* corrections() const {
-    return corrections_.step.empty() ? nullptr : &corrections_;
+    return corrections_.own.empty() ? nullptr : &corrections_;
   }
   Evaluator wide() { return Evaluator(*wide_, *data_, corrections()); }
   void count_simulations() {
@@ -272,7 +272,8 @@ class Procedure {
 
   void search() {
     result_.ranking =
-        refit_all(workers_, result_.base, causes_, refit_options(0.2, 0.6, "refitting candidates"));
+        refit_all(workers_, result_.base, causes_, promise_of(causes_, result_.directions),
+                  refit_options(0.2, 0.6, "refitting candidates"));
     for (std::size_t i = 0; i < std::min<std::size_t>(6, result_.ranking.size()); ++i)
       note_fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit);
     if (result_.ranking.empty() || result_.ranking.front().evidence < enough_evidence) return;

@@ -145,8 +145,8 @@ std::vector<std::vector<Prediction>> Evaluator::predictions(std::span<const Hypo
     for (const int trial : options.trials) {
       Prediction& prediction = all[next++];
       if (corrections_) {
-        add(prediction, 1.0, corrections_->step[trial]);
-        add(prediction, hypotheses[h].mesh_share(), corrections_->mesh[trial]);
+        add(prediction, 1.0, corrections_->own[trial]);
+        add(prediction, hypotheses[h].mesh_share(), corrections_->plain[trial]);
       }
       result[h].push_back(std::move(prediction));
     }

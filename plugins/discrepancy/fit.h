@@ -31,10 +31,11 @@ struct FitSummary {
   std::string why = "not run";  ///< why it stopped
 };
 
-/// What is added to predictions, one entry a trial (numerics.h): `step` in full, what a step without
-/// error would change; of `mesh` the share that a hypothesis chooses.
+/// What is added to predictions, one entry a trial (numerics.h): `own`, what a prediction without
+/// error would have more; and the share that a hypothesis chooses of `plain`, what a plain mesh of
+/// the plant file's spacing would have more than that.
 struct Corrections {
-  std::vector<Prediction> step, mesh;
+  std::vector<Prediction> own, plain;
 };
 
 /// Simulates a list of hypotheses over the same trials at once.

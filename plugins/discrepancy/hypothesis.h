@@ -8,9 +8,9 @@
 
 namespace pedicel::discrepancy {
 
-/// Stands among the effects of a hypothesis, though no simulator runs it: which share of the mesh's
-/// own error (Corrections) is to be added to the predictions. Data, and moduli, were made with some
-/// mesh or none, so a fit must be free to choose.
+/// Stands among the effects of a hypothesis, though no simulator runs it: the share of a plain mesh's
+/// error (Corrections) that is in the data or in the modulus that came with them. Both were made
+/// with some mesh or none, so a fit must be free to choose.
 inline constexpr const char* mesh_error = "mesh_error";
 
 /// The value at which an effect vanishes, for the parameters that are its size; `never` for the
@@ -53,7 +53,7 @@ struct Hypothesis {
   Eigen::VectorXd high() const;
   /// What the simulator runs of it.
   Variant variant() const;
-  /// Of the mesh's error; 0 where it is not among the effects.
+  /// Of a plain mesh's error; 0 where it is not among the effects.
   double mesh_share() const;
   /// Adds the effects and free parameters of another one behind its own.
   void add(const Hypothesis& other);

@@ -6,7 +6,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double of_step = 4.0 / 3.0, of_mesh = 2.0;
+constexpr double extrapolation = 4.0 / 3.0;
 
 // RMS per sample of a whitened vector.
 double rms(const Eigen::VectorXd& v, int samples) {
@@ -30,17 +30,21 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
   FitOptions all = options;
   all.trials.clear();
   for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t) all.trials.push_back(t);
-  const auto run = [&](double distance, double dt) {
-    Simulator simulator(experiment, {distance, dt}, threads);
+  const auto run = [&](const Numerics& with) {
+    Simulator simulator(experiment, with, threads);
     Evaluator evaluator(simulator, data);
     auto predicted = evaluator.predictions(std::span(&base.hypothesis, 1), all);
     simulations += simulator.simulations();
     return std::move(predicted.front());
   };
-  const auto now = run(numerics.distance, numerics.dt);
-  const auto step = run(numerics.distance, 0.5 * numerics.dt);
-  const auto mesh = run(0.5 * numerics.distance, numerics.dt);
-  const auto whitened = [&](const std::vector<Prediction>& finer, double share) {
+  Numerics half_step = numerics, half_mesh = numerics, plain_mesh = numerics;
+  half_step.dt *= 0.5;
+  half_mesh.distance *= 0.5;
+  plain_mesh.distance = experiment.plant.distance;
+  plain_mesh.junction = 0.0;
+  const auto now = run(numerics), step = run(half_step), mesh = run(half_mesh),
+             plain = run(plain_mesh);
+  const auto whitened = [&](const std::vector<Prediction>& finer) {
     Eigen::VectorXd change(data.size(options.trials));
     Eigen::Index row = 0;
     for (const int t : options.trials) {
@@ -51,9 +55,9 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
       change.segment(row, size) = coarse - fine;
       row += size;
     }
-    return Eigen::VectorXd(share * change);
+    return Eigen::VectorXd(extrapolation * change);
   };
-  const Eigen::VectorXd by_step = whitened(step, of_step), by_mesh = whitened(mesh, of_mesh);
+  const Eigen::VectorXd by_step = whitened(step), by_mesh = whitened(mesh);
   const int samples = data.samples(options.trials, options.horizon);
   check.by_step = rms(left_over(base.jacobian, by_step), samples);
   check.by_mesh = rms(left_over(base.jacobian, by_mesh), samples);
@@ -61,8 +65,15 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
   check.correction = left_over(base.jacobian, by_step + by_mesh);
   check.largest = rms(check.correction, samples);
   for (std::size_t t = 0; t < now.size(); ++t) {
-    check.corrections.step.push_back(difference(step[t], now[t], of_step));
-    check.corrections.mesh.push_back(difference(mesh[t], now[t], of_mesh));
+    Prediction own = difference(step[t], now[t], extrapolation);
+    const Prediction by_finer_mesh = difference(mesh[t], now[t], extrapolation);
+    own.markers += by_finer_mesh.markers;
+    own.force += by_finer_mesh.force;
+    Prediction other = difference(plain[t], now[t], 1.0);
+    other.markers -= by_finer_mesh.markers;
+    other.force -= by_finer_mesh.force;
+    check.corrections.own.push_back(std::move(own));
+    check.corrections.plain.push_back(std::move(other));
   }
   return check;
 }

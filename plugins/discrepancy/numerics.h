@@ -7,8 +7,7 @@ namespace pedicel::discrepancy {
 /// How well our own numbers hold: what half the step and half the mesh would change.
 struct NumericsCheck {
   Numerics numerics;
-  /// 4/3 of the difference for the step, whose error is of second order (Richardson); 2 of that for
-  /// the mesh, whose largest part, half a parent's segment at a branch's joint, is of first order.
+  /// Of step and mesh, whose errors are of second order: 4/3 of the differences (Richardson).
   Corrections corrections;
   /// Whitened: the correction of the chosen trials, less what the free parameters can absorb.
   Eigen::VectorXd correction;
