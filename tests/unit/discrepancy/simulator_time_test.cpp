@@ -40,8 +40,8 @@ TEST(SimulatorInTime, AReleaseRingsAtTheFirstFrequency) {
 /// truth. A second-order scheme gives (16 - 1) / (4 - 1) = 5, a first-order one 3.
 double fall(const Experiment& experiment) {
   const auto at = [&](double rate) { return markers(experiment, 0.02, 1.0 / rate); };
-  const Eigen::MatrixXd truth = at(1920.0);
-  return (at(480.0) - truth).norm() / (at(960.0) - truth).norm();
+  const Eigen::MatrixXd truth = at(3840.0);
+  return (at(960.0) - truth).norm() / (at(1920.0) - truth).norm();
 }
 
 Experiment damped() {
