@@ -18,7 +18,7 @@ constexpr double b2 = 1.5 * gamma_ * gamma_ - 5.0 * gamma_ + 1.25;
 constexpr double tableau[3][3] = {{gamma_, 0, 0}, {a21, gamma_, 0}, {b1, b2, gamma_}};
 constexpr double stage_time[3] = {gamma_, 0.5 * (1.0 + gamma_), 1.0};
 constexpr double air_density = 1.2;  // kg/m3
-constexpr double tolerance = 1e-10;  // rad, of the last change within a stage
+constexpr double tolerance = 1e-8;  // rad, of the last change within a stage; the next is 100x less
 constexpr int most_iterations = 60;
 
 }  // namespace
