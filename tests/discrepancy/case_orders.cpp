@@ -85,8 +85,8 @@ std::vector<CaseOrder> look_alikes() {
       {"mass_damping", "damping_time", "structural_damping"}};
   static constexpr PlantKind plant[] = {PlantKind::stem, PlantKind::two_branches, PlantKind::stem,
                                         PlantKind::stiff_stem};
-  static constexpr PackKind pack[] = {PackKind::weights, PackKind::mix, PackKind::release,
-                                      PackKind::release};
+  static constexpr PackKind pack[] = {PackKind::weights, PackKind::mix, PackKind::sweep,
+                                      PackKind::sweep};
   std::vector<CaseOrder> list;
   for (int k = 0; k < 32; ++k) {
     const int which = k % 4;

@@ -38,7 +38,7 @@ void mark(Setting& s, const std::string& name, std::initializer_list<double> pla
 Setting single_stem(Random& random) {
   Setting s;
   const double L = 0.5 * random.uniform(0.9, 1.1);
-  s.plant = plant_of("single stem", 5e8 * random.uniform(0.8, 1.25), 750, 0.008, L / 25);
+  s.plant = plant_of("single stem", 5e8 * random.uniform(0.8, 1.25), 750, 0.003, L / 25);
   s.plant.curves = {
       curve("stem", {{0, 0, 0}, {0.01, 0.005, L / 2}, {0.04, 0.005, L}}, {0.004, 0.0035, 0.003})};
   s.hold = {"stem", 0.8, {}};
@@ -49,7 +49,7 @@ Setting single_stem(Random& random) {
 Setting stiff_stem(Random& random) {
   Setting s;
   const double L = 0.7 * random.uniform(0.9, 1.1);
-  s.plant = plant_of("stiff stem", 4e9 * random.uniform(0.8, 1.25), 900, 0.002, L / 25);
+  s.plant = plant_of("stiff stem", 4e9 * random.uniform(0.8, 1.25), 900, 0.001, L / 25);
   s.plant.curves = {
       curve("stem", {{0, 0, 0}, {0, 0, L / 2}, {0.01, 0, L}}, {0.005, 0.0045, 0.0035})};
   s.hold = {"stem", 0.75, {}};
@@ -60,22 +60,15 @@ Setting stiff_stem(Random& random) {
 Setting two_branches(Random& random) {
   Setting s;
   const double L = 0.5 * random.uniform(0.9, 1.1), b = 0.16 * random.uniform(0.9, 1.1);
-  s.plant = plant_of("stem with two branches", 6e8 * random.uniform(0.8, 1.25), 700, 0.008, L / 16);
+  s.plant = plant_of("stem with two branches", 6e8 * random.uniform(0.8, 1.25), 700, 0.003, L / 16);
   s.plant.shape = plant::Shape::drawn;
+  const Vec3 low(0.004, 0.004, 0.4 * L), high(0.01, 0.005, 0.65 * L);
   s.plant.curves = {
-      curve("stem", {{0, 0, 0}, {0, 0.008, 0.4 * L}, {0.01, 0.008, 0.65 * L}, {0.03, 0, L}},
-            {0.0042, 0.0037, 0.0034, 0.003}),
-      curve("branch_1",
-            {{0, 0.008, 0.4 * L},
-             {0.3 * b, 0.5 * b, 0.4 * L + 0.4 * b},
-             {0.5 * b, 0.9 * b, 0.4 * L + 0.5 * b}},
+      curve("stem", {{0, 0, 0}, low, high, {0.022, 0.004, L}}, {0.0042, 0.0037, 0.0034, 0.003}),
+      curve("branch_1", {low, low + b * Vec3(0.25, 0.42, 0.24), low + b * Vec3(0.5, 0.85, 0.44)},
             {0.0025, 0.002, 0.0015}),
-      curve("branch_2",
-            {{0.01, 0.008, 0.65 * L},
-             {0.01 - 0.5 * b, 0, 0.65 * L + 0.3 * b},
-             {0.01 - b, -0.01, 0.65 * L + 0.35 * b}},
+      curve("branch_2", {high, high + b * Vec3(-0.48, 0, 0.2), high + b * Vec3(-0.97, 0.02, 0.36)},
             {0.0025, 0.002, 0.0015})};
-  for (plant::PlantCurve& c : s.plant.curves) c.interpolation = plant::Interpolation::linear;
   s.hold = {"stem", 0.8, {}};
   s.reach = L;
   return s;
@@ -84,15 +77,14 @@ Setting two_branches(Random& random) {
 Setting side_branch(Random& random) {
   Setting s;
   const double L = 0.3 * random.uniform(0.9, 1.1), b = 0.35 * random.uniform(0.9, 1.1);
-  s.plant = plant_of("stem with a drooping branch", 1e9, 800, 0.004, (L + b) / 25);
+  s.plant = plant_of("stem with a drooping branch", 1e9, 800, 0.002, (L + b) / 25);
+  const Vec3 foot(0, 0, 0.7 * L);
   s.plant.curves = {
-      curve("stem", {{0, 0, 0}, {0, 0, 0.7 * L}, {0, 0, L}}, {0.005, 0.0047, 0.004}),
-      curve("branch",
-            {{0, 0, 0.7 * L}, {0.5 * b, 0, 0.7 * L + 0.25 * b}, {b, 0, 0.7 * L + 0.3 * b}},
+      curve("stem", {{0, 0, 0}, foot, {0, 0, L}}, {0.005, 0.0047, 0.004}),
+      curve("branch", {foot, foot + b * Vec3(0.5, 0, 0.2), foot + b * Vec3(1, 0, 0.32)},
             {0.0028, 0.0023, 0.0018})};
-  s.plant.curves[0].interpolation = plant::Interpolation::linear;
   s.plant.curves[1].material.youngs_modulus = 3e8 * random.uniform(0.8, 1.25);
-  s.plant.curves[1].material.damping_time = 0.008;
+  s.plant.curves[1].material.damping_time = 0.004;
   s.hold = {"branch", 0.7, {}};
   s.reach = b;
   return s;

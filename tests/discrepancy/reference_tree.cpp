@@ -345,11 +345,12 @@ class Builder {
     }
   }
 
-  // Equal springs on dashpots whose times stand a factor sqrt(10) apart, 1 ms to 1 s: the sum over
-  // them of w t / (1 + w^2 t^2) is close to pi / (2 ln sqrt(10)) inside the band, at every rate.
+  // Equal springs on dashpots whose times stand a factor sqrt(10) apart, 0.3 ms to 1 s: the sum
+  // over them of w t / (1 + w^2 t^2) is close to pi / (2 ln sqrt(10)) inside the band, at every
+  // rate.
   void add_ladder(double loss_factor) {
     const double spacing = 0.5 * std::log(10.0), g = loss_factor * 2.0 * spacing / M_PI;
-    for (int i = 0; i <= 6; ++i) tree_.law.memory.push_back({g, g, 1e-3 * std::exp(spacing * i)});
+    for (int i = -1; i <= 6; ++i) tree_.law.memory.push_back({g, g, 1e-3 * std::exp(spacing * i)});
   }
 
   const PlantFile& plant_;
