@@ -217,6 +217,18 @@ std::vector<TrialPlan> make_pack(PackKind kind, const Setting& s, const Vec3& st
   return pack;
 }
 
+// A cantilever swings like 0.2427 of its mass at its tip (k = 3EI/L^3, w = 1.8751^2 sqrt(EI/mL^4)).
+std::vector<TrialPlan> first_mode_pack(const Setting& s, double softness) {
+  double mass = 0.0;
+  for (const reference::Segment& segment :
+       reference::build_tree(s.plant, {}, {}, s.plant.distance).segments)
+    mass += segment.mass;
+  const double f = std::sqrt(1.0 / (softness * 0.2427 * mass)) / (2 * M_PI);
+  return {sweep("sweep_1", Vec3(0.004, 0, 0), 0.8 * f, 1.2 * f),
+          sweep("sweep_2", Vec3(0, 0.004, 0), 1.2 * f, 0.8 * f),
+          sweep("sweep_3", Vec3(0.002, 0.002, 0), 0.9 * f, 1.1 * f)};
+}
+
 double tip_softness(const Setting& s) {
   const reference::Subject subject{s.plant, {}, {}};
   const reference::Mesh mesh{s.plant.distance, 0.004};

@@ -34,6 +34,10 @@ std::vector<reference::TrialPlan> make_pack(PackKind kind, const Setting& settin
                                             const Vec3& start, double softness, double pause,
                                             Random& random);
 
+/// Sweeps of the foot that meet the first frequency of a single stem and none of the others, from
+/// `softness`.
+std::vector<reference::TrialPlan> first_mode_pack(const Setting& setting, double softness);
+
 /// Sideways compliance of the tip, m/N, from two static equilibria of the reference.
 double tip_softness(const Setting& setting);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 namespace pedicel::discrepancy {
@@ -44,6 +45,9 @@ class Maker {
   bool same_damping() const {
     return order().kind == Kind::look_alike && count("mass_damping") > 0;
   }
+  static bool same_kind(const std::string& name, std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
   long count(const std::string& name) const {
     return std::count(order().hidden.begin(), order().hidden.end(), name);
   }
@@ -60,7 +64,7 @@ class Maker {
                         factor("damping_time", random_.uniform(0.6, 1.6))};
     subject_ = {case_.setting.plant, case_.refitted, {}};
     plain_ = subject_;
-    coarse_ = {case_.setting.plant.distance, 0.0067};
+    coarse_ = {2.0 * case_.setting.plant.distance, 0.01};
     fine_ = {0.25 * case_.setting.plant.distance, 0.0041};
     make_trials();
   }
@@ -71,10 +75,7 @@ class Maker {
     const double softness = tip_softness(case_.setting);
     const double pause = count("stiffness_drift") ? 900.0 : 60.0;
     case_.trials = make_pack(order().pack, case_.setting, start_, softness, pause, random_);
-    if (same_damping()) {  // below the second frequency
-      case_.trials[1].base = case_.trials[0].base;
-      for (Vec3& p : case_.trials[1].base->position) p = Vec3(p.y(), p.x(), 0);
-    }
+    if (same_damping()) case_.trials = first_mode_pack(case_.setting, softness);
     if (order().kind == Kind::look_alike && count("base_compliance"))
       for (reference::LoadPlan& load : case_.trials.back().loads) load.place = case_.setting.tip;
     scale_.pause = pause;
@@ -131,6 +132,15 @@ class Maker {
       effect.guess = 1.0;
       effect.cap = 200.0;
     }
+    // A larger modulus is a smaller density, but more damping of one kind more of another.
+    if (order().kind == Kind::look_alike && same_kind(name, {"youngs_modulus", "density"}))
+      effect.add = [name, inverse = name != order().hidden.front()](double size, Subject& subject) {
+        subject.effects.push_back(factor(name, inverse ? 1 / (1 + size) : 1 + size));
+      };
+    if (order().kind == Kind::look_alike && name == "damping_time")
+      effect.add = [](double size, Subject& subject) {
+        subject.effects.push_back(factor("damping_time", 1 + size));
+      };
     if (order().kind == Kind::look_alike && name == "attachment_compliance")
       effect.add = [curve = case_.setting.plant.curves[1].name](double size, Subject& subject) {
         plant::Effect e;
@@ -158,10 +168,15 @@ class Maker {
     double smallest = 0.003, size = smallest * std::min(order().size, 8.0), seen = 0.0;
     if (effect.sized) {
       const Sight eye = sight(effect.name);
-      const auto norm = [&](double u) { return look(eye, effect, u).norm(); };
+      std::map<double, double> known;
+      const auto norm = [&](double u) {
+        return known.contains(u) ? known[u] : known[u] = look(eye, effect, u).norm();
+      };
       last_size_ = 0.0;
       smallest = size_for(norm, identifiable, effect.guess, effect.cap / order().size);
       size = smallest * order().size;
+      if (order().kind == Kind::look_alike && count("density"))
+        size = 0.15;  // nothing tells them apart, however large: no need to be near the limit
       const double better = norm(smallest) / identifiable;
       seen = norm(size);
       if (better < 0.94) {
@@ -183,11 +198,13 @@ class Maker {
     const Eigen::VectorXd truth = eye.change(subject_).rest;
     case_.sine = 0.0;
     for (std::size_t i = 1; i < order().hidden.size(); ++i) {
-      const HiddenEffect other = draw(order().hidden[i]);
+      HiddenEffect other = draw(order().hidden[i]);
+      if (count("density")) other.guess = case_.size.front();
       last_size_ = 0.0;
       const double size = size_for([&](double u) { return look(eye, other, u).norm(); },
                                    truth.norm(), other.guess, other.cap);
-      case_.sine = std::max(case_.sine, discrepancy::sine(truth, look(eye, other, size)));
+      case_.sine = std::max(case_.sine,
+                            discrepancy::sine(truth, eye.change(with(plain_, other, size)).rest));
     }
   }
 

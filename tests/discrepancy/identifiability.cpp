@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pedicel::discrepancy {
 
@@ -74,16 +75,19 @@ double sine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 double size_for(const std::function<double(double)>& norm, double level, double guess, double cap) {
   double size = std::min(guess, cap), exponent = 1.0, last_size = 0.0, last_norm = 0.0;
-  for (int k = 0; k < 12; ++k) {
+  double low = 0.0, high = std::numeric_limits<double>::infinity();  // too small, too large
+  for (int k = 0; k < 20; ++k) {
     const double now = norm(size);
     if (std::abs(now / level - 1.0) < 0.05 || (size == cap && now < level)) return size;
+    (now < level ? low : high) = size;
     if (last_size > 0.0 && now > 0.0 && last_norm > 0.0)
       exponent = std::clamp(std::log(now / last_norm) / std::log(size / last_size), 0.3, 4.0);
     last_size = size;
     last_norm = now;
     const double ratio = now > 0.0 ? std::pow(level / now, 1.0 / exponent) : 4.0;
     size = std::min(size * std::clamp(ratio, 0.02, 20.0), cap);
-    if (size == last_size) return size;
+    // A step that leaves what is known to hold the answer is no better than the middle.
+    if (size <= low || size >= high) size = low > 0.0 ? std::sqrt(low * high) : 0.1 * high;
   }
   return size;
 }

@@ -239,7 +239,7 @@ void Solver::solve_stage(int s, double h) {
       trial_rate_[i] = stage.rate_known[i] + gh * accel_[i];
       Vec3 theta = stage.theta_known[i] + gh * trial_rate_[i];
       for (int k = 0; k < 2; ++k)
-        theta = stage.theta_known[i] + gh * (inverse_tangent(theta) * trial_rate_[i]);
+        theta = stage.theta_known[i] + gh * turn_rate(theta, trial_rate_[i]);
       stage.theta_rate[i] = (theta - stage.theta_known[i]) / gh;
       trial_relative_[i] = (relative_[i] * rotation_exp(theta)).normalized();
     }
