@@ -60,7 +60,7 @@ std::vector<CaseOrder> effects() {
 std::vector<CaseOrder> pairs() {
   static const std::vector<std::vector<std::string>> both = {
       {"base_compliance", "leaf_drag"},     {"extra_mass", "latency"},
-      {"relaxation", "base_compliance"},    {"anisotropy", "mass_damping"},
+      {"relaxation", "base_compliance"},    {"anisotropy", "latency"},
       {"weak_segment", "leaf_drag"},        {"stiffness_drift", "marker_scale"},
       {"attachment_compliance", "latency"}, {"extra_mass", "frame_rotation"}};
   std::vector<CaseOrder> list;

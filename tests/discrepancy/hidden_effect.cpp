@@ -109,7 +109,7 @@ class Draw {
         return Numbers{{"coefficient", {s * u}}, {"k0", {most}}};
       });
     else if (name_ == "mass_damping")
-      set(0.05, 10.0, [](double u) { return Numbers{{"rate", {u}}}; });
+      set(0.05, 3.0, [](double u) { return Numbers{{"rate", {u}}}; });
     else if (name_ == "structural_damping")
       set(0.01, 0.2, [](double u) { return Numbers{{"loss_factor", {u}}}; });
     else if (name_ == "internal_friction")
