@@ -19,10 +19,15 @@ constexpr std::size_t cache_bytes = 256u << 20;
 using Effects = std::vector<plant::Effect>;
 
 /// Everything that acts in a request: what the files state, then the variant's.
+// A variant's effect that names a trial happened in that one alone.
 Effects effects_of(const Experiment& experiment, const Simulator::Request& request) {
+  const Trial& trial = experiment.trials[request.trial];
   Effects all = experiment.effects;
-  for (const Effects* more : {&experiment.trials[request.trial].effects, &request.variant->effects})
-    all.insert(all.end(), more->begin(), more->end());
+  for (const Effects* more : {&trial.effects, &request.variant->effects})
+    for (const plant::Effect& effect : *more) {
+      const auto only = effect.words.find("trial");
+      if (only == effect.words.end() || only->second == trial.name) all.push_back(effect);
+    }
   return all;
 }
 

@@ -196,8 +196,6 @@ std::vector<RunResult> run_trial(const PlantMaker& maker, const Experiment& expe
   for (const RunMember& one : given)
     working +=
         members.emplace_back(maker, experiment, trial, one, plan.steps()).begin(rods) ? 1 : 0;
-  // Effects with a memory or a clock of their own begin here: the plants are at rest at the trial's
-  // time 0, trial.clock seconds after the first trial.
   for (int k = 0; k < plan.steps() && working > 0; ++k) {
     const double begin = plan.time[k], end = plan.time[k + 1];
     for (int p = 0; p < rods.size(); ++p)

@@ -47,6 +47,7 @@ plant::BuiltPlant PlantMaker::make(const Trial& trial,
   Diagnostics diagnostics;
   plant::apply_effects(file, built, diagnostics);
   if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
+  built.model.clock = trial.clock;
   return built;
 }
 
