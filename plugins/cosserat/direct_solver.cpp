@@ -350,6 +350,7 @@ StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
   // with them is not in the Hessian.
   StepReport report;
   const bool extended = is_extended(model);
+  constexpr double followed = 1.0e-8;  // m or rad
   for (const double share : {1.0, 0.3, 0.1, 0.03}) {
     solver.set_settling(true, share);
     // The second step has next to no way to go, and so nothing that damps it.
@@ -357,7 +358,7 @@ StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
       rest();
       report = solver.step(model, state, input);
     }
-    if (report.errors == none || model.air.empty()) break;
+    if (model.air.empty() || (report.errors == none && report.last_change <= followed)) break;
   }
   rest();
   start_memory(model, state);

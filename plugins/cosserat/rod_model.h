@@ -76,7 +76,7 @@ struct Fruit {
   double radius = 0.0;   ///< m
   double density = 0.0;  ///< kg/m3
   Thresholds thresholds;
-  std::optional<DetachmentLaw> law;  ///< in place of the thresholds
+  std::optional<DetachmentLaw> law = {};  ///< in place of the thresholds
 };
 
 /// A point of the plant that is held to a pose of the world by stiff springs: a stem hung from a

@@ -36,7 +36,9 @@ TEST(Relaxation, MomentOfAHeldJoint) {
   }
 }
 
-// With a tip held in place the whole rod relaxes alike: the reaction follows the same curve.
+// With a tip held in place the whole rod relaxes alike: the reaction follows the same curve. The
+// hold also keeps the tip from coming nearer, by 0.6 d^2/L: with d = 0.5 mm the tension of that is
+// 1e-3 of the reaction, and does not relax.
 TEST(Relaxation, ForceOfAHeldCantilever) {
   constexpr double fraction = 0.2, tau = 0.3, dt = 2.0e-3;
   RodModel model = straight_rod(0.3, 12, circle_section(0.003, {2.0e7, 0.3, 450.0, 0.0}),
@@ -50,7 +52,7 @@ TEST(Relaxation, ForceOfAHeldCantilever) {
   model.supports.push_back(support);
   Simulation sim(model, settings_with(Integrator::bdf2));
   settle(sim.model, sim.state, no_gravity);
-  sim.model.supports[0].position += Vec3(0, 0, 0.003);
+  sim.model.supports[0].position += Vec3(0, 0, 0.0005);
   const auto force = [&] { return 100.0 * (sim.model.supports[0].position - sim.tip()).z(); };
   RodModel elastic = sim.model;
   elastic.laws.clear();
