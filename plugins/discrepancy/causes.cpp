@@ -419,7 +419,7 @@ Hypothesis baseline() {
 }
 
 Hypothesis mesh_freedom() {
-  Hypothesis mesh = Start(mesh_error).fixed("share", {0.3}).free_share(-0.5, 2.0).prior(0.5, 0.3);
+  Hypothesis mesh = Start(mesh_error).fixed("share", {0.3}).free_share(0.0, 2.0).prior(0.5, 0.3);
   mesh.name.clear();
   return mesh;
 }

@@ -146,7 +146,9 @@ std::vector<std::vector<Prediction>> Evaluator::predictions(std::span<const Hypo
       Prediction& prediction = all[next++];
       if (corrections_) {
         add(prediction, 1.0, corrections_->own[trial]);
-        add(prediction, hypotheses[h].mesh_share(), corrections_->plain[trial]);
+        const double share = hypotheses[h].mesh_share();
+        add(prediction, share, corrections_->first[trial]);
+        add(prediction, share * share, corrections_->second[trial]);
       }
       result[h].push_back(std::move(prediction));
     }

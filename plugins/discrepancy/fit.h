@@ -32,10 +32,11 @@ struct FitSummary {
 };
 
 /// What is added to predictions, one entry a trial (numerics.h): `own`, what a prediction without
-/// error would have more; and the share that a hypothesis chooses of `plain`, what a plain mesh of
-/// the plant file's spacing would have more than that.
+/// error would have more, and what a mesh of the plant file's spacing would have more than that, by
+/// the power of the spacing: `first` at the junctions, half a segment of the parent; `second`
+/// everywhere. A hypothesis chooses its share s of the spacing: s first + s^2 second.
 struct Corrections {
-  std::vector<Prediction> own, plain;
+  std::vector<Prediction> own, first, second;
 };
 
 /// Simulates a list of hypotheses over the same trials at once.

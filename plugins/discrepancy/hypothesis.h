@@ -8,9 +8,9 @@
 
 namespace pedicel::discrepancy {
 
-/// Stands among the effects of a hypothesis, though no simulator runs it: the share of a plain mesh's
-/// error (Corrections) that is in the data or in the modulus that came with them. Both were made
-/// with some mesh or none, so a fit must be free to choose.
+/// Stands among the effects of a hypothesis, though no simulator runs it: the spacing, as a share
+/// of the plant file's, of the mesh that is in the data or in the modulus that came with them
+/// (Corrections). Both were made with some mesh or none, so a fit must be free to choose.
 inline constexpr const char* mesh_error = "mesh_error";
 
 /// The value at which an effect vanishes, for the parameters that are its size; `never` for the

@@ -37,13 +37,15 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
     simulations += simulator.simulations();
     return std::move(predicted.front());
   };
-  Numerics half_step = numerics, half_mesh = numerics, plain_mesh = numerics;
+  Numerics half_step = numerics, half_mesh = numerics, file_mesh = numerics;
   half_step.dt *= 0.5;
   half_mesh.distance *= 0.5;
-  plain_mesh.distance = experiment.plant.distance;
+  file_mesh.distance = experiment.plant.distance;
+  Numerics plain_mesh = file_mesh;
   plain_mesh.junction = 0.0;
   const auto now = run(numerics), step = run(half_step), mesh = run(half_mesh),
              plain = run(plain_mesh);
+  const auto file = file_mesh.distance == numerics.distance ? now : run(file_mesh);
   const auto whitened = [&](const std::vector<Prediction>& finer) {
     Eigen::VectorXd change(data.size(options.trials));
     Eigen::Index row = 0;
@@ -65,15 +67,16 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
   check.correction = left_over(base.jacobian, by_step + by_mesh);
   check.largest = rms(check.correction, samples);
   for (std::size_t t = 0; t < now.size(); ++t) {
-    Prediction own = difference(step[t], now[t], extrapolation);
     const Prediction by_finer_mesh = difference(mesh[t], now[t], extrapolation);
+    Prediction own = difference(step[t], now[t], extrapolation);
     own.markers += by_finer_mesh.markers;
     own.force += by_finer_mesh.force;
-    Prediction other = difference(plain[t], now[t], 1.0);
-    other.markers -= by_finer_mesh.markers;
-    other.force -= by_finer_mesh.force;
+    Prediction second = difference(file[t], now[t], 1.0);
+    second.markers -= by_finer_mesh.markers;
+    second.force -= by_finer_mesh.force;
     check.corrections.own.push_back(std::move(own));
-    check.corrections.plain.push_back(std::move(other));
+    check.corrections.first.push_back(difference(plain[t], file[t], 1.0));
+    check.corrections.second.push_back(std::move(second));
   }
   return check;
 }
