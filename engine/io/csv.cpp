@@ -64,6 +64,7 @@ class Reader {
     const std::vector<Cell> cells = split(line);
     if (table_.columns.empty()) {
       for (const Cell& cell : cells) table_.columns.emplace_back(cell.text);
+      table_.header_line = number;
       return;
     }
     if (cells.size() != table_.columns.size()) {
@@ -112,6 +113,15 @@ int CsvTable::column(const std::string& name) const {
   return -1;
 }
 
+SourcePosition cell_position(const CsvTable& table, int line, int column) {
+  std::ifstream file(table.file);
+  std::string text;
+  for (int i = 0; i < line; ++i) std::getline(file, text);
+  const std::vector<Cell> cells = split(text);
+  const bool known = file && column >= 0 && column < static_cast<int>(cells.size());
+  return {table.file, line, known ? cells[column].column : 1};
+}
+
 CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
                   Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();
@@ -158,6 +168,14 @@ std::string format_number(double value, int digits) {
   char text[40];
   const auto [end, error] =
       std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+  PEDICEL_ASSERT(error == std::errc{});
+  return std::string(text, end);
+}
+
+std::string exact_number(double value) {
+  if (std::isnan(value)) return {};
+  char text[40];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
   PEDICEL_ASSERT(error == std::errc{});
   return std::string(text, end);
 }

@@ -17,10 +17,15 @@ struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;  ///< row major; NaN where a cell is empty
   std::vector<int> lines;                 ///< line number of each row in the file
+  int header_line = 0;                    ///< line number of the column names
 
   /// Index of a column, -1 where absent.
   int column(const std::string& name) const;
 };
+
+/// Where a cell stands: `line` as in `lines` or `header_line`, `column` its index. The file is read
+/// again for it, so it is for errors only.
+SourcePosition cell_position(const CsvTable& table, int line, int column);
 
 /// What read_csv() accepts beyond plain finite numbers.
 struct CsvRules {
@@ -53,5 +58,9 @@ class CsvWriter {
 
 /// A number as it is written in our CSV and YAML files: shortest of 9 significant digits.
 std::string format_number(double value, int digits = 9);
+
+/// The shortest text that reads back as the same number; empty for NaN, which is how a table
+/// says that nothing was measured.
+std::string exact_number(double value);
 
 }  // namespace pedicel::io

@@ -14,6 +14,7 @@ constexpr double largest_turn =
 constexpr double converged_change = 1.0e-3;  // m or rad
 constexpr double rough_change = 0.3;         // rad, or element lengths
 constexpr double straight_turn = 0.03;       // rad
+constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
 
@@ -78,9 +79,11 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     step.report = {};
     states_[p] = step.state;
     if (step.model_changed) rows_.read_model(p, *step.model);
+    const double before = step.state->previous_dt;
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
-                             !plant.has_history || step.state->previous_dt != dt;
-    rows_.set_scheme(p, dt, first_order, step.state->root);
+                             !plant.has_history ||
+                             std::max(dt, before) > largest_ratio * std::min(dt, before);
+    rows_.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root);
     plant.touched = !step.loads.empty() || !step.contacts.empty() ||
                     !step.model->supports.empty() || plant.loops;
     plant.extra_energy = 0.0;

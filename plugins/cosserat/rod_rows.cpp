@@ -136,14 +136,18 @@ void RodRows::read_model(int plant, const RodModel& model) {
   }
 }
 
-void RodRows::set_scheme(int plant, double dt, bool first_order, const Pose& root) {
+// Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
+void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& root) {
   roots_[plant] = root;
+  const bool first_order = previous_dt == 0.0;
+  const double ratio = first_order ? 0.0 : dt / previous_dt;
+  const double divisor = 1.0 + 2.0 * ratio;
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
     Pack& pack = packs_[chain.pack];
-    pack.past_now[chain.lane] = first_order ? 1.0 : 4.0 / 3.0;
-    pack.past_before[chain.lane] = first_order ? 0.0 : 1.0 / 3.0;
-    pack.effective_step[chain.lane] = first_order ? dt : dt * (2.0 / 3.0);
+    pack.past_now[chain.lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
+    pack.past_before[chain.lane] = ratio * ratio / divisor;
+    pack.effective_step[chain.lane] = dt * ((1.0 + ratio) / divisor);
   }
 }
 

@@ -47,8 +47,9 @@ class RodRows {
 
   /// Reads the constants of a plant (again).
   void read_model(int plant, const RodModel& model);
-  /// How a plant steps: `first_order` is backward Euler. Its clamp stands at `root` at the end.
-  void set_scheme(int plant, double dt, bool first_order, const Pose& root);
+  /// How a plant steps: backward Euler where `previous_dt` is 0, else BDF2 after a step of that
+  /// length (s). Its clamp stands at `root` at the end.
+  void set_scheme(int plant, double dt, double previous_dt, const Pose& root);
   void set_gravity(const Vec3& gravity);
   /// Which plants the calls below are for, until told otherwise (others may be computed along,
   /// without effect).

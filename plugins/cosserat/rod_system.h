@@ -36,6 +36,9 @@ class RodSystem {
   }
   /// To change it between two steps. Set `previous_dt` to 0 with anything but the clamp's pose.
   RodState& edit_state(int plant) { return plants_[plant].state; }
+  /// Supports, to move, add or take away between two steps: nothing else of the model is read anew.
+  /// They are of the model that add_plant() was given, then its own.
+  std::vector<Support>& supports(int plant) { return plants_[plant].model.supports; }
   /// Loads that act until they are changed.
   std::vector<Load>& loads(int plant) { return plants_[plant].loads; }
 

@@ -23,7 +23,9 @@ struct Marker {
 struct Path {
   std::vector<double> time;    ///< s, increasing
   std::vector<Vec3> position;  ///< m, W
-  std::vector<Quat> rotation;  ///< to W; empty where the file gives no orientation
+  /// By how much what moves has turned since it was drawn (W; identity: as drawn); empty where the
+  /// file gives no orientation.
+  std::vector<Quat> rotation;
 
   Vec3 position_at(double t) const;
   Quat rotation_at(double t) const;  ///< shortest way between rows; identity where there is none
@@ -61,7 +63,7 @@ struct MeasuredEvent {
 struct Trial {
   enum class Use { unset, fit, check };
   std::string name;
-  std::filesystem::path folder;
+  std::filesystem::path folder;  ///< from the experiment's, as in the file
   Use use = Use::unset;
   double clock = 0.0;                ///< s since the first trial
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< m/s2
@@ -88,8 +90,8 @@ struct StatedNoise {
 struct Experiment {
   std::filesystem::path folder;
   std::string title;
-  plant::PlantFile plant;  ///< the nominal plant
-  std::filesystem::path plant_path;
+  plant::PlantFile plant;            ///< the nominal plant
+  std::filesystem::path plant_path;  ///< of its file, for the leaf templates beside it
   std::vector<Marker> markers;
   StatedNoise noise;
   std::vector<plant::Effect> effects;  ///< at the sensor or the grip, known in every trial
@@ -101,8 +103,8 @@ struct Experiment {
 std::optional<Experiment> read_experiment(const std::filesystem::path& path,
                                           Diagnostics& diagnostics);
 
-/// Writes it as a folder that read_experiment() reads back, the plant file and all tables included.
-/// Throws io::WriteError.
+/// Writes it as a folder that read_experiment() reads back, the plant file and all tables included,
+/// each trial in a folder of its name. Throws io::WriteError.
 void write_experiment(const std::filesystem::path& folder, const Experiment& experiment);
 
 }  // namespace pedicel::discrepancy

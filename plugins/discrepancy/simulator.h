@@ -46,6 +46,7 @@ struct Prediction {
 class Simulator {
  public:
   /// Keeps a reference to the experiment.
+  /// Throws InvalidFile where the plant cannot be built.
   Simulator(const Experiment& experiment, const Numerics& numerics, int threads);
   ~Simulator();
 
@@ -55,7 +56,8 @@ class Simulator {
     double until = std::numeric_limits<double>::infinity();  ///< s; later samples stay NaN
   };
   /// One prediction a request, in their order; the result depends on nothing but the request.
-  /// Requests that differ only in effects of the sensor share one simulation.
+  /// Requests that differ only in effects of the sensor share one simulation, also with those of
+  /// earlier calls as long as memory lasts. Throws UsageError where an effect cannot be simulated.
   std::vector<Prediction> run(std::span<const Request> requests);
 
   /// The forces (N, W) that springs of `stiffness` (N/m) from each marker to its measured path

@@ -151,6 +151,12 @@ bool check_plant(const PlantFile& plant, Diagnostics& diagnostics);
 /// parse_plant(plant_text(x)) == x.
 std::string plant_text(const PlantFile& plant);
 
+/// One entry of an `effects:` list, {name: ..., ...}.
+std::string effect_text(const Effect& effect);
+
+/// A text as YAML reads it back: plain where nothing in it has a meaning there, else quoted.
+std::string yaml_word(const std::string& text);
+
 /// Writes it in one piece. Throws io::WriteError.
 void write_plant_file(const std::filesystem::path& path, const PlantFile& plant);
 

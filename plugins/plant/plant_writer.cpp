@@ -1,21 +1,15 @@
-#include <charconv>
 #include <string_view>
-#include <system_error>
 
-#include "core/check.h"
 #include "io/atomic_file.h"
+#include "io/csv.h"
 #include "plant/plant_file.h"
 
 namespace pedicel::plant {
 
 namespace {
 
-// The shortest text that reads back as the same number.
 std::string exact(double value) {
-  char text[40];
-  const auto [end, fault] = std::to_chars(text, text + sizeof text, value);
-  PEDICEL_ASSERT(fault == std::errc{});
-  return std::string(text, end);
+  return io::exact_number(value);
 }
 
 bool is_plain(const std::string& text) {
@@ -30,20 +24,8 @@ bool is_plain(const std::string& text) {
   return true;
 }
 
-// A text as YAML reads it back: plain where nothing in it has a meaning there, else quoted.
 std::string word(const std::string& text) {
-  if (is_plain(text)) return text;
-  static constexpr std::string_view digits = "0123456789abcdef";
-  std::string quoted = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (code < 0x20 || code == 0x7f)
-      quoted += std::string("\\x") + digits[code >> 4] + digits[code & 15];
-    else
-      quoted += c;
-  }
-  return quoted + '"';
+  return yaml_word(text);
 }
 
 std::string list(const std::vector<double>& values) {
@@ -144,15 +126,6 @@ std::string support_text(const CurvePlace& place) {
   return FlowMap().add(place).text();
 }
 
-std::string effect_text(const Effect& effect) {
-  FlowMap map;
-  map.add("name", word(effect.name));
-  for (const auto& [key, values] : effect.numbers) map.add(key, scalar_or_list(values));
-  for (const auto& [key, text] : effect.words) map.add(key, word(text));
-  if (effect.place) map.add("where", FlowMap().add(*effect.place).text());
-  return map.text();
-}
-
 template <typename Item>
 std::string section_text(const std::string& key, const std::vector<Item>& items,
                          std::string (*item_text)(const Item&)) {
@@ -163,6 +136,30 @@ std::string section_text(const std::string& key, const std::vector<Item>& items,
 }
 
 }  // namespace
+
+std::string yaml_word(const std::string& text) {
+  if (is_plain(text)) return text;
+  static constexpr std::string_view digits = "0123456789abcdef";
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (code < 0x20 || code == 0x7f)
+      quoted += std::string("\\x") + digits[code >> 4] + digits[code & 15];
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string effect_text(const Effect& effect) {
+  FlowMap map;
+  map.add("name", word(effect.name));
+  for (const auto& [key, values] : effect.numbers) map.add(key, scalar_or_list(values));
+  for (const auto& [key, text] : effect.words) map.add(key, word(text));
+  if (effect.place) map.add("where", FlowMap().add(*effect.place).text());
+  return map.text();
+}
 
 std::string plant_text(const PlantFile& plant) {
   std::string text = "format: pedicel-plant\nversion: 1\nname: " + word(plant.name) + "\n";

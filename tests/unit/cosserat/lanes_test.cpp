@@ -97,7 +97,7 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
 
       RodRows rows(std::array{&model}, threads);
       rows.set_gravity(gravity);
-      rows.set_scheme(0, dt, false, state.root);
+      rows.set_scheme(0, dt, dt, state.root);
       rows.set_history(0, history);
       const std::array states{&state};
       if (rows.has_top()) rows.prepare(rows.groups(), states);

@@ -18,7 +18,7 @@ class StepPotential {
   /// The step starts from `start`, which must outlive it.
   void prepare(const RodState& start, const StepInput& input, const RodHistory* history) {
     rows_.set_gravity(input.gravity);
-    rows_.set_scheme(0, input.dt, history == nullptr, start.root);
+    rows_.set_scheme(0, input.dt, history == nullptr ? 0.0 : input.dt, start.root);
     if (history) rows_.set_history(0, *history);
     rows_.prepare(0, std::array{&start});
     attachments_.prepare(start, input.loads);

@@ -1,0 +1,65 @@
+#include "discrepancy/grip.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+constexpr double rounding = 1.0e-9;  // s, of a step that begins with a jump
+/// Times the stiffness of the held segment's joint: turns as stiffly as a plant's own supports do.
+constexpr double turning = 100.0;
+}  // namespace
+
+std::vector<double> slip_times(std::span<const plant::Effect> effects) {
+  std::vector<double> times;
+  for (const plant::Effect& effect : effects)
+    if (effect.name == "grip_slip") times.push_back(effect.number("time"));
+  return times;
+}
+
+Grip::Grip(const PlantMaker& maker, const cosserat::RodModel& model, const Trial& trial,
+           std::span<const plant::Effect> effects) {
+  for (const Hold& hold : trial.holds) {
+    Held held;
+    held.hold = &hold;
+    held.place = held.slipped = maker.locate(hold.place);
+    held.stiffness = hold.stiffness.value_or(rigid_stiffness);
+    for (const plant::Effect& effect : effects) {
+      if (effect.name == "grip_compliance") held.stiffness = effect.number("stiffness");
+      if (effect.name != "grip_slip") continue;
+      held.slipped = maker.locate_beyond(hold.place, effect.number("distance"));
+      held.slip_time = effect.number("time");
+    }
+    held.drawn[0] = model.elements[held.place.element].drawn_rotation;
+    held.drawn[1] = model.elements[held.slipped.element].drawn_rotation;
+    held.bend_stiffness = turning * model.elements[held.place.element].bend_stiffness;
+    held_.push_back(held);
+  }
+}
+
+cosserat::Support Grip::support(const Held& held, double begin, double t) const {
+  const bool slipped = begin >= held.slip_time - rounding;
+  const plant::PlacedPoint& place = slipped ? held.slipped : held.place;
+  cosserat::Support support;
+  support.element = place.element;
+  support.back = place.back;
+  support.position = held.hold->path.position_at(t);
+  support.position_stiffness = held.stiffness;
+  if (held.hold->path.rotation.empty()) return support;
+  support.rotation = held.hold->path.rotation_at(t) * held.drawn[slipped ? 1 : 0];
+  support.rotation_stiffness = held.bend_stiffness;
+  return support;
+}
+
+void Grip::add_supports(double begin, double t, std::vector<cosserat::Support>& supports) const {
+  for (const Held& held : held_)
+    if (begin < held.hold->release - rounding) supports.push_back(support(held, begin, t));
+}
+
+Vec3 Grip::force(const cosserat::RodState& state, double begin, double t) const {
+  if (held_.empty() || !(begin < held_.front().hold->release - rounding)) return Vec3::Zero();
+  const cosserat::Support spring = support(held_.front(), begin, t);
+  const Vec3 axis = state.orientation[spring.element] * Vec3::UnitZ();
+  const Vec3 point = state.position[spring.element] - spring.back * axis;
+  return spring.position_stiffness * (spring.position - point);
+}
+
+}  // namespace pedicel::discrepancy

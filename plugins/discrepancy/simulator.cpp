@@ -1,0 +1,250 @@
+#include "discrepancy/simulator.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "core/check.h"
+#include "core/thread_pool.h"
+#include "discrepancy/motion_cache.h"
+#include "discrepancy/trial_run.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr int widest = 8;  // plants side by side: the solver's lanes
+constexpr std::size_t cache_bytes = 256u << 20;
+
+using Effects = std::vector<plant::Effect>;
+
+/// Everything that acts in a request: what the files state, then the variant's.
+Effects effects_of(const Experiment& experiment, const Simulator::Request& request) {
+  Effects all = experiment.effects;
+  for (const Effects* more : {&experiment.trials[request.trial].effects, &request.variant->effects})
+    all.insert(all.end(), more->begin(), more->end());
+  return all;
+}
+
+/// A simulation that some requests share.
+struct Job {
+  std::string key;
+  int trial = 0;
+  RunMember member;
+  StepPlan plan;
+  bool lasting = true;  // its motion may serve later calls
+  std::vector<int> requests;
+};
+
+/// A request, and where its motion comes from.
+struct Wanted {
+  Effects effects;
+  std::string key;
+  double until = 0.0;  // s, of the motion
+  std::shared_ptr<const Motion> known;
+};
+
+std::string key_of(const Simulator::Request& request, const Effects& effects) {
+  std::string key = std::to_string(request.trial);
+  for (const plant::Effect& effect : effects)
+    if (!is_of_sensor(effect)) key += plant::effect_text(effect);
+  if (!request.variant->forces.empty())
+    key += "@" + std::to_string(reinterpret_cast<std::uintptr_t>(request.variant));
+  return key;
+}
+
+/// Jobs of one trial with the same steps, as many side by side as there are lanes.
+struct Group {
+  std::vector<int> jobs;
+  double cost = 0.0;
+};
+
+}  // namespace
+
+struct Simulator::Impl {
+  Impl(const Experiment& given, const Numerics& how, int threads)
+      : experiment(given), numerics(how), maker(given, how.distance), pool(threads) {}
+
+  Wanted want(const Request& request) const {
+    const Trial& trial = experiment.trials[request.trial];
+    Wanted wanted;
+    wanted.effects = effects_of(experiment, request);
+    wanted.key = key_of(request, wanted.effects);
+    // Markers that run ahead of the drive look beyond the trial's end.
+    const double ahead = std::max(0.0, -latency_of(wanted.effects));
+    wanted.until = std::min(request.until, trial.duration()) + ahead;
+    return wanted;
+  }
+
+  Job make_job(const Request& request, const Wanted& wanted) const {
+    Job job;
+    job.key = wanted.key;
+    job.trial = request.trial;
+    job.member.effects = wanted.effects;
+    job.member.forces = request.variant->forces;
+    job.lasting = request.variant->forces.empty();
+    return job;
+  }
+
+  StepPlan plan(int trial, const Effects& effects, double until) const {
+    const Trial& one = experiment.trials[trial];
+    return make_step_plan(jumps_of(one, effects), numerics.dt, one.duration(), until);
+  }
+
+  /// Requests of the same motion to one job, as long as the longest of them needs.
+  std::vector<Job> make_jobs(std::span<const Request> requests, std::vector<Wanted>& wanted) {
+    std::vector<Job> jobs;
+    std::map<std::string, int> known;
+    std::vector<double> until;
+    for (int r = 0; r < static_cast<int>(requests.size()); ++r) {
+      Wanted& one = wanted[r];
+      if (requests[r].variant->forces.empty()) one.known = cache.find(one.key, one.until);
+      if (one.known) continue;
+      const auto [place, fresh] = known.emplace(one.key, static_cast<int>(jobs.size()));
+      if (fresh) {
+        jobs.push_back(make_job(requests[r], one));
+        until.push_back(one.until);
+      }
+      jobs[place->second].requests.push_back(r);
+      until[place->second] = std::max(until[place->second], one.until);
+    }
+    for (std::size_t j = 0; j < jobs.size(); ++j)
+      jobs[j].plan = plan(jobs[j].trial, jobs[j].member.effects, until[j]);
+    return jobs;
+  }
+
+  /// The longest first, so that no thread is left with one at the end.
+  std::vector<Group> make_groups(const std::vector<Job>& jobs) const {
+    std::vector<std::vector<int>> alike;
+    for (int j = 0; j < static_cast<int>(jobs.size()); ++j) {
+      const auto same = std::find_if(alike.begin(), alike.end(), [&](const auto& list) {
+        const Job& other = jobs[list.front()];
+        return other.trial == jobs[j].trial && other.plan == jobs[j].plan;
+      });
+      if (same == alike.end())
+        alike.push_back({j});
+      else
+        same->push_back(j);
+    }
+    std::vector<Group> groups;
+    for (const std::vector<int>& list : alike) {
+      const int size = static_cast<int>(list.size());
+      const int parts = (size + widest - 1) / widest;
+      for (int part = 0; part < parts; ++part) {
+        Group group;
+        group.jobs.assign(list.begin() + size * part / parts,
+                          list.begin() + size * (part + 1) / parts);
+        group.cost = jobs[list.front()].plan.steps();
+        groups.push_back(std::move(group));
+      }
+    }
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group& a, const Group& b) { return a.cost > b.cost; });
+    return groups;
+  }
+
+  std::vector<std::shared_ptr<const Motion>> simulate(const std::vector<Job>& jobs,
+                                                      const Group& group) {
+    std::vector<RunMember> members;
+    for (const int j : group.jobs) members.push_back(jobs[j].member);
+    const Job& first = jobs[group.jobs.front()];
+    std::vector<RunResult> results =
+        run_trial(maker, experiment, experiment.trials[first.trial], first.plan, members, stop);
+    simulations += static_cast<long>(members.size());
+    std::vector<std::shared_ptr<const Motion>> motions;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const Job& job = jobs[group.jobs[i]];
+      motions.push_back(std::make_shared<Motion>(std::move(results[i].motion)));
+      if (job.lasting && motions.back()->healthy) cache.add(job.key, motions.back());
+    }
+    return motions;
+  }
+
+  Prediction predict(const Request& request, const Wanted& wanted, const Motion& motion) const {
+    const Trial& trial = experiment.trials[request.trial];
+    Observed seen =
+        observe(motion, experiment.markers, wanted.effects, trial.markers.time, trial.force.time);
+    Prediction out{std::move(seen.markers), std::move(seen.force), std::move(seen.marker_velocity),
+                   motion.healthy};
+    const double last = request.until + 1.0e-9;
+    const auto cut = [&](const std::vector<double>& time, Eigen::MatrixXd& rows) {
+      const auto kept = std::upper_bound(time.begin(), time.end(), last) - time.begin();
+      rows.bottomRows(rows.rows() - kept).setConstant(std::numeric_limits<double>::quiet_NaN());
+    };
+    cut(trial.markers.time, out.markers);
+    cut(trial.markers.time, out.marker_velocity);
+    cut(trial.force.time, out.force);
+    return out;
+  }
+
+  std::vector<Prediction> run(std::span<const Request> requests) {
+    std::vector<Wanted> wanted;
+    for (const Request& request : requests) wanted.push_back(want(request));
+    const std::vector<Job> jobs = make_jobs(requests, wanted);
+    for (const Job& job : jobs) check(job);
+    const std::vector<Group> groups = make_groups(jobs);
+    std::vector<Prediction> out(requests.size());
+    pool.for_each(static_cast<int>(groups.size()), [&](int g) {
+      const auto motions = simulate(jobs, groups[g]);
+      for (std::size_t i = 0; i < motions.size(); ++i)
+        for (const int r : jobs[groups[g].jobs[i]].requests)
+          out[r] = predict(requests[r], wanted[r], *motions[i]);
+    });
+    pool.for_each(static_cast<int>(requests.size()), [&](int r) {
+      if (wanted[r].known) out[r] = predict(requests[r], wanted[r], *wanted[r].known);
+    });
+    return out;
+  }
+
+  // Before any thread begins, where nothing may throw.
+  void check(const Job& job) const {
+    const Trial& trial = experiment.trials[job.trial];
+    maker.make(trial, job.member.effects);
+    for (const PointForce& force : job.member.forces) maker.locate(force.place);
+  }
+
+  const Experiment& experiment;
+  const Numerics numerics;
+  const PlantMaker maker;
+  ThreadPool pool;
+  MotionCache cache{cache_bytes};
+  std::atomic<bool> stop{false};
+  std::atomic<long> simulations{0};
+};
+
+Simulator::Simulator(const Experiment& experiment, const Numerics& numerics, int threads)
+    : impl_(std::make_unique<Impl>(experiment, numerics, threads)) {}
+
+Simulator::~Simulator() = default;
+
+std::vector<Prediction> Simulator::run(std::span<const Request> requests) {
+  return impl_->run(requests);
+}
+
+Eigen::MatrixXd Simulator::tracking_forces(const Variant& variant, int trial, double stiffness) {
+  const Trial& one = impl_->experiment.trials[trial];
+  RunMember member;
+  member.effects = effects_of(impl_->experiment, {&variant, trial});
+  member.forces = variant.forces;
+  member.tracking_stiffness = stiffness;
+  const StepPlan plan = impl_->plan(trial, member.effects, one.duration());
+  const RunResult result = std::move(
+      run_trial(impl_->maker, impl_->experiment, one, plan, {&member, 1}, impl_->stop).front());
+  ++impl_->simulations;
+  return tracking_at_samples(result, one.markers);
+}
+
+const Experiment& Simulator::experiment() const {
+  return impl_->experiment;
+}
+const Numerics& Simulator::numerics() const {
+  return impl_->numerics;
+}
+long Simulator::simulations() const {
+  return impl_->simulations;
+}
+void Simulator::stop() {
+  impl_->stop = true;
+}
+
+}  // namespace pedicel::discrepancy
