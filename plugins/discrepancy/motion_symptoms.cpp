@@ -11,8 +11,9 @@ namespace {
 // Markers that move less than this many noise units say nothing about times or planes.
 constexpr double least_motion = 10.0;
 
-// A delay d makes a residual -d v; a frequency that is off by the share e makes one of e t v, t
-// from the last jump. Both together, so that neither passes for the other.
+// Beside a constant of every channel, a delay d makes a residual -d v; a frequency that is off by
+// the share e makes one of e t v, t from the last jump. Both together, so that neither passes for
+// the other.
 Eigen::MatrixXd delay_regressors(const std::vector<double>& time, const std::vector<Span>& spans,
                                  const Eigen::VectorXd& v) {
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(v.size(), 2);
@@ -30,8 +31,10 @@ void add_delays(const SymptomContext& context, int t, Projection& one, Projectio
   const auto spans = spans_of(context.trial(t));
   for (int c = 0; c < v.cols(); ++c) {
     const Eigen::MatrixXd x = delay_regressors(context.trial(t).markers.time, spans, v.col(c));
-    one.add(context.residual(t, c), x, context.data.position_noise());
-    if (all) all->add(context.residual(t, c), x, context.data.position_noise());
+    one.add(context.residual(t, c), x, context.data.position_noise(), Projection::Constant::free);
+    if (all)
+      all->add(context.residual(t, c), x, context.data.position_noise(),
+               Projection::Constant::free);
   }
 }
 
@@ -59,7 +62,8 @@ bool solve_delay(const SymptomContext& context, int t, Measured& delay) {
   Projection alone(1);
   const Eigen::MatrixXd v = context.velocity(t);
   for (int c = 0; c < v.cols(); ++c)
-    alone.add(context.residual(t, c), -v.col(c), context.data.position_noise());
+    alone.add(context.residual(t, c), -v.col(c), context.data.position_noise(),
+              Projection::Constant::free);
   if (!alone.solve(result)) return false;
   delay = result.component(0);
   return true;
@@ -93,7 +97,8 @@ void add_time_shift(const SymptomContext& context, std::vector<Symptom>& out) {
       if (!context.usable(t)) continue;
       const Eigen::MatrixXd v = context.velocity(t);
       for (int c = 0; c < v.cols(); ++c)
-        alone.add(context.residual(t, c), -v.col(c), context.data.position_noise());
+        alone.add(context.residual(t, c), -v.col(c), context.data.position_noise(),
+                  Projection::Constant::free);
     }
     if (!alone.solve(result)) return;
   }

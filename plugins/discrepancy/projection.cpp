@@ -13,24 +13,39 @@ constexpr int memory = 400;
 // Of the scaled information: below it an unknown is left open.
 constexpr double open = 1.0e-10;
 
+// What is left of a column beside the multiple of `one` that fits it best (Frisch and Waugh,
+// Econometrica 1, 1933: the other unknowns then come out as if it had been fitted along).
+void take_out(const Eigen::VectorXd& one, Eigen::Ref<Eigen::VectorXd> column) {
+  double product = 0.0, square = 0.0;
+  for (Eigen::Index i = 0; i < one.size(); ++i)
+    if (std::isfinite(column[i])) product += one[i] * column[i], square += one[i] * one[i];
+  if (square > 0.0) column -= product / square * one;
+}
+
 }  // namespace
 
 Projection::Projection(int unknowns)
     : information_(Eigen::MatrixXd::Zero(unknowns, unknowns)),
       right_(Eigen::VectorXd::Zero(unknowns)) {}
 
-void Projection::add(const Series& residual, const Eigen::MatrixXd& regressors,
-                     const Noise& noise) {
+void Projection::add(const Series& residual, const Eigen::MatrixXd& regressors, const Noise& noise,
+                     Constant constant) {
   Series r = residual;
   for (Eigen::Index i = 0; i < r.size(); ++i)
     if (!regressors.row(i).allFinite()) r[i] = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::VectorXd white = whiten(r, noise);
-  Eigen::MatrixXd x(regressors.rows(), regressors.cols());
-  for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    Series column = regressors.col(c);
+  Eigen::VectorXd white = whiten(r, noise);
+  const auto with_gaps = [&](Series column) -> Eigen::VectorXd {
     for (Eigen::Index i = 0; i < r.size(); ++i)
       if (!std::isfinite(r[i])) column[i] = r[i];
-    x.col(c) = whiten(column, noise);
+    return whiten(column, noise);
+  };
+  Eigen::MatrixXd x(regressors.rows(), regressors.cols());
+  for (Eigen::Index c = 0; c < x.cols(); ++c) x.col(c) = with_gaps(regressors.col(c));
+  if (constant == Constant::free) {
+    const Eigen::VectorXd one = with_gaps(Series::Ones(r.size()));
+    take_out(one, white);
+    for (auto column : x.colwise()) take_out(one, column);
+    --samples_;
   }
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     if (!std::isfinite(white[i])) continue;

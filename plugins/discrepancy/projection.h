@@ -18,7 +18,10 @@ class Projection {
   explicit Projection(int unknowns);
 
   /// One channel: `regressors` has a row a sample. Samples with a NaN on either side count as gaps.
-  void add(const Series& residual, const Eigen::MatrixXd& regressors, const Noise& noise);
+  /// `Constant::free`: the channel has a constant of its own besides.
+  enum class Constant { none, free };
+  void add(const Series& residual, const Eigen::MatrixXd& regressors, const Noise& noise,
+           Constant constant = Constant::none);
 
   struct Result {
     Eigen::VectorXd value;

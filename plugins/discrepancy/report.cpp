@@ -79,7 +79,7 @@ void add_symptoms(io::HtmlReport& page, const ReportData& report,
   for (const SymptomPair& pair : pairs)
     rows.push_back({symptom_title(pair.before.name), pair.before.subject, value_text(pair.before),
                     report.extended ? value_text(pair.after) : "\u2013",
-                    !pair.before.shows()                            ? "in the noise"
+                    !pair.before.shows()                            ? "does not show"
                     : !report.extended                              ? "shows"
                     : pair.after.name.empty() || pair.after.shows() ? "shows, stays"
                                                                     : "shows, is gone",

@@ -55,11 +55,20 @@ std::string short_number(double value) {
   return text;
 }
 
+// The error with one digit (two where that is a 1), the value to the same decimal.
 std::string with_error(double value, double error, const std::string& unit) {
   char text[80];
-  std::snprintf(text, sizeof text, "%.3g \u00b1 %.1g%s%s", value, error, unit == "1" ? "" : " ",
-                unit == "1" ? "" : unit.c_str());
-  return text;
+  int decimals = 9;
+  if (error > 0.0 && std::isfinite(error)) {
+    const double power = std::floor(std::log10(error));
+    decimals = static_cast<int>(error < 2.0 * std::pow(10.0, power) ? 1.0 - power : -power);
+  }
+  if (decimals > 5 || decimals < -3)
+    std::snprintf(text, sizeof text, "%.3g \u00b1 %.2g", value, error);
+  else
+    std::snprintf(text, sizeof text, "%.*f \u00b1 %.*f", std::max(decimals, 0), value,
+                  std::max(decimals, 0), error);
+  return text + (unit == "1" ? std::string() : " " + unit);
 }
 
 bool SymptomContext::usable(int t) const {

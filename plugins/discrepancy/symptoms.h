@@ -52,7 +52,7 @@ struct SymptomPair {
 std::vector<SymptomPair> paired(const std::vector<Symptom>& before,
                                 const std::vector<Symptom>& after);
 
-/// "seen at 1 +- 0.2": sentence pieces of the symptoms' files.
+/// "0.83 ± 0.02 mm": both to the same decimal, by the error's size.
 std::string with_error(double value, double error, const std::string& unit);
 
 }  // namespace pedicel::discrepancy

@@ -72,6 +72,24 @@ TEST(Projection, GapsOnEitherSideAreLeftOut) {
   EXPECT_NEAR(result.explained, 1.0, 1e-12);
 }
 
+// A constant taken out beforehand leaves what fitting it along would find.
+TEST(Projection, FreeConstantIsAsIfFittedAlong) {
+  Random random(3);
+  const int n = 60;
+  Series r = coloured(random, n, 0.5);
+  r[17] = std::numeric_limits<double>::quiet_NaN();
+  Eigen::MatrixXd both(n, 2), one(n, 1);
+  for (int i = 0; i < n; ++i) both.row(i) << (one(i, 0) = 0.1 * i), 1.0;
+  Projection along(2), beforehand(1);
+  along.add(r, both, model(0.5));
+  beforehand.add(r, one, model(0.5), Projection::Constant::free);
+  Projection::Result a, b;
+  ASSERT_TRUE(along.solve(a));
+  ASSERT_TRUE(beforehand.solve(b));
+  EXPECT_NEAR(a.value[0], b.value[0], 1e-12);
+  EXPECT_NEAR(a.covariance(0, 0), b.covariance(0, 0), 1e-12);
+}
+
 // Closed forms for AR(1) with correlation a: autocorrelation a^k, and the mean of n samples has the
 // variance (1 + 2 sum (1 - k/n) a^k) / n.
 TEST(Projection, ColouredNoiseThroughWeights) {

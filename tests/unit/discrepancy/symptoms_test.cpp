@@ -93,6 +93,7 @@ TEST(Symptoms, TurnAboutTheRoot) {
   expect_quiet(all, "excess_curvature");
   expect_quiet(all, "junction_kink");
   expect_quiet(all, "length_scale");
+  expect_quiet(all, "time_shift");
   const Symptom& turn = *loudest(all, "base_rotation");
   EXPECT_NE(turn.subject.find("weights, 4"), std::string::npos) << turn.subject;
   ASSERT_EQ(turn.plot.series.size(), 2u);
@@ -313,6 +314,13 @@ TEST(Symptoms, TrialsThatFailedAndGapsAreLeftOut) {
     EXPECT_TRUE(std::isfinite(symptom.value)) << symptom.name;
     EXPECT_FALSE(symptom.shows()) << symptom.sentence;
   }
+}
+
+TEST(Symptoms, NumbersAreWrittenToTheirErrors) {
+  EXPECT_EQ(with_error(0.8312, 0.0234, "mm"), "0.83 \u00b1 0.02 mm");
+  EXPECT_EQ(with_error(1.00213, 0.0012, "deg"), "1.0021 \u00b1 0.0012 deg");
+  EXPECT_EQ(with_error(-12.34, 3.0, "1"), "-12 \u00b1 3");
+  EXPECT_EQ(with_error(1.2e-9, 3e-10, "1"), "1.2e-09 \u00b1 3e-10");
 }
 
 TEST(Symptoms, PairsFollowTheSameSubject) {
