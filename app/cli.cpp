@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/diagnose.h"
+#include "app/observe.h"
 #include "app/parallel_worlds.h"
 #include "app/rod_options.h"
 #include "app/run_arguments.h"
@@ -202,7 +203,8 @@ int run_cli(int argc, char** argv) {
 
   std::vector<std::string> files, packages;
   CLI::App* validate = app.add_subcommand("validate", "load and check files without running them");
-  validate->add_option("files", files, "plants, scenes, leaf templates, URDFs")->required();
+  validate->add_option("files", files, "plants, experiments, scenes, leaf templates, URDFs")
+      ->required();
   validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies")
       ->allow_extra_args(false);
 
@@ -211,6 +213,11 @@ int run_cli(int argc, char** argv) {
       app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
   add_bench_options(*bench, benched);
   const std::function<int()> diagnose = add_diagnose_verb(app);
+
+  ObserveArguments observed;
+  CLI::App* observe =
+      app.add_subcommand("observe", "simulate an experiment and write it as measured data");
+  add_observe_options(*observe, observed);
   app.require_subcommand(0, 1);
 
   try {
@@ -222,6 +229,7 @@ int run_cli(int argc, char** argv) {
   if (*validate) return guarded([&] { return validate_files(files, packages, std::cerr); });
   if (*bench) return guarded([&] { return bench_verb(benched); });
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
+  if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] { return run_verb(run); });
 }
 

@@ -14,6 +14,7 @@
 
 #include "app/headless.h"
 #include "discrepancy/diagnosis.h"
+#include "discrepancy/report.h"
 #include "io/atomic_file.h"
 #include "plant/plant_file.h"
 
@@ -24,7 +25,7 @@ namespace {
 struct DiagnoseArguments {
   std::string experiment, out;
   int threads = 0, seed = 1;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, verbose = false;
 };
 
 /// Says on standard error what is being done, how far it is and how long it will take: on a
@@ -64,6 +65,7 @@ void write_results(const std::filesystem::path& folder, const discrepancy::Exper
                             discrepancy::extended_plant(experiment, diagnosis.best.hypothesis));
   }
   io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
+  discrepancy::write_report(folder, experiment, diagnosis);
 }
 
 int run(const DiagnoseArguments& a) {
@@ -80,6 +82,10 @@ int run(const DiagnoseArguments& a) {
   if (!a.quiet)
     options.progress = [&progress](const std::string& what, double share) {
       progress(what, share);
+    };
+  if (a.verbose)
+    options.note = [](const std::string& sentence) {
+      std::fprintf(stderr, "%s\n", sentence.c_str());
     };
   discrepancy::Diagnosis diagnosis = discrepancy::diagnose(*experiment, options);
   progress.end();
@@ -110,6 +116,7 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
   verb->add_option("--seed", a->seed, "of the bootstrap")->check(CLI::NonNegativeNumber);
   verb->add_flag("--json", a->json, "the verdict as JSON, and nothing else, on standard output");
   verb->add_flag("--quiet", a->quiet, "no progress");
+  verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
   return [a] { return run(*a); };
 }
 

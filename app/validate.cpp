@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/simulation.h"
+#include "discrepancy/experiment.h"
 #include "io/csv.h"
 #include "io/yaml.h"
 #include "plant/leaf_template.h"
@@ -60,6 +61,19 @@ std::string check_scene(const std::filesystem::path& path, const Packages& packa
   return Simulation(*scene, options).worst_residual();
 }
 
+// The plant is built, too.
+std::string check_experiment(const std::filesystem::path& path, const Packages& packages,
+                             Diagnostics& diagnostics) {
+  const auto experiment = discrepancy::read_experiment(path, diagnostics);
+  if (!experiment) return {};
+  check_plant(experiment->plant_path, packages, diagnostics);
+  int samples = 0;
+  for (const discrepancy::Trial& trial : experiment->trials) samples += trial.markers.size();
+  return std::to_string(experiment->trials.size()) + " trials, " +
+         std::to_string(experiment->markers.size()) + " markers, " + std::to_string(samples) +
+         " samples";
+}
+
 std::string check_urdf(const std::filesystem::path& path, const Packages& packages,
                        Diagnostics& diagnostics) {
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
@@ -77,6 +91,7 @@ std::string check_csv(const std::filesystem::path& path, const Packages&,
 }
 
 constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
+                              Kind{"pedicel-experiment", "", "experiment", check_experiment},
                               Kind{"pedicel-scene", "", "scene", check_scene},
                               Kind{"pedicel-leaf", "", "leaf template", check_leaf},
                               Kind{"", ".urdf", "robot", check_urdf},
@@ -100,6 +115,7 @@ std::string format_of(const std::filesystem::path& path) {
 }
 
 const Kind& kind_of(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return kind_of(path / "experiment.yaml");
   const std::string extension = path.extension().string();
   for (const Kind& kind : kinds)
     if (*kind.extension && extension == kind.extension) return kind;

@@ -20,6 +20,13 @@ Margins margins(const RodModel& model, const RodState& state, const Fruit& fruit
   const JointLoad load = joint_load(model, state, fruit.element);
   Margins m{strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
             load.moment.head<2>().norm(), std::abs(load.moment.z())};
+  if (fruit.law) {
+    m.used = std::pow(m.force / fruit.law->force, fruit.law->exponents[0]) +
+             std::pow(m.moment / fruit.law->moment, fruit.law->exponents[1]) +
+             std::pow(m.torsion / fruit.law->torsion, fruit.law->exponents[2]);
+    m.cause = "law";
+    return m;
+  }
   const Thresholds& t = fruit.thresholds;
   const std::array<std::pair<double, const char*>, 5> ratios = {
       std::pair(m.stretch / t.stretch, "stretch"), std::pair(m.bend / t.bend, "bend"),

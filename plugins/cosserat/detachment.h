@@ -12,7 +12,7 @@ namespace pedicel::cosserat {
 struct DetachEvent {
   double time = 0.0;     ///< s
   int fruit = -1;        ///< index into RodModel::fruits
-  std::string cause;     ///< stretch | bend | force | moment | torsion
+  std::string cause;     ///< stretch | bend | force | moment | torsion | law
   double stretch = 0.0;  ///< 1, |C_s| at the break
   double bend = 0.0;     ///< rad, |C_b| at the break
   double force = 0.0;    ///< N, |force| in the joint
@@ -35,8 +35,8 @@ struct DetachEvent {
 /// `events`.
 void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events);
 
-/// How near a fruit is to coming off: the largest ratio of a strain or load to its threshold (1
-/// breaks).
+/// How near a fruit is to coming off: the largest ratio of a strain or load to its threshold, or
+/// the sum of its law (1 breaks).
 double margin_used(const RodModel& model, const RodState& state, int fruit);
 
 }  // namespace pedicel::cosserat

@@ -84,6 +84,8 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
                              !plant.has_history ||
                              std::max(dt, before) > largest_ratio * std::min(dt, before);
     rows_.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root);
+    rows_.set_extensions(p, *step.model, step.state->time, dt, settling_);
+    begin_memory(p, *step.model, *step.state);
     plant.touched = !step.loads.empty() || !step.contacts.empty() ||
                     !step.model->supports.empty() || plant.loops;
     plant.extra_energy = 0.0;
@@ -103,6 +105,18 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     });
   }
   choose_start(steps, pool);
+}
+
+// A state that comes without memory starts it here.
+void DirectSolver::begin_memory(int index, const RodModel& model, RodState& state) const {
+  if (model.laws.empty()) return;
+  const std::size_t joints = model.laws.size();
+  if (state.joint_bias.size() == joints &&
+      state.joint_memory.size() == joints * rows_.branches(index))
+    return;
+  state.joint_bias.clear();
+  start_memory(model, state);
+  if (settling_) std::fill(state.joint_memory.begin(), state.joint_memory.end(), Vec3::Zero());
 }
 
 // Newton starts from the motion continued, so that one iteration is second order in time too; or
@@ -332,9 +346,21 @@ StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
     state.previous_dt = 0.0;
     state.time = time;
   };
+  // Where a strong wind turns segments far, the drag is to follow them slowly: the force that turns
+  // with them is not in the Hessian.
+  StepReport report;
+  const bool extended = is_extended(model);
+  for (const double share : {1.0, 0.3, 0.1, 0.03}) {
+    solver.set_settling(true, share);
+    // The second step has next to no way to go, and so nothing that damps it.
+    for (int i = 0; i < (extended ? 2 : 1); ++i) {
+      rest();
+      report = solver.step(model, state, input);
+    }
+    if (report.errors == none || model.air.empty()) break;
+  }
   rest();
-  StepReport report = solver.step(model, state, input);
-  rest();
+  start_memory(model, state);
   return report;
 }
 

@@ -53,6 +53,14 @@ class DirectSolver : public RodSolver {
   void reset() override { reset(0); }
   void reset(int plant);
 
+  /// Whether steps look for settled shapes from now on: joints without dashpots and friction
+  /// sliders, the mean wind, stiffness at the state's own time; drag follows the segments that turn
+  /// by `axis_share` of the way an iteration. settle() does so.
+  void set_settling(bool settling, double axis_share = 1.0) {
+    settling_ = settling;
+    rows_.set_axis_share(axis_share);
+  }
+
  private:
   struct Plant {
     explicit Plant(const RodModel& model);
@@ -74,6 +82,7 @@ class DirectSolver : public RodSolver {
   };
 
   void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
+  void begin_memory(int index, const RodModel& model, RodState& state) const;
   void choose_start(std::span<PlantStep> steps, ThreadPool& pool);
   double potential(int index, const RodModel& model);
   void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
@@ -95,13 +104,16 @@ class DirectSolver : public RodSolver {
   std::vector<const RodState*> states_;
   std::vector<char> working_, searching_;  // Newton, its line search: not done yet
   bool any_loops_ = false;
+  bool settling_ = false;
   ThreadPool alone_{1};
 };
 
 /// Finds the static equilibrium that the state settles into under gravity and loads (Newton with
 /// the inertia taken out, damped by nothing: many iterations of one huge backward Euler step).
-/// Velocities end at zero. Returns the report of the last iteration; `not_converged` where
-/// `iterations` did not do.
+/// Extensions are as they are at a trial's beginning: relaxation and creep unrelaxed, friction
+/// sliders at zero, the mean wind; what yields does so. Then the joints' memory starts there
+/// (start_memory()). Velocities end at zero. Returns the report of the last iteration;
+/// `not_converged` where `iterations` did not do.
 StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
                   std::span<const Load> loads = {}, int iterations = 500);
 

@@ -10,6 +10,7 @@
 #include "hwy/highway.h"
 // clang-format on
 
+#include "cosserat/lane_extensions-inl.h"
 #include "cosserat/lane_math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,6 +34,10 @@ HWY_INLINE void store_pose(const Pose& pose, PoseRow& row, int lane) {
 
 HWY_INLINE V3 centre_of_mass(const Pose& pose, V com_back) {
   return add_scaled(pose.position, hn::Neg(com_back), axis3(pose.orientation));
+}
+
+HWY_INLINE V3 middle_of(const Pose& pose, V length) {
+  return add_scaled(pose.position, set(-0.5) * length, axis3(pose.orientation));
 }
 
 // Position of the child node from the parent's, per length; in W.
@@ -70,7 +75,21 @@ HWY_INLINE void prepare_viscous(const RowArrays& rows, const Pack& pack, int row
   store3(share * (a * bend - b * load3(before.bend, lane)), term.bend_target, lane);
 }
 
+HWY_INLINE void prepare_air(const RowArrays& rows, const Pack& pack, int row, int lane,
+                            const Pose& now, const Pose& before) {
+  const ExtensionRow& extension = rows.extension[row];
+  ExtensionTermRow& term = rows.extension_term[row];
+  const V a = load(pack.past_now + lane), b = load(pack.past_before + lane);
+  const V length = load(rows.element[row].length + lane);
+  store3(a * middle_of(now, length) - b * middle_of(before, length), term.middle_past, lane);
+  store3(add_scaled(load3(extension.velocity, lane), load(pack.gust_now + lane),
+                    load3(extension.gust, lane)),
+         term.air, lane);
+  set_axis(rows, row, lane, 1.0);
+}
+
 // Returns sin^2 of half the angle by which the guess turns the element.
+template <bool extended>
 HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int lane) {
   const ElementRow& element = rows.element[row];
   const RateRow &rate = rows.rate[row], &before_rate = rows.previous_rate[row];
@@ -102,8 +121,9 @@ HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int l
   store4(rotation_past * exp_map(advance * add_scaled(spin, hn::Neg(h), gyroscopic)),
          term.rotation_target, lane);
   store(drag / (h * h), term.inertia_scale + lane);
-  if (pack.damped) {
+  if (extended || pack.damped) {
     prepare_viscous(rows, pack, row, lane, load_pose(rows.start[row - 1], lane), now, h);
+    if constexpr (extended) prepare_joint(rows, pack, row, lane, load3(rows.rate[row].bend, lane));
   } else {
     const V zero = set(0.0);
     store(set(1.0), term.stiffening + lane);
@@ -113,17 +133,24 @@ HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int l
   const V3 guess = add_scaled(now.position, again, now.position - before.position);
   const Q turned = normalized(now.orientation * turn);
   store_pose({guess, select(again > set(0.0), turned, now.orientation)}, rows.iterate[row], lane);
+  if constexpr (extended)
+    if (pack.windy) prepare_air(rows, pack, row, lane, now, before);
   const V3 vec{turn.x, turn.y, turn.z};
   return again * dot(vec, vec);
 }
 
-void Prepare(const RowArrays& rows, Pack& pack) {
+template <bool extended>
+void prepare_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
     V largest = set(0.0);
     for (int row = pack.begin + 1; row < pack.end; ++row)
-      largest = hn::Max(largest, prepare_row(rows, pack, row, lane));
+      largest = hn::Max(largest, prepare_row<extended>(rows, pack, row, lane));
     store(set(2.0) * hn::Sqrt(largest), pack.turn + lane);
   }
+}
+
+void Prepare(const RowArrays& rows, Pack& pack) {
+  pack.extended ? prepare_pack<true>(rows, pack) : prepare_pack<false>(rows, pack);
 }
 
 // ---- Potential ----------------------------------------------------------------------------------
@@ -134,19 +161,22 @@ struct Strained {
   M3 r;
   V3 along;
   V length;
-  V3 force_E;    // N, with damping
-  Log bend;      // from rest
-  V3 bend_off;   // rad, from the target
-  V3 bend_rate;  // N m/rad, with damping
-  V3 off;        // m, W: centre of mass from its target
-  Q turn;        // from the target's rotation, w >= 0
-  V3 turn_rate;  // N m/rad, E
-  V inertia;     // N/m
-  V energy;      // J
+  V3 force_E;       // N, with damping
+  V3 stretch_rate;  // N, with damping
+  Log bend;         // from rest
+  V3 bend_moment;   // N m, conjugate to bend.phi, with damping
+  V3 bend_rate;     // N m/rad, with damping
+  V bend_mixed;     // N m/rad, between the bending axes (extended)
+  V3 off;           // m, W: centre of mass from its target
+  Q turn;           // from the target's rotation, w >= 0
+  V3 turn_rate;     // N m/rad, E
+  V inertia;        // N/m
+  V energy;         // J
 };
 
-HWY_INLINE Strained strain(const RowArrays& rows, int row, int lane, const Pose& parent,
-                           const Pose& own) {
+template <bool extended>
+HWY_INLINE Strained strain(const RowArrays& rows, const Pack& pack, int row, int lane,
+                           const Pose& parent, const Pose& own) {
   const ElementRow& element = rows.element[row];
   const TermRow& term = rows.term[row];
   Strained s;
@@ -156,10 +186,10 @@ HWY_INLINE Strained strain(const RowArrays& rows, int row, int lane, const Pose&
   s.along = along_of(parent, own, s.length);
   const V stiffening = load(term.stiffening + lane);
   const V3 stretch = stretch_of(element, lane, s.r, s.along) - load3(term.stretch_target, lane);
-  s.force_E = times(stiffening * load3(element.stretch_stiffness, lane), stretch);
+  s.stretch_rate = stiffening * load3(element.stretch_stiffness, lane);
+  if constexpr (extended) s.stretch_rate = load(pack.modulus + lane) * s.stretch_rate;
+  s.force_E = times(s.stretch_rate, stretch);
   s.bend = bend_of(element, lane, parent, own);
-  s.bend_off = s.bend.phi - load3(term.bend_target, lane);
-  s.bend_rate = stiffening * load3(element.bend_stiffness, lane);
 
   const V scale = load(term.inertia_scale + lane), mass = load(element.mass + lane);
   const V3 com = add_scaled(own.position, hn::Neg(load(element.com_back + lane)), s.r.c);
@@ -174,7 +204,20 @@ HWY_INLINE Strained strain(const RowArrays& rows, int row, int lane, const Pose&
   const V half = set(0.5);
   // 1/2 l strain.K strain + 1/2 phi.K phi + 1/2 m/h~^2 |off|^2 + 1/2 (2 vec).I/h~^2 (2 vec) - m g.c
   V energy = half * s.length * dot(stretch, s.force_E);
-  energy = hn::MulAdd(half, dot(s.bend_off, times(s.bend_rate, s.bend_off)), energy);
+  if constexpr (extended) {
+    const Bending bending = bend_joint(rows, pack, row, lane, s.bend.phi);
+    s.bend_moment = bending.moment;
+    s.bend_rate = bending.hessian;
+    s.bend_mixed = bending.mixed;
+    energy = hn::MulAdd(half, bending.linear, energy) + bending.energy;
+    if (pack.windy)
+      energy = energy + drag_of(rows, pack, row, lane, middle_of(own, s.length)).energy;
+  } else {
+    const V3 off = s.bend.phi - load3(term.bend_target, lane);
+    s.bend_rate = stiffening * load3(element.bend_stiffness, lane);
+    s.bend_moment = times(s.bend_rate, off);
+    energy = hn::MulAdd(half, dot(off, s.bend_moment), energy);
+  }
   energy = hn::MulAdd(half * s.inertia, dot(s.off, s.off), energy);
   energy = hn::MulAdd(set(2.0), dot(vec, times(s.turn_rate, vec)), energy);
   energy = hn::NegMulAdd(mass, dot(g, com - load3(term.com_past, lane)), energy);
@@ -193,22 +236,24 @@ struct Blocks {
   V3 parent_force, parent_moment;
 };
 
-HWY_INLINE Blocks blocks_of(const RowArrays& rows, int row, int lane, const Strained& s) {
+template <bool extended>
+HWY_INLINE Blocks blocks_of(const RowArrays& rows, const Pack& pack, int row, int lane,
+                            const Strained& s) {
   const ElementRow& element = rows.element[row];
-  const TermRow& term = rows.term[row];
   Blocks out;
   const V3 &a = s.along, &axis = s.r.c;
   const V zero = set(0.0);
   const V3 force = s.r * s.force_E;
-  const S3 k = sandwich(s.r, load(term.stiffening + lane) * load3(element.stretch_stiffness, lane));
+  const S3 k = sandwich(s.r, s.stretch_rate);
   // Columns of k [a]x, the change of force with rotation.
   const V3 k0{k.xx, k.yx, k.zx}, k1{k.yx, k.yy, k.zy}, k2{k.zx, k.zy, k.zz};
   const V3 lever0 = a.z * k1 - a.y * k2, lever1 = a.x * k2 - a.z * k0, lever2 = a.y * k0 - a.x * k1;
 
   const M3 jacobian = inverse_jacobian_transposed(s.bend);
   const M3 bending{s.r * jacobian.a, s.r * jacobian.b, s.r * jacobian.c};
-  const S3 bend = sandwich(bending, s.bend_rate);
-  const V3 bend_moment = negative(bending * times(s.bend_rate, s.bend_off));
+  S3 bend = sandwich(bending, s.bend_rate);
+  if constexpr (extended) add_mixed(bending, s.bend_mixed, bend);
+  const V3 bend_moment = negative(bending * s.bend_moment);
   const V tension = hn::Max(s.force_E.z, zero) * s.length;
 
   const V3 arm = hn::Neg(load(element.com_back + lane)) * axis;
@@ -280,6 +325,9 @@ HWY_INLINE Blocks blocks_of(const RowArrays& rows, int row, int lane, const Stra
   out.right[5] = tail.z;
   out.parent_force = force;
   out.parent_moment = negative(bend_moment);
+  if constexpr (extended)
+    if (pack.windy)
+      add_drag(rows, pack, row, lane, middle_of(s.own, l), set(-0.5) * l * axis, d, out.right);
   return out;
 }
 
@@ -435,16 +483,20 @@ HWY_INLINE void add(const Blocks& blocks, Carry& carry) {
   for (int i = 0; i < 6; ++i) carry.right[i] = carry.right[i] + blocks.right[i];
 }
 
-void LineariseAndEliminate(const RowArrays& rows, Pack& pack) {
+template <bool extended>
+void eliminate_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
     Carry carry;
     clear(carry);
     V energy = set(0.0), healthy = set(1.0);
     for (int row = pack.end - 1; row > pack.begin; --row) {
-      const Strained s = strain(rows, row, lane, load_pose(rows.iterate[row - 1], lane),
-                                load_pose(rows.iterate[row], lane));
+      if constexpr (extended)
+        if (pack.windy) set_axis(rows, row, lane, rows.axis_share);
+      const Strained s =
+          strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[row - 1], lane),
+                           load_pose(rows.iterate[row], lane));
       energy = energy + s.energy;
-      const Blocks blocks = blocks_of(rows, row, lane, s);
+      const Blocks blocks = blocks_of<extended>(rows, pack, row, lane, s);
       add(blocks, carry);
       if (rows.first_branch[row] >= 0)
         add_sources(rows.branches, rows.first_branch[row], lane, carry);
@@ -458,14 +510,18 @@ void LineariseAndEliminate(const RowArrays& rows, Pack& pack) {
   }
 }
 
-void Linearise(const RowArrays& rows, Pack& pack) {
+template <bool extended>
+void linearise_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
     V energy = set(0.0);
     for (int row = pack.end - 1; row > pack.begin; --row) {
-      const Strained s = strain(rows, row, lane, load_pose(rows.iterate[row - 1], lane),
-                                load_pose(rows.iterate[row], lane));
+      if constexpr (extended)
+        if (pack.windy) set_axis(rows, row, lane, rows.axis_share);
+      const Strained s =
+          strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[row - 1], lane),
+                           load_pose(rows.iterate[row], lane));
       energy = energy + s.energy;
-      const Blocks b = blocks_of(rows, row, lane, s);
+      const Blocks b = blocks_of<extended>(rows, pack, row, lane, s);
       FactorRow& out = rows.factor[row];
       for (int i = 0; i < triangle6; ++i) store(b.diagonal[i], out.diagonal[i] + lane);
       // Lanes without an element must not seem to move.
@@ -503,6 +559,14 @@ void Linearise(const RowArrays& rows, Pack& pack) {
     }
     store(energy, pack.energy + lane);
   }
+}
+
+void LineariseAndEliminate(const RowArrays& rows, Pack& pack) {
+  pack.extended ? eliminate_pack<true>(rows, pack) : eliminate_pack<false>(rows, pack);
+}
+
+void Linearise(const RowArrays& rows, Pack& pack) {
+  pack.extended ? linearise_pack<true>(rows, pack) : linearise_pack<false>(rows, pack);
 }
 
 // ---- Solution -----------------------------------------------------------------------------------
@@ -576,7 +640,8 @@ void MeasureChange(const RowArrays& rows, Pack& pack) {
   }
 }
 
-void Move(const RowArrays& rows, Pack& pack, bool keep) {
+template <bool extended>
+void move_pack(const RowArrays& rows, Pack& pack, bool keep) {
   for (int lane = 0; lane < lane_count; lane += width) {
     const V share = load(pack.share + lane);
     const M moves = share > set(0.0);
@@ -593,11 +658,15 @@ void Move(const RowArrays& rows, Pack& pack, bool keep) {
       const Q turned = normalized(exp_map(share * V3{d[3], d[4], d[5]}) * base.orientation);
       moved.orientation = select(moves, turned, base.orientation);
       store_pose(moved, rows.iterate[row], lane);
-      energy = energy + strain(rows, row, lane, parent, moved).energy;
+      energy = energy + strain<extended>(rows, pack, row, lane, parent, moved).energy;
       parent = moved;
     }
     store(energy, pack.energy + lane);
   }
+}
+
+void Move(const RowArrays& rows, Pack& pack, bool keep) {
+  pack.extended ? move_pack<true>(rows, pack, keep) : move_pack<false>(rows, pack, keep);
 }
 
 void Finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
@@ -610,6 +679,10 @@ void Finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
       store3(inverse_step * (com - load3(term.com_past, lane)), end[row].velocity, lane);
       const Q turn = conjugate(load4(term.rotation_past, lane)) * pose.orientation;
       store3(inverse_step * log_map(turn).phi, end[row].angular_velocity, lane);
+      if (pack.branches > 0)
+        finish_joint(
+            rows, pack, row, lane,
+            bend_of(rows.element[row], lane, load_pose(rows.iterate[row - 1], lane), pose).phi);
     }
   }
 }

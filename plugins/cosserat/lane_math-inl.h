@@ -114,6 +114,17 @@ HWY_INLINE S3 sandwich(const M3& m, const V3& k) {
           hn::MulAdd(a.z, m.a.z, hn::MulAdd(b.z, m.b.z, c.z * m.c.z))};
 }
 
+/// Adds k (a b^T + b a^T), a and b being m's first two columns.
+HWY_INLINE void add_mixed(const M3& m, V k, S3& s) {
+  const V3 a = k * m.a, &b = m.b;
+  s.xx = hn::MulAdd(a.x, b.x, hn::MulAdd(a.x, b.x, s.xx));
+  s.yx = hn::MulAdd(a.y, b.x, hn::MulAdd(a.x, b.y, s.yx));
+  s.yy = hn::MulAdd(a.y, b.y, hn::MulAdd(a.y, b.y, s.yy));
+  s.zx = hn::MulAdd(a.z, b.x, hn::MulAdd(a.x, b.z, s.zx));
+  s.zy = hn::MulAdd(a.z, b.y, hn::MulAdd(a.y, b.z, s.zy));
+  s.zz = hn::MulAdd(a.z, b.z, hn::MulAdd(a.z, b.z, s.zz));
+}
+
 HWY_INLINE Q conjugate(const Q& q) {
   return {hn::Neg(q.x), hn::Neg(q.y), hn::Neg(q.z), q.w};
 }

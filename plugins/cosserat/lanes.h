@@ -40,6 +40,34 @@ struct alignas(64) TermRow {
   Lanes inertia_scale;                      // 1/s2: (1 + rate h~)/h~^2
 };
 
+/// Constants of eight elements' extensions (JointLaw, SegmentAir; SI units). Where an element has
+/// none, they add exact zeros to what ElementRow says.
+struct alignas(64) ExtensionRow {
+  Lanes lawful;                     // 1 where the joint has a law
+  Lanes bend_excess, twist_excess;  // 1, elastic + deviation - 1 (twist: with the sliders' shares)
+  Lanes elastic, hardening;         // 1, 1/rad2
+  Lanes drag;                       // N/(m/s)2, 1/2 rho drag_area length
+  Lanes velocity[3], gust[3];       // m/s, W
+};
+
+/// One branch of eight joints (JointBranch). Over a step during which phi changes evenly
+///   phi - z_{n+1} = factor phi_{n+1} - decay z_n - (factor - decay) phi_n
+/// exactly, with decay = exp(-dt/time), factor = (1 - decay) time/dt.
+struct alignas(64) BranchRow {
+  Lanes share, decay, factor;
+  Lanes limit;     // N m; infinite: no slider
+  Lanes value[3];  // rad, z at the step's start; after finish() at its end
+};
+
+/// The extensions' terms of one step.
+struct alignas(64) ExtensionTermRow {
+  Lanes bend_stiffness[3];  // N m/rad: what is linear in phi (its offset is TermRow::bend_target)
+  Lanes bias[3];            // rad, RodState::joint_bias
+  Lanes middle_past[3];     // m, W: c* of the segment's middle
+  Lanes air[3];             // m/s, W, at the step's end
+  Lanes axis[3];            // W, of the segment where the drag was linearised last
+};
+
 /// Sizes of the blocks below. A symmetric 6x6 block is kept as its lower triangle by rows.
 inline constexpr int triangle6 = 21, block_size = triangle6 + 6;
 
@@ -68,6 +96,8 @@ struct alignas(64) Pack {
   // How each lane's plant steps. x' = (x - (past_now x_n - past_before x_{n-1})) / effective_step.
   Lanes past_now, past_before, effective_step;
   Lanes share;  // 1, of Newton's change that is applied; 0: the lane stays as it is
+  // Extensions at the step's end: stiffness_factor(), sin(2 pi gust_frequency t).
+  Lanes modulus, gust_now;  // 1
   // Results.
   Lanes energy;               // J
   Lanes turn, shift, change;  // largest: rad; element lengths; m or rad
@@ -76,6 +106,9 @@ struct alignas(64) Pack {
   int begin = 0, end = 0;
   bool active = true;   // some plant in it is still being solved
   bool damped = false;  // some element has Kelvin-Voigt damping
+  // Extensions.
+  bool extended = false, windy = false;  // some plant in it has any; drag
+  int branches = 0, sliders = 0;         // of its joints at most
 };
 
 /// Where the rows are; indices are rows.
@@ -91,6 +124,11 @@ struct RowArrays {
   const int* first_extra = nullptr;   // a row, into `extras`; -1: none
   const BlockSource* branches = nullptr;
   const BlockSource* extras = nullptr;
+  const ExtensionRow* extension = nullptr;
+  ExtensionTermRow* extension_term = nullptr;
+  BranchRow* law_branch = nullptr;  // `law_branches` a row
+  int law_branches = 0;
+  double axis_share = 1.0;              // 1, by which ExtensionTermRow::axis follows the iterate
   double gravity[3] = {0.0, 0.0, 0.0};  // m/s2, W
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/frames.h"
+#include "cosserat/joint_law.h"
 #include "cosserat/section.h"
 
 namespace pedicel::cosserat {
@@ -55,6 +57,15 @@ struct Thresholds {
   double torsion = never;  ///< N m
 };
 
+/// A fruit comes off where (N/force)^a + (M/moment)^b + (T/torsion)^c reaches 1, with the joint's
+/// force, bending moment and torsion; an infinite scale leaves its term out.
+struct DetachmentLaw {
+  double force = Thresholds::never;    ///< N
+  double moment = Thresholds::never;   ///< N m
+  double torsion = Thresholds::never;  ///< N m
+  Vec3 exponents = Vec3(2, 2, 2);      ///< 1, a, b, c
+};
+
 /// A sphere on a segment that the thresholds of the joint under it hold. It is centred on the
 /// centreline. At a rod's tip the carrying segment goes with it when it comes off, as the stub of
 /// its stalk; elsewhere only the fruit goes.
@@ -65,6 +76,7 @@ struct Fruit {
   double radius = 0.0;   ///< m
   double density = 0.0;  ///< kg/m3
   Thresholds thresholds;
+  std::optional<DetachmentLaw> law;  ///< in place of the thresholds
 };
 
 /// A point of the plant that is held to a pose of the world by stiff springs: a stem hung from a
@@ -97,6 +109,15 @@ struct CollisionShape {
   int fruit = -1;                              ///< index of the fruit that it is, -1: a stem
 };
 
+/// The air about a segment, and its drag: a force per metre of 1/2 rho drag_area |u| u, where u is
+/// the air's velocity less the segment's (in its middle) without the part along the segment.
+struct SegmentAir {
+  static constexpr double density = 1.2;  ///< kg/m3, of air
+  double drag_area = 0.0;                 ///< m2/m, drag coefficient included
+  Vec3 velocity = Vec3::Zero();           ///< m/s, W, of the air, in the mean
+  Vec3 gust = Vec3::Zero();               ///< m/s, W, times sin(2 pi gust_frequency t)
+};
+
 /// The constants of one plant: a tree of segments (with welds: a graph). What changes is RodState.
 struct RodModel {
   std::string name;
@@ -108,6 +129,13 @@ struct RodModel {
   std::vector<Support> supports;
   std::vector<Weld> welds;
   std::vector<CollisionShape> shapes;  ///< made by finish(): one a segment, then one a fruit
+
+  // Extensions (direct solver only). Empty: none; else one entry an element.
+  std::vector<JointLaw> laws;
+  std::vector<SegmentAir> air;
+  double gust_frequency = 0.0;   ///< Hz
+  double stiffness_drift = 0.0;  ///< 1/s: E (1 + stiffness_drift (clock + t))
+  double clock = 0.0;            ///< s, at t = 0
 
   int size() const { return static_cast<int>(elements.size()); }
   /// Drawn position of the near end of an element.

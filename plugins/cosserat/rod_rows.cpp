@@ -57,6 +57,7 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
       previous_(layout_.rows(), identity_row()),
       previous_rate_(layout_.rows(), RateRow{}),
       scratch_(scratch ? std::move(scratch) : std::make_shared<RowScratch>()),
+      extended_(plants.size()),
       first_branch_(layout_.rows(), -1),
       first_extra_(layout_.rows(), -1),
       anchors_(layout_.packs()),
@@ -77,6 +78,7 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
     packs_[p].end = layout_.end_row(p);
     std::fill(std::begin(packs_[p].effective_step), std::end(packs_[p].effective_step), 1.0);
     std::fill(std::begin(packs_[p].past_now), std::end(packs_[p].past_now), 1.0);
+    std::fill(std::begin(packs_[p].modulus), std::end(packs_[p].modulus), 1.0);
   }
   // From the last chain to the first, so that the sources of a row are taken in their order.
   for (int c = static_cast<int>(layout_.chains().size()) - 1; c >= 0; --c) {
@@ -108,6 +110,11 @@ RowArrays RodRows::arrays() {
   rows.first_extra = first_extra_.data();
   rows.branches = branches_.data();
   rows.extras = extras_.data();
+  rows.extension = extension_.data();
+  rows.extension_term = extension_term_.data();
+  rows.law_branch = branch_.data();
+  rows.law_branches = branches_a_row_;
+  rows.axis_share = axis_share_;
   for (int i = 0; i < 3; ++i) rows.gravity[i] = gravity_[i];
   return rows;
 }
@@ -134,6 +141,7 @@ void RodRows::read_model(int plant, const RodModel& model) {
     for (const int e : layout_.chains()[c].elements)
       if (model.elements[e].damping_time > 0.0) pack.damped = true;
   }
+  read_extensions(plant, model);
 }
 
 // Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
@@ -181,11 +189,13 @@ void RodRows::read_states(int pack, std::span<const RodState* const> states) {
         put(start[row], lane, state.position[e], state.orientation[e]);
         put(rate[row].velocity, lane, state.velocity[e]);
         put(rate[row].angular_velocity, lane, state.angular_velocity[e]);
+        if (extended_[chain.plant].branches > 0) read_memory(chain.plant, state, e, row, lane);
         if (state.alive[e] || element_[row].alive[lane] == 0.0) continue;
         // It came off: nothing ties it to its parent any more.
         element_[row].alive[lane] = 0.0;
         put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
         put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
+        if (!extension_.empty()) extension_[row].drag[lane] = 0.0;
       }
       ++row;
     }
@@ -395,6 +405,10 @@ void RodRows::write_end(int plant, RodState& state) const {
       state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
       state.velocity[e] = vector_at(scratch_->end_rate[row].velocity, lane);
       state.angular_velocity[e] = vector_at(scratch_->end_rate[row].angular_velocity, lane);
+      const int branches = extended_[plant].branches;
+      for (int j = 0; j < branches; ++j)
+        state.joint_memory[e * branches + j] =
+            vector_at(branch_[row * branches_a_row_ + j].value, lane);
     }
   }
 }

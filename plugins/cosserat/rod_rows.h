@@ -50,6 +50,14 @@ class RodRows {
   /// How a plant steps: backward Euler where `previous_dt` is 0, else BDF2 after a step of that
   /// length (s). Its clamp stands at `root` at the end.
   void set_scheme(int plant, double dt, double previous_dt, const Pose& root);
+  /// What the plant's extensions are in a step that starts at `time` (s). `settled`: in the settled
+  /// shape instead, without dashpots, friction sliders and gusts, and at `time` itself. Call it
+  /// after read_model() and set_scheme().
+  void set_extensions(int plant, const RodModel& model, double time, double dt, bool settled);
+  /// By how much of the way the axes that drag is linearised about go to the iterate's, each time.
+  void set_axis_share(double share) { axis_share_ = share; }
+  /// branch_count() of the plant.
+  int branches(int plant) const { return extended_[plant].branches; }
   void set_gravity(const Vec3& gravity);
   /// Which plants the calls below are for, until told otherwise (others may be computed along,
   /// without effect).
@@ -104,7 +112,21 @@ class RodRows {
     int plant = -1, element = -1;
   };
 
+  // How a plant's extensions were read last.
+  struct Extended {
+    bool any = false;
+    bool fresh = false;  // the model was read since
+    bool settled = false;
+    int branches = 0;  // RodState::joint_memory, an element
+    double dt = 0.0;   // s
+  };
+
   RowArrays arrays();
+  void make_extension_rows(int branches);
+  void read_extensions(int plant, const RodModel& model);
+  void read_branches(int plant, const RodModel& model);
+  void mark_extended(int plant, const RodModel& model);
+  void read_memory(int plant, const RodState& state, int element, int row, int lane);
   void read_states(int pack, std::span<const RodState* const> states);
   void place_anchors(int pack);
   void change_anchors(int pack);
@@ -115,6 +137,13 @@ class RodRows {
   std::vector<PoseRow> previous_;
   std::vector<RateRow> previous_rate_;
   std::shared_ptr<RowScratch> scratch_;
+  // Empty unless some plant is extended; branch_: branches_a_row_ a row.
+  std::vector<ExtensionRow> extension_;
+  std::vector<ExtensionTermRow> extension_term_;
+  std::vector<BranchRow> branch_;
+  int branches_a_row_ = 0;
+  double axis_share_ = 1.0;
+  std::vector<Extended> extended_;  // by plant
   std::vector<int> first_branch_, first_extra_;
   std::vector<BlockSource> branches_, extras_;
   std::vector<std::array<double, block_size>> extra_values_;

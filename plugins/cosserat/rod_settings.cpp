@@ -1,3 +1,4 @@
+#include "core/check.h"
 #include "cosserat/direct_solver.h"
 #include "cosserat/position_based_solver.h"
 #include "cosserat/rod_solver.h"
@@ -32,6 +33,10 @@ std::string remedy(StepError error) {
 }
 
 std::unique_ptr<RodSolver> make_solver(const RodSettings& settings, const RodModel& model) {
+  if (settings.solver == SolverKind::position_based && is_extended(model))
+    throw UsageError("RodSettings.solver = position_based with plant \"" + model.name +
+                     "\", which has effects (joint laws, air or drift) that only the direct solver "
+                     "runs: must be direct");
   if (settings.solver == SolverKind::position_based)
     return std::make_unique<PositionBasedSolver>(settings, model);
   return std::make_unique<DirectSolver>(settings, model);

@@ -19,6 +19,14 @@ double elastic_energy(const RodModel& model, const RodState& state, int e) {
          0.5 * strain.bend.dot(element.bend_stiffness.cwiseProduct(strain.bend));
 }
 
+double extended_elastic_energy(const RodModel& model, const RodState& state, int e) {
+  const Element& element = model.elements[e];
+  const Strain strain = strain_of(model, state, e);
+  return 0.5 * stiffness_factor(model, state.time) * element.length *
+             strain.stretch.dot(element.stretch_stiffness.cwiseProduct(strain.stretch)) +
+         joint_response(model, state, e, strain.bend).energy;
+}
+
 double support_energy(const RodState& state, const Support& support) {
   if (!state.alive[support.element]) return 0.0;
   const Vec3 axis = state.orientation[support.element] * Vec3::UnitZ();
@@ -73,6 +81,12 @@ Strain strain_of(const RodModel& model, const RodState& state, int e) {
 JointLoad joint_load(const RodModel& model, const RodState& state, int e) {
   const Element& element = model.elements[e];
   const Strain strain = strain_of(model, state, e);
+  if (is_extended(model)) {
+    return {stiffness_factor(model, state.time) *
+                element.stretch_stiffness.cwiseProduct(strain.stretch),
+            inverse_right_jacobian(strain.bend).transpose() *
+                joint_response(model, state, e, strain.bend).moment};
+  }
   const Vec3 conjugate = element.bend_stiffness.cwiseProduct(strain.bend);
   return {element.stretch_stiffness.cwiseProduct(strain.stretch),
           inverse_right_jacobian(strain.bend).transpose() * conjugate};
@@ -86,7 +100,8 @@ Energy energy_of(const RodModel& model, const RodState& state, const Vec3& gravi
     const Vec3& omega = state.angular_velocity[e];
     energy.kinetic += 0.5 * element.mass * state.velocity[e].squaredNorm() +
                       0.5 * omega.dot(element.inertia.cwiseProduct(omega));
-    energy.elastic += elastic_energy(model, state, e);
+    energy.elastic += is_extended(model) ? extended_elastic_energy(model, state, e)
+                                         : elastic_energy(model, state, e);
     const Vec3 com = state.position[e] - element.com_back * (state.orientation[e] * Vec3::UnitZ());
     energy.gravity -= element.mass * gravity.dot(com);
   }

@@ -19,6 +19,10 @@ struct RodState {
                                        ///< by since is its motion in the next one
   double time = 0.0;                   ///< s
 
+  // Memory of joints with laws (joint_law.h), rad in E; empty until start_memory().
+  std::vector<Vec3> joint_memory;  ///< z of each branch, branch_count() an element
+  std::vector<Vec3> joint_bias;    ///< JointLaw::anchored times phi of the settled shape
+
   /// s, of the step that ended here, if its solver may go on from it at second order; 0: the next
   /// step is of first order. Set it to 0 after changing a state.
   double previous_dt = 0.0;

@@ -127,6 +127,7 @@ void RodSystem::add_to(StateHash& hash) const {
       hash.add(plant.state.angular_velocity[e]);
       hash.add(static_cast<std::uint64_t>(plant.state.alive[e]));
     }
+    for (const Vec3& z : plant.state.joint_memory) hash.add(z);
   }
 }
 

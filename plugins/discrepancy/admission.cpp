@@ -12,8 +12,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr int reach = 20;     // samples on either side that say what scatter is usual
-constexpr double wild = 8.0;  // times that scatter
+constexpr int reach = 20;      // samples on either side that say what scatter is usual
+constexpr double wild = 10.0;  // times that scatter
 constexpr int stuck_samples = 20;
 
 double median(std::vector<double>& values) {
@@ -22,43 +22,42 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-// Distance of each sample from the median of itself and its two neighbours on either side.
+// What each sample has against the cubic through its two neighbours on either side.
 std::vector<double> from_neighbours(const Eigen::VectorXd& x) {
   std::vector<double> distance(x.size(), nothing);
-  std::vector<double> near;
-  for (int i = 0; i < x.size(); ++i) {
-    near.clear();
-    for (int k = std::max(0, i - 2); k <= std::min<int>(i + 2, static_cast<int>(x.size()) - 1); ++k)
-      if (std::isfinite(x[k])) near.push_back(x[k]);
-    if (std::isfinite(x[i]) && near.size() >= 4) distance[i] = std::abs(x[i] - median(near));
-  }
+  for (int i = 2; i + 2 < x.size(); ++i)
+    distance[i] = std::abs(x[i] - (4.0 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6.0);
   return distance;
 }
 
-int take_out_wild(Eigen::Ref<Eigen::VectorXd> x) {
-  const std::vector<double> distance = from_neighbours(x);
-  std::vector<double> all;
-  for (const double d : distance)
-    if (std::isfinite(d)) all.push_back(d);
-  if (all.size() < 2 * reach) return 0;
-  const double usual = median(all);
-  int count = 0;
+// The usual scatter around sample i, which it and those next to it take no part in.
+double scatter_near(const std::vector<double>& distance, int i) {
   std::vector<double> near;
-  for (int i = 0; i < static_cast<int>(distance.size()); ++i) {
-    if (!(distance[i] > wild * usual)) continue;
-    near.clear();
-    for (int k = std::max(0, i - reach);
-         k <= std::min<int>(i + reach, static_cast<int>(distance.size()) - 1); ++k)
-      if (std::isfinite(distance[k])) near.push_back(distance[k]);
-    // Where everything moves fast the neighbours scatter as well; a wild sample stands out there,
-    // too.
-    const double local = std::max(usual, median(near));
-    // 1.4826 turns a median into the deviation of a normal distribution.
-    if (distance[i] <= wild * 1.4826 * local) continue;
-    x[i] = nothing;
+  const int last = static_cast<int>(distance.size()) - 1;
+  for (int k = std::max(0, i - reach); k <= std::min(i + reach, last); ++k)
+    if (std::abs(k - i) > 2 && std::isfinite(distance[k])) near.push_back(distance[k]);
+  return static_cast<int>(near.size()) >= reach / 2 ? median(near)
+                                                    : std::numeric_limits<double>::infinity();
+}
+
+// The worst first: a wild sample makes its neighbours look wild.
+int take_out_wild(Eigen::Ref<Eigen::VectorXd> x) {
+  int count = 0;
+  while (true) {
+    const std::vector<double> distance = from_neighbours(x);
+    int worst = -1;
+    double most = wild * 1.4826;  // turns a median into the deviation of a normal distribution
+    for (int i = 0; i < static_cast<int>(distance.size()); ++i) {
+      if (!std::isfinite(distance[i]) || distance[i] == 0.0) continue;
+      const double share = distance[i] / scatter_near(distance, i);
+      if (share <= most || !std::isfinite(share)) continue;
+      most = share;
+      worst = i;
+    }
+    if (worst < 0) return count;
+    x[worst] = nothing;
     ++count;
   }
-  return count;
 }
 
 int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {

@@ -10,7 +10,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double first_horizon = 0.35;
-constexpr int lanes = 8;  // hypotheses that cost about as much as one
+constexpr std::size_t most_whole = 8;  // of each of the two lists
 
 Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nominal) {
   Hypothesis both = base;
@@ -43,18 +43,61 @@ std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base
   return best;
 }
 
-FitSummary refit(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
-                 const FitOptions& options) {
+FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
+                          FitOptions options) {
   FitSummary best;
-  for (const Hypothesis& start : best_starts(evaluator, base, cause, options, 2)) {
-    FitOptions early = options;
-    early.horizon = first_horizon;
-    early.iterations = std::min(8, options.iterations);
-    FitSummary found = fit(evaluator, start, early);
-    found = fit(evaluator, found.hypothesis, options);
+  const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, 2);
+  options.horizon = first_horizon;
+  options.iterations = std::min(8, options.iterations);
+  for (const Hypothesis& start : starts) {
+    FitSummary found = fit(evaluator, start, options);
     if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
   }
   return best;
+}
+
+// Calls task(evaluator, i) for i below count, each on one worker.
+template <class Task>
+void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& options, double from,
+               double to, const Task& task) {
+  ThreadPool pool(static_cast<int>(workers.size()));
+  std::atomic<int> next{0}, done{0};
+  pool.for_each(static_cast<int>(workers.size()), [&](int worker) {
+    for (int i = next++; i < count; i = next++) {
+      if (options.stop && *options.stop) return;
+      task(workers[worker], i);
+      if (options.progress)
+        options.progress(from + (to - from) * static_cast<double>(++done) / count);
+    }
+  });
+}
+
+// Ranks by value, largest first: the first `count` of them.
+std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
+  std::vector<int> order(value.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::ranges::stable_sort(order, [&](int a, int b) { return value[a] > value[b]; });
+  order.resize(std::min(count, order.size()));
+  return order;
+}
+
+// Gains and evidence of the whole fits, and the order.
+void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples) {
+  // Where even the best model leaves more than noise, differences count for less.
+  double least = base.cost;
+  for (const Candidate& candidate : candidates)
+    if (candidate.whole && candidate.fit.why != "not run")
+      least = std::min(least, candidate.fit.cost);
+  const double dispersion = std::max(1.0, 2.0 * least / samples);
+  for (Candidate& candidate : candidates) {
+    if (candidate.whole) candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
+    const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
+    candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
+  }
+  std::erase_if(candidates, [](const Candidate& c) { return c.fit.why == "not run"; });
+  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+    return a.whole != b.whole ? a.whole : a.evidence > b.evidence;
+  });
 }
 
 }  // namespace
@@ -65,34 +108,32 @@ double cost_of(int parameters, int samples, std::size_t candidates) {
 }
 
 std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,
-                                 const std::vector<Cause>& causes, const RefitOptions& options) {
-  std::vector<Candidate> candidates(causes.size());
-  ThreadPool pool(static_cast<int>(workers.size()));
-  std::atomic<int> next{0}, done{0};
+                                 const std::vector<Cause>& causes,
+                                 const std::vector<double>& promise, const RefitOptions& options) {
   const int count = static_cast<int>(causes.size());
-  pool.for_each(static_cast<int>(workers.size()), [&](int worker) {
-    for (int i = next++; i < count; i = next++) {
-      if (options.stop && *options.stop) return;
-      Candidate& candidate = candidates[i];
-      candidate.cause = causes[i].name;
-      candidate.fit = refit(workers[worker], base, causes[i], options.fit);
-      if (options.progress) options.progress(static_cast<double>(++done) / count);
-    }
+  std::vector<Candidate> candidates(causes.size());
+  FitOptions early = options.fit;
+  early.horizon = first_horizon;
+  const double early_cost =
+      0.5 * workers.front().residuals(std::span(&base.hypothesis, 1), early).squaredNorm();
+  share_out(workers, count, options, 0.0, 0.6, [&](Evaluator& evaluator, int i) {
+    candidates[i].cause = causes[i].name;
+    candidates[i].fit = fit_first_part(evaluator, base, causes[i], options.fit);
+    candidates[i].gain = early_cost - candidates[i].fit.cost;
   });
-  const int samples = workers.front().data().samples(options.fit.trials);
-  // Where even the best model leaves more than noise, differences count for less.
-  double least = base.cost;
-  for (const Candidate& candidate : candidates)
-    if (candidate.fit.why != "not run") least = std::min(least, candidate.fit.cost);
-  const double dispersion = std::max(1.0, 2.0 * least / samples);
-  for (Candidate& candidate : candidates) {
-    candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
-    const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
-    candidate.evidence = candidate.gain - cost_of(added, samples, causes.size());
-  }
-  std::erase_if(candidates, [](const Candidate& c) { return c.fit.why == "not run"; });
-  std::ranges::stable_sort(
-      candidates, [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; });
+  std::vector<double> early_gain;
+  for (const Candidate& candidate : candidates) early_gain.push_back(candidate.gain);
+  for (const int i : first_by(early_gain, most_whole)) candidates[i].whole = true;
+  for (const int i : first_by(promise, most_whole)) candidates[i].whole = true;
+  std::vector<int> whole;
+  for (int i = 0; i < count; ++i)
+    if (candidates[i].whole) whole.push_back(i);
+  share_out(workers, static_cast<int>(whole.size()), options, 0.6, 1.0,
+            [&](Evaluator& evaluator, int w) {
+              Candidate& candidate = candidates[whole[w]];
+              candidate.fit = fit(evaluator, candidate.fit.hypothesis, options.fit);
+            });
+  weigh(candidates, base, workers.front().data().samples(options.fit.trials));
   return candidates;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,10 +16,10 @@ struct Candidate {
   FitSummary fit;
   double gain = 0.0;      ///< log-likelihood above the model that it extends
   double evidence = 0.0;  ///< gain less what its parameters and the number of candidates cost
+  /// False: it fell so far behind over the first part of the records, and its direction shows so
+  /// little, that it was not refitted over the whole; its gain is that of the first part.
+  bool whole = false;
 };
-
-/// One for each worker: makes a simulator that runs on the calling thread alone.
-using MakeEvaluator = std::function<Evaluator()>;
 
 struct RefitOptions {
   FitOptions fit;
@@ -29,10 +30,12 @@ struct RefitOptions {
 };
 
 /// Refits every cause on top of `base`: a look from all its starts over the first third of the
-/// records, a fit of the best two there, then of the better ones over the whole records. Sorted by
-/// evidence.
+/// records and a fit of the best two there; then those that did best, and those whose directed
+/// statistic (`promise`, one a cause) is largest, over the whole records. Sorted by evidence, those
+/// of the first part last.
 std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,
-                                 const std::vector<Cause>& causes, const RefitOptions& options);
+                                 const std::vector<Cause>& causes,
+                                 const std::vector<double>& promise, const RefitOptions& options);
 
 /// Bayesian information criterion: what a model's additional parameters cost, with the choice
 /// between so many candidates (nats).

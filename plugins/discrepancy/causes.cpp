@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "plant/effects.h"
 #include "plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
@@ -68,6 +69,9 @@ class Start {
     for (int i = 0; i < components; ++i) parameter(name, i, false, scale, -most, most);
     return *this;
   }
+  Start& free_share(double low, double high) {
+    return parameter("share", 0, false, 1.0, low, high);
+  }
   Start& heading(double angle) {
     fixed("direction", {std::cos(angle), std::sin(angle), 0.0});
     return parameter("heading", 0, false, 0.3, -10.0, 10.0);
@@ -109,6 +113,8 @@ class Candidates {
 
  private:
   void add(const std::string& name, std::vector<Hypothesis> starts) {
+    const plant::EffectKind* kind = plant::find_effect(name);
+    if (!kind || (kind->home == plant::EffectHome::plant && !kind->simulated)) return;
     if (!starts.empty()) causes_.push_back({name, std::move(starts)});
   }
 
@@ -410,6 +416,12 @@ Hypothesis baseline() {
   }
   all.name.clear();
   return all;
+}
+
+Hypothesis mesh_freedom() {
+  Hypothesis mesh = Start(mesh_error).fixed("share", {0.3}).free_share(-0.5, 2.0).prior(0.5, 0.3);
+  mesh.name.clear();
+  return mesh;
 }
 
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales) {

@@ -29,6 +29,9 @@ Scales scales_of(const Experiment& experiment);
 /// The parameters that a refit may always change: factors on modulus, density and damping.
 Hypothesis baseline();
 
+/// The share of the mesh's error, free (hypothesis.h).
+Hypothesis mesh_freedom();
+
 /// Every known effect that the experiment could show.
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales);
 

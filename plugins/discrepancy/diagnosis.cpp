@@ -59,7 +59,22 @@ class Procedure {
   void say(const std::string& what, double share) {
     if (options_.progress) options_.progress(what, share);
   }
-  void note(const std::string& sentence) { result_.steps.push_back(sentence); }
+  void note(const std::string& sentence) {
+    result_.steps.push_back(sentence);
+    if (options_.note) options_.note(sentence);
+  }
+  void note_fit(const std::string& what, const FitSummary& fit) {
+    std::string sentence =
+        what + text(": %.6g per sample", 2.0 * fit.cost / std::max(1, samples()));
+    for (int p = 0; p < fit.hypothesis.size(); ++p) {
+      const FreeParameter& free = fit.hypothesis.free[p];
+      sentence +=
+          ", " + fit.hypothesis.effects[free.effect].name + " " + free.name +
+          text(" %.5g +- %.2g", fit.hypothesis.value(p),
+               fit.standard_error[p] * (free.logarithmic ? fit.hypothesis.value(p) : free.scale));
+    }
+    note(sentence + ".");
+  }
 
   // ---- Steps 0 and 1 ----------------------------------------------------------------------------
 
@@ -105,7 +120,9 @@ class Procedure {
     }
     wide_ = std::make_unique<Simulator>(experiment(), result_.numerics, options_.threads);
   }
-  const Corrections* corrections() const { return corrections_.empty() ? nullptr : &corrections_; }
+  const Corrections* corrections() const {
+    return corrections_.own.empty() ? nullptr : &corrections_;
+  }
   Evaluator wide() { return Evaluator(*wide_, *data_, corrections()); }
   void count_simulations() {
     for (const auto& simulator : simulators_)
@@ -154,11 +171,17 @@ class Procedure {
       start = starts[scan(evaluator, starts, early).best];
     }
     constexpr std::array horizons{0.3, 1.0};
+    note(text("Noise %.3g m, lag-one correlation %.3g", result_.position_noise.std,
+              result_.position_noise.correlation()));
     result_.base = fit_growing(evaluator, start, fit_options_, horizons);
+    note_fit("Baseline", result_.base);
     refine();
     renew_noise(result_.base);
     Evaluator again = wide();
     result_.base = fit(again, result_.base.hypothesis, fit_options_);
+    note(text("Noise %.3g m, lag-one correlation %.3g", result_.position_noise.std,
+              result_.position_noise.correlation()));
+    note_fit("Baseline", result_.base);
   }
 
   // Mesh and step, until our own error is a small part of the noise, or until that costs too much.
@@ -182,6 +205,7 @@ class Procedure {
         }
         break;
       }
+      note(text("Numerical error %.3g by step, %.3g by mesh", check.by_step, check.by_mesh));
       count_simulations();
       result_.numerics = refined(check);
       make_workers();
@@ -194,6 +218,7 @@ class Procedure {
               result_.numerical_error));
     count_simulations();
     make_workers();
+    result_.base.hypothesis.add(mesh_freedom());
     Evaluator evaluator = wide();
     result_.base = fit(evaluator, result_.base.hypothesis, fit_options_);
   }
@@ -221,8 +246,18 @@ class Procedure {
     result_.directions = directions_of(evaluator, result_.base, causes_, fit_options_);
     result_.before = judge(result_.directions, result_.base, numerical_, options_.seed);
     result_.best = result_.base;
-    note(text("Largest directed statistic %.3g, level %.3g.", result_.before.statistic,
-              result_.before.level));
+    note_directions(result_.directions, result_.before);
+  }
+
+  void note_directions(std::vector<Direction> directions, const Alarm& alarm) {
+    note(text("Largest directed statistic %.3g, level %.3g.", alarm.statistic, alarm.level));
+    std::ranges::stable_sort(directions, [](const Direction& a, const Direction& b) {
+      return std::abs(a.statistic) > std::abs(b.statistic);
+    });
+    for (std::size_t i = 0; i < std::min<std::size_t>(8, directions.size()); ++i)
+      note("  " + directions[i].cause +
+           text(": %.3g, of which our own error may be %.3g", directions[i].statistic,
+                directions[i].systematic));
   }
 
   // ---- Steps 4 to 7 -----------------------------------------------------------------------------
@@ -237,7 +272,10 @@ class Procedure {
 
   void search() {
     result_.ranking =
-        refit_all(workers_, result_.base, causes_, refit_options(0.2, 0.6, "refitting candidates"));
+        refit_all(workers_, result_.base, causes_, promise_of(causes_, result_.directions),
+                  refit_options(0.2, 0.6, "refitting candidates"));
+    for (std::size_t i = 0; i < std::min<std::size_t>(6, result_.ranking.size()); ++i)
+      note_fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit);
     if (result_.ranking.empty() || result_.ranking.front().evidence < enough_evidence) return;
     result_.best = result_.ranking.front().fit;
     chain_ = {result_.ranking.front()};
@@ -250,10 +288,12 @@ class Procedure {
       std::vector<Direction> directions =
           directions_of(evaluator, result_.best, causes_, fit_options_);
       result_.after = judge(directions, result_.best, numerical_, options_.seed);
+      note_directions(directions, result_.after);
       if (!result_.after.raised) return;
       const double from = 0.5 + 0.15 * static_cast<double>(chain_.size());
+      const std::vector<Cause> likely = promising(directions);
       const std::vector<Candidate> next =
-          refit_all(workers_, result_.best, promising(directions),
+          refit_all(workers_, result_.best, likely, promise_of(likely, directions),
                     refit_options(from, from + 0.15, "looking for another cause"));
       if (next.empty() || next.front().evidence < enough_evidence) return;
       chain_.push_back(next.front());
@@ -266,16 +306,25 @@ class Procedure {
     result_.after = judge(directions, result_.best, numerical_, options_.seed);
   }
 
-  // Causes whose direction shows in what is left; the loudest dozen.
-  std::vector<Cause> promising(const std::vector<Direction>& directions) const {
-    std::vector<std::pair<double, const Cause*>> order;
-    for (const Cause& cause : causes_) {
+  // The largest directed statistic of each cause.
+  static std::vector<double> promise_of(const std::vector<Cause>& causes,
+                                        const std::vector<Direction>& directions) {
+    std::vector<double> promise;
+    for (const Cause& cause : causes) {
       double loudest = 0.0;
       for (const Direction& direction : directions)
         if (direction.cause == cause.name)
           loudest = std::max(loudest, std::abs(direction.statistic));
-      order.emplace_back(loudest, &cause);
+      promise.push_back(loudest);
     }
+    return promise;
+  }
+
+  // Causes whose direction shows in what is left; the loudest dozen.
+  std::vector<Cause> promising(const std::vector<Direction>& directions) const {
+    const std::vector<double> promise = promise_of(causes_, directions);
+    std::vector<std::pair<double, const Cause*>> order;
+    for (std::size_t i = 0; i < causes_.size(); ++i) order.emplace_back(promise[i], &causes_[i]);
     std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<Cause> chosen;
     for (std::size_t i = 0; i < std::min<std::size_t>(12, order.size()); ++i)
@@ -299,6 +348,26 @@ class Procedure {
     }
     report_parameters();
     what_could_hide();
+    choose_next();
+  }
+
+  void choose_next() {
+    Verdict& verdict = result_.verdict;
+    if (verdict.outcome == Outcome::ambiguous) {
+      say("choosing the next experiment", 0.97);
+      std::vector<Hypothesis> rivals;
+      for (const Candidate& candidate : result_.ranking)
+        for (const NamedCause& cause : verdict.causes)
+          if (cause.name == candidate.cause && rivals.size() < 4) {
+            rivals.push_back(candidate.fit.hypothesis);
+            rivals.back().name = candidate.cause;
+          }
+      result_.next = next_experiment(experiment(), *data_, rivals,
+                                     {result_.numerics, options_.threads}, verdict.simulations);
+    } else if (verdict.outcome == Outcome::unknown) {
+      result_.next = next_look(experiment(), *data_, result_.predictions[refitted]);
+    }
+    verdict.next_experiment = result_.next.sentence;
   }
 
   void predict() {
@@ -355,6 +424,7 @@ class Procedure {
     Verdict& verdict = result_.verdict;
     for (int p = 0; p < result_.base.hypothesis.size(); ++p) {
       const FreeParameter& free = result_.base.hypothesis.free[p];
+      if (free.name != "factor") continue;
       const double u = free.to_unknown(result_.base.hypothesis.value(p));
       double error = result_.base.standard_error[p];
       const double shift = p < parameter_shift_.size() ? std::abs(parameter_shift_[p]) : 0.0;
@@ -407,7 +477,7 @@ class Procedure {
     for (std::size_t i = 1; i < result_.ranking.size(); ++i) {
       const Candidate& rival = result_.ranking[i];
       const double behind = best.evidence - rival.evidence;
-      if (rival.evidence < 0.0) break;
+      if (!rival.whole || rival.evidence < 0.0) break;
       if (behind > margin || chain_.size() > 1) {
         verdict.rivals.push_back({rival.cause, behind});
         continue;
@@ -455,8 +525,8 @@ class Procedure {
       for (const Direction& direction : result_.directions) {
         if (direction.cause != cause.name || direction.change.norm() < best) continue;
         best = direction.change.norm();
-        least.smallest_seen =
-            smallest_seen(direction, result_.before.level + direction.systematic, least.parameter);
+        least.smallest_seen = smallest_seen(
+            direction, result_.before.level + std::abs(direction.systematic), least.parameter);
       }
       least.unit = unit_of(cause.name, least.parameter);
       result_.verdict.could_hide.push_back(least);

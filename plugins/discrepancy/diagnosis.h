@@ -20,6 +20,7 @@ struct DiagnosisOptions {
   std::uint64_t seed = 1;
   /// What is being done, and the share of the whole that is done (an estimate); from any thread.
   std::function<void(const std::string&, double)> progress;
+  std::function<void(const std::string&)> note;  ///< each finding, as a sentence
   const std::atomic<bool>* stop = nullptr;
 };
 

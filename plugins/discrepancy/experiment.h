@@ -31,7 +31,8 @@ struct Path {
   Quat rotation_at(double t) const;  ///< shortest way between rows; identity where there is none
 };
 
-/// A point that is held to a path until `release` (free from then on).
+/// A point that is held to a path until `release` (free from then on). The reader gives a hold
+/// without `release` the end of its path where the trial goes on longer.
 struct Hold {
   plant::CurvePlace place;
   Path path;

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "discrepancy/experiment.h"
@@ -140,7 +140,16 @@ class Reader {
     }
     if (drive) read_drives(*drive, at, trial);
     read_tables(at, trial);
+    end_holds(trial);
     return trial;
+  }
+
+  // A path of one row is a place: it does not end.
+  static void end_holds(Trial& trial) {
+    for (Hold& hold : trial.holds)
+      if (std::isinf(hold.release) && hold.path.time.size() > 1 &&
+          hold.path.time.back() < trial.duration())
+        hold.release = hold.path.time.back();
   }
 
   plant::PlantMass read_mass(const YamlNode& node) {

@@ -93,6 +93,11 @@ class Problem : public ceres::CostFunction {
   mutable Eigen::MatrixXd jacobian_;
 };
 
+void add(Prediction& to, double share, const Prediction& change) {
+  to.markers += share * change.markers;
+  if (to.force.size() > 0) to.force += share * change.force;
+}
+
 void judge(FitSummary& fit) {
   const int n = fit.hypothesis.size();
   const Eigen::VectorXd u = fit.hypothesis.unknowns();
@@ -136,14 +141,14 @@ std::vector<std::vector<Prediction>> Evaluator::predictions(std::span<const Hypo
   std::vector<Prediction> all = simulator_->run(requests);
   std::vector<std::vector<Prediction>> result(hypotheses.size());
   std::size_t next = 0;
-  for (std::vector<Prediction>& row : result)
+  for (std::size_t h = 0; h < hypotheses.size(); ++h)
     for (const int trial : options.trials) {
       Prediction& prediction = all[next++];
       if (corrections_) {
-        prediction.markers += (*corrections_)[trial].markers;
-        if (prediction.force.size() > 0) prediction.force += (*corrections_)[trial].force;
+        add(prediction, 1.0, corrections_->own[trial]);
+        add(prediction, hypotheses[h].mesh_share(), corrections_->plain[trial]);
       }
-      row.push_back(std::move(prediction));
+      result[h].push_back(std::move(prediction));
     }
   return result;
 }

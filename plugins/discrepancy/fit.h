@@ -31,9 +31,12 @@ struct FitSummary {
   std::string why = "not run";  ///< why it stopped
 };
 
-/// Corrections added to predictions, one a trial: what a finer mesh and step would change
-/// (numerics.h).
-using Corrections = std::vector<Prediction>;
+/// What is added to predictions, one entry a trial (numerics.h): `own`, what a prediction without
+/// error would have more; and the share that a hypothesis chooses of `plain`, what a plain mesh of
+/// the plant file's spacing would have more than that.
+struct Corrections {
+  std::vector<Prediction> own, plain;
+};
 
 /// Simulates a list of hypotheses over the same trials at once.
 class Evaluator {

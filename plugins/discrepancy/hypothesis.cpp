@@ -58,6 +58,18 @@ Eigen::VectorXd Hypothesis::high() const {
   return u;
 }
 
+Variant Hypothesis::variant() const {
+  Variant variant{effects, {}};
+  std::erase_if(variant.effects, [](const plant::Effect& e) { return e.name == mesh_error; });
+  return variant;
+}
+
+double Hypothesis::mesh_share() const {
+  for (const plant::Effect& effect : effects)
+    if (effect.name == mesh_error) return effect.number("share");
+  return 0.0;
+}
+
 void Hypothesis::add(const Hypothesis& other) {
   const int shift = static_cast<int>(effects.size());
   effects.insert(effects.end(), other.effects.begin(), other.effects.end());

@@ -8,6 +8,11 @@
 
 namespace pedicel::discrepancy {
 
+/// Stands among the effects of a hypothesis, though no simulator runs it: the share of a plain mesh's
+/// error (Corrections) that is in the data or in the modulus that came with them. Both were made
+/// with some mesh or none, so a fit must be free to choose.
+inline constexpr const char* mesh_error = "mesh_error";
+
 /// The value at which an effect vanishes, for the parameters that are its size; `never` for the
 /// others.
 enum class Vanishes { never, at_zero, at_one, at_infinity };
@@ -46,7 +51,10 @@ struct Hypothesis {
   void set_unknowns(const Eigen::VectorXd& unknowns);
   Eigen::VectorXd low() const;
   Eigen::VectorXd high() const;
-  Variant variant() const { return {effects, {}}; }
+  /// What the simulator runs of it.
+  Variant variant() const;
+  /// Of a plain mesh's error; 0 where it is not among the effects.
+  double mesh_share() const;
   /// Adds the effects and free parameters of another one behind its own.
   void add(const Hypothesis& other);
   /// The same with its sizes brought nearer to where its effects vanish: `share` 1 changes nothing,

@@ -163,6 +163,14 @@ std::string name_of(const Hypothesis& rival) {
   return rival.name.empty() ? "the refitted model" : rival.name;
 }
 
+// Where no design could be simulated.
+NextExperiment by_hand(const std::vector<Hypothesis>& rivals) {
+  NextExperiment next;
+  next.sentence = "To tell " + name_of(rivals[0]) + " from " + name_of(rivals[1]) + ": " +
+                  tie_breaker(rivals) + ".";
+  return next;
+}
+
 std::string channel_of(const Experiment& experiment, int column) {
   const auto markers = static_cast<int>(3 * experiment.markers.size());
   const std::string axis = std::string(".") + "xyz"[column % 3];
@@ -215,14 +223,14 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
                  scales.rest) ||
       !find_rest(turned, variants[0], scales, options.numerics, gravity, simulations,
                  scales.turned_rest))
-    return {};
+    return by_hand(rivals);
   const std::vector<TrialDesign> designs = trial_designs(experiment, scales);
   std::vector<const TrialDesign*> plain, around;
   for (const TrialDesign& design : designs) (design.turned ? around : plain).push_back(&design);
   std::vector<Tried> tried = try_designs(upright, data, plain, variants, options, simulations);
   for (Tried& one : try_designs(turned, data, around, variants, options, simulations))
     tried.push_back(std::move(one));
-  if (tried.empty()) return {};
+  if (tried.empty()) return by_hand(rivals);
   const auto better = [](const Tried& a, const Tried& b) {
     const bool ea = a.nearest.total >= enough, eb = b.nearest.total >= enough;
     if (ea != eb) return eb;

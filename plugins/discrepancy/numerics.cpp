@@ -13,6 +13,13 @@ double rms(const Eigen::VectorXd& v, int samples) {
   return samples > 0 ? v.norm() / std::sqrt(static_cast<double>(samples)) : 0.0;
 }
 
+Prediction difference(const Prediction& finer, const Prediction& coarser, double share) {
+  Prediction change;
+  change.markers = share * (finer.markers - coarser.markers);
+  change.force = share * (finer.force - coarser.force);
+  return change;
+}
+
 }  // namespace
 
 NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
@@ -23,16 +30,20 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
   FitOptions all = options;
   all.trials.clear();
   for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t) all.trials.push_back(t);
-  const auto run = [&](double distance, double dt) {
-    Simulator simulator(experiment, {distance, dt}, threads);
+  const auto run = [&](const Numerics& with) {
+    Simulator simulator(experiment, with, threads);
     Evaluator evaluator(simulator, data);
     auto predicted = evaluator.predictions(std::span(&base.hypothesis, 1), all);
     simulations += simulator.simulations();
     return std::move(predicted.front());
   };
-  const auto now = run(numerics.distance, numerics.dt);
-  const auto step = run(numerics.distance, 0.5 * numerics.dt);
-  const auto mesh = run(0.5 * numerics.distance, numerics.dt);
+  Numerics half_step = numerics, half_mesh = numerics, plain_mesh = numerics;
+  half_step.dt *= 0.5;
+  half_mesh.distance *= 0.5;
+  plain_mesh.distance = experiment.plant.distance;
+  plain_mesh.junction = 0.0;
+  const auto now = run(numerics), step = run(half_step), mesh = run(half_mesh),
+             plain = run(plain_mesh);
   const auto whitened = [&](const std::vector<Prediction>& finer) {
     Eigen::VectorXd change(data.size(options.trials));
     Eigen::Index row = 0;
@@ -54,10 +65,15 @@ NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
   check.correction = left_over(base.jacobian, by_step + by_mesh);
   check.largest = rms(check.correction, samples);
   for (std::size_t t = 0; t < now.size(); ++t) {
-    Prediction sum = now[t];
-    sum.markers = extrapolation * (step[t].markers + mesh[t].markers - 2.0 * now[t].markers);
-    sum.force = extrapolation * (step[t].force + mesh[t].force - 2.0 * now[t].force);
-    check.corrections.push_back(std::move(sum));
+    Prediction own = difference(step[t], now[t], extrapolation);
+    const Prediction by_finer_mesh = difference(mesh[t], now[t], extrapolation);
+    own.markers += by_finer_mesh.markers;
+    own.force += by_finer_mesh.force;
+    Prediction other = difference(plain[t], now[t], 1.0);
+    other.markers -= by_finer_mesh.markers;
+    other.force -= by_finer_mesh.force;
+    check.corrections.own.push_back(std::move(own));
+    check.corrections.plain.push_back(std::move(other));
   }
   return check;
 }

@@ -7,7 +7,7 @@ namespace pedicel::discrepancy {
 /// How well our own numbers hold: what half the step and half the mesh would change.
 struct NumericsCheck {
   Numerics numerics;
-  /// What to add to predictions: second order in both, so 4/3 of the differences (Richardson).
+  /// Of step and mesh, whose errors are of second order: 4/3 of the differences (Richardson).
   Corrections corrections;
   /// Whitened: the correction of the chosen trials, less what the free parameters can absorb.
   Eigen::VectorXd correction;

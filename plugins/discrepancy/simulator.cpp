@@ -19,10 +19,15 @@ constexpr std::size_t cache_bytes = 256u << 20;
 using Effects = std::vector<plant::Effect>;
 
 /// Everything that acts in a request: what the files state, then the variant's.
+// A variant's effect that names a trial happened in that one alone.
 Effects effects_of(const Experiment& experiment, const Simulator::Request& request) {
+  const Trial& trial = experiment.trials[request.trial];
   Effects all = experiment.effects;
-  for (const Effects* more : {&experiment.trials[request.trial].effects, &request.variant->effects})
-    all.insert(all.end(), more->begin(), more->end());
+  for (const Effects* more : {&trial.effects, &request.variant->effects})
+    for (const plant::Effect& effect : *more) {
+      const auto only = effect.words.find("trial");
+      if (only == effect.words.end() || only->second == trial.name) all.push_back(effect);
+    }
   return all;
 }
 
@@ -63,7 +68,22 @@ struct Group {
 
 struct Simulator::Impl {
   Impl(const Experiment& given, const Numerics& how, int threads)
-      : experiment(given), numerics(how), maker(given, how.distance), pool(threads) {}
+      : experiment(given),
+        numerics(how),
+        maker(given, how.distance, how.junction * how.distance),
+        pool(threads) {
+    check_places();
+  }
+
+  // Here, because nothing may throw within threads.
+  void check_places() const {
+    for (const Marker& marker : experiment.markers) maker.locate(marker.place);
+    for (const Trial& trial : experiment.trials) {
+      for (const plant::PlantMass& mass : trial.masses) maker.locate(mass.place);
+      for (const Hold& hold : trial.holds) maker.locate(hold.place);
+      for (const TimedLoad& load : trial.loads) maker.locate(load.place);
+    }
+  }
 
   Wanted want(const Request& request) const {
     const Trial& trial = experiment.trials[request.trial];

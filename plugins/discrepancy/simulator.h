@@ -15,6 +15,9 @@ namespace pedicel::discrepancy {
 struct Numerics {
   double distance = 0.01;  ///< m between nodes, in place of the plant file's
   double dt = 1.0 / 960;   ///< s
+  /// 1, of `distance`: the short segment below a junction (plant::BuildOptions). 0: none, and the
+  /// branches' places err with the first power of `distance`.
+  double junction = 0.05;
 };
 
 /// A force that no known effect gives, evaluated at the start of each step: N in W, from time (s),
@@ -46,7 +49,8 @@ struct Prediction {
 class Simulator {
  public:
   /// Keeps a reference to the experiment.
-  /// Throws InvalidFile where the plant cannot be built.
+  /// Throws InvalidFile where the plant cannot be built, UsageError where the experiment names a
+  /// curve that it lacks.
   Simulator(const Experiment& experiment, const Numerics& numerics, int threads);
   ~Simulator();
 

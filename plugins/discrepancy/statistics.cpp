@@ -64,8 +64,8 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
     unit.push_back(size > 1.0e-3 ? Eigen::VectorXd(direction.change / size)
                                  : Eigen::VectorXd::Zero(direction.change.size()));
     direction.statistic = unit.back().dot(base.residual);
-    direction.systematic = numerical.size() > 0 ? std::abs(unit.back().dot(numerical)) : 0.0;
-    const double beyond = std::abs(direction.statistic) - direction.systematic;
+    direction.systematic = numerical.size() > 0 ? unit.back().dot(numerical) : 0.0;
+    const double beyond = std::abs(direction.statistic) - std::abs(direction.systematic);
     if (beyond <= most) continue;
     most = beyond;
     alarm.statistic = std::abs(direction.statistic);

@@ -19,7 +19,8 @@ StepPlan make_step_plan(std::span<const double> events, double dt, double end, d
       ends.end());
   const std::size_t jumps = ends.size();
   if (end > same_time) ends.push_back(end);
-  if (until > end + same_time) ends.push_back(end + dt * std::ceil((until - end) / dt - same_time));
+  if (std::isfinite(until) && until > end + same_time)
+    ends.push_back(end + dt * std::ceil((until - end) / dt - same_time));
   StepPlan plan;
   plan.time.push_back(0.0);
   for (std::size_t i = 0; i < ends.size(); ++i) {

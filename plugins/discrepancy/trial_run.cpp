@@ -11,12 +11,13 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-/// Newton's, of a step. A change of 1e-6 (m or rad) in an element is a hundredth of a millimetre at
-/// the end of a stem of a hundred elements if all err alike.
+/// Newton's, of a step. Measured on releases of a stem of 0.6 m with two branches (90 elements,
+/// steps of 1/960 s): 1e-7 leaves the markers within 5 um of the converged steps (rms 0.5 um), 1e-6
+/// within 25 um at 11 % less time.
 cosserat::RodSettings solver_settings() {
   cosserat::RodSettings settings;
   settings.newton_iterations = 12;
-  settings.tolerance = 1.0e-6;
+  settings.tolerance = 1.0e-7;
   return settings;
 }
 
@@ -195,8 +196,6 @@ std::vector<RunResult> run_trial(const PlantMaker& maker, const Experiment& expe
   for (const RunMember& one : given)
     working +=
         members.emplace_back(maker, experiment, trial, one, plan.steps()).begin(rods) ? 1 : 0;
-  // Effects with a memory or a clock of their own begin here: the plants are at rest at the trial's
-  // time 0, trial.clock seconds after the first trial.
   for (int k = 0; k < plan.steps() && working > 0; ++k) {
     const double begin = plan.time[k], end = plan.time[k + 1];
     for (int p = 0; p < rods.size(); ++p)

@@ -17,13 +17,15 @@ bool is_of_sensor(const plant::Effect& effect) {
   return is_of_experiment(effect) && !effect.name.starts_with("grip_");
 }
 
-PlantMaker::PlantMaker(const Experiment& experiment, double distance) : file_(experiment.plant) {
+PlantMaker::PlantMaker(const Experiment& experiment, double distance, double junction)
+    : file_(experiment.plant) {
   own_effects_ = std::move(file_.effects);
   file_.effects.clear();
   file_.distance = distance;
   plant::BuildOptions options;
   const std::filesystem::path folder = experiment.plant_path.parent_path();
   options.leaf_folders = {folder, folder / "../assets/leaves"};
+  options.junction = junction;
   Diagnostics diagnostics;
   auto built = plant::build_plant(file_, options, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
@@ -45,6 +47,7 @@ plant::BuiltPlant PlantMaker::make(const Trial& trial,
   Diagnostics diagnostics;
   plant::apply_effects(file, built, diagnostics);
   if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
+  built.model.clock = trial.clock;
   return built;
 }
 

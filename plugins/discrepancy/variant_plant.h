@@ -15,8 +15,9 @@ namespace pedicel::discrepancy {
 /// the drawing gives.
 class PlantMaker {
  public:
-  /// Throws InvalidFile where the plant cannot be built.
-  PlantMaker(const Experiment& experiment, double distance);
+  /// `distance` and `junction` (m) as in plant::BuildOptions. Throws InvalidFile where the plant
+  /// cannot be built.
+  PlantMaker(const Experiment& experiment, double distance, double junction);
 
   /// With a trial's masses, the plant file's own effects and then those of `effects` that belong to
   /// a plant. Throws UsageError where one of them cannot be simulated.

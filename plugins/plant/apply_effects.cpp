@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat/turn_frame.h"
+#include "plant/apply_laws.h"
 #include "plant/effects.h"
 
 namespace pedicel::plant {
@@ -32,6 +34,8 @@ class Change {
     if (name == "weak_segment") weaken();
     if (name == "base_compliance") soften(roots());
     if (name == "attachment_compliance") soften({attachment()});
+    if (name == "anisotropy") make_anisotropic();
+    if (name == "detachment_law") replace_thresholds();
   }
 
  private:
@@ -101,6 +105,31 @@ class Change {
     }
   }
 
+  // Of every fruit, or of those on one curve.
+  void replace_thresholds() {
+    cosserat::DetachmentLaw law;
+    const auto set = [&](double& scale, const char* parameter) {
+      if (effect_.numbers.contains(parameter)) scale = number(parameter);
+    };
+    set(law.force, "force");
+    set(law.moment, "moment");
+    set(law.torsion, "torsion");
+    if (effect_.numbers.contains("exponents")) {
+      const std::vector<double>& e = effect_.numbers.at("exponents");
+      law.exponents = {e[0], e[1], e[2]};
+    }
+    for (std::size_t f = 0; f < model_.fruits.size(); ++f)
+      if (!effect_.place || plant_.fruits[f].place.curve == effect_.place->curve)
+        model_.fruits[f].law = law;
+  }
+
+  void make_anisotropic() {
+    const std::vector<double>& d = effect_.numbers.at("direction");
+    for (const BuiltPlant::Span& span : built_.spans)
+      if (concerns(span))
+        cosserat::make_anisotropic(model_, span.element, number("ratio"), Vec3(d[0], d[1], d[2]));
+  }
+
   void add_mass() {
     const PlacedPoint place =
         built_.locate(plant_.curve_index(effect_.place->curve), effect_.place->at);
@@ -141,15 +170,24 @@ class Change {
 }  // namespace
 
 void apply_effects(const PlantFile& plant, BuiltPlant& built, Diagnostics& diagnostics) {
+  const auto run = [&](bool anisotropy) {
+    for (const Effect& effect : plant.effects)
+      if (!is_law(effect.name) && (effect.name == "anisotropy") == anisotropy)
+        Change(plant, built, effect).run();
+  };
   for (const Effect& effect : plant.effects) {
     const EffectKind* kind = find_effect(effect.name);
-    if (kind && kind->simulated)
-      Change(plant, built, effect).run();
-    else
-      diagnostics.error(effect.where,
-                        "effect \"" + effect.name +
-                            "\" is known but cannot be simulated yet, expected one that can");
+    if (kind && kind->simulated) continue;
+    diagnostics.error(effect.where,
+                      "effect \"" + effect.name +
+                          "\" is known but cannot be simulated yet, expected one that can");
   }
+  if (diagnostics.has_errors()) return;
+  run(true);
+  run(false);
+  for (const Effect& effect : plant.effects)
+    if (is_law(effect.name)) apply_law(plant, effect, built, diagnostics);
+  finish_laws(plant, built, diagnostics);
 }
 
 }  // namespace pedicel::plant

@@ -5,9 +5,11 @@
 
 namespace pedicel::plant {
 
-/// Changes a finished model as the plant's `effects:` say: those that are plain changes of the
-/// model's constants (EffectKind::simulated). The rest shape stays that of the plant without
-/// effects. An effect that cannot be simulated yet is an error, never passed over.
+/// Changes a finished model as the plant's `effects:` say. Anisotropy, which turns frames, goes first;
+/// then the other changes of constants in the list's order; then the laws of joints and air, which
+/// refer to final constants (apply_laws.h). The rest shape stays that of the plant without effects.
+/// What does not go together is an error, and so is an effect that cannot be simulated
+/// (EffectKind::simulated): none is passed over.
 void apply_effects(const PlantFile& plant, BuiltPlant& built, Diagnostics& diagnostics);
 
 }  // namespace pedicel::plant

@@ -15,8 +15,9 @@ enum class EffectHome { plant, experiment };
 struct EffectParameter {
   std::string name;
   io::Bounds bounds;
-  int size = 1;           ///< numbers it has; 0: it is a word
+  int size = 1;  ///< numbers it has; 0: it is a word
   bool required = true;
+  std::vector<std::string> words = {};  ///< that it may be; empty: any
 };
 
 /// One known effect: section 3 of the formats as a table.

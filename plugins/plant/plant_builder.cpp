@@ -44,7 +44,7 @@ class Builder {
       : plant_(plant), options_(options), diagnostics_(diagnostics), curves_(make_curves(plant)) {}
 
   std::optional<BuiltPlant> run() {
-    std::optional<PlantGraph> graph = connect(plant_, curves_, diagnostics_);
+    std::optional<PlantGraph> graph = connect(plant_, curves_, diagnostics_, options_.junction);
     if (!graph) return std::nullopt;
     graph_ = std::move(*graph);
     simplify(graph_, plant_.distance);

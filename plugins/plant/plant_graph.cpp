@@ -19,8 +19,8 @@ std::string millimetres(double metres) {
 
 class Connector {
  public:
-  Connector(const PlantFile& plant, const std::vector<geometry::Curve>& curves)
-      : plant_(plant), curves_(curves), joined_(curves.size(), false) {
+  Connector(const PlantFile& plant, const std::vector<geometry::Curve>& curves, double junction)
+      : plant_(plant), curves_(curves), junction_(junction), joined_(curves.size(), false) {
     const double step = sampling_step(curves, plant.connect, plant.distance);
     for (std::size_t c = 0; c < curves.size(); ++c) {
       arcs_.push_back(samples(c, step));
@@ -41,6 +41,7 @@ class Connector {
       if (!joined_[c]) report(c, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
     mark_leaves();
+    mark_junctions();
     return std::move(graph_);
   }
 
@@ -57,10 +58,23 @@ class Connector {
     for (const PlantLeaf& leaf : plant_.leaves)
       if (plant_.curve_index(leaf.place.curve) == static_cast<int>(curve))
         arcs.push_back(leaf.place.at * curves_[curve].length());
+    if (junction_ > 0.0) add_feet(curve, arcs);
     std::sort(arcs.begin(), arcs.end());
     const auto same = [](double a, double b) { return b - a < same_place; };
     arcs.erase(std::unique(arcs.begin(), arcs.end(), same), arcs.end());
     return arcs;
+  }
+
+  // Where other curves may be joined to this one, and the places beside.
+  void add_feet(std::size_t curve, std::vector<double>& arcs) const {
+    for (std::size_t other = 0; other < curves_.size(); ++other)
+      for (const bool at_end : {false, true}) {
+        if (other == curve) continue;
+        const auto foot = geometry::closest_on_curve(curves_[curve], end_of(other, at_end));
+        if (foot.distance >= plant_.connect) continue;
+        for (const double arc : {foot.arc - junction_, foot.arc, foot.arc + junction_})
+          if (arc > 0.0 && arc < curves_[curve].length()) arcs.push_back(arc);
+      }
   }
 
   Vec3 end_of(std::size_t curve, bool at_end) const {
@@ -162,8 +176,17 @@ class Connector {
     }
   }
 
+  void mark_junctions() {
+    for (const GraphNode& node : graph_.nodes) {
+      if (node.children.size() < 2 || node.parent < 0) continue;
+      GraphNode& below = graph_.nodes[node.parent];
+      if ((node.position - below.position).norm() < 1.5 * junction_) below.carries = true;
+    }
+  }
+
   const PlantFile& plant_;
   const std::vector<geometry::Curve>& curves_;
+  double junction_;  // m
   std::vector<std::vector<double>> arcs_;
   std::vector<Eigen::AlignedBox3d> boxes_;  // m, P, around each curve
   std::vector<char> joined_;
@@ -210,8 +233,8 @@ int PlantGraph::kept_parent(int node) const {
 
 std::optional<PlantGraph> connect(const PlantFile& plant,
                                   const std::vector<geometry::Curve>& curves,
-                                  Diagnostics& diagnostics) {
-  return Connector(plant, curves).run(diagnostics);
+                                  Diagnostics& diagnostics, double junction) {
+  return Connector(plant, curves, junction).run(diagnostics);
 }
 
 void simplify(PlantGraph& graph, double distance) {

@@ -49,10 +49,12 @@ struct PlantGraph {
 /// breadth first, every curve whose end lies nearer than `connect` to a node of another curve is
 /// joined to the nearest such node, as soon as that curve is in the tree itself. A curve that
 /// reaches nothing is an error that names it and how far it missed; then nothing comes back.
-/// `leaf_places` are where leaves start: they become nodes.
+/// `leaf_places` are where leaves start: they become nodes. With `junction` > 0 (m) the foot of
+/// every curve is a node of the curve that it is joined to, and the place so far below it a key
+/// node: the short segment between them turns as the junction does.
 std::optional<PlantGraph> connect(const PlantFile& plant,
                                   const std::vector<geometry::Curve>& curves,
-                                  Diagnostics& diagnostics);
+                                  Diagnostics& diagnostics, double junction = 0.0);
 
 /// Marks which nodes are kept. Key nodes are. Going depth first from the root, a node is kept once
 /// it is `distance` along the path from the last kept one above it; where a key node then lies

@@ -6,18 +6,20 @@
 #include "analytic/sphere_source.h"
 #include "cosserat/rod_system.h"
 #include "support/allocation_counter.h"
-#include "unit/cosserat/random_plants.h"
+#include "unit/cosserat/extension_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {
 
 // Three plants, each with a load and a sphere that overlaps its first segment for good; the last
 // element of each comes off before the counted steps where `breaks`.
-long allocations_of_a_warm_run(const RodSettings& settings, int threads, bool loops, bool breaks) {
+long allocations_of_a_warm_run(const RodSettings& settings, int threads, bool loops, bool breaks,
+                               bool extended = false) {
   RodSystem system(settings, threads);
   for (int p = 0; p < 3; ++p) {
     Random random(p);
     RodModel model = random_plant(random, 15, loops);
+    if (extended) extend(model, random);
     const Vec3 middle = 0.5 * (model.drawn_start(0) + model.elements[0].drawn_position);
     const Vec3 side = model.elements[0].drawn_rotation * Vec3::UnitX();
     system.add_plant(std::move(model));
@@ -57,10 +59,17 @@ TEST(Allocation, NoneInAWarmStep) {
   }
 }
 
+TEST(Allocation, NoneWithLawsAndWind) {
+  for (const bool loops : {false, true})
+    for (const int threads : {1, 2})
+      EXPECT_EQ(allocations_of_a_warm_run({}, threads, loops, false, true), 0);
+}
+
 // With loops the element takes its weld with it: the symbolic phase of the factorisation lasts.
 TEST(Allocation, NoneWhenAnElementComesOff) {
   for (const bool loops : {false, true})
-    EXPECT_EQ(allocations_of_a_warm_run({}, 1, loops, true), 0);
+    for (const bool extended : {false, true})
+      EXPECT_EQ(allocations_of_a_warm_run({}, 1, loops, true, extended), 0);
 }
 
 }  // namespace

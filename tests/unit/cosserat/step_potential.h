@@ -15,10 +15,13 @@ class StepPotential {
   explicit StepPotential(const RodModel& model)
       : rows_(std::array{&model}, 1, true), extras_(model.size()) {}
 
-  /// The step starts from `start`, which must outlive it.
-  void prepare(const RodState& start, const StepInput& input, const RodHistory* history) {
+  /// The step starts from `start`, which must outlive it. `extended`: the model again, where it has
+  /// extensions.
+  void prepare(const RodState& start, const StepInput& input, const RodHistory* history,
+               const RodModel* extended = nullptr) {
     rows_.set_gravity(input.gravity);
     rows_.set_scheme(0, input.dt, history == nullptr ? 0.0 : input.dt, start.root);
+    if (extended) rows_.set_extensions(0, *extended, start.time, input.dt, false);
     if (history) rows_.set_history(0, *history);
     rows_.prepare(0, std::array{&start});
     attachments_.prepare(start, input.loads);

@@ -1,0 +1,142 @@
+#include "app/observe.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "app/parallel_worlds.h"
+#include "core/check.h"
+#include "core/random.h"
+#include "discrepancy/simulator.h"
+#include "io/yaml.h"
+#include "plant/effects.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using discrepancy::Experiment;
+using discrepancy::Trial;
+
+Experiment read_experiment(const std::string& path) {
+  Diagnostics diagnostics;
+  auto experiment = discrepancy::read_experiment(path, diagnostics);
+  if (!experiment) throw InvalidFile(diagnostics);
+  return std::move(*experiment);
+}
+
+/// The plant to simulate, in the place of the one that `experiment` has.
+void take_plant(const std::filesystem::path& model, Experiment& experiment) {
+  Diagnostics diagnostics;
+  std::string format = "pedicel-experiment";
+  if (!std::filesystem::is_directory(model)) {
+    const io::YamlNode root = io::load_yaml(model, diagnostics);
+    format = root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
+  }
+  if (format == "pedicel-experiment") {
+    Experiment other = read_experiment(model.string());
+    experiment.plant = std::move(other.plant);
+    experiment.plant_path = other.plant_path;
+  } else if (format == "pedicel-plant") {
+    auto plant = plant::read_plant_file(model, diagnostics);
+    if (!plant) throw InvalidFile(diagnostics);
+    experiment.plant = std::move(*plant);
+    experiment.plant_path = model;
+  } else {
+    throw UsageError("observe " + model.string() + ": format is \"" + format +
+                     "\", expected pedicel-plant or pedicel-experiment (a scene's robot cannot be "
+                     "observed yet)");
+  }
+}
+
+plant::Effect parse_effect(const std::string& text) {
+  Diagnostics diagnostics;
+  const io::YamlNode node = io::parse_yaml(text, "--set", diagnostics);
+  const bool named = node.is_map() && node.raw()["name"] && node.raw()["name"].IsScalar();
+  const plant::EffectKind* kind = named ? plant::find_effect(node.raw()["name"].Scalar()) : nullptr;
+  plant::Effect effect = plant::read_effect(node, kind ? kind->home : plant::EffectHome::plant);
+  if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
+  return effect;
+}
+
+// What was not measured is not observed either.
+void keep_gaps(const discrepancy::Samples& measured, Eigen::MatrixXd& predicted) {
+  predicted = measured.value.array().isNaN().select(measured.value, predicted);
+}
+
+void simulate(const ObserveArguments& a, Experiment& experiment) {
+  discrepancy::Variant variant;
+  for (const std::string& text : a.set) variant.effects.push_back(parse_effect(text));
+  discrepancy::Simulator simulator(experiment, {a.distance, a.dt}, a.threads);
+  std::vector<discrepancy::Simulator::Request> requests;
+  for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
+    requests.push_back({&variant, t});
+  std::vector<discrepancy::Prediction> found = simulator.run(requests);
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    Trial& trial = experiment.trials[t];
+    if (!found[t].healthy)
+      throw UnstableWorld("trial \"" + trial.name + "\" cannot be simulated: lower --dt");
+    keep_gaps(trial.markers, found[t].markers);
+    trial.markers.value = std::move(found[t].markers);
+    add_noise(trial.markers, a.noise_position, a.noise_colour, a.seed + 2 * t);
+    trial.events.clear();
+    if (trial.force.size() == 0) continue;
+    keep_gaps(trial.force, found[t].force);
+    trial.force.value = std::move(found[t].force);
+    add_noise(trial.force, a.noise_force, a.noise_colour, a.seed + 2 * t + 1);
+  }
+}
+
+}  // namespace
+
+void add_observe_options(CLI::App& observe, ObserveArguments& a) {
+  observe.add_option("model", a.model, "plant file, or experiment whose plant is meant")
+      ->required();
+  observe.add_option("--like", a.like, "experiment whose drives, markers and times are repeated")
+      ->required();
+  observe.add_option("--out", a.out, "folder to write")->required();
+  observe.add_option("--seed", a.seed, "of the noise");
+  observe.add_option("--noise-position", a.noise_position, "standard deviation, m")
+      ->check(CLI::NonNegativeNumber);
+  observe.add_option("--noise-force", a.noise_force, "standard deviation, N")
+      ->check(CLI::NonNegativeNumber);
+  observe
+      .add_option("--noise-colour", a.noise_colour, "correlation with the sample before (AR(1))")
+      ->check(CLI::Range(0.0, 0.999));
+  observe.add_option("--distance", a.distance, "between nodes, m")->check(CLI::Range(1e-4, 1.0));
+  observe.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(1e-6, 0.1));
+  observe.add_option("--threads", a.threads)->check(CLI::Range(1, 1024));
+  observe
+      .add_option(
+          "--set", a.set,
+          "an effect as in a file, \"{name: ..., ...}\": simulated, but not written; may be "
+          "repeated")
+      ->allow_extra_args(false);
+}
+
+int observe_verb(const ObserveArguments& a) {
+  Experiment experiment = read_experiment(a.like);
+  take_plant(a.model, experiment);
+  experiment.noise = {};
+  if (a.noise_position > 0.0) experiment.noise.position_std = a.noise_position;
+  if (a.noise_force > 0.0) experiment.noise.force_std = a.noise_force;
+  simulate(a, experiment);
+  discrepancy::write_experiment(a.out, experiment);
+  std::fprintf(stderr, "written to %s\n", a.out.c_str());
+  return 0;
+}
+
+void add_noise(discrepancy::Samples& samples, double deviation, double colour, std::uint64_t seed) {
+  if (deviation == 0.0) return;
+  const double fresh = deviation * std::sqrt(1.0 - colour * colour);
+  for (int c = 0; c < samples.value.cols(); ++c) {
+    Random random(Random(seed * 1000 + static_cast<std::uint64_t>(c)).next());
+    double noise = deviation * random.normal();
+    for (int s = 0; s < samples.size(); ++s) {
+      samples.value(s, c) += noise;
+      noise = colour * noise + fresh * random.normal();
+    }
+  }
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "discrepancy/experiment.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pedicel::app {
+
+/// What the command line says of `pedicel observe`.
+struct ObserveArguments {
+  std::string model;            ///< a plant file, or an experiment whose plant is meant
+  std::string like;             ///< the experiment to repeat
+  std::string out;              ///< folder
+  std::uint64_t seed = 1;       ///< of the noise
+  double noise_position = 0.0;  ///< m, standard deviation
+  double noise_force = 0.0;     ///< N, standard deviation
+  double noise_colour = 0.0;    ///< 1, correlation of a sample's noise with the one before: AR(1)
+  double distance = 0.005;      ///< m between nodes
+  double dt = 1.0 / 1920;       ///< s
+  int threads = 1;
+  std::vector<std::string> set;  ///< effects as in a file, {name: ..., ...}: simulated, not written
+};
+
+void add_observe_options(CLI::App& observe, ObserveArguments& arguments);
+
+/// Simulates the trials of `like` with another plant and writes what its instruments would have
+/// reported as an experiment folder: the plant file given, with its effects, and the drives,
+/// markers, sample times and gaps of `like`. Returns the exit code. Throws InvalidFile, UsageError,
+/// UnstableWorld, io::WriteError.
+int observe_verb(const ObserveArguments& arguments);
+
+/// Adds noise of the given marginal standard deviation to each column, white or AR(1); gaps stay.
+void add_noise(discrepancy::Samples& samples, double deviation, double colour, std::uint64_t seed);
+
+}  // namespace pedicel::app

@@ -1,0 +1,189 @@
+#include "cosserat/joint_law.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat/rod_state.h"
+
+namespace pedicel::cosserat {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double least_stiffness = 0.01;  // 1, that drift leaves
+
+// Bending springs whose moment is g(u) K y, u = y.K y / min(K1, K2): they differ in g. `energy` is
+// psi(u) with 2 psi' = g.
+struct Radial {
+  double g = 1.0, energy = 0.0;
+};
+
+Radial hardened(double hardening, double u) {
+  const double peak = hardening < 0.0 ? -1.0 / (3.0 * hardening) : JointBranch::never;
+  if (u <= peak) return {1.0 + hardening * u, 0.5 * u + 0.25 * hardening * u * u};
+  const double g = 2.0 / 3.0 * std::sqrt(peak / u);
+  return {g, 5.0 / 12.0 * peak + 2.0 / 3.0 * std::sqrt(peak) * (std::sqrt(u) - std::sqrt(peak))};
+}
+
+// `reach` is the sqrt(u) at which it slips.
+Radial slipping(double reach, double u) {
+  const double root = std::sqrt(u);
+  if (root <= reach) return {1.0, 0.5 * u};
+  return {reach / root, reach * root - 0.5 * reach * reach};
+}
+
+double softer(const Vec3& stiffness) {
+  return std::max(std::min(stiffness.x(), stiffness.y()), 1.0e-300);
+}
+
+double measure(const Vec3& stiffness, const Vec3& y) {
+  return (stiffness.x() * y.x() * y.x() + stiffness.y() * y.y() * y.y()) / softer(stiffness);
+}
+
+const Vec3& memory_of(const RodState& state, int element, std::size_t branch) {
+  return state
+      .joint_memory[element * (state.joint_memory.size() / state.joint_bias.size()) + branch];
+}
+
+bool has_memory(const RodModel& model, const RodState& state) {
+  return !model.laws.empty() && state.joint_bias.size() == model.laws.size();
+}
+
+}  // namespace
+
+void sort_branches(JointLaw& law) {
+  std::stable_sort(law.branches.begin(), law.branches.end(),
+                   [](const JointBranch& a, const JointBranch& b) {
+                     return std::isfinite(a.limit) && !std::isfinite(b.limit);
+                   });
+}
+
+void add_relaxation(JointLaw& law, double fraction, double time, bool from_unloaded) {
+  law.deviation -= fraction;
+  if (!from_unloaded) law.anchored += fraction;
+  law.branches.push_back({fraction, time, JointBranch::never, from_unloaded, false});
+}
+
+void add_friction(JointLaw& law, double share, double limit) {
+  law.elastic -= share;
+  law.branches.push_back({share, JointBranch::never, limit, false, false});
+  sort_branches(law);
+}
+
+void add_yield(JointLaw& law, double limit) {
+  const double share = law.elastic + law.deviation;
+  law.branches.push_back({share, JointBranch::never, share * limit, true, true});
+  law.elastic = law.deviation = 0.0;
+  sort_branches(law);
+}
+
+// Weights of log-spaced branches by least squares on eta(f)/g = 1 over the band: with weights e_j
+// per long-term modulus, sum e_j (loss_j - g storage_j) = g is linear in them.
+void add_structural_damping(JointLaw& law, double g) {
+  if (g <= 0.0) return;
+  constexpr int count = 6, samples = 61;
+  constexpr double low = 0.07, high = 140.0, band_low = 0.1, band_high = 100.0;  // Hz
+  std::vector<double> times;
+  for (int j = 0; j < count; ++j)
+    times.push_back(1.0 / (2.0 * pi * low * std::pow(high / low, j / (count - 1.0))));
+  Eigen::MatrixXd rows(samples, count);
+  for (int i = 0; i < samples; ++i)
+    for (int j = 0; j < count; ++j) {
+      const double w = 2.0 * pi * band_low * std::pow(band_high / band_low, i / (samples - 1.0));
+      const double x = w * times[j];
+      rows(i, j) = (x - g * x * x) / (1.0 + x * x) / g;
+    }
+  const Eigen::VectorXd weights =
+      rows.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(samples)).cwiseMax(0.0);
+  double storage = 1.0;
+  for (int j = 0; j < count; ++j) {
+    const double x = 2.0 * pi * 2.0 * times[j];
+    storage += weights[j] * x * x / (1.0 + x * x);
+  }
+  law.deviation += 1.0 / storage - 1.0;
+  law.anchored += 1.0 - 1.0 / storage;
+  for (int j = 0; j < count; ++j)
+    law.branches.push_back({weights[j] / storage, times[j], JointBranch::never, false, false});
+}
+
+ComplexModulus modulus_at(const JointLaw& law, double frequency) {
+  double storage = law.elastic + law.deviation, loss = 0.0;
+  for (const JointBranch& branch : law.branches) {
+    if (!std::isfinite(branch.time)) continue;
+    const double x = 2.0 * pi * frequency * branch.time;
+    storage += branch.share * x * x / (1.0 + x * x);
+    loss += branch.share * x / (1.0 + x * x);
+  }
+  return {storage, loss / storage};
+}
+
+bool is_extended(const RodModel& model) {
+  return !model.laws.empty() || !model.air.empty() || model.stiffness_drift != 0.0;
+}
+
+int branch_count(const RodModel& model) {
+  std::size_t most = 0;
+  for (const JointLaw& law : model.laws) most = std::max(most, law.branches.size());
+  return static_cast<int>(most);
+}
+
+double stiffness_factor(const RodModel& model, double time) {
+  return std::max(least_stiffness, 1.0 + model.stiffness_drift * (model.clock + time));
+}
+
+void start_memory(const RodModel& model, RodState& state) {
+  if (model.laws.empty()) return;
+  const int count = branch_count(model);
+  const bool begun = has_memory(model, state);
+  if (!begun) state.joint_memory.assign(model.laws.size() * count, Vec3::Zero());
+  state.joint_bias.assign(model.laws.size(), Vec3::Zero());
+  for (int e = 0; e < model.size(); ++e) {
+    const JointLaw& law = model.laws[e];
+    const Vec3 phi = strain_of(model, state, e).bend;
+    Vec3 given = Vec3::Zero();  // what yielded takes no part in what relaxes
+    for (std::size_t j = 0; j < law.branches.size(); ++j) {
+      Vec3& z = state.joint_memory[static_cast<std::size_t>(e) * count + j];
+      const JointBranch& branch = law.branches[j];
+      if (branch.plastic)
+        given = z;
+      else
+        z = branch.from_unloaded ? Vec3(0, 0, 0) : phi;
+    }
+    state.joint_bias[e] = law.anchored * (phi - given);
+  }
+}
+
+JointResponse joint_response(const RodModel& model, const RodState& state, int e, const Vec3& phi) {
+  const Vec3 k = stiffness_factor(model, state.time) * model.elements[e].bend_stiffness;
+  if (model.laws.empty()) return {k.cwiseProduct(phi), 0.5 * phi.dot(k.cwiseProduct(phi))};
+  const JointLaw& law = model.laws[e];
+  const bool begun = has_memory(model, state);
+  const Vec3 zero = Vec3::Zero();
+  const Vec3& bias = begun ? state.joint_bias[e] : zero;
+  Vec3 share = (law.elastic + law.deviation) * Vec3::Ones();
+  const Radial main = hardened(law.hardening, measure(k, phi));
+  share.head<2>().array() += law.elastic * (main.g - 1.0);
+  double energy = softer(k) * law.elastic * (main.energy - 0.5 * measure(k, phi)) +
+                  0.5 * (law.elastic + law.deviation) * phi.dot(k.cwiseProduct(phi)) +
+                  bias.dot(k.cwiseProduct(phi));
+  Vec3 bend = share.cwiseProduct(phi) + bias;
+  for (std::size_t j = 0; j < law.branches.size(); ++j) {
+    const JointBranch& branch = law.branches[j];
+    const Vec3& z = begun ? memory_of(state, e, j) : zero;
+    Vec3 y = phi - z;
+    if (!std::isfinite(branch.limit)) {
+      bend += branch.share * y;
+      energy += 0.5 * branch.share * y.dot(k.cwiseProduct(y));
+      continue;
+    }
+    y.z() = 0.0;
+    const Radial slid =
+        slipping(branch.limit / (branch.share * softer(k) + 1.0e-300), measure(k, y));
+    bend += branch.share * slid.g * y + branch.share * phi.z() * Vec3::UnitZ();
+    energy += branch.share * (softer(k) * slid.energy + 0.5 * k.z() * phi.z() * phi.z());
+  }
+  return {k.cwiseProduct(bend), energy};
+}
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,135 @@
+// The hidden cases themselves: the list, the same bits from the same seed, sizes in units of the
+// smallest identifiable one, look-alikes that no data of theirs tell apart, and what is written.
+#include "discrepancy/hidden_case.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "io/atomic_file.h"
+#include "io/csv.h"
+#include "plant/effects.h"
+#include "support/temporary_folder.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+using Kind = CaseOrder::Kind;
+
+// The first case for which `wanted` holds.
+template <class Wanted>
+CaseOrder first_order(const Wanted& wanted) {
+  for (const CaseOrder& order : case_orders())
+    if (wanted(order)) return order;
+  ADD_FAILURE() << "no such case";
+  return {};
+}
+
+TEST(HiddenCases, ListHoldsEveryKindAndEveryEffect) {
+  std::map<Kind, int> kinds;
+  std::map<std::string, int> names;
+  for (const CaseOrder& order : case_orders()) {
+    ++kinds[order.kind];
+    if (order.kind == Kind::effect) ++names[order.hidden.front()];
+  }
+  EXPECT_GE(case_orders().size(), 300u);
+  EXPECT_GE(kinds[Kind::null], 100);
+  for (const Kind kind : {Kind::pair, Kind::look_alike, Kind::outside}) EXPECT_GE(kinds[kind], 24);
+  for (const plant::EffectKind& effect : plant::known_effects())
+    if (effect.name != "detachment_law") {
+      EXPECT_GE(names[effect.name], 6) << effect.name;
+    }
+}
+
+TEST(HiddenCases, SameSeedSameBits) {
+  const CaseOrder order = first_order([](const CaseOrder& o) {
+    return o.kind == Kind::null && o.pack == PackKind::push && o.plant == PlantKind::stem;
+  });
+  const HiddenCase a = make_case(7, order), b = make_case(7, order), c = make_case(8, order);
+  EXPECT_EQ(truth_text(a), truth_text(b));
+  EXPECT_NE(truth_text(a), truth_text(c));
+  for (std::size_t i = 0; i < a.records.size(); ++i) {
+    EXPECT_EQ(a.records[i].markers, b.records[i].markers);
+    EXPECT_EQ(a.records[i].force, b.records[i].force);
+  }
+}
+
+// At the smallest size what a refit leaves is 5 noise units, and more of a delay leaves more in
+// proportion, while it is short against the period.
+TEST(HiddenCases, SizesAreMultiplesOfTheSmallest) {
+  CaseOrder order;
+  order.kind = Kind::effect;
+  order.pack = PackKind::push;
+  order.hidden = {"latency"};
+  order.size = 4;
+  const HiddenCase c = make_case(2, order);
+  EXPECT_NEAR(c.visible[0], 20, 2);
+  EXPECT_DOUBLE_EQ(c.size[0], 4 * c.smallest[0]);
+  ASSERT_EQ(c.causes.size(), 1u);
+  EXPECT_EQ(c.causes[0].number("delay"), c.size[0]);
+  EXPECT_EQ(c.expected, Expected::named);
+}
+
+// AR(1) noise through its own whitening has variance 1 and no correlation.
+TEST(HiddenCases, WhiteningUndoesTheColour) {
+  Random random(4);
+  reference::Record record;
+  record.markers.resize(20000, 1);
+  const Noise noise{2e-4, 0.01, 0.9};
+  double n = noise.position_std * random.normal();
+  for (int i = 0; i < record.markers.rows(); ++i) {
+    record.markers(i, 0) = n;
+    n = noise.rho * n + noise.position_std * std::sqrt(1 - 0.81) * random.normal();
+  }
+  const Eigen::VectorXd w = whitened({record}, noise);
+  const auto size = static_cast<double>(w.size());
+  EXPECT_NEAR(w.squaredNorm() / size, 1.0, 4 * std::sqrt(2 / size));
+  EXPECT_NEAR(w.head(w.size() - 1).dot(w.tail(w.size() - 1)) / size, 0.0, 4 / std::sqrt(size));
+}
+
+// size_for() on norms in closed form: proportional, with a threshold, and never reached.
+TEST(HiddenCases, FindsTheSizeForALevel) {
+  EXPECT_NEAR(size_for([](double u) { return 1000 * u; }, 5, 0.3, 10), 0.005, 0.05 * 0.005);
+  const double beyond =
+      size_for([](double u) { return u < 1 ? 0 : 50 * (u - 1) * (u - 1); }, 5, 0.1, 10);
+  EXPECT_NEAR(50 * (beyond - 1) * (beyond - 1), 5, 0.3);
+  EXPECT_EQ(size_for([](double u) { return u; }, 5, 0.1, 2), 2);
+}
+
+TEST(HiddenCases, LookAlikesAreAlike) {
+  for (const char* truth : {"base_compliance", "youngs_modulus"}) {
+    const HiddenCase c = make_case(3, first_order([&](const CaseOrder& o) {
+                                     return o.kind == Kind::look_alike && o.hidden[0] == truth;
+                                   }));
+    EXPECT_LT(c.sine, 0.1) << truth;
+    EXPECT_EQ(c.expected, Expected::ambiguous);
+    EXPECT_GT(c.visible[0], 10) << truth;
+    EXPECT_GE(c.look_alikes.size(), 2u);
+  }
+}
+
+TEST(HiddenCases, FolderGivesNothingAway) {
+  const TemporaryFolder folder;
+  HiddenCase c = make_case(5, first_order([](const CaseOrder& o) {
+                             return o.kind == Kind::outside && o.pack == PackKind::push;
+                           }));
+  write_case(folder / "", c);
+  Diagnostics diagnostics;
+  const auto plant = plant::read_plant_file(c.folder / "plant.yaml", diagnostics);
+  ASSERT_TRUE(plant) << diagnostics.text();
+  EXPECT_EQ(*plant, c.setting.plant);
+  EXPECT_TRUE(plant->effects.empty());
+  const io::CsvTable table =
+      io::read_csv(c.folder / c.trials[0].name / "markers.csv", {}, diagnostics);
+  EXPECT_EQ(static_cast<int>(table.rows.size()), c.records[0].markers.rows());
+  EXPECT_EQ(static_cast<int>(table.columns.size()), 1 + c.records[0].markers.cols());
+  const std::string text = io::read_file(c.folder / "experiment.yaml");
+  EXPECT_EQ(text.find(c.order.hidden[0] + ":"), std::string::npos);
+  EXPECT_EQ(text.find("effects"), std::string::npos);
+  EXPECT_EQ(io::read_file((folder / c.name).string() + ".truth.json"), truth_text(c));
+  EXPECT_EQ(c.expected, Expected::unknown);
+  EXPECT_EQ(c.strangers.size(), 1u);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy

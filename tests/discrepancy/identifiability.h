@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <functional>
+#include <vector>
+
+#include "discrepancy/reference_trial.h"
+
+namespace pedicel::discrepancy {
+
+/// Noise of one experiment: each channel on its own AR(1), x_i = rho x_i-1 + e_i.
+struct Noise {
+  double position_std = 3e-4;  ///< m
+  double force_std = 0.01;     ///< N
+  double rho = 0.0;            ///< of the markers, from sample to sample; force noise is white
+};
+
+/// All channels of all trials in units of the noise's own innovations: changes of such vectors have
+/// covariance 1, and their length is what can be told apart.
+Eigen::VectorXd whitened(const std::vector<reference::Record>& records, const Noise& noise);
+
+/// What a change of the plant does to the data beyond what a refit could do as well.
+class Sight {
+ public:
+  /// `predict` runs all trials and gives the whitened data.
+  using Predict = std::function<Eigen::VectorXd(const reference::Subject&)>;
+
+  /// A refit may put a factor on each of the parameters `absorbing`.
+  Sight(const reference::Subject& subject, Predict predict, std::vector<std::string> absorbing);
+
+  /// The whitened change with `with` in place of the subject that is left when the factors are
+  /// refitted to take as much of it away as they can: orthogonal to the changes by `absorbing`.
+  /// Large changes need the refit itself, by chord steps: a frequency that is a little off fills a
+  /// long record with the second order of its phase, which is no part of a linear projection.
+  struct Change {
+    Eigen::VectorXd rest;   ///< noise units
+    Eigen::VectorXd refit;  ///< logarithms of the factors that took the most away
+  };
+  /// `start` (logarithms of factors, or empty) is where the refit starts from: near its end, or a
+  /// long oscillation is met out of phase.
+  Change change(const reference::Subject& with, const Eigen::VectorXd& start = {}) const;
+
+ private:
+  Predict predict_;
+  std::vector<std::string> absorbing_;
+  Eigen::VectorXd plain_;
+  Eigen::MatrixXd columns_;  // per unit of the factors' logarithms
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+};
+
+/// A factor on a legitimate parameter as an effect.
+plant::Effect factor(const std::string& parameter, double value);
+
+/// Sine of the angle between two changes.
+double sine(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
+/// The size at which norm(size) is `level`, from a first guess, within 5 % of the level; at most
+/// `cap`. Norms grow with size, near proportionally where nothing has a threshold.
+double size_for(const std::function<double(double)>& norm, double level, double guess, double cap);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,102 @@
+#include "app/observe.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "app/validate.h"
+#include "core/check.h"
+#include "support/temporary_folder.h"
+#include "unit/discrepancy/beam_experiment.h"
+
+namespace pedicel::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Observe : public ::testing::Test {
+ protected:
+  Observe() {
+    discrepancy::Experiment like = discrepancy::testing::experiment_of({}, 0.2);
+    like.trials[0].holds = {{discrepancy::testing::on_stem(1.0),
+                             discrepancy::testing::resting_at(Vec3(0.01, 0, 0.4)), 0.1, 50.0}};
+    like.trials[0].markers.value.row(3).head<3>().setConstant(NAN);
+    discrepancy::write_experiment(folder_ / "like", like);
+    arguments_.model = arguments_.like = (folder_ / "like").string();
+    arguments_.distance = 0.02;
+    arguments_.dt = 1.0 / 480;
+  }
+
+  discrepancy::Experiment observe(const std::string& out) {
+    arguments_.out = (folder_ / out).string();
+    EXPECT_EQ(observe_verb(arguments_), 0);
+    Diagnostics diagnostics;
+    const auto read = discrepancy::read_experiment(folder_ / out, diagnostics);
+    EXPECT_TRUE(read) << diagnostics.text();
+    return read.value_or(discrepancy::Experiment{});
+  }
+
+  TemporaryFolder folder_;
+  ObserveArguments arguments_;
+};
+
+TEST_F(Observe, WritesWhatTheInstrumentsWouldReport) {
+  const auto found = observe("out");
+  const discrepancy::Trial& trial = found.trials.at(0);
+  EXPECT_EQ(trial.holds.at(0).release, 0.1);
+  // Two springs in series; a gap stays one.
+  const discrepancy::testing::Beam beam;
+  const double series = 1.0 / (1.0 / 50.0 + 1.0 / beam.tip_stiffness());
+  EXPECT_NEAR(trial.force.value(0, 0) / (series * 0.01), 1.0, 1e-2);
+  EXPECT_TRUE(trial.markers.value.row(3).head<3>().array().isNaN().all());
+  EXPECT_FALSE(found.noise.position_std);
+  std::ostringstream said;
+  EXPECT_EQ(validate_files({arguments_.out, arguments_.out + "/experiment.yaml"}, {}, said), 0);
+  EXPECT_THAT(said.str(), HasSubstr("experiment, good; 1 trials, 2 markers, 21 samples"));
+}
+
+TEST_F(Observe, SetEffectsAreSimulatedAndNotWritten) {
+  const auto plain = observe("plain");
+  arguments_.set = {"{name: base_compliance, stiffness: 0.05}"};
+  const auto soft = observe("soft");
+  EXPECT_TRUE(soft.plant.effects.empty());
+  EXPECT_LT(soft.trials[0].force.value(0, 0), 0.9 * plain.trials[0].force.value(0, 0));
+}
+
+TEST_F(Observe, RefusesWhatItCannotTake) {
+  arguments_.out = (folder_ / "out").string();
+  for (const char* set : {"{name: magic}", "base_compliance", "{name: base_compliance}"}) {
+    arguments_.set = {set};
+    EXPECT_THROW(observe_verb(arguments_), UsageError) << set;
+  }
+  arguments_.set.clear();
+  plant::PlantFile other = discrepancy::testing::plant_of({});
+  other.curves[0].name = "twig";
+  plant::write_plant_file(folder_ / "twig.plant.yaml", other);
+  arguments_.model = (folder_ / "twig.plant.yaml").string();
+  EXPECT_THROW(observe_verb(arguments_), UsageError);  // the experiment's stem is not there
+  arguments_.model = (folder_ / "none").string();
+  EXPECT_THROW(observe_verb(arguments_), InvalidFile);
+}
+
+// Of 20,000 samples: the standard deviation within 3 sigma of it (0.5 % white, 1.5 % coloured), the
+// correlation of neighbours within 0.02; another seed is another noise.
+TEST(Noise, HasItsDeviationAndColour) {
+  for (const double colour : {0.0, 0.8}) {
+    discrepancy::Samples samples = discrepancy::testing::empty_samples(19999.0, 1.0, 2);
+    add_noise(samples, 0.3, colour, 7);
+    const Eigen::VectorXd e = samples.value.col(0);
+    const double variance = e.squaredNorm() / e.size();
+    EXPECT_NEAR(std::sqrt(variance) / 0.3, 1.0, colour > 0 ? 0.033 : 0.015);
+    const double neighbours = e.head(e.size() - 1).dot(e.tail(e.size() - 1)) / e.size();
+    EXPECT_NEAR(neighbours / variance, colour, 0.025);
+    EXPECT_NEAR(e.dot(samples.value.col(1)) / e.size() / variance, 0.0, colour > 0 ? 0.05 : 0.025);
+    discrepancy::Samples other = discrepancy::testing::empty_samples(19999.0, 1.0, 2);
+    add_noise(other, 0.3, colour, 8);
+    EXPECT_NE(other.value(0, 0), samples.value(0, 0));
+  }
+}
+
+}  // namespace
+}  // namespace pedicel::app

@@ -1,0 +1,107 @@
+// From a motion that is known to what the instruments report.
+#include "discrepancy/observation.h"
+
+#include <gtest/gtest.h>
+
+#include "cosserat/rotation.h"
+#include "unit/discrepancy/beam_experiment.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+using testing::effect;
+using testing::on_stem;
+
+const std::vector<Marker> one_marker = {{"m", on_stem(1.0)}};
+
+// A cubic in time, whose element turns about z at 1 rad/s; unequal steps.
+Vec3 position(double t) {
+  return {1.0 + t, 2.0 * t * t, t * t * t - t};
+}
+Vec3 velocity(double t) {
+  return {1.0, 4.0 * t, 3.0 * t * t - 1.0};
+}
+
+Motion cubic_motion() {
+  Motion motion;
+  motion.time = {0.0, 0.4, 0.7, 1.0};
+  motion.position.resize(4, 3);
+  motion.velocity.resize(4, 3);
+  motion.turn.resize(4, 4);
+  for (int k = 0; k < 4; ++k) {
+    motion.position.row(k) = position(motion.time[k]).transpose();
+    motion.velocity.row(k) = velocity(motion.time[k]).transpose();
+    motion.turn.row(k) = cosserat::exp_map(Vec3(0, 0, motion.time[k])).coeffs().transpose();
+  }
+  // A force that rises with time and jumps to zero at 0.7.
+  motion.force_time = {0.0, 0.4, 0.7, 0.7, 1.0};
+  motion.force.resize(5, 3);
+  for (int k = 0; k < 5; ++k)
+    motion.force.row(k) =
+        k < 3 ? Vec3(motion.force_time[k], 1, 0).transpose() : Vec3(0, 0, 0).transpose();
+  return motion;
+}
+
+Observed seen(const std::vector<plant::Effect>& effects, const std::vector<double>& at) {
+  return observe(cubic_motion(), one_marker, effects, at, at);
+}
+
+Vec3 marker(const Observed& observed, int sample = 0) {
+  return observed.markers.row(sample).transpose();
+}
+
+TEST(Observation, InterpolatesCubicsExactly) {
+  const std::vector<double> at = {0.0, 0.1, 0.4, 0.55, 0.9, 1.0};
+  const Observed observed = seen({}, at);
+  for (int s = 0; s < 6; ++s) {
+    EXPECT_LT((marker(observed, s) - position(at[s])).norm(), 1e-14) << s;
+    EXPECT_LT((observed.marker_velocity.row(s).transpose() - velocity(at[s])).norm(), 1e-13) << s;
+  }
+}
+
+TEST(Observation, NothingIsKnownBeyondTheEnd) {
+  const Observed observed = seen({}, {1.01});
+  EXPECT_TRUE(observed.markers.array().isNaN().all());
+  EXPECT_TRUE(observed.force.array().isNaN().all());
+}
+
+TEST(Observation, LatencyLooksBackAndRestsBeforeTimeZero) {
+  const Observed observed = seen({effect("latency", "delay", {0.07})}, {0.05, 0.62});
+  EXPECT_LT((marker(observed, 0) - position(0.0)).norm(), 1e-14);
+  EXPECT_LT((marker(observed, 1) - position(0.55)).norm(), 1e-14);
+  // The force and the plant's own velocity are not late.
+  EXPECT_NEAR(observed.force(1, 0), 0.62, 1e-14);
+  EXPECT_LT((observed.marker_velocity.row(1).transpose() - velocity(0.62)).norm(), 1e-13);
+}
+
+TEST(Observation, AnOffsetTurnsWithItsElementAndIsLateToo) {
+  plant::Effect offset = effect("marker_offset", "offset", {0.1, 0.0, 0.0});
+  offset.words["marker"] = "m";
+  const Vec3 turned(0.1 * std::cos(0.55), 0.1 * std::sin(0.55), 0.0);
+  EXPECT_LT((marker(seen({offset}, {0.55})) - position(0.55) - turned).norm(), 1e-14);
+  const Observed late = seen({offset, effect("latency", "delay", {0.2})}, {0.75});
+  EXPECT_LT((marker(late) - position(0.55) - turned).norm(), 1e-14);
+  offset.words["marker"] = "another";
+  EXPECT_LT((marker(seen({offset}, {0.55})) - position(0.55)).norm(), 1e-14);
+}
+
+TEST(Observation, FrameAndScaleActAboutTheWorldsOrigin) {
+  const Observed turned = seen({effect("frame_rotation", "rotation", {0, 0, M_PI / 2})}, {0.4});
+  const Vec3 p = position(0.4);
+  EXPECT_LT((marker(turned) - Vec3(-p.y(), p.x(), p.z())).norm(), 1e-14);
+  EXPECT_LT((marker(seen({effect("marker_scale", "factor", {1.5})}, {0.4})) - 1.5 * p).norm(),
+            1e-14);
+}
+
+TEST(Observation, ForceJumpsAtItsTimeAndPassesThroughTheGain) {
+  plant::Effect gain = effect("force_gain", "gain", {2.0});
+  gain.numbers["offset"] = {0.0, 0.0, 3.0};
+  const Observed observed = seen({gain}, {0.2, 0.7 - 1.0e-12, 0.7, 0.8});
+  EXPECT_LT((observed.force.row(0) - Eigen::RowVector3d(0.4, 2, 3)).norm(), 1e-14);
+  EXPECT_LT((observed.force.row(1) - Eigen::RowVector3d(1.4, 2, 3)).norm(), 1e-9);
+  EXPECT_LT((observed.force.row(2) - Eigen::RowVector3d(0, 0, 3)).norm(), 1e-14);
+  EXPECT_LT((observed.force.row(3) - Eigen::RowVector3d(0, 0, 3)).norm(), 1e-14);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
