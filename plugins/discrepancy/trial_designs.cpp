@@ -99,7 +99,8 @@ class Designs {
   // Up and down again, so that what does not come back shows.
   void weights(const std::string& curve, double at) {
     const plant::CurvePlace place{curve, at, {}};
-    const double f = scales_.load / std::pow(at, 3);
+    // The same moment at the root, wherever it acts.
+    const double f = scales_.load / at;
     TrialDesign& design = add("Load " + place_words(place) + " sideways with " + short_number(f) +
                                   " N in two steps, and unload it in two steps, 4 s each",
                               20.0, 6.0, false);
