@@ -76,6 +76,7 @@ void add_offsets(const SymptomContext& context, std::vector<Symptom>& out) {
     const std::string& name = context.experiment.markers[m].name;
     Symptom symptom = make_symptom("constant_offset", name, 1e3 * size.value, 1e3 * size.error);
     symptom.unit = "mm";
+    symptom.least = 0.5e3 * context.data.position_noise().std;
     symptom.speaks_for = {"marker_offset", "wind", "frame_rotation", "grip_slip"};
     symptom.sentence = name + " stands on average over all trials " +
                        with_error(symptom.value, symptom.standard_error, "mm") +
