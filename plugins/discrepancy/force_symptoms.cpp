@@ -126,8 +126,8 @@ void add_scale(const SymptomContext& context, int t, const Push& push, std::vect
   symptom.least = 0.2;
   symptom.speaks_for = {"force_gain", "youngs_modulus", "base_compliance", "grip_compliance"};
   symptom.sentence = "The push in " + trial + " needs " +
-                     with_error(symptom.value, symptom.standard_error, "%") +
-                     " more force than the model.";
+                     with_error(std::abs(symptom.value), symptom.standard_error, "%") +
+                     (symptom.value < 0.0 ? " less" : " more") + " force than the model.";
   symptom.plot = loop_plot(push, trial);
   out.push_back(std::move(symptom));
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "discrepancy/symptom_parts.h"
+#include "io/csv.h"
 
 namespace pedicel::discrepancy {
 
@@ -136,11 +137,13 @@ std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const
     const bool stiff = hide.parameter == "stiffness" || hide.name == "yield";
     const bool factor = hide.parameter == "factor" || hide.parameter == "gain" ||
                         (hide.parameter == "ratio" && hide.name == "anisotropy");
-    lists.first.push_back(hide.name + ": " + hide.parameter +
-                          (stiff    ? " above "
-                           : factor ? " between 1 and "
-                                    : " below ") +
-                          short_number(hide.smallest_seen) + unit_text(hide.unit));
+    lists.first.push_back(
+        hide.name + ": " + hide.parameter +
+        (stiff    ? " above "
+         : factor ? " between 1 and "
+                  : " below ") +
+        (factor ? io::format_number(hide.smallest_seen, 5) : short_number(hide.smallest_seen)) +
+        unit_text(hide.unit));
   }
   return lists;
 }

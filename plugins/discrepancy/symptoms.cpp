@@ -51,7 +51,8 @@ Symptom make_symptom(std::string name, std::string subject, double value, double
 
 std::string short_number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  const bool long_whole = std::abs(value) >= 999.5 && std::abs(value) < 1e6;
+  std::snprintf(text, sizeof text, long_whole ? "%.0f" : "%.3g", value);
   return text;
 }
 
