@@ -14,6 +14,7 @@
 
 #include "app/headless.h"
 #include "discrepancy/diagnosis.h"
+#include "discrepancy/report.h"
 #include "io/atomic_file.h"
 #include "plant/plant_file.h"
 
@@ -64,6 +65,7 @@ void write_results(const std::filesystem::path& folder, const discrepancy::Exper
                             discrepancy::extended_plant(experiment, diagnosis.best.hypothesis));
   }
   io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
+  discrepancy::write_report(folder, experiment, diagnosis);
 }
 
 int run(const DiagnoseArguments& a) {

@@ -19,7 +19,12 @@ main { max-width: 960px; margin: 0 auto; padding: 36px 40px 60px; background: #f
   min-height: 100vh; }
 h1 { font-size: 30px; line-height: 1.2; margin: 0 0 4px; letter-spacing: -0.01em; }
 h2 { font-size: 20px; margin: 38px 0 10px; padding-top: 14px; border-top: 1px solid #e3e6ea; }
+h3 { font-size: 15.5px; margin: 20px 0 4px; color: #3d444d; }
 p { margin: 10px 0; max-width: 44em; }
+ul { margin: 8px 0; padding-left: 20px; max-width: 44em; }
+li { margin: 3px 0; }
+.card { border: 1px solid #c9ced4; border-radius: 10px; padding: 6px 24px 16px; margin: 18px 0;
+  box-shadow: 0 1px 4px rgba(0, 0, 0, 0.06); }
 .subtitle { color: #57606a; margin-top: 0; }
 .note { padding: 12px 16px; border-left: 4px solid #2e8b57; background: #eef7f1;
   border-radius: 0 6px 6px 0; max-width: none; }
@@ -40,7 +45,7 @@ figure img, figure video { display: block; width: 100%; border-radius: 8px;
 figure svg { display: block; max-width: 100%; height: auto; }
 figcaption { color: #57606a; font-size: 14px; margin-top: 6px; }
 .row { display: grid; gap: 16px; grid-template-columns: repeat(auto-fit, minmax(260px, 1fr)); }
-.row figure { margin: 0; }
+.row figure { margin: 0; min-width: 0; }
 a { color: #1b6ca8; }
 @media (max-width: 700px) { main { padding: 24px 16px; } }
 @media print { body { background: #fff; } figure { break-inside: avoid; } }
@@ -84,6 +89,16 @@ HtmlReport::HtmlReport(std::string title, std::string subtitle)
 
 void HtmlReport::heading(const std::string& text) {
   body_ += "<h2>" + escape_markup(text) + "</h2>\n";
+}
+
+void HtmlReport::subheading(const std::string& text) {
+  body_ += "<h3>" + escape_markup(text) + "</h3>\n";
+}
+
+void HtmlReport::list(const std::vector<std::string>& texts) {
+  body_ += "<ul>\n";
+  for (const std::string& text : texts) body_ += "<li>" + escape_markup(text) + "</li>\n";
+  body_ += "</ul>\n";
 }
 
 void HtmlReport::paragraph(const std::string& text) {
@@ -141,6 +156,24 @@ void HtmlReport::video(const std::string& relative, const std::string& caption) 
 
 void HtmlReport::plot(const std::string& svg) {
   body_ += figure(svg, "");
+}
+
+void HtmlReport::plots(const std::vector<std::string>& svgs) {
+  body_ += "<div class=\"row\">\n";
+  for (const std::string& svg : svgs) body_ += figure(svg, "");
+  body_ += "</div>\n";
+}
+
+void HtmlReport::begin_card() {
+  PEDICEL_ASSERT(!in_card_);
+  in_card_ = true;
+  body_ += "<section class=\"card\">\n";
+}
+
+void HtmlReport::end_card() {
+  PEDICEL_ASSERT(in_card_);
+  in_card_ = false;
+  body_ += "</section>\n";
 }
 
 std::string HtmlReport::text() const {

@@ -23,7 +23,11 @@ class HtmlReport {
   explicit HtmlReport(std::string title, std::string subtitle = "");
 
   void heading(const std::string& text);
+  /// Of a part of what a heading() begins.
+  void subheading(const std::string& text);
   void paragraph(const std::string& text);
+  /// One bullet a text.
+  void list(const std::vector<std::string>& texts);
   /// A paragraph that stands out: the result, or what went wrong.
   void note(const std::string& text, bool good);
   void key_values(const std::vector<std::pair<std::string, std::string>>& pairs);
@@ -37,6 +41,11 @@ class HtmlReport {
   void video(const std::string& relative, const std::string& caption);
   /// What to_svg() made.
   void plot(const std::string& svg);
+  /// Several of them side by side where the page is wide enough.
+  void plots(const std::vector<std::string>& svgs);
+  /// What is added in between stands in a frame of its own: the page in short. Not nested.
+  void begin_card();
+  void end_card();
 
   /// The whole page.
   std::string text() const;
@@ -45,6 +54,7 @@ class HtmlReport {
 
  private:
   std::string title_, subtitle_, body_;
+  bool in_card_ = false;
 };
 
 }  // namespace pedicel::io

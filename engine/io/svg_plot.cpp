@@ -45,6 +45,12 @@ PlotScale scale_of(const LinePlot& plot, bool of_x, double from, double to) {
   for (const PlotSeries& s : plot.series)
     for (std::size_t i = 0; i < s.x.size(); ++i)
       if (plotted(s.x[i], plot.x) && plotted(s.y[i], plot.y)) range.include((of_x ? s.x : s.y)[i]);
+  for (const PlotBand& b : plot.bands)
+    for (std::size_t i = 0; i < b.x.size(); ++i) {
+      if (!plotted(b.x[i], plot.x)) continue;
+      for (const double y : {b.low[i], b.high[i]})
+        if (plotted(y, plot.y)) range.include(of_x ? b.x[i] : y);
+    }
   if (of_x)
     for (const PlotEvent& e : plot.events)
       if (plotted(e.x, plot.x)) range.include(e.x);
@@ -63,28 +69,41 @@ double widest_tick(const PlotScale& scale) {
   return widest;
 }
 
+/// A legend entry: the swatch at x, y and its text beside it.
+void legend_entry(SvgCanvas& canvas, const PlotSeries& s, std::size_t index, double x, double y) {
+  const std::string stroke = "stroke=\"" + colour_of(s.colour, index) + "\" stroke-width=\"2\"" +
+                             (s.dashed ? " stroke-dasharray=\"6 4\"" : "");
+  if (s.line) canvas.line(x, y - 4, x + 24, y - 4, stroke);
+  if (s.markers)
+    canvas.element("<circle cx=\"" + SvgCanvas::number(x + 12) + "\" cy=\"" +
+                   SvgCanvas::number(y - 4) + "\" r=\"3\" fill=\"" + colour_of(s.colour, index) +
+                   "\"/>\n");
+  canvas.text(x + 30, y, s.label, style_label);
+}
+
+void legend_entry(SvgCanvas& canvas, const PlotBand& band, std::size_t, double x, double y) {
+  canvas.element("<rect x=\"" + SvgCanvas::number(x) + "\" y=\"" + SvgCanvas::number(y - 10) +
+                 "\" width=\"24\" height=\"12\" fill=\"" + escape_markup(band.colour) +
+                 "\" fill-opacity=\"0.55\"/>\n");
+  canvas.text(x + 30, y, band.label, style_label);
+}
+
 /// Legend entries in rows above the plot; returns the height they take. Draws only with a canvas.
 double legend(const LinePlot& plot, double left, double right, double top, SvgCanvas* canvas) {
   double x = left, y = top + 13;
   bool any = false;
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const PlotSeries& s = plot.series[i];
-    if (s.label.empty()) continue;
-    const double width = 30.0 + SvgCanvas::text_width(s.label, 12) + 16.0;
-    if (any && x + width > right) x = left, y += 18;
-    any = true;
-    if (canvas) {
-      const std::string stroke = "stroke=\"" + colour_of(s.colour, i) + "\" stroke-width=\"2\"" +
-                                 (s.dashed ? " stroke-dasharray=\"6 4\"" : "");
-      if (s.line) canvas->line(x, y - 4, x + 24, y - 4, stroke);
-      if (s.markers)
-        canvas->element("<circle cx=\"" + SvgCanvas::number(x + 12) + "\" cy=\"" +
-                        SvgCanvas::number(y - 4) + "\" r=\"3\" fill=\"" + colour_of(s.colour, i) +
-                        "\"/>\n");
-      canvas->text(x + 30, y, s.label, style_label);
+  const auto place = [&](const auto& entries) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].label.empty()) continue;
+      const double width = 30.0 + SvgCanvas::text_width(entries[i].label, 12) + 16.0;
+      if (any && x + width > right) x = left, y += 18;
+      any = true;
+      if (canvas) legend_entry(*canvas, entries[i], i, x, y);
+      x += width;
     }
-    x += width;
-  }
+  };
+  place(plot.series);
+  place(plot.bands);
   return any ? y - top + 10 : 6.0;
 }
 
@@ -146,6 +165,32 @@ void draw_series(SvgCanvas& canvas, const LinePlot& plot, std::size_t index, con
   }
 }
 
+/// One polygon a run of finite points: along the low edge and back along the high one.
+void draw_band(SvgCanvas& canvas, const LinePlot& plot, const PlotBand& band, const PlotScale& x,
+               const PlotScale& y) {
+  const auto whole = [&](std::size_t i) {
+    return plotted(band.x[i], plot.x) && plotted(band.low[i], plot.y) &&
+           plotted(band.high[i], plot.y);
+  };
+  for (std::size_t begin = 0; begin < band.x.size();) {
+    std::size_t end = begin;
+    while (end < band.x.size() && whole(end)) ++end;
+    // About one corner a pixel is all that shows.
+    const auto pixels = static_cast<std::size_t>(plot.width);
+    const std::size_t step = std::max<std::size_t>(1, (end - begin) / pixels);
+    std::string there, back;
+    for (std::size_t i = begin; i < end; i = i + 1 < end ? std::min(i + step, end - 1) : end) {
+      const std::string px = SvgCanvas::number(x(band.x[i])) + ",";
+      there += px + SvgCanvas::number(y(band.low[i])) + " ";
+      back = px + SvgCanvas::number(y(band.high[i])) + " " + back;
+    }
+    if (end > begin + 1)
+      canvas.element("<polygon fill=\"" + escape_markup(band.colour) +
+                     "\" fill-opacity=\"0.55\" points=\"" + there + back + "\"/>\n");
+    begin = end + 1;
+  }
+}
+
 void draw_events(SvgCanvas& canvas, const LinePlot& plot, const PlotFrame& frame,
                  const PlotScale& x) {
   for (const PlotEvent& event : plot.events) {
@@ -167,6 +212,9 @@ std::string to_svg(const LinePlot& plot) {
     if (s.x.size() != s.y.size())
       throw UsageError("series \"" + s.label + "\" has " + std::to_string(s.x.size()) + " x and " +
                        std::to_string(s.y.size()) + " y: must be equally many");
+  for (const PlotBand& b : plot.bands)
+    if (b.x.size() != b.low.size() || b.x.size() != b.high.size())
+      throw UsageError("band \"" + b.label + "\": x, low and high must be equally many");
   SvgCanvas canvas(plot.width, plot.height, plot.title);
   const double title = plot.title.empty() ? 8.0 : 30.0;
   PlotFrame frame{60, plot.width - 18.0, title, plot.height - 46.0};
@@ -186,6 +234,7 @@ std::string to_svg(const LinePlot& plot) {
                  side(frame.bottom - frame.top + 8) + "\" viewBox=\"" + side(frame.left) + " " +
                  side(frame.top - 4) + " " + side(frame.right - frame.left + 4) + " " +
                  side(frame.bottom - frame.top + 8) + "\">\n");
+  for (const PlotBand& band : plot.bands) draw_band(canvas, plot, band, x, y);
   for (std::size_t i = 0; i < plot.series.size(); ++i) draw_series(canvas, plot, i, x, y);
   canvas.element("</svg>\n");
   draw_events(canvas, plot, frame, x);

@@ -29,6 +29,13 @@ struct PlotEvent {
   std::string label;
 };
 
+/// A shaded area between two curves, drawn beneath the series.
+struct PlotBand {
+  std::string label;                 ///< in the legend; none where empty
+  std::vector<double> x, low, high;  ///< of equal length; a point with a NaN breaks the area
+  std::string colour = "#c9ced4";
+};
+
 /// A line plot.
 struct LinePlot {
   std::string title;
@@ -36,6 +43,7 @@ struct LinePlot {
   std::vector<PlotSeries> series;
   std::vector<PlotEvent> events = {};
   int width = 640, height = 360;  ///< px
+  std::vector<PlotBand> bands = {};
 };
 
 struct Bar {
@@ -56,7 +64,7 @@ struct BarChart {
 /// One <svg> element, light theme, no fonts or files from elsewhere. The legend stands above the
 /// plot area, where no curve can run through it. Long series are thinned to what the pixels can
 /// show: first, lowest, highest and last of every pixel column. Throws UsageError where x and y of
-/// a series differ in length or the size is below 200 x 120.
+/// a series (or a band's columns) differ in length or the size is below 200 x 120.
 std::string to_svg(const LinePlot& plot);
 std::string to_svg(const BarChart& chart);
 

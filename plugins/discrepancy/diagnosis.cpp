@@ -348,6 +348,26 @@ class Procedure {
     }
     report_parameters();
     what_could_hide();
+    choose_next();
+  }
+
+  void choose_next() {
+    Verdict& verdict = result_.verdict;
+    if (verdict.outcome == Outcome::ambiguous) {
+      say("choosing the next experiment", 0.97);
+      std::vector<Hypothesis> rivals;
+      for (const Candidate& candidate : result_.ranking)
+        for (const NamedCause& cause : verdict.causes)
+          if (cause.name == candidate.cause && rivals.size() < 4) {
+            rivals.push_back(candidate.fit.hypothesis);
+            rivals.back().name = candidate.cause;
+          }
+      result_.next = next_experiment(experiment(), *data_, rivals,
+                                     {result_.numerics, options_.threads}, verdict.simulations);
+    } else if (verdict.outcome == Outcome::unknown) {
+      result_.next = next_look(experiment(), *data_, result_.predictions[refitted]);
+    }
+    verdict.next_experiment = result_.next.sentence;
   }
 
   void predict() {

@@ -8,6 +8,7 @@
 
 #include "discrepancy/admission.h"
 #include "discrepancy/candidates.h"
+#include "discrepancy/next_experiment.h"
 #include "discrepancy/numerics.h"
 #include "discrepancy/statistics.h"
 #include "discrepancy/verdict.h"
@@ -42,6 +43,7 @@ struct Diagnosis {
   std::vector<Direction> directions;
   /// [model][trial]; of `extended` as refitted where no cause was found.
   std::array<std::vector<Prediction>, model_count> predictions;
+  NextExperiment next;             ///< empty where there is none
   std::vector<std::string> steps;  ///< what was done, one sentence each
 };
 

@@ -53,6 +53,25 @@ TEST(HtmlReport, ShowsItsPartsInOrder) {
   }
 }
 
+TEST(HtmlReport, CardFramesWhatIsAddedInBetween) {
+  HtmlReport report("Run");
+  report.begin_card();
+  report.subheading("Where");
+  report.list({"first", "second"});
+  report.plots({"<svg>1</svg>", "<svg>2</svg>"});
+  report.end_card();
+  report.paragraph("behind");
+  const std::string page = report.text();
+  std::size_t last = 0;
+  for (const char* part :
+       {"<section class=\"card\">", "<h3>Where</h3>", "<li>first</li>", "<li>second</li>",
+        "<div class=\"row\">", "<svg>1</svg>", "<svg>2</svg>", "</section>", "<p>behind</p>"}) {
+    const std::size_t at = page.find(part, last);
+    ASSERT_NE(at, std::string::npos) << part;
+    last = at;
+  }
+}
+
 TEST(HtmlReport, NumbersStandRight) {
   HtmlReport report("Run");
   report.table({"cause", "time (s)"}, {{"stretch", "1.20"}, {"none", "nan"}});
@@ -66,6 +85,8 @@ TEST(HtmlReport, EscapesEveryText) {
   HtmlReport report(evil, evil);
   report.heading(evil);
   report.paragraph(evil);
+  report.subheading(evil);
+  report.list({evil});
   report.note(evil, true);
   report.note(evil, false);
   report.key_values({{evil, evil}});

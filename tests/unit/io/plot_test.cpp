@@ -166,6 +166,38 @@ TEST(LinePlot, EmptyPlotStillHasAxes) {
               HasSubstr(">nothing<"));
 }
 
+// The area's corners are those of its edges, beneath the curve, and the axes hold all of it.
+TEST(LinePlot, BandLiesBeneathTheSeries) {
+  LinePlot plot = simple({0, 1, 2}, {0, 1, 2});
+  plot.bands = {{"noise", {0, 1, 2}, {-1, 0, 1}, {1, 2, 5}}};
+  const std::string svg = to_svg(plot);
+  EXPECT_EQ(count(svg, "<polygon"), 1);
+  EXPECT_LT(svg.find("<polygon"), svg.find("<polyline"));
+  EXPECT_THAT(svg, HasSubstr(">noise<"));
+  const std::regex corners("<polygon[^>]*points=\"([^\"]*)\"");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(svg, match, corners));
+  EXPECT_EQ(count(match[1], ","), 6);
+  // From low -1 to high 5 at the ends: six units against the curve's two.
+  const std::string text = match[1];
+  std::vector<double> y;
+  const std::regex pair("[-0-9.]+,([-0-9.]+)");
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), pair); it != std::sregex_iterator();
+       ++it)
+    y.push_back(std::stod((*it)[1]));
+  const auto curve = polyline_y(svg.substr(svg.find("<polyline")));
+  EXPECT_NEAR(y[0] - y[3], 3.0 * (curve[0] - curve[2]), 0.5);
+}
+
+TEST(LinePlot, GapsBreakTheBand) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  LinePlot plot = simple({0, 1}, {0, 1});
+  plot.bands = {{"", {0, 1, 2, 3, 4}, {0, 0, nan, 0, 0}, {1, 1, 1, 1, 1}}};
+  EXPECT_EQ(count(to_svg(plot), "<polygon"), 2);
+  plot.bands[0].low.pop_back();
+  EXPECT_THAT([&] { to_svg(plot); }, ThrowsMessage<UsageError>(HasSubstr("equally many")));
+}
+
 TEST(LinePlot, RefusesMisuse) {
   EXPECT_THAT(
       [] {

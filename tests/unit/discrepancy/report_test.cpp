@@ -1,0 +1,205 @@
+#include "discrepancy/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "core/check.h"
+#include "discrepancy/plant_sketch.h"
+#include "io/atomic_file.h"
+#include "made_diagnosis.h"
+#include "support/temporary_folder.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr Outcome outcomes[] = {Outcome::adequate, Outcome::named, Outcome::ambiguous,
+                                Outcome::unknown, Outcome::bad_data};
+
+std::string page_of(Outcome outcome) {
+  const Diagnosis d = made_diagnosis(outcome);
+  return report_text(d.admission.experiment, d);
+}
+
+/// Every part stands in the page, in this order.
+void expect_in_order(const std::string& page, const std::vector<std::string>& parts) {
+  std::size_t last = 0;
+  for (const std::string& part : parts) {
+    const std::size_t at = page.find(part, last);
+    ASSERT_NE(at, std::string::npos) << part;
+    last = at;
+  }
+}
+
+TEST(Report, CardComesFirstAndSaysAllThatMatters) {
+  expect_in_order(page_of(Outcome::named), {"<section class=\"card\">",
+                                            "class=\"note\"",
+                                            "base_compliance",
+                                            "What is seen",
+                                            "turned about its root by 1.0",
+                                            "What it is, where, and how large",
+                                            "the root",
+                                            "0.81 N m/rad (95 %: 0.77 to 0.86)",
+                                            "What it gains",
+                                            "kept back (push)",
+                                            "1.03 times with the extended one",
+                                            "What else it could have been",
+                                            "weak_segment",
+                                            "runs to the end of its range (factor)",
+                                            "explains none of it",
+                                            "What could still hide",
+                                            "mass below 0.004 kg",
+                                            "stiffness above 900 N/m",
+                                            "cannot see at any size: gust",
+                                            "What to do next",
+                                            "extended.plant.yaml",
+                                            "</section>"});
+}
+
+TEST(Report, AllElseFollows) {
+  expect_in_order(
+      page_of(Outcome::named),
+      {"</section>", "<h2>Measured against simulated</h2>", "release: m", "weights: m",
+       "<h2>The residual over markers and time</h2>", "<h2>Symptoms before and after</h2>",
+       "shows, is gone", "<h2>All candidates, refitted in full</h2>", "<h2>What it gains</h2>",
+       "<h2>The data</h2>", "m3 &lt;at the top&gt;", "<h2>Noise and numerics</h2>", "0.3 mm",
+       "<h2>Parameters</h2>", "youngs_modulus", "density", "cannot see it",
+       "<h2>What was done</h2>", "Largest directed statistic 52"});
+}
+
+TEST(Report, EachOutcomeHasItsOwnCard) {
+  const std::string ambiguous = page_of(Outcome::ambiguous);
+  EXPECT_THAT(ambiguous, HasSubstr("What it could be"));
+  EXPECT_THAT(ambiguous, HasSubstr("above 0.05, no upper end"));
+  EXPECT_THAT(ambiguous, HasSubstr("Pull stem at 0.8 along x by 40 mm and let go."));
+  EXPECT_THAT(ambiguous, HasSubstr("What each explanation predicts for it: m3.x"));
+  EXPECT_THAT(page_of(Outcome::unknown), HasSubstr(">largest residual<"));
+  EXPECT_THAT(page_of(Outcome::unknown), HasSubstr("31 % of what the refitted model left"));
+  const std::string adequate = page_of(Outcome::adequate);
+  EXPECT_THAT(adequate, HasSubstr("Nothing is missing at this noise"));
+  EXPECT_THAT(adequate, Not(HasSubstr("extended model")));
+  const std::string bad = page_of(Outcome::bad_data);
+  EXPECT_THAT(bad, HasSubstr("trial &quot;weights&quot; has no data"));
+  EXPECT_THAT(bad, Not(HasSubstr("<svg")));
+}
+
+/// The open element that a closing one does not match, or what is left open; empty where all nest.
+std::string wrong_nesting(const std::string& page) {
+  std::vector<std::string> open;
+  const std::regex tag("<(/?)([a-zA-Z0-9]+)((?:\"[^\"]*\"|[^<>\"])*?)(/?)>");
+  const std::size_t body = page.find("<body>");
+  for (auto it =
+           std::sregex_iterator(page.begin() + static_cast<std::ptrdiff_t>(body), page.end(), tag);
+       it != std::sregex_iterator(); ++it) {
+    const std::string name = (*it)[2];
+    if ((*it)[4] == "/" || name == "br" || name == "img") continue;
+    if ((*it)[1] != "/") {
+      open.push_back(name);
+    } else if (open.empty() || open.back() != name) {
+      return "</" + name + ">";
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() || open == std::vector<std::string>{"html"} || open.back().empty()
+             ? ""
+             : open.back();
+}
+
+TEST(Report, ElementsNest) {
+  EXPECT_EQ(wrong_nesting("<body><p>a</b></p></body>"), "</b>") << "the check itself";
+  for (const Outcome outcome : outcomes) {
+    std::string page = page_of(outcome);
+    page.erase(page.rfind("</html>"));
+    EXPECT_EQ(wrong_nesting(page), "") << to_string(outcome);
+  }
+}
+
+TEST(Report, NothingComesFromElsewhereAndNothingIsNaN) {
+  for (const Outcome outcome : outcomes) {
+    std::string page = page_of(outcome);
+    page = std::regex_replace(page, std::regex("xmlns=\"http://www.w3.org/2000/svg\""), "");
+    for (const char* word : {"http", "<script", "<link", "@import", "url(", "src="})
+      EXPECT_THAT(page, Not(HasSubstr(word))) << word << " " << to_string(outcome);
+    for (const char* word : {"nan", "inf<", "-inf"})
+      EXPECT_THAT(std::regex_replace(page, std::regex("resonance|finance"), ""),
+                  Not(HasSubstr(word)))
+          << word << " " << to_string(outcome);
+  }
+}
+
+TEST(Report, IsWrittenIntoItsFolder) {
+  TemporaryFolder folder;
+  const Diagnosis d = made_diagnosis();
+  write_report(folder / "out", d.admission.experiment, d);
+  EXPECT_EQ(io::read_file(folder / "out/report.html"), report_text(d.admission.experiment, d));
+}
+
+/// Boxes of the texts of a drawing, by the canvas's own estimate of their widths.
+struct Box {
+  double left, top, right, bottom;
+};
+std::vector<Box> texts_of(const std::string& svg) {
+  std::vector<Box> boxes;
+  const std::regex text("<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\"[^>]*>([^<]*)</text>");
+  for (auto it = std::sregex_iterator(svg.begin(), svg.end(), text); it != std::sregex_iterator();
+       ++it) {
+    const double x = std::stod((*it)[1]), y = std::stod((*it)[2]);
+    boxes.push_back({x, y - 10, x + 0.58 * 12 * static_cast<double>((*it)[3].length()), y + 2});
+  }
+  return boxes;
+}
+
+TEST(PlantSketch, TextsStayInsideAndApart) {
+  MadeData made;
+  // Many markers close to each other: names that find no room are left out.
+  for (int i = 0; i < 20; ++i)
+    made.experiment.markers.push_back({"marker" + std::to_string(i), {"stem", 0.4 + 0.01 * i, {}}});
+  NamedCause cause;
+  cause.name = "weak_segment";
+  cause.where = plant::CurvePlace{"stem", 0.5, {}};
+  cause.parameters["length"] = {{0.06, 0.05, 0.07, "m"}};
+  const std::string svg =
+      plant_sketch(made.experiment, {mark_of(made.experiment, cause, "#d1495b")});
+  EXPECT_THAT(svg, HasSubstr(">weak_segment<"));
+  EXPECT_THAT(svg, HasSubstr(">m4<"));
+  const std::vector<Box> boxes = texts_of(svg);
+  EXPECT_GT(boxes.size(), 8u);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_GE(boxes[i].left, 0.0);
+    EXPECT_LE(boxes[i].right, 400.0);
+    EXPECT_GE(boxes[i].top, 0.0);
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(boxes[i].left < boxes[j].right && boxes[j].left < boxes[i].right &&
+                   boxes[i].top < boxes[j].bottom && boxes[j].top < boxes[i].bottom)
+          << i << " " << j;
+  }
+}
+
+TEST(PlantSketch, MarksStandWhereTheCauseIs) {
+  const MadeData made;
+  const auto of = [&](const std::string& name) {
+    NamedCause cause;
+    cause.name = name;
+    return cause;
+  };
+  EXPECT_EQ(mark_of(made.experiment, of("base_compliance"), "#000").places.at(0).at, 0.0);
+  EXPECT_EQ(mark_of(made.experiment, of("grip_slip"), "#000").places.at(0).curve, "stem");
+  EXPECT_TRUE(mark_of(made.experiment, of("leaf_drag"), "#000").whole_plant);
+  EXPECT_TRUE(mark_of(made.experiment, of("latency"), "#000").markers);
+  NamedCause offset = of("marker_offset");
+  offset.words["marker"] = "m6";
+  EXPECT_EQ(mark_of(made.experiment, offset, "#000").places.at(0).curve, "branch");
+  NamedCause wind = of("wind");
+  wind.parameters["velocity"] = {{0, 0, 0, "m/s"}, {-2, 0, 0, "m/s"}, {0, 0, 0, "m/s"}};
+  const SketchMark mark = mark_of(made.experiment, wind, "#000");
+  ASSERT_TRUE(mark.direction);
+  EXPECT_NEAR(std::abs(mark.direction->y()), 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
