@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "plant/effects.h"
 #include "plant/plant_builder.h"
@@ -224,7 +225,7 @@ class Candidates {
       const Vec3 along(std::cos(angle), std::sin(angle), 0.0);
       for (const double speed : {0.3, 1.5})
         wind.push_back(Start("wind")
-                           .vector("velocity", speed * along, 0.3, 30.0)
+                           .vector("velocity", speed * along, 0.3, 30.0, 2)
                            .positive("drag_area", 0.02, 1e-4, 1.0)
                            .prior(1.5, 0.02));
     }
@@ -422,6 +423,25 @@ Hypothesis mesh_freedom() {
   Hypothesis mesh = Start(mesh_error).fixed("share", {0.3}).free_share(0.0, 2.0).prior(0.5, 0.3);
   mesh.name.clear();
   return mesh;
+}
+
+Hypothesis junction_freedom(const Experiment& experiment) {
+  Diagnostics diagnostics;
+  const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
+  if (!built) throw InvalidFile(diagnostics);
+  Hypothesis all;
+  std::vector<char> seen(experiment.plant.curves.size(), 0);
+  for (const plant::BuiltPlant::Span& span : built->spans) {
+    const cosserat::Element& element = built->model.elements[span.element];
+    if (std::exchange(seen[span.curve], 1) || element.parent < 0) continue;
+    const double softest = element.bend_stiffness.head<2>().mean() / 0.75;
+    all.add(Start("attachment_compliance")
+                .place(experiment.plant.curves[span.curve].name, 0.0)
+                .positive("stiffness", 4.0 * softest, softest, 1e3 * softest)
+                .prior(2.0, 8.0 * softest));
+  }
+  all.name.clear();
+  return all;
 }
 
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales) {

@@ -32,6 +32,11 @@ Hypothesis baseline();
 /// The share of the mesh's error, free (hypothesis.h).
 Hypothesis mesh_freedom();
 
+/// A little give at every branch's junction, free up to three quarters of what the plant file's own
+/// mesh puts into that joint: what two meshes, or two ways to lead a branch into its stem, differ
+/// by. An effect below that is below what the file resolves. Empty where there are no branches.
+Hypothesis junction_freedom(const Experiment& experiment);
+
 /// Every known effect that the experiment could show.
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales);
 

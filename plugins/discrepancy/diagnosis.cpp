@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "discrepancy/symptoms.h"
 #include "discrepancy/trial_split.h"
 #include "plant/effects.h"
 
@@ -245,8 +246,27 @@ class Procedure {
     Evaluator evaluator = wide();
     result_.directions = directions_of(evaluator, result_.base, causes_, fit_options_);
     result_.before = judge(result_.directions, result_.base, numerical_, options_.seed);
+    if (result_.before.raised && quiet_with_junctions(result_.base)) result_.before.raised = false;
     result_.best = result_.base;
     note_directions(result_.directions, result_.before);
+  }
+
+  // Whether nothing is left once the junctions may give a little; then they do.
+  bool quiet_with_junctions(FitSummary& model) {
+    const Hypothesis junctions = junction_freedom(experiment());
+    if (junctions.size() == 0) return false;
+    Hypothesis with = model.hypothesis;
+    with.add(junctions);
+    Evaluator evaluator = wide();
+    FitSummary found = fit(evaluator, with, fit_options_);
+    std::vector<Direction> directions = directions_of(evaluator, found, causes_, fit_options_);
+    const Alarm alarm = judge(directions, found, numerical_, options_.seed);
+    note_fit("With junctions that give a little", found);
+    note_directions(directions, alarm);
+    if (alarm.raised) return false;
+    note("What is left is below what the plant file's mesh resolves at the junctions.");
+    model = std::move(found);
+    return true;
   }
 
   void note_directions(std::vector<Direction> directions, const Alarm& alarm) {
@@ -290,6 +310,10 @@ class Procedure {
       result_.after = judge(directions, result_.best, numerical_, options_.seed);
       note_directions(directions, result_.after);
       if (!result_.after.raised) return;
+      if (quiet_with_junctions(result_.best)) {
+        result_.after.raised = false;
+        return;
+      }
       const double from = 0.5 + 0.15 * static_cast<double>(chain_.size());
       const std::vector<Cause> likely = promising(directions);
       const std::vector<Candidate> next =
@@ -339,6 +363,7 @@ class Procedure {
     Verdict& verdict = result_.verdict;
     predict();
     measure_errors();
+    symptoms_ = symptoms(experiment(), *data_, result_.predictions[refitted]);
     if (!result_.before.raised) {
       conclude_parameters();
     } else if (chain_.empty()) {
@@ -466,6 +491,21 @@ class Procedure {
     return cause;
   }
 
+  // What is seen without the cause and gone with it.
+  std::string because(const std::string& cause) const {
+    const auto is_about = [&](const Symptom& symptom) {
+      return symptom.shows() &&
+             std::ranges::find(symptom.speaks_for, cause) != symptom.speaks_for.end();
+    };
+    const auto found = std::ranges::find_if(symptoms_, is_about);
+    std::string sentence = found == symptoms_.end() ? "" : found->sentence + " ";
+    return sentence + "With " + plain_name(cause) +
+           text(" the residual falls from %.3g to %.3g times the noise",
+                result_.verdict.fit.refitted.value_or(0.0),
+                result_.verdict.fit.extended.value_or(0.0)) +
+           " in the fitted trials.";
+  }
+
   void conclude_causes() {
     Verdict& verdict = result_.verdict;
     const int base_effects = static_cast<int>(result_.base.hypothesis.effects.size());
@@ -561,7 +601,8 @@ class Procedure {
   std::vector<std::unique_ptr<Simulator>> simulators_;
   std::unique_ptr<Simulator> wide_;
   std::vector<Evaluator> workers_;
-  std::vector<Candidate> chain_;  // causes found so far, in their order
+  std::vector<Symptom> symptoms_;  // of the refitted model
+  std::vector<Candidate> chain_;   // causes found so far, in their order
 };
 
 }  // namespace
