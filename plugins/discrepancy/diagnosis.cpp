@@ -19,6 +19,7 @@ constexpr double margin_share = 0.01;    // and of the gain: our model errors sc
 constexpr double allowed_error = 0.15;   // of the noise, RMS, before it is corrected for
 constexpr double numerical_limit = 0.5;
 constexpr double left_uncorrected = 0.3;  // of our numerical error, and of the data's own
+constexpr double least_gain = 0.2;        // on trials kept back
 constexpr int most_causes = 3;
 constexpr int least_outliers = 12;  // wild samples that are worth a name
 constexpr double interval95 = 1.96;
@@ -542,7 +543,8 @@ class Procedure {
       const Candidate& rival = result_.ranking[i];
       const double behind = best.evidence - rival.evidence;
       if (!rival.whole || rival.evidence < 0.0) break;
-      if (behind > margin || chain_.size() > 1 || contains(rival, best)) {
+      const bool beaten = behind > margin && !wins_without_a_trial(rival, best);
+      if (beaten || chain_.size() > 1 || contains(rival, best)) {
         verdict.rivals.push_back({rival.cause, behind});
         continue;
       }
@@ -550,6 +552,11 @@ class Procedure {
       verdict.outcome = Outcome::ambiguous;
     }
     judge_remainder();
+    // A cause that does nothing for trials that it was not fitted to is none.
+    if (verdict.outcome == Outcome::named && verdict.gain && *verdict.gain < least_gain) {
+      verdict.outcome = Outcome::unknown;
+      verdict.remainder = "what was fitted does not carry over to the trials kept back";
+    }
   }
 
   // A rival that has the best one as a special case, and needs more parameters to do no better, is
@@ -559,6 +566,21 @@ class Procedure {
         {"leaf_drag", "wind"}, {"leaf_drag", "gust"}, {"wind", "gust"}};
     return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
            rival.evidence < best.evidence;
+  }
+
+  // Whether leaving out one of the trials would turn the order round.
+  bool wins_without_a_trial(const Candidate& rival, const Candidate& best) const {
+    if (result_.fit_trials.size() < 3) return false;
+    const double all = rival.fit.cost - best.fit.cost;
+    Eigen::Index row = 0;
+    for (const int t : result_.fit_trials) {
+      const Eigen::Index size = data_->size(std::span(&t, 1));
+      const double here = 0.5 * (rival.fit.residual.segment(row, size).squaredNorm() -
+                                 best.fit.residual.segment(row, size).squaredNorm());
+      if (all - here < -clear_margin) return true;
+      row += size;
+    }
+    return false;
   }
 
   void judge_remainder() {
