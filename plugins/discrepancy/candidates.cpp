@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/thread_pool.h"
 
@@ -10,6 +11,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double first_horizon = 0.35;
+constexpr int first_iterations = 6, whole_iterations = 5;
+constexpr std::size_t leaders = 4;
 constexpr std::size_t most_whole = 8;  // of each of the two lists
 
 Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nominal) {
@@ -44,11 +47,11 @@ std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base
 }
 
 FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
-                          FitOptions options) {
+                          FitOptions options, std::size_t count) {
   FitSummary best;
-  const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, 2);
+  const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
   options.horizon = first_horizon;
-  options.iterations = std::min(8, options.iterations);
+  options.iterations = std::min(first_iterations, options.iterations);
   for (const Hypothesis& start : starts) {
     FitSummary found = fit(evaluator, start, options);
     if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
@@ -116,9 +119,11 @@ std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSumma
   early.horizon = first_horizon;
   const double early_cost =
       0.5 * workers.front().residuals(std::span(&base.hypothesis, 1), early).squaredNorm();
+  std::vector<std::size_t> starts(causes.size(), 1);
+  for (const int i : first_by(promise, most_whole)) starts[i] = 2;
   share_out(workers, count, options, 0.0, 0.6, [&](Evaluator& evaluator, int i) {
     candidates[i].cause = causes[i].name;
-    candidates[i].fit = fit_first_part(evaluator, base, causes[i], options.fit);
+    candidates[i].fit = fit_first_part(evaluator, base, causes[i], options.fit, starts[i]);
     candidates[i].gain = early_cost - candidates[i].fit.cost;
   });
   std::vector<double> early_gain;
@@ -128,11 +133,20 @@ std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSumma
   std::vector<int> whole;
   for (int i = 0; i < count; ++i)
     if (candidates[i].whole) whole.push_back(i);
-  share_out(workers, static_cast<int>(whole.size()), options, 0.6, 1.0,
-            [&](Evaluator& evaluator, int w) {
-              Candidate& candidate = candidates[whole[w]];
-              candidate.fit = fit(evaluator, candidate.fit.hypothesis, options.fit);
-            });
+  // A few iterations tell who is behind; only the leaders are worth the rest.
+  const auto go_on = [&](const std::vector<int>& chosen, int iterations, double from, double to) {
+    FitOptions full = options.fit;
+    full.iterations = iterations;
+    share_out(workers, static_cast<int>(chosen.size()), options, from, to,
+              [&](Evaluator& evaluator, int c) {
+                Candidate& candidate = candidates[chosen[c]];
+                candidate.fit = fit(evaluator, candidate.fit.hypothesis, full);
+              });
+  };
+  go_on(whole, whole_iterations, 0.6, 0.85);
+  std::vector<double> closeness(causes.size(), -std::numeric_limits<double>::infinity());
+  for (const int i : whole) closeness[i] = -candidates[i].fit.cost;
+  go_on(first_by(closeness, std::min(leaders, whole.size())), options.fit.iterations, 0.85, 1.0);
   weigh(candidates, base, workers.front().data().samples(options.fit.trials));
   return candidates;
 }

@@ -30,9 +30,9 @@ struct RefitOptions {
 };
 
 /// Refits every cause on top of `base`: a look from all its starts over the first third of the
-/// records and a fit of the best two there; then those that did best, and those whose directed
-/// statistic (`promise`, one a cause) is largest, over the whole records. Sorted by evidence, those
-/// of the first part last.
+/// records and a fit of the best one or two there; then those that did best, and those whose
+/// directed statistic (`promise`, one a cause) is largest, over the whole records. Sorted by
+/// evidence, those of the first part last.
 std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,
                                  const std::vector<double>& promise, const RefitOptions& options);

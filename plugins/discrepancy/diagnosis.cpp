@@ -254,9 +254,15 @@ class Procedure {
     Evaluator evaluator = wide();
     result_.directions = directions_of(evaluator, result_.base, causes_, fit_options_);
     result_.before = judge(result_.directions, result_.base, numerical_, options_.seed);
-    if (result_.before.raised && quiet_with_junctions(result_.base)) result_.before.raised = false;
+    if (could_be_junctions(result_.before) && quiet_with_junctions(result_.base))
+      result_.before.raised = false;
     result_.best = result_.base;
     note_directions(result_.directions, result_.before);
+  }
+
+  // What loud alarms are about no mesh hides.
+  static bool could_be_junctions(const Alarm& alarm) {
+    return alarm.raised && alarm.statistic < 30.0;
   }
 
   // Whether nothing is left once the junctions may give a little; then they do.
@@ -318,7 +324,7 @@ class Procedure {
       result_.after = judge(directions, result_.best, numerical_, options_.seed);
       note_directions(directions, result_.after);
       if (!result_.after.raised) return;
-      if (quiet_with_junctions(result_.best)) {
+      if (could_be_junctions(result_.after) && quiet_with_junctions(result_.best)) {
         result_.after.raised = false;
         return;
       }
