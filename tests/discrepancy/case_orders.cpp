@@ -3,7 +3,7 @@
 
 #include "discrepancy/hidden_case.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 namespace {
 
@@ -151,4 +151,4 @@ const char* name_of(Expected expected) {
   return names[static_cast<int>(expected)];
 }
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -11,7 +11,7 @@
 #include "plant/effects.h"
 #include "support/temporary_folder.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 namespace {
 
 using Kind = CaseOrder::Kind;
@@ -132,4 +132,4 @@ TEST(HiddenCases, FolderGivesNothingAway) {
 }
 
 }  // namespace
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden
