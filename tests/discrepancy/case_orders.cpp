@@ -48,8 +48,11 @@ std::vector<CaseOrder> effects() {
       const int k = v + static_cast<int>(e);
       CaseOrder order =
           order_of(Kind::effect, k, plant_for(use, k), use.packs[v % use.packs.size()]);
+      // Over the effects every size meets every plant and both colours of noise.
       order.hidden = {use.name};
-      order.size = sizes[(v + e) % 8];
+      order.size = sizes[(v + e + e / 4) % 8];
+      order.coloured = (v / 4 + e) % 2;
+      order.hidden_start = (v + e / 4) % 4 == 1;
       if (use.name == "youngs_modulus" || use.name == "density" || use.name == "damping_time")
         order.off = false;
       list.push_back(order);
@@ -70,8 +73,8 @@ std::vector<CaseOrder> pairs() {
     CaseOrder order = order_of(Kind::pair, k, branched ? plants[1 + k / 8 % 2] : plants[k / 8 % 4],
                                PackKind::mix);
     order.hidden = names;
-    order.size = k % 2 ? 8 : 4;
-    order.coloured = k / 8 % 2;
+    order.size = (k + k / 8) % 2 ? 8 : 4;
+    order.coloured = k / 16 % 2;
     list.push_back(order);
   }
   return list;

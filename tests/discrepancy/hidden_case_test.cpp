@@ -41,6 +41,24 @@ TEST(HiddenCases, ListHoldsEveryKindAndEveryEffect) {
     }
 }
 
+// Were a size bound to one plant or one noise, the table could not tell which of them is hard.
+TEST(HiddenCases, SizesMeetEveryPlantAndBothNoises) {
+  std::map<std::pair<double, PlantKind>, int> plants;
+  std::map<std::pair<double, bool>, int> noises;
+  std::map<std::pair<PlantKind, bool>, int> both;
+  for (const CaseOrder& order : case_orders()) {
+    if (order.kind != Kind::effect) continue;
+    ++plants[{order.size, order.plant}];
+    ++noises[{order.size, order.coloured}];
+    ++both[{order.plant, order.coloured}];
+  }
+  EXPECT_EQ(plants.size(), 6u * 4u);  // sizes 2, 3, 4, 6, 8, 16
+  EXPECT_EQ(noises.size(), 6u * 2u);
+  EXPECT_EQ(both.size(), 4u * 2u);
+  for (const auto& [pair, count] : noises) EXPECT_GE(count, 10) << pair.first;
+  for (const auto& [pair, count] : both) EXPECT_GE(count, 20) << name_of(pair.first);
+}
+
 TEST(HiddenCases, SameSeedSameBits) {
   const CaseOrder order = first_order([](const CaseOrder& o) {
     return o.kind == Kind::null && o.pack == PackKind::push && o.plant == PlantKind::stem;
