@@ -19,7 +19,9 @@ constexpr double margin_share = 0.01;    // and of the gain: our model errors sc
 constexpr double allowed_error = 0.15;   // of the noise, RMS, before it is corrected for
 constexpr double numerical_limit = 0.5;
 constexpr double left_uncorrected = 0.3;  // of our numerical error, and of the data's own
+constexpr double least_gain = 0.2;        // on trials kept back
 constexpr int most_causes = 3;
+constexpr int least_outliers = 12;  // wild samples that are worth a name
 constexpr double interval95 = 1.96;
 
 std::string text(const char* format, double a, double b = 0.0) {
@@ -99,8 +101,9 @@ class Procedure {
     const StatedNoise& stated = experiment().noise;
     const auto choose = [](const std::vector<Series>& series, double std) {
       Noise noise = estimate_noise(series, std);
-      // Motion that no window is free of can only raise the estimate: what is stated bounds it.
-      if (std > 0.0 && noise.std > 1.2 * std) {
+      // Motion that no window is free of can only raise the estimate, and a marker that stands
+      // still scatters less than one that moves: what is stated bounds it on both sides.
+      if (std > 0.0 && (noise.std > 1.2 * std || noise.std < std)) {
         const double share = std / noise.std;
         noise.std = std;
         for (double& innovation : noise.innovation) innovation *= share;
@@ -361,6 +364,8 @@ class Procedure {
   void conclude() {
     say("writing the verdict", 0.95);
     Verdict& verdict = result_.verdict;
+    // What is left of the best model is the best sample of the noise.
+    if (!chain_.empty()) renew_noise(result_.best);
     predict();
     measure_errors();
     symptoms_ = symptoms(experiment(), *data_, result_.predictions[refitted]);
@@ -371,6 +376,7 @@ class Procedure {
     } else {
       conclude_causes();
     }
+    conclude_outliers();
     report_parameters();
     what_could_hide();
     choose_next();
@@ -491,6 +497,25 @@ class Procedure {
     return cause;
   }
 
+  // Wild samples were left out before the fit; they are named beside what else was found.
+  void conclude_outliers() {
+    const Admission& admission = result_.admission;
+    if (admission.outliers < least_outliers) return;
+    Verdict& verdict = result_.verdict;
+    NamedCause cause;
+    cause.name = "outliers";
+    const double count = admission.outliers, fraction = admission.outlier_fraction();
+    const double error = interval95 * std::sqrt(count) / admission.samples;
+    cause.parameters["fraction"] = {
+        {fraction, std::max(0.0, fraction - error), fraction + error, "1"}};
+    cause.because = std::to_string(admission.outliers) +
+                    " samples stand far from their neighbours, each by itself; they were left out.";
+    // Each lies 10 deviations out: as Gaussian noise it would cost 50 nats.
+    cause.evidence = 50.0 * count;
+    verdict.causes.push_back(cause);
+    if (verdict.outcome == Outcome::adequate) verdict.outcome = Outcome::named;
+  }
+
   // What is seen without the cause and gone with it.
   std::string because(const std::string& cause) const {
     const auto is_about = [&](const Symptom& symptom) {
@@ -518,7 +543,8 @@ class Procedure {
       const Candidate& rival = result_.ranking[i];
       const double behind = best.evidence - rival.evidence;
       if (!rival.whole || rival.evidence < 0.0) break;
-      if (behind > margin || chain_.size() > 1) {
+      const bool beaten = behind > margin && !wins_without_a_trial(rival, best);
+      if (beaten || chain_.size() > 1 || contains(rival, best)) {
         verdict.rivals.push_back({rival.cause, behind});
         continue;
       }
@@ -526,6 +552,35 @@ class Procedure {
       verdict.outcome = Outcome::ambiguous;
     }
     judge_remainder();
+    // A cause that does nothing for trials that it was not fitted to is none.
+    if (verdict.outcome == Outcome::named && verdict.gain && *verdict.gain < least_gain) {
+      verdict.outcome = Outcome::unknown;
+      verdict.remainder = "what was fitted does not carry over to the trials kept back";
+    }
+  }
+
+  // A rival that has the best one as a special case, and needs more parameters to do no better, is
+  // no other explanation: a wind of no speed is drag.
+  static bool contains(const Candidate& rival, const Candidate& best) {
+    static const std::vector<std::pair<std::string, std::string>> special{
+        {"leaf_drag", "wind"}, {"leaf_drag", "gust"}, {"wind", "gust"}};
+    return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
+           rival.evidence < best.evidence;
+  }
+
+  // Whether leaving out one of the trials would turn the order round.
+  bool wins_without_a_trial(const Candidate& rival, const Candidate& best) const {
+    if (result_.fit_trials.size() < 3) return false;
+    const double all = rival.fit.cost - best.fit.cost;
+    Eigen::Index row = 0;
+    for (const int t : result_.fit_trials) {
+      const Eigen::Index size = data_->size(std::span(&t, 1));
+      const double here = 0.5 * (rival.fit.residual.segment(row, size).squaredNorm() -
+                                 best.fit.residual.segment(row, size).squaredNorm());
+      if (all - here < -clear_margin) return true;
+      row += size;
+    }
+    return false;
   }
 
   void judge_remainder() {

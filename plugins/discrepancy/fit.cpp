@@ -61,6 +61,12 @@ class Problem : public ceres::CostFunction {
     const Eigen::MatrixXd r = evaluator_.residuals(points, options_);
     at_ = u;
     residual_ = r.col(0);
+    // Where the model misses the data by many times the noise, the data weigh less against what is
+    // known beforehand. Set once, so that the cost stays one function.
+    if (spread_ == 0.0) {
+      const int seen = evaluator_.data().samples(options_.trials, options_.horizon);
+      spread_ = std::sqrt(std::max(1.0, residual_.squaredNorm() / std::max(1, seen)));
+    }
     jacobian_.resize(samples_, start_.size());
     for (int p = 0; p < start_.size(); ++p) {
       jacobian_.col(p) = (r.col(0) - r.col(p + 1)) / step[p];
@@ -75,7 +81,7 @@ class Problem : public ceres::CostFunction {
 
  private:
   double prior(int p) const {
-    return hypothesis_.free[p].prior > 0.0 ? 1.0 / hypothesis_.free[p].prior : 0.0;
+    return hypothesis_.free[p].prior > 0.0 ? spread_ / hypothesis_.free[p].prior : 0.0;
   }
 
   double centre(int p) const {
@@ -88,6 +94,7 @@ class Problem : public ceres::CostFunction {
   FitOptions options_;
   Eigen::VectorXd start_;
   mutable Eigen::VectorXd difference_;
+  mutable double spread_ = 0.0;
   int samples_;
   mutable Eigen::VectorXd at_, residual_;
   mutable Eigen::MatrixXd jacobian_;

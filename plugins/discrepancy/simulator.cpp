@@ -33,6 +33,7 @@ Effects effects_of(const Experiment& experiment, const Simulator::Request& reque
 
 /// A simulation that some requests share.
 struct Job {
+  bool possible = true;
   std::string key;
   int trial = 0;
   RunMember member;
@@ -137,6 +138,7 @@ struct Simulator::Impl {
   std::vector<Group> make_groups(const std::vector<Job>& jobs) const {
     std::vector<std::vector<int>> alike;
     for (int j = 0; j < static_cast<int>(jobs.size()); ++j) {
+      if (!jobs[j].possible) continue;
       const auto same = std::find_if(alike.begin(), alike.end(), [&](const auto& list) {
         const Job& other = jobs[list.front()];
         return other.trial == jobs[j].trial && other.plan == jobs[j].plan;
@@ -200,10 +202,13 @@ struct Simulator::Impl {
   std::vector<Prediction> run(std::span<const Request> requests) {
     std::vector<Wanted> wanted;
     for (const Request& request : requests) wanted.push_back(want(request));
-    const std::vector<Job> jobs = make_jobs(requests, wanted);
-    for (const Job& job : jobs) check(job);
+    std::vector<Job> jobs = make_jobs(requests, wanted);
+    for (Job& job : jobs) job.possible = check(job);
     const std::vector<Group> groups = make_groups(jobs);
     std::vector<Prediction> out(requests.size());
+    for (const Job& job : jobs)
+      if (!job.possible)
+        for (const int r : job.requests) out[r] = nothing(requests[r]);
     pool.for_each(static_cast<int>(groups.size()), [&](int g) {
       const auto motions = simulate(jobs, groups[g]);
       for (std::size_t i = 0; i < motions.size(); ++i)
@@ -216,11 +221,29 @@ struct Simulator::Impl {
     return out;
   }
 
-  // Before any thread begins, where nothing may throw.
-  void check(const Job& job) const {
+  // Before any thread begins, where nothing may throw. False where effects that a plant can have
+  // one by one leave nothing of it together.
+  bool check(const Job& job) const {
     const Trial& trial = experiment.trials[job.trial];
-    maker.make(trial, job.member.effects);
     for (const PointForce& force : job.member.forces) maker.locate(force.place);
+    try {
+      maker.make(trial, job.member.effects);
+    } catch (const UsageError&) {
+      for (const plant::Effect& effect : job.member.effects)
+        maker.make(trial, std::span(&effect, 1));
+      return false;
+    }
+    return true;
+  }
+
+  Prediction nothing(const Request& request) const {
+    const Trial& trial = experiment.trials[request.trial];
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const Eigen::MatrixXd markers =
+        Eigen::MatrixXd::Constant(trial.markers.value.rows(), trial.markers.value.cols(), nan);
+    const Eigen::MatrixXd force =
+        Eigen::MatrixXd::Constant(trial.force.value.rows(), trial.force.value.cols(), nan);
+    return {markers, force, markers, false};
   }
 
   const Experiment& experiment;

@@ -61,7 +61,8 @@ class Simulator {
   };
   /// One prediction a request, in their order; the result depends on nothing but the request.
   /// Requests that differ only in effects of the sensor share one simulation, also with those of
-  /// earlier calls as long as memory lasts. Throws UsageError where an effect cannot be simulated.
+  /// earlier calls as long as memory lasts. Throws UsageError where an effect cannot be simulated;
+  /// effects that are only impossible together give a prediction that is not healthy.
   std::vector<Prediction> run(std::span<const Request> requests);
 
   /// The forces (N, W) that springs of `stiffness` (N/m) from each marker to its measured path
