@@ -34,7 +34,7 @@ std::vector<CaseOrder> nulls() {
   std::vector<CaseOrder> list;
   for (int k = 0; k < 120; ++k) {
     list.push_back(order_of(Kind::null, k, plants[k % 4], static_cast<PackKind>(k / 4 % 5)));
-    list.back().coloured = k % 8 >= 4 || k % 8 == 1;
+    list.back().coloured = k % 8 >= 4 || k % 16 == 1;
     list.back().off = false;
   }
   return list;

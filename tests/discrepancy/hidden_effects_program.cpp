@@ -60,6 +60,7 @@ class Bench {
   int run() {
     fs::create_directories(out_);
     std::printf("%zu cases to do, %zu done before\n", todo_.size(), scores_.size());
+    std::fflush(stdout);
     ThreadPool pool(a_.threads > 0
                         ? a_.threads
                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
