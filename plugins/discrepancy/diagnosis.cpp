@@ -13,10 +13,15 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double enough_evidence = 8.0;  // nats that a named cause must be worth
-constexpr double clear_margin = 5.0;     // nats by which a rival must lose
-constexpr double margin_share = 0.01;    // and of the gain: our model errors scale with it
-constexpr double allowed_error = 0.15;   // of the noise, RMS, before it is corrected for
+// Nats that a named cause must be worth: an effect of twice the size that could just be seen (10
+// noise units in all) is worth 50 less some 15 for its parameters; two honest solvers differ by up
+// to 15.
+constexpr double enough_evidence = 25.0;
+// Of the noise variance, an excess that is no sign of a missing effect.
+constexpr double small_excess = 0.01;
+constexpr double clear_margin = 5.0;    // nats by which a rival must lose
+constexpr double margin_share = 0.01;   // and of the gain: our model errors scale with it
+constexpr double allowed_error = 0.15;  // of the noise, RMS, before it is corrected for
 constexpr double numerical_limit = 0.5;
 constexpr double left_uncorrected = 0.3;  // of our numerical error, and of the data's own
 constexpr double least_gain = 0.2;        // on trials kept back
@@ -371,6 +376,12 @@ class Procedure {
     symptoms_ = symptoms(experiment(), *data_, result_.predictions[refitted]);
     if (!result_.before.raised) {
       conclude_parameters();
+    } else if (chain_.empty() && excess(result_.base) < small_excess) {
+      conclude_parameters();
+      verdict.remainder = text(
+          "a steady difference of %.3g noise units in all, which no cause explains and no single "
+          "sample shows",
+          result_.before.statistic);
     } else if (chain_.empty()) {
       verdict.outcome = Outcome::unknown;
     } else {
@@ -583,6 +594,11 @@ class Procedure {
     return false;
   }
 
+  // Mean square of what is left beyond the noise, in units of it.
+  double excess(const FitSummary& model) const {
+    return 2.0 * model.cost / std::max(1, samples()) - 1.0;
+  }
+
   void judge_remainder() {
     Verdict& verdict = result_.verdict;
     if (!result_.after.raised) return;
@@ -591,7 +607,7 @@ class Procedure {
     const double left = excess_after / std::max(excess_before, 1.0);
     verdict.remainder = text("%.2g %% of what the refitted model left above the noise",
                              100.0 * std::max(left, 0.0));
-    if (left > 0.05) verdict.outcome = Outcome::unknown;
+    if (left > 0.05 && excess(result_.best) > small_excess) verdict.outcome = Outcome::unknown;
   }
 
   void report_parameters() {

@@ -203,6 +203,9 @@ FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& 
     settings.max_num_iterations = options.iterations;
     settings.function_tolerance = options.tolerance;
     settings.parameter_tolerance = 1.0e-6;
+    // With bounds Ceres searches along every step. One try is the whole step, which the trust
+    // region looks at anyway; where that fails the region shrinks.
+    settings.max_num_line_search_step_size_iterations = 1;
     settings.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(settings, &ceres_problem, &summary);
