@@ -5,7 +5,7 @@
 #include "io/atomic_file.h"
 #include "io/csv.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 namespace {
 
@@ -154,4 +154,4 @@ void write_case(const std::filesystem::path& folder, HiddenCase& c) {
   io::write_file_atomically(folder / (c.name + ".truth.json"), truth_text(c));
 }
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -3,7 +3,7 @@
 
 #include "discrepancy/hidden_case.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 namespace {
 
@@ -34,7 +34,7 @@ std::vector<CaseOrder> nulls() {
   std::vector<CaseOrder> list;
   for (int k = 0; k < 120; ++k) {
     list.push_back(order_of(Kind::null, k, plants[k % 4], static_cast<PackKind>(k / 4 % 5)));
-    list.back().coloured = k % 8 >= 4 || k % 8 == 1;
+    list.back().coloured = k % 8 >= 4 || k % 16 == 1;
     list.back().off = false;
   }
   return list;
@@ -48,8 +48,11 @@ std::vector<CaseOrder> effects() {
       const int k = v + static_cast<int>(e);
       CaseOrder order =
           order_of(Kind::effect, k, plant_for(use, k), use.packs[v % use.packs.size()]);
+      // Over the effects every size meets every plant and both colours of noise.
       order.hidden = {use.name};
-      order.size = sizes[(v + e) % 8];
+      order.size = sizes[(v + e + e / 4) % 8];
+      order.coloured = (v / 4 + e) % 2;
+      order.hidden_start = (v + e / 4) % 4 == 1;
       if (use.name == "youngs_modulus" || use.name == "density" || use.name == "damping_time")
         order.off = false;
       list.push_back(order);
@@ -70,8 +73,8 @@ std::vector<CaseOrder> pairs() {
     CaseOrder order = order_of(Kind::pair, k, branched ? plants[1 + k / 8 % 2] : plants[k / 8 % 4],
                                PackKind::mix);
     order.hidden = names;
-    order.size = k % 2 ? 8 : 4;
-    order.coloured = k / 8 % 2;
+    order.size = (k + k / 8) % 2 ? 8 : 4;
+    order.coloured = k / 16 % 2;
     list.push_back(order);
   }
   return list;
@@ -151,4 +154,4 @@ const char* name_of(Expected expected) {
   return names[static_cast<int>(expected)];
 }
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

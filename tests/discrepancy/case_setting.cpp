@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 namespace {
 
@@ -239,4 +239,4 @@ double tip_softness(const Setting& s) {
   return (settled_point(subject, trial, s.tip, mesh) - before).norm() / force;
 }
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -6,7 +6,7 @@
 #include "core/random.h"
 #include "discrepancy/reference_trial.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 enum class PlantKind { stem, two_branches, side_branch, stiff_stem };
 enum class PackKind { release, weights, push, sweep, mix };
@@ -41,4 +41,4 @@ std::vector<reference::TrialPlan> first_mode_pack(const Setting& setting, double
 /// Sideways compliance of the tip, m/N, from two static equilibria of the reference.
 double tip_softness(const Setting& setting);
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 namespace {
 
@@ -203,8 +203,8 @@ class Maker {
       last_size_ = 0.0;
       const double size = size_for([&](double u) { return look(eye, other, u).norm(); },
                                    truth.norm(), other.guess, other.cap);
-      case_.sine = std::max(case_.sine,
-                            discrepancy::sine(truth, eye.change(with(plain_, other, size)).rest));
+      case_.sine =
+          std::max(case_.sine, hidden::sine(truth, eye.change(with(plain_, other, size)).rest));
     }
   }
 
@@ -236,6 +236,7 @@ class Maker {
     if (order().hidden_start) start_where_hidden();
     for (const TrialPlan& t : case_.trials) {
       Record r = run_trial(subject_, t, case_.setting.markers, fine_);
+      case_.clean.push_back(r);
       add_noise(r.markers, case_.noise.position_std, case_.noise.rho);
       add_noise(r.force, case_.noise.force_std, 0.0);
       add_outliers(r.markers);
@@ -292,4 +293,4 @@ HiddenCase make_case(std::uint64_t seed, const CaseOrder& order) {
   return Maker(seed, order).make();
 }
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -8,7 +8,7 @@
 #include "discrepancy/hidden_effect.h"
 #include "discrepancy/identifiability.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 /// The verdict that a diagnosis should give.
 enum class Expected { adequate, named, ambiguous, unknown };
@@ -51,6 +51,7 @@ struct HiddenCase {
   Setting setting;  ///< the nominal plant and its markers
   std::vector<reference::TrialPlan> trials;
   std::vector<reference::Record> records;  ///< with noise
+  std::vector<reference::Record> clean;    ///< the same without it: what the true model predicts
   std::filesystem::path folder;            ///< once it is written
 };
 
@@ -64,4 +65,4 @@ void write_case(const std::filesystem::path& folder, HiddenCase& hidden);
 /// The truth as JSON.
 std::string truth_text(const HiddenCase& hidden);
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace pedicel::discrepancy;
+using namespace pedicel::hidden;
 
 std::string words(const std::vector<std::string>& list) {
   std::string text;

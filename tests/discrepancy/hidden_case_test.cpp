@@ -11,7 +11,7 @@
 #include "plant/effects.h"
 #include "support/temporary_folder.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 namespace {
 
 using Kind = CaseOrder::Kind;
@@ -39,6 +39,24 @@ TEST(HiddenCases, ListHoldsEveryKindAndEveryEffect) {
     if (effect.name != "detachment_law") {
       EXPECT_GE(names[effect.name], 6) << effect.name;
     }
+}
+
+// Were a size bound to one plant or one noise, the table could not tell which of them is hard.
+TEST(HiddenCases, SizesMeetEveryPlantAndBothNoises) {
+  std::map<std::pair<double, PlantKind>, int> plants;
+  std::map<std::pair<double, bool>, int> noises;
+  std::map<std::pair<PlantKind, bool>, int> both;
+  for (const CaseOrder& order : case_orders()) {
+    if (order.kind != Kind::effect) continue;
+    ++plants[{order.size, order.plant}];
+    ++noises[{order.size, order.coloured}];
+    ++both[{order.plant, order.coloured}];
+  }
+  EXPECT_EQ(plants.size(), 6u * 4u);  // sizes 2, 3, 4, 6, 8, 16
+  EXPECT_EQ(noises.size(), 6u * 2u);
+  EXPECT_EQ(both.size(), 4u * 2u);
+  for (const auto& [pair, count] : noises) EXPECT_GE(count, 10) << pair.first;
+  for (const auto& [pair, count] : both) EXPECT_GE(count, 20) << name_of(pair.first);
 }
 
 TEST(HiddenCases, SameSeedSameBits) {
@@ -132,4 +150,4 @@ TEST(HiddenCases, FolderGivesNothingAway) {
 }
 
 }  // namespace
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 namespace {
 
@@ -302,4 +302,4 @@ const std::vector<EffectUse>& stranger_uses() {
   return uses;
 }
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

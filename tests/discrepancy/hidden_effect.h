@@ -5,7 +5,7 @@
 
 #include "discrepancy/case_setting.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 /// One thing that can be hidden, as a function of one size: nothing at size 0, more with more.
 struct HiddenEffect {
@@ -42,4 +42,4 @@ struct EffectUse {
 const std::vector<EffectUse>& effect_uses();
 const std::vector<EffectUse>& stranger_uses();
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

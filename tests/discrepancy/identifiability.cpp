@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 namespace {
 
@@ -92,4 +92,4 @@ double size_for(const std::function<double(double)>& norm, double level, double 
   return size;
 }
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

@@ -6,7 +6,7 @@
 
 #include "discrepancy/reference_trial.h"
 
-namespace pedicel::discrepancy {
+namespace pedicel::hidden {
 
 /// Noise of one experiment: each channel on its own AR(1), x_i = rho x_i-1 + e_i.
 struct Noise {
@@ -58,4 +58,4 @@ double sine(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 /// `cap`. Norms grow with size, near proportionally where nothing has a threshold.
 double size_for(const std::function<double(double)>& norm, double level, double guess, double cap);
 
-}  // namespace pedicel::discrepancy
+}  // namespace pedicel::hidden

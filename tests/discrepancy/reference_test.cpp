@@ -94,8 +94,7 @@ TEST(ReferenceRods, KeepTheirEnergy) {
 // segments, the errors fall at least by 2^2.5 and by 2^1.5.
 TEST(ReferenceRods, Converge) {
   Random random(3);
-  const discrepancy::Setting setting =
-      discrepancy::make_setting(discrepancy::PlantKind::side_branch, random);
+  const hidden::Setting setting = hidden::make_setting(hidden::PlantKind::side_branch, random);
   const Subject s{setting.plant, {}, {}};
   TrialPlan t;
   t.duration = 0.6;
@@ -119,8 +118,7 @@ TEST(ReferenceRods, Converge) {
 // `shape: drawn`: the plant settles where it was drawn, whatever the weight.
 TEST(ReferenceRods, StandAsDrawn) {
   Random random(5);
-  discrepancy::Setting setting =
-      discrepancy::make_setting(discrepancy::PlantKind::two_branches, random);
+  hidden::Setting setting = hidden::make_setting(hidden::PlantKind::two_branches, random);
   setting.plant.masses = {{{"branch_1", 0.7, {}}, 0.004}};
   const Subject s{setting.plant, {}, {}};
   const plant::PlantCurve& branch = setting.plant.curves[1];
@@ -156,8 +154,7 @@ std::vector<Vec3> by_the_program(const plant::PlantFile& plant, const plant::Cur
 // whose share in bending is (r/L)^2, some 1e-5.
 TEST(ReferenceRods, AgreeWithTheProgram) {
   Random random(9);
-  discrepancy::Setting setting =
-      discrepancy::make_setting(discrepancy::PlantKind::side_branch, random);
+  hidden::Setting setting = hidden::make_setting(hidden::PlantKind::side_branch, random);
   const Vec3 force(0.0, 0.03, -0.02);
   TrialPlan t;
   t.duration = 1.1;

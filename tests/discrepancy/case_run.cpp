@@ -1,0 +1,74 @@
+#include "discrepancy/case_run.h"
+
+#include <cmath>
+
+#include "discrepancy/diagnosis.h"
+#include "io/atomic_file.h"
+
+namespace pedicel::hidden {
+
+namespace {
+
+using discrepancy::Diagnosis;
+
+// Sum of squares over the noise, and the number of samples, of what was measured and kept.
+void add_squares(const Eigen::MatrixXd& measured, const Eigen::MatrixXd& clean, double std,
+                 double& sum, int& count) {
+  for (Eigen::Index i = 0; i < measured.size(); ++i) {
+    if (!std::isfinite(measured(i))) continue;
+    sum += std::pow((measured(i) - clean(i)) / std, 2);
+    ++count;
+  }
+}
+
+TrueError true_error(const HiddenCase& hidden, const Diagnosis& diagnosis) {
+  TrueError truth;
+  double sum = 0.0;
+  for (const int t : diagnosis.check_trials) {
+    const discrepancy::Trial& trial = diagnosis.admission.experiment.trials[t];
+    const reference::Record& clean = hidden.clean[t];
+    add_squares(trial.markers.value, clean.markers, diagnosis.position_noise.std, sum,
+                truth.samples);
+    if (trial.force.size() > 0)
+      add_squares(trial.force.value, clean.force, diagnosis.force_noise.std, sum, truth.samples);
+  }
+  if (truth.samples > 0) truth.error = std::sqrt(sum / truth.samples);
+  return truth;
+}
+
+std::string notes_of(const CaseRun& run, const Diagnosis& diagnosis) {
+  std::string text = truth_text(run.hidden) + "\n";
+  for (const std::string& step : diagnosis.steps) text += step + "\n";
+  text += "\nRanking (evidence; gain; over the whole):\n";
+  for (const discrepancy::Candidate& candidate : diagnosis.ranking)
+    text += "  " + candidate.cause + ": " + std::to_string(candidate.evidence) + "; " +
+            std::to_string(candidate.gain) + (candidate.whole ? "; yes\n" : "; no\n");
+  return text + "\n" + discrepancy::to_json(run.verdict) + "\n\n" + to_line(run.score) + "\n";
+}
+
+}  // namespace
+
+CaseRun run_case(std::uint64_t seed, const CaseOrder& order, const CaseRunOptions& options) {
+  CaseRun run;
+  run.hidden = make_case(seed, order);
+  write_case(options.folder, run.hidden);
+  try {
+    Diagnostics diagnostics;
+    const auto experiment = discrepancy::read_experiment(run.hidden.folder, diagnostics);
+    if (!experiment) throw InvalidFile(diagnostics);
+    discrepancy::DiagnosisOptions how;
+    how.threads = options.threads;
+    how.stop = options.stop;
+    const Diagnosis diagnosis = discrepancy::diagnose(*experiment, how);
+    run.verdict = diagnosis.verdict;
+    run.score = score(run.hidden, run.verdict, true_error(run.hidden, diagnosis));
+    run.score.alarm = diagnosis.before.statistic - diagnosis.before.level;
+    run.notes = notes_of(run, diagnosis);
+  } catch (const std::exception& error) {
+    run.score = failed_score(run.hidden, error.what());
+    run.notes = truth_text(run.hidden) + "\n" + error.what() + "\n";
+  }
+  return run;
+}
+
+}  // namespace pedicel::hidden

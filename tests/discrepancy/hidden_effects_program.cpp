@@ -1,0 +1,146 @@
+// hidden_effects [--seed S] [--count N] [--first N] [--case N...] [--threads T] [--out DIR]
+// Makes hidden cases, diagnoses them and scores the verdicts, several cases side by side, one
+// thread each. Cases whose score stands in DIR/results.jsonl are not done again.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "core/thread_pool.h"
+#include "discrepancy/case_run.h"
+#include "discrepancy/score_report.h"
+#include "discrepancy/score_table.h"
+#include "io/atomic_file.h"
+
+namespace {
+
+using namespace pedicel;
+using namespace pedicel::hidden;
+namespace fs = std::filesystem;
+
+std::atomic<bool> stop_requested{false};
+void request_stop(int) {
+  stop_requested = true;
+}
+
+struct Arguments {
+  std::uint64_t seed = 1;
+  int count = static_cast<int>(case_orders().size()), first = 0, threads = 0;
+  std::vector<int> cases;
+  std::string out = "out/hidden_effects";
+  bool keep = false;
+};
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : "+") + name;
+  return text.empty() ? "-" : text;
+}
+
+/// Runs the cases that are still to be done and keeps files and screen up to date.
+class Bench {
+ public:
+  explicit Bench(const Arguments& a) : a_(a), out_(a.out), results_(out_ / "results.jsonl") {
+    scores_ = read_scores(results_, a.seed);
+    std::set<int> done;
+    for (const Score& s : scores_) done.insert(s.number);
+    std::vector<int> wanted = a.cases;
+    if (wanted.empty())
+      for (int i = 0; i < a.count; ++i) wanted.push_back(a.first + i);
+    const int most = static_cast<int>(case_orders().size());
+    for (const int number : wanted)
+      if (number >= 0 && number < most && !done.contains(number)) todo_.push_back(number);
+  }
+
+  int run() {
+    fs::create_directories(out_);
+    std::printf("%zu cases to do, %zu done before\n", todo_.size(), scores_.size());
+    std::fflush(stdout);
+    ThreadPool pool(a_.threads > 0
+                        ? a_.threads
+                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+    pool.for_each(static_cast<int>(todo_.size()), [this](int i) {
+      if (!stop_requested && fault_.empty()) one(todo_[i]);
+    });
+    if (!fault_.empty()) throw io::WriteError(fault_);
+    if (!scores_.empty()) write_score_report(out_, scores_, a_.seed);
+    std::printf("%s\n%s\nwritten to %s\n", markdown(score_table(scores_)).c_str(),
+                markdown(confusion(scores_)).c_str(), out_.c_str());
+    return stop_requested ? 130 : 0;
+  }
+
+ private:
+  // Must not throw: it runs in the pool.
+  void one(int number) {
+    try {
+      const CaseRunOptions options{out_ / "cases", 1, &stop_requested};
+      const CaseRun run = run_case(a_.seed, case_orders()[number], options);
+      if (stop_requested) return;
+      const std::lock_guard lock(mutex_);
+      io::write_file_atomically(out_ / "notes" / (run.hidden.name + ".txt"), run.notes);
+      append_score(results_, run.score);
+      scores_.push_back(run.score);
+      std::ranges::sort(scores_, {}, &Score::number);
+      write_score_report(out_, scores_, a_.seed);
+      if (!a_.keep) fs::remove_all(run.hidden.folder);
+      say(run.score);
+    } catch (const std::exception& error) {
+      const std::lock_guard lock(mutex_);
+      fault_ = error.what();
+    }
+  }
+
+  void say(const Score& s) {
+    ++finished_;
+    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double left =
+        spent / finished_ * static_cast<double>(static_cast<int>(todo_.size()) - finished_);
+    std::printf("case %d %s: hidden %s (%g x), said %s %s: %s; %.0f s, about %.0f min left\n",
+                s.number, s.kind.c_str(), joined(s.hidden).c_str(), s.times,
+                s.fault.empty() ? s.outcome.c_str() : s.fault.c_str(), joined(s.said).c_str(),
+                name_of(s.call), s.seconds, left / 60.0);
+    std::fflush(stdout);
+  }
+
+  using Clock = std::chrono::steady_clock;
+  const Arguments& a_;
+  fs::path out_, results_;
+  std::vector<Score> scores_;
+  std::vector<int> todo_;
+  std::mutex mutex_;
+  Clock::time_point start_ = Clock::now();
+  int finished_ = 0;
+  std::string fault_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Diagnoses experiments with a hidden effect and scores the verdicts."};
+  Arguments a;
+  const int most = static_cast<int>(case_orders().size());
+  app.add_option("--seed", a.seed, "what the details of the cases are drawn from")
+      ->capture_default_str();
+  app.add_option("--count", a.count, "how many cases")->check(CLI::Range(1, most));
+  app.add_option("--first", a.first, "number of the first one")->check(CLI::Range(0, most - 1));
+  app.add_option("--case", a.cases, "these numbers of `hidden_case --list` only")
+      ->check(CLI::Range(0, most - 1));
+  app.add_option("--threads", a.threads, "cases side by side (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--out", a.out, "folder of the results")->capture_default_str();
+  app.add_flag("--keep", a.keep, "keep the experiment folders");
+  CLI11_PARSE(app, argc, argv);
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  try {
+    return Bench(a).run();
+  } catch (const io::WriteError& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 6;
+  }
+}

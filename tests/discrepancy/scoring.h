@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discrepancy/cause_size.h"
+#include "discrepancy/hidden_case.h"
+#include "discrepancy/verdict.h"
+
+namespace pedicel::hidden {
+
+/// What a verdict was worth.
+enum class Call {
+  right,            ///< quiet, all names and no other, a set with the truth, unknown: as expected
+  partial,          ///< one of two names, and no wrong one
+  wrong,            ///< a wrong name with confidence
+  sure,             ///< the truth alone, where the data cannot tell it from another cause
+  held,             ///< "cannot tell", and the truth is in the set
+  not_held,         ///< "cannot tell", and it is not
+  unknown,          ///< nothing known fits, though it was known
+  missed,           ///< nothing is wrong, or no more than the modulus and damping that were off
+  parameter_alarm,  ///< one of the three parameters was named in null data
+  false_alarm,      ///< anything else was said of null data
+  refused           ///< data or numerics were said to be too bad
+};
+const char* name_of(Call call);
+
+/// What the true model leaves on the trials kept back: the noise alone, in the units of
+/// Verdict::check.
+struct TrueError {
+  double error = 1.0;  ///< RMS residual over the noise floor
+  int samples = 0;     ///< 0: no trial was kept back
+};
+
+/// One verdict against one truth.
+struct Score {
+  int number = 0;
+  std::uint64_t seed = 0;
+  std::string kind, plant, pack, outcome;
+  bool coloured = false, off = false;
+  double times = 0.0;  ///< the smallest identifiable size
+  std::vector<std::string> hidden, said;
+  Call call = Call::missed;
+  /// Share of the true model's gain on trials kept back; absent where the true model gains less
+  /// than 10 noise units there, or nothing was named.
+  std::optional<double> gain_share;
+  std::vector<SizeError> sizes;  ///< of the causes that were named rightly
+  double evidence = 0.0;         ///< of the first cause, nats
+  double alarm = 0.0;            ///< largest directed statistic less its level
+  long simulations = 0;
+  double seconds = 0.0;
+  std::string fault;  ///< why there is no verdict; empty: there is one
+};
+
+/// Scores `verdict` of the case `hidden`.
+Score score(const HiddenCase& hidden, const discrepancy::Verdict& verdict, const TrueError& truth);
+
+/// A case whose diagnosis ended with an exception.
+Score failed_score(const HiddenCase& hidden, const std::string& fault);
+
+/// One line of JSON, and back. Reading throws std::exception where a line is not a score.
+std::string to_line(const Score& score);
+Score from_line(const std::string& line);
+
+}  // namespace pedicel::hidden
