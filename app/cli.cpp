@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/diagnose.h"
+#include "app/fit.h"
 #include "app/observe.h"
 #include "app/parallel_worlds.h"
 #include "app/rod_options.h"
@@ -213,6 +214,7 @@ int run_cli(int argc, char** argv) {
       app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
   add_bench_options(*bench, benched);
   const std::function<int()> diagnose = add_diagnose_verb(app);
+  const std::function<int()> fit = add_fit_verb(app);
 
   ObserveArguments observed;
   CLI::App* observe =
@@ -229,6 +231,7 @@ int run_cli(int argc, char** argv) {
   if (*validate) return guarded([&] { return validate_files(files, packages, std::cerr); });
   if (*bench) return guarded([&] { return bench_verb(benched); });
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
+  if (app.got_subcommand("fit")) return guarded(fit);
   if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] { return run_verb(run); });
 }
