@@ -122,15 +122,18 @@ class Library {
     force.numbers["about"] = list(about_);
     force.numbers["towards"] = list(towards);
     force.numbers["tilt"] = {0.0, 0.0};
+    force.numbers["axis"] = list(tangent_);
     return force;
   }
 
+  // Across the curve, and, where `leaning`, towards both of its ends.
   template <class Call>
-  void for_directions(const Call& call) const {
+  void for_directions(bool leaning, const Call& call) const {
     for (int h = 0; h < headings; ++h) {
       const double angle = 2 * std::numbers::pi * h / headings;
       const Vec3 side = std::cos(angle) * space_.axes[0] + std::sin(angle) * space_.axes[1];
-      for (const double lean : {-0.6, 0.0, 0.6}) call(Vec3((side + lean * tangent_).normalized()));
+      for (const double lean : {-0.6, 0.0, 0.6})
+        if (leaning || lean == 0.0) call(Vec3((side + lean * tangent_).normalized()));
     }
   }
 
@@ -157,7 +160,7 @@ class Library {
   void unilateral(const std::string& kind, const std::vector<double>& distances) {
     plant::Effect best;
     double most = 0.0;
-    for_directions([&](const Vec3& towards) {
+    for_directions(kind == "string", [&](const Vec3& towards) {
       plant::Effect force = aimed(kind, towards);
       force.numbers["stiffness"] = {1.0};
       for (const double distance : distances) {
@@ -170,16 +173,18 @@ class Library {
     });
     if (most <= 0.0) return;
     const double reach = 0.02 * scales_.length;
-    std::vector<Knob> knobs{
-        {"tilt", 0, 0.2, false}, {"tilt", 1, 0.2, false}, {"offset", 0, reach, false}};
-    if (kind == "string") knobs.push_back({"distance", 0, 0.3, true});
+    std::vector<Knob> knobs{{"tilt", 0, 0.2, false}, {"offset", 0, reach, false}};
+    if (kind == "string") {
+      knobs.push_back({"tilt", 1, 0.2, false});
+      knobs.push_back({"distance", 0, 0.3, true});
+    }
     finish(best, most, knobs);
   }
 
   void attraction() {
     plant::Effect best;
     double most = 0.0;
-    for_directions([&](const Vec3& towards) {
+    for_directions(true, [&](const Vec3& towards) {
       plant::Effect force = aimed("attraction", towards);
       force.numbers["size"] = {1.0};
       for (const double distance : {0.1, 0.2, 0.4})

@@ -165,6 +165,7 @@ void ForceResponses::finish(ForceSpace& space, const Eigen::MatrixXd& coupling) 
   }
   const Eigen::LDLT<Eigen::MatrixXd> solver(information);
   const Eigen::MatrixXd moved = solver.solve(coupling.transpose());
+  space.shift = -moved;
   space.normal.noalias() -= coupling * moved;
   space.right.noalias() -= moved.transpose() * (jacobian.transpose() * model_.residual);
 }

@@ -25,6 +25,8 @@ struct ForceSpace {
   std::vector<ForceKnots> knots;
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
+  /// By how much the model's unknowns give way to a coefficient: parameters x coefficients, 1/N.
+  Eigen::MatrixXd shift;
   /// A trial of `knots` each: what a coefficient moves the place by, 3 samples x coefficients, m/N.
   std::vector<Eigen::MatrixXd> motion;
 

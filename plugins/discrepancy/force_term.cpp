@@ -114,8 +114,9 @@ class Freeing {
       add({0, name, c, false, size, -10 * size, 10 * size, "N", 2.0,
            made_.effects[0].numbers.at(name)[c], Vanishes::at_zero});
   }
+  // Where the data leave it open, somewhere in the middle of the upper part.
   void place() {
-    FreeParameter at{0, "at", 0, false, 0.1, 0.02, 1.0, "1"};
+    FreeParameter at{0, "at", 0, false, 0.1, 0.02, 1.0, "1", 2.5, 0.6};
     if (made_.effects[0].place) add(at);
   }
   Hypothesis take() { return std::move(made_); }
@@ -162,6 +163,10 @@ Vec3 direction_of(const plant::Effect& force) {
   const std::vector<double>& tilt = force.numbers.at("tilt");
   Vec3 first, second;
   across(n, first, second);
+  if (force.numbers.contains("axis")) {
+    first = vector(force, "axis").cross(n).normalized();
+    second = n.cross(first);
+  }
   return (n + tilt[0] * first + tilt[1] * second).normalized();
 }
 
@@ -188,10 +193,11 @@ Hypothesis free_force(const plant::Effect& force, double size, double duration) 
   freeing.push("force");
   freeing.push("sine");
   freeing.push("cosine");
-  freeing.number("tilt", 0.3, 2.0, "1", 2);
+  // What touches a stem pushes across it.
+  freeing.number("tilt", 0.3, 2.0, "1", force.words.at("kind") == "stop" ? 1 : 2);
   freeing.number("offset", size, 10.0 * size, "m");
   freeing.positive("distance", 4.0, "m");
-  freeing.positive("range", 30.0, "m");
+  freeing.positive("range", 2.0, "m");
   freeing.number("frequency", 1.0 / duration, 1.0 / duration, "Hz");
   freeing.place();
   Hypothesis made = freeing.take();

@@ -8,8 +8,9 @@ namespace pedicel::discrepancy {
 
 /// Name of a force from outside the list as an entry of Hypothesis::effects, so that a fit can move
 /// its numbers and its place. The word "kind" says which law it follows. With x and v the position
-/// and velocity of its place, n the unit vector `towards` tilted by `tilt` (two tangents), P =
-/// `about` + `distance` n, and s = -n.(x - about) - offset:
+/// and velocity of its place, n the unit vector `towards` tilted by `tilt` (two tangents: about
+/// `axis`, the curve's direction, and towards it), P = `about` + `distance` n, and s = -n.(x -
+/// about) - offset:
 ///   constant         force
 ///   spring           stiffness (P - x)
 ///   attraction       size range^2/(range^2 + r^2) towards P, r = |P - x|

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <set>
 
 #include "discrepancy/candidates.h"
@@ -15,7 +16,8 @@ namespace {
 
 constexpr double enough_evidence = 8.0;  // nats, as a named cause must be worth
 constexpr double clear_margin = 5.0;     // nats, of a sensor over a force
-constexpr std::size_t most_places = 14, places_with_laws = 3;
+constexpr std::size_t most_places = 14;
+constexpr std::ptrdiff_t most_loud = 3;  // places where laws are tried, besides two of each curve
 constexpr std::size_t most_refits = 5;
 constexpr double refit_within = 30.0;  // nats of linear response, and
 constexpr double refit_share = 0.3;    // of the best one's: large forces are not linear
@@ -139,11 +141,13 @@ class Inference {
   }
 
   void try_laws() {
-    for (std::size_t p = 0; p < std::min(places_with_laws, places_.size()); ++p) {
-      const std::vector<ForceTerm> terms =
-          regress_force(places_[p].space, places_[p].path, scales_);
+    std::map<std::string, std::size_t> tried;  // places of each curve
+    for (const Place& place : places_) {
+      const bool loud = &place - places_.data() < most_loud;
+      if (++tried[place.space.place.curve] > 2 && !loud) continue;
+      const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
       for (const ForceTerm& term : terms)
-        note("  " + term.force.words.at("kind") + " at " + place_text(*term.force.place) +
+        note("  " + kind_of(term.force) + " at " + place_text(*term.force.place) +
              text(": evidence %.4g with %g numbers", term.evidence, term.parameters));
       terms_.insert(terms_.end(), terms.begin(), terms.end());
     }
@@ -151,25 +155,61 @@ class Inference {
         terms_, [](const ForceTerm& a, const ForceTerm& b) { return a.evidence > b.evidence; });
   }
 
-  // The best place of every kind, as long as it is not far behind.
+  static const std::string& kind_of(const plant::Effect& force) { return force.words.at("kind"); }
+
+  // The best place of every kind, as long as it is not far behind; of the best kind, the best place
+  // on every curve. Simple laws first.
   std::vector<ForceTerm> worth_refitting() const {
     std::vector<ForceTerm> chosen;
-    std::set<std::string> known;
+    std::set<std::pair<std::string, std::string>> known;
     for (const ForceTerm& term : terms_) {
       const double best = terms_.front().evidence;
       if (term.evidence < std::min(best - refit_within, (1.0 - refit_share) * best)) break;
       if (term.evidence < 0.5 * enough_evidence || chosen.size() >= most_refits) break;
-      if (known.insert(term.force.words.at("kind")).second) chosen.push_back(term);
+      const bool best_kind = kind_of(term.force) == kind_of(terms_.front().force);
+      const std::string curve = best_kind ? term.force.place->curve : "";
+      if (known.insert({kind_of(term.force), curve}).second) chosen.push_back(term);
     }
+    std::ranges::stable_sort(
+        chosen, [](const ForceTerm& a, const ForceTerm& b) { return a.parameters < b.parameters; });
     return chosen;
+  }
+
+  Hypothesis with(const plant::Effect& force) const {
+    Hypothesis start = model_.hypothesis;
+    const Place& place = nearest(*force.place);
+    if (start.size() > 0)  // which have taken what they could of the force
+      start.set_unknowns(start.unknowns() +
+                         place.space.shift * history_of(force, place.space, place.path, scales_));
+    start.add(free_force(force, 0.02 * scales_.length, scales_.duration));
+    start.name = missing_force;
+    return start;
+  }
+
+  // From the best of a few starts: what looks like a stop may be a string to a point at any
+  // distance.
+  FitSummary refitted(const plant::Effect& force) {
+    std::vector<Hypothesis> starts;
+    for (const double factor : {1.0, 0.5, 2.0}) {
+      plant::Effect scaled = force;
+      scale_force(scaled, factor);
+      starts.push_back(with(scaled));
+    }
+    if (kind_of(force) == "string")
+      for (const ForceTerm& stop : result_.terms)
+        for (const double distance : {0.3, 0.6, 1.5})
+          if (kind_of(stop.force) == "stop") {
+            plant::Effect string = stop.force;
+            string.words["kind"] = "string";
+            string.numbers["distance"] = {distance * scales_.length};
+            starts.push_back(with(string));
+          }
+    return fit(evaluator_, starts[scan(evaluator_, starts, options_.fit).best], options_.fit);
   }
 
   void refit() {
     for (ForceTerm term : worth_refitting()) {
-      Hypothesis start = model_.hypothesis;
-      start.add(free_force(term.force, 0.02 * scales_.length, scales_.duration));
-      start.name = missing_force;
-      const FitSummary found = fit(evaluator_, start, options_.fit);
+      const FitSummary found = refitted(term.force);
       term.gain = (model_.cost - found.cost) / scales_.dispersion;
       // One more: its place along the curve.
       term.evidence = term.gain - cost_of(term.parameters + 1, scales_.samples, scales_.choices);
@@ -255,7 +295,7 @@ class Inference {
   static std::string when_text(const std::optional<plant::Effect>& force, double active,
                                double most) {
     const std::string size = text("it reaches %.2g N", most);
-    const std::string kind = force ? force->words.at("kind") : "";
+    const std::string kind = force ? kind_of(*force) : "";
     if (kind == "string" || kind == "stop")
       return size + text(", and acts in %.2g %% of the time, by where the plant is", active);
     if (kind == "periodic") return size + ", and comes back with time, whatever the plant does";
