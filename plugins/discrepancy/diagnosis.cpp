@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "discrepancy/missing_force.h"
 #include "discrepancy/symptoms.h"
 #include "discrepancy/trial_split.h"
 #include "plant/effects.h"
@@ -393,10 +394,33 @@ class Procedure {
     } else {
       conclude_causes();
     }
+    if (verdict.outcome == Outcome::unknown) look_for_force();
     conclude_outliers();
     report_parameters();
     what_could_hide();
     choose_next();
+  }
+
+  // Where, when and of what kind the force is that no cause stands for.
+  void look_for_force() {
+    say("looking for a force that is missing", 0.96);
+    Evaluator evaluator = wide();
+    MissingForceOptions options;
+    options.fit = fit_options_;
+    options.check = result_.check_trials;
+    options.threads = options_.threads;
+    options.note = [this](const std::string& sentence) { note(sentence); };
+    const MissingForce force = infer_missing_force(evaluator, result_.base, options);
+    result_.verdict.simulations += force.simulations;
+    std::string& remainder = result_.verdict.remainder;
+    if (!remainder.empty()) remainder += ". ";
+    remainder +=
+        force.found ? force.sentence() : "No force at a marker explains it. Do not extrapolate.";
+    if (force.fit.why == "not run") return;
+    std::vector<Direction> left = directions_of(evaluator, force.fit, causes_, fit_options_);
+    const Alarm alarm = judge(left, force.fit, numerical_, options_.seed);
+    note(text("With that force the largest directed statistic is %.3g, level %.3g.",
+              alarm.statistic, alarm.level));
   }
 
   void choose_next() {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrepancy/force_term.h"
+
 namespace pedicel::discrepancy {
 
 double FreeParameter::to_unknown(double value) const {
@@ -59,8 +61,13 @@ Eigen::VectorXd Hypothesis::high() const {
 }
 
 Variant Hypothesis::variant() const {
-  Variant variant{effects, {}};
-  std::erase_if(variant.effects, [](const plant::Effect& e) { return e.name == mesh_error; });
+  Variant variant;
+  for (const plant::Effect& effect : effects) {
+    if (effect.name == missing_force)
+      variant.forces.push_back(point_force(effect));
+    else if (effect.name != mesh_error)
+      variant.effects.push_back(effect);
+  }
   return variant;
 }
 

@@ -36,7 +36,8 @@ struct FreeParameter {
   double to_value(double unknown) const;
 };
 
-/// A model to be fitted: effects, some of whose numbers are free. The parameter name "heading" of a
+/// A model to be fitted: effects, some of whose numbers are free; forces from outside the list
+/// stand among them (force_term.h). The parameter name "heading" of a
 /// direction stands for the angle (rad) of a horizontal unit vector.
 struct Hypothesis {
   std::string name;  ///< of the cause it stands for; empty: the baseline

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "discrepancy/experiment.h"
@@ -25,6 +26,7 @@ struct Numerics {
 struct PointForce {
   plant::CurvePlace place;
   std::function<Vec3(double t, const Vec3& position, const Vec3& velocity)> law;
+  std::string trial;  ///< it acts in that one alone; empty: in all
 };
 
 /// What one prediction is made of, on top of what the experiment states. Effects of the plant, the

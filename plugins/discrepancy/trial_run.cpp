@@ -144,6 +144,7 @@ class Member {
       loads.push_back({load_places_[i].element, load_places_[i].back, load.force, Vec3::Zero()});
     }
     for (std::size_t i = 0; i < force_places_.size(); ++i) {
+      if (!forces_[i].trial.empty() && forces_[i].trial != trial_.name) continue;
       const auto [element, back] = force_places_[i];
       const Vec3 force = forces_[i].law(begin, cosserat::point_on(model_, state, element, back),
                                         cosserat::velocity_on(model_, state, element, back));

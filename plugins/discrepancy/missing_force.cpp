@@ -1,0 +1,369 @@
+#include "discrepancy/missing_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "discrepancy/candidates.h"
+#include "discrepancy/force_term.h"
+#include "discrepancy/places.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double enough_evidence = 8.0;  // nats, as a named cause must be worth
+constexpr double clear_margin = 5.0;     // nats, of a sensor over a force
+constexpr std::size_t most_places = 14;
+constexpr std::ptrdiff_t most_loud = 3;  // places where laws are tried, besides two of each curve
+constexpr std::size_t most_refits = 5;
+constexpr double refit_within = 30.0;  // nats of linear response, and
+constexpr double refit_share = 0.3;    // of the best one's: large forces are not linear
+constexpr std::size_t kinds = 11;
+
+std::string text(const char* format, double a, double b = 0.0) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+/// A place with what was found there.
+struct Place {
+  ForceSpace space;
+  FreeForce free;
+  ForcePath path;
+};
+
+class Inference {
+ public:
+  Inference(Evaluator& evaluator, const FitSummary& model, const MissingForceOptions& options)
+      : evaluator_(evaluator),
+        model_(model),
+        options_(options),
+        experiment_(evaluator.data().experiment()),
+        responses_(experiment_, evaluator.data(), model, options.fit, experiment_.plant.distance,
+                   options.threads) {
+    scales_.samples = evaluator.data().samples(options.fit.trials);
+    for (const plant::PlantCurve& curve : experiment_.plant.curves)
+      scales_.length = std::max(scales_.length, drawn_length(curve));
+    for (const Trial& trial : experiment_.trials) {
+      scales_.duration = std::max(scales_.duration, trial.duration());
+      scales_.trials.push_back(trial.name);
+    }
+  }
+
+  MissingForce run() {
+    look_at_places();
+    const bool of_sensor = look_at_sensor();
+    if (of_sensor) {
+      conclude_sensor();
+    } else if (!places_.empty()) {
+      try_laws();
+      refit();
+      conclude();
+    }
+    result_.simulations = responses_.simulations();
+    return std::move(result_);
+  }
+
+ private:
+  void note(const std::string& sentence) const {
+    if (options_.note) options_.note(sentence);
+  }
+
+  // Markers spread over the plant.
+  std::vector<int> markers() const {
+    std::vector<int> all;
+    for (const Chain& chain : chains_of(experiment_))
+      for (std::size_t m = 0; m < chain.markers.size(); ++m)
+        if (chain.arc[m] > 0.02 * chain.length) all.push_back(chain.markers[m]);
+    if (all.size() <= most_places) return all;
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < most_places; ++i)
+      chosen.push_back(all[i * (all.size() - 1) / (most_places - 1)]);
+    return chosen;
+  }
+
+  double noise_cost() const { return 0.5 * scales_.samples; }
+
+  void look_at_places() {
+    double most = 0.0;
+    for (const int marker : markers()) {
+      Place place;
+      place.space = responses_.force_at(marker);
+      place.free = free_history(place.space);
+      place.path = responses_.path(place.space, place.free.value);
+      most = std::max(most, place.free.gain);
+      places_.push_back(std::move(place));
+    }
+    std::ranges::stable_sort(
+        places_, [](const Place& a, const Place& b) { return a.free.evidence > b.free.evidence; });
+    for (const Place& place : places_)
+      note("A free force at " + place_text(place.space.place) +
+           text(": evidence %.4g", place.free.evidence));
+    scales_.dispersion = std::max(1.0, (model_.cost - most) / noise_cost());
+    scales_.choices = kinds * std::max<std::size_t>(1, places_.size());
+  }
+
+  // Whether markers that move by themselves explain the data better than any force does.
+  bool look_at_sensor() {
+    std::vector<std::vector<int>> groups{{}};
+    for (int m = 0; m < static_cast<int>(experiment_.markers.size()); ++m) {
+      groups.front().push_back(m);
+      groups.push_back({m});
+    }
+    for (const std::vector<int>& group : groups) {
+      const double evidence = free_history(responses_.displacement_of(group)).evidence;
+      if (evidence <= sensor_evidence_) continue;
+      sensor_evidence_ = evidence;
+      sensor_ = group;
+    }
+    const double force = places_.empty() ? 0.0 : places_.front().free.evidence;
+    note(text("A free displacement of markers: evidence %.4g", sensor_evidence_));
+    return sensor_evidence_ > std::max(force, enough_evidence) + clear_margin;
+  }
+
+  void conclude_sensor() {
+    result_.found = true;
+    result_.kind = "sensor";
+    result_.evidence = sensor_evidence_;
+    result_.where = sensor_.size() > 1 ? "All markers move alike: the camera's frame or the base"
+                                       : "Marker \"" + experiment_.markers[sensor_.front()].name +
+                                             "\" moves on its own: the marker, not the plant";
+    const FreeForce free = free_history(responses_.displacement_of(sensor_));
+    result_.share = share_of(free.gain);
+  }
+
+  double share_of(double gain) const {
+    return std::clamp(gain / std::max(1.0, model_.cost - noise_cost()), 0.0, 1.0);
+  }
+
+  void try_laws() {
+    std::map<std::string, std::size_t> tried;  // places of each curve
+    for (const Place& place : places_) {
+      const bool loud = &place - places_.data() < most_loud;
+      if (++tried[place.space.place.curve] > 2 && !loud) continue;
+      const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
+      for (const ForceTerm& term : terms)
+        note("  " + kind_of(term.force) + " at " + place_text(*term.force.place) +
+             text(": evidence %.4g with %g numbers", term.evidence, term.parameters));
+      terms_.insert(terms_.end(), terms.begin(), terms.end());
+    }
+    std::ranges::stable_sort(
+        terms_, [](const ForceTerm& a, const ForceTerm& b) { return a.evidence > b.evidence; });
+  }
+
+  static const std::string& kind_of(const plant::Effect& force) { return force.words.at("kind"); }
+
+  // The best place of every kind, as long as it is not far behind; of the best kind, the best place
+  // on every curve. Simple laws first.
+  std::vector<ForceTerm> worth_refitting() const {
+    std::vector<ForceTerm> chosen;
+    std::set<std::pair<std::string, std::string>> known;
+    for (const ForceTerm& term : terms_) {
+      const double best = terms_.front().evidence;
+      if (term.evidence < std::min(best - refit_within, (1.0 - refit_share) * best)) break;
+      if (term.evidence < 0.5 * enough_evidence || chosen.size() >= most_refits) break;
+      const bool best_kind = kind_of(term.force) == kind_of(terms_.front().force);
+      const std::string curve = best_kind ? term.force.place->curve : "";
+      if (known.insert({kind_of(term.force), curve}).second) chosen.push_back(term);
+    }
+    std::ranges::stable_sort(
+        chosen, [](const ForceTerm& a, const ForceTerm& b) { return a.parameters < b.parameters; });
+    return chosen;
+  }
+
+  Hypothesis with(const plant::Effect& force) const {
+    Hypothesis start = model_.hypothesis;
+    const Place& place = nearest(*force.place);
+    if (start.size() > 0)  // which have taken what they could of the force
+      start.set_unknowns(start.unknowns() +
+                         place.space.shift * history_of(force, place.space, place.path, scales_));
+    start.add(free_force(force, 0.02 * scales_.length, scales_.duration));
+    start.name = missing_force;
+    return start;
+  }
+
+  // From the best of a few starts: what looks like a stop may be a string to a point at any
+  // distance.
+  FitSummary refitted(const plant::Effect& force) {
+    std::vector<Hypothesis> starts;
+    for (const double factor : {1.0, 0.5, 2.0}) {
+      plant::Effect scaled = force;
+      scale_force(scaled, factor);
+      starts.push_back(with(scaled));
+    }
+    if (kind_of(force) == "string")
+      for (const ForceTerm& stop : result_.terms)
+        for (const double distance : {0.3, 0.6, 1.5})
+          if (kind_of(stop.force) == "stop") {
+            plant::Effect string = stop.force;
+            string.words["kind"] = "string";
+            string.numbers["distance"] = {distance * scales_.length};
+            starts.push_back(with(string));
+          }
+    return fit(evaluator_, starts[scan(evaluator_, starts, options_.fit).best], options_.fit);
+  }
+
+  void refit() {
+    for (ForceTerm term : worth_refitting()) {
+      const FitSummary found = refitted(term.force);
+      term.gain = (model_.cost - found.cost) / scales_.dispersion;
+      // One more: its place along the curve.
+      term.evidence = term.gain - cost_of(term.parameters + 1, scales_.samples, scales_.choices);
+      term.force = found.hypothesis.effects.back();
+      note("Refitted: " + describe(term.force) + " at " + place_text(*term.force.place) +
+           text(", evidence %.4g", term.evidence));
+      const bool better = result_.terms.empty() || term.evidence > result_.evidence;
+      result_.terms.push_back(term);
+      if (!better) continue;
+      result_.evidence = term.evidence;
+      result_.fit = found;
+    }
+    std::ranges::stable_sort(result_.terms, [](const ForceTerm& a, const ForceTerm& b) {
+      return a.evidence > b.evidence;
+    });
+  }
+
+  void conclude() {
+    const Place& loudest = places_.front();
+    if (result_.evidence >= enough_evidence) {
+      const plant::Effect& force = result_.terms.front().force;
+      result_.found = true;
+      result_.kind = plain_kind(force);
+      result_.place = force.place;
+      result_.share = share_of(model_.cost - result_.fit.cost);
+      result_.what = "It fits best as this: " + describe(force);
+      describe_history(nearest(*force.place), force);
+      check();
+    } else if (loudest.free.evidence >= enough_evidence) {
+      result_.found = true;
+      result_.kind = "force of no known law";
+      result_.place = loudest.space.place;
+      result_.evidence = loudest.free.evidence;
+      result_.share = share_of(loudest.free.gain);
+      result_.what = "No law of the library follows it";
+      describe_history(loudest, {});
+    }
+    if (result_.found) result_.where = "A force acts on " + place_text(*result_.place);
+  }
+
+  const Place& nearest(const plant::CurvePlace& at) const {
+    const Place* best = &places_.front();
+    const auto distance = [&](const Place& p) {
+      return (p.space.place.curve == at.curve ? 0.0 : 10.0) + std::abs(p.space.place.at - at.at);
+    };
+    for (const Place& place : places_)
+      if (distance(place) < distance(*best)) best = &place;
+    return *best;
+  }
+
+  static std::string place_text(const plant::CurvePlace& place) {
+    return place.curve + text(" at %.2g of its length", place.at);
+  }
+
+  // When it acts, and what it does with energy, from its history in a place.
+  void describe_history(const Place& place, const std::optional<plant::Effect>& force) {
+    const Eigen::VectorXd history =
+        force ? history_of(*force, place.space, place.path, scales_) : place.free.value;
+    const auto force_at = [&](const ForceKnots& knots, int i) {
+      Vec3 f = Vec3::Zero();
+      for (std::size_t a = 0; a < place.space.axes.size(); ++a)
+        f += history[knots.first + static_cast<int>(a) * knots.count + i] * place.space.axes[a];
+      return f;
+    };
+    double most = 0.0, work = 0.0, turnover = 0.0, active = 0.0, all = 0.0;
+    for (const ForceKnots& knots : place.space.knots)
+      for (int i = 0; i < knots.count; ++i) most = std::max(most, force_at(knots, i).norm());
+    for (std::size_t k = 0; k < place.space.knots.size(); ++k) {
+      const ForceKnots& knots = place.space.knots[k];
+      for (int i = 0; i < knots.count; ++i) {
+        const Vec3 f = force_at(knots, i);
+        const double power = f.dot(place.path.velocity[k].row(i).transpose());
+        work += power * knots.interval;
+        turnover += std::abs(power) * knots.interval;
+        active += f.norm() > 0.05 * most ? 1.0 : 0.0;
+        all += 1.0;
+      }
+    }
+    result_.when = when_text(force, 100.0 * active / std::max(all, 1.0), most);
+    result_.how = how_text(turnover > 0.0 ? work / turnover : 0.0);
+  }
+
+  static std::string when_text(const std::optional<plant::Effect>& force, double active,
+                               double most) {
+    const std::string size = text("it reaches %.2g N", most);
+    const std::string kind = force ? kind_of(*force) : "";
+    if (kind == "string" || kind == "stop")
+      return size + text(", and acts in %.2g %% of the time, by where the plant is", active);
+    if (kind == "periodic") return size + ", and comes back with time, whatever the plant does";
+    if (kind == "jolt" || kind == "onset") return size + ", in one trial alone";
+    return size + text(", and acts in %.2g %% of the time", active);
+  }
+
+  static std::string how_text(double ratio) {
+    if (ratio < -0.5) return text("it takes energy out (work over turnover %.2f)", ratio);
+    if (ratio > 0.5) return text("it drives the plant (work over turnover %.2f)", ratio);
+    return text("it gives back about what it takes (work over turnover %.2f)", ratio);
+  }
+
+  // RMS error in noise units over the trials kept back, without and with the force.
+  void check() {
+    if (options_.check.empty()) return;
+    FitOptions kept = options_.fit;
+    kept.trials = options_.check;
+    const std::vector<Hypothesis> models{model_.hypothesis, result_.fit.hypothesis};
+    const auto predicted = evaluator_.predictions(models, kept);
+    double error[2];
+    for (int m = 0; m < 2; ++m) {
+      double sum = 0.0, count = 0.0;
+      for (std::size_t t = 0; t < kept.trials.size(); ++t) {
+        const Eigen::MatrixXd r =
+            evaluator_.data().scaled_residual(kept.trials[t], predicted[m][t]);
+        for (const double x : r.reshaped())
+          if (std::isfinite(x)) sum += x * x, count += 1.0;
+      }
+      error[m] = std::sqrt(sum / std::max(count, 1.0));
+    }
+    note(text("Trials kept back: %.4g of the noise without it, %.4g with it", error[0], error[1]));
+    if (error[0] > 1.0) result_.gain = (error[0] - error[1]) / (error[0] - 1.0);
+  }
+
+  Evaluator& evaluator_;
+  const FitSummary& model_;
+  const MissingForceOptions& options_;
+  const Experiment& experiment_;
+  ForceResponses responses_;
+  LibraryScales scales_;
+  std::vector<Place> places_;
+  std::vector<int> sensor_;
+  double sensor_evidence_ = 0.0;
+  std::vector<ForceTerm> terms_;
+  MissingForce result_;
+};
+
+}  // namespace
+
+std::string MissingForce::sentence() const {
+  if (!found) return "";
+  std::string all =
+      text("%.2g %% of what the model left above the noise is this. ", 100.0 * share) + where + ".";
+  if (!kind.empty()) all += " Kind: " + kind + ".";
+  if (!what.empty()) all += " " + what + ".";
+  std::string course = when.empty() || how.empty() ? when + how : when + "; " + how;
+  if (!course.empty()) {
+    course[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(course[0])));
+    all += " " + course + ".";
+  }
+  if (gain) all += text(" On trials kept back it removes %.2g %% of the error.", 100.0 * *gain);
+  return all + " Do not extrapolate.";
+}
+
+MissingForce infer_missing_force(Evaluator& evaluator, const FitSummary& model,
+                                 const MissingForceOptions& options) {
+  return Inference(evaluator, model, options).run();
+}
+
+}  // namespace pedicel::discrepancy
