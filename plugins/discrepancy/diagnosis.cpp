@@ -22,6 +22,7 @@ constexpr double enough_evidence = 25.0;
 constexpr double small_excess = 0.01;
 constexpr double clear_margin = 5.0;    // nats by which a rival must lose
 constexpr double margin_share = 0.01;   // and of the gain: our model errors scale with it
+constexpr double most_margin = 20.0;    // nats, of that
 constexpr double allowed_error = 0.15;  // of the noise, RMS, before it is corrected for
 constexpr double numerical_limit = 0.5;
 constexpr double left_uncorrected = 0.3;  // of our numerical error, and of the data's own
@@ -579,7 +580,7 @@ class Procedure {
       verdict.causes.push_back(named(chain_[c], result_.best, base_effects + static_cast<int>(c)));
     verdict.outcome = Outcome::named;
     const Candidate& best = result_.ranking.front();
-    const double margin = clear_margin + margin_share * best.gain;
+    const double margin = clear_margin + std::min(margin_share * best.gain, most_margin);
     for (std::size_t i = 1; i < result_.ranking.size(); ++i) {
       const Candidate& rival = result_.ranking[i];
       const double behind = best.evidence - rival.evidence;

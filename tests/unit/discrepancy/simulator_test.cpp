@@ -158,7 +158,7 @@ TEST(Simulator, AConstantPointForceIsALoad) {
   const Experiment bare = experiment_of({}, 0.1);
   Variant variant;
   variant.forces.push_back(
-      {on_stem(1.0), [](double, const Vec3&, const Vec3&) { return Vec3(0.01, 0, 0); }});
+      {on_stem(1.0), [](double, const Vec3&, const Vec3&) { return Vec3(0.01, 0, 0); }, {}});
   EXPECT_LT((predict(bare, variant).markers - predict(loaded(-1, 1)).markers).norm(), 1e-8);
 }
 
