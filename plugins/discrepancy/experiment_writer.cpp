@@ -68,7 +68,8 @@ std::string trial_text(const Trial& trial) {
 
 std::string experiment_text(const Experiment& experiment) {
   std::string text = "format: pedicel-experiment\nversion: 1\n";
-  text += "title: " + yaml_word(experiment.title) + "\nplant: plant.yaml\nmarkers:\n";
+  if (!experiment.title.empty()) text += "title: " + yaml_word(experiment.title) + "\n";
+  text += "plant: plant.yaml\nmarkers:\n";
   for (const Marker& marker : experiment.markers)
     text += "  - {name: " + yaml_word(marker.name) + ", " + place(marker.place) + "}\n";
   const StatedNoise& noise = experiment.noise;

@@ -65,7 +65,7 @@ TEST_F(Validate, SaysHowAPlantStands) {
 TEST_F(Validate, SaysWhatItKnowsWhereTheKindIsUnknown) {
   EXPECT_EQ(validate({write("a.txt", "hello")}), 3);
   EXPECT_THAT(text_, HasSubstr("a.txt: error: kind of file is unknown, expected one of: "
-                               "pedicel-plant, pedicel-scene"));
+                               "pedicel-plant, pedicel-experiment, pedicel-scene"));
   EXPECT_EQ(validate({write("b.yaml", "format: pedicel-poem\n")}), 3);
   EXPECT_THAT(text_, HasSubstr("kind of file is unknown"));
 }
