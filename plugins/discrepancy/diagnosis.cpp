@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "discrepancy/missing_force.h"
 #include "discrepancy/symptoms.h"
@@ -524,6 +525,7 @@ class Procedure {
     cause.evidence = candidate.evidence;
     const plant::Effect& effect = fit.hypothesis.effects[first_effect];
     cause.where = effect.place;
+    if (cause.name == "base_compliance") cause.where = root_place();
     cause.words = effect.words;
     for (int p = 0; p < fit.hypothesis.size(); ++p) {
       const FreeParameter& free = fit.hypothesis.free[p];
@@ -556,6 +558,21 @@ class Procedure {
     cause.evidence = 50.0 * count;
     verdict.causes.push_back(cause);
     if (verdict.outcome == Outcome::adequate) verdict.outcome = Outcome::named;
+  }
+
+  // The end of a curve that is clamped.
+  plant::CurvePlace root_place() const {
+    const plant::PlantFile& plant = experiment().plant;
+    plant::CurvePlace nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (const plant::PlantCurve& curve : plant.curves)
+      for (const double at : {0.0, 1.0}) {
+        const Vec3& end = at == 0.0 ? curve.points.front() : curve.points.back();
+        if ((end - plant.root).norm() >= least) continue;
+        least = (end - plant.root).norm();
+        nearest = {curve.name, at, {}};
+      }
+    return nearest;
   }
 
   // What is seen without the cause and gone with it.
