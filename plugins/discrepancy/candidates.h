@@ -23,7 +23,6 @@ struct Candidate {
 
 struct RefitOptions {
   FitOptions fit;
-  int threads = 1;
   /// Called now and then, from any thread, with the share that is done.
   std::function<void(double)> progress;
   const std::atomic<bool>* stop = nullptr;

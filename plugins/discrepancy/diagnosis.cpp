@@ -28,6 +28,8 @@ constexpr double allowed_error = 0.15;  // of the noise, RMS, before it is corre
 constexpr double numerical_limit = 0.5;
 constexpr double left_uncorrected = 0.3;  // of our numerical error, and of the data's own
 constexpr double least_gain = 0.2;        // on trials kept back
+// Logarithm of a factor: two honest solvers' moduli differ by up to 0.3 % on the same data.
+constexpr double least_parameter_change = 0.005;
 constexpr int most_causes = 3;
 constexpr int least_outliers = 12;  // wild samples that are worth a name
 constexpr double interval95 = 1.96;
@@ -208,7 +210,7 @@ class Procedure {
       parameter_shift_ = check.parameter_shift;
       if (check.largest <= allowed_error || round == 3) {
         corrections_ = check.corrections;
-        if (check.largest > numerical_limit && !too_wrong(check)) {
+        if (check.largest > numerical_limit && !is_drowned(check)) {
           result_.verdict.outcome = Outcome::numerical;
           result_.verdict.remainder = text(
               "half the step and half the mesh still move the prediction by %.2g times the "
@@ -236,7 +238,7 @@ class Procedure {
   }
 
   // Against a residual many times larger a numerical error above the noise does not matter.
-  bool too_wrong(const NumericsCheck& check) const {
+  bool is_drowned(const NumericsCheck& check) const {
     const double rms = std::sqrt(2.0 * result_.base.cost / std::max(1, samples()));
     return check.largest < 0.1 * rms;
   }
@@ -300,7 +302,7 @@ class Procedure {
   // ---- Steps 4 to 7 -----------------------------------------------------------------------------
 
   RefitOptions refit_options(double from, double to, const std::string& what) {
-    RefitOptions refit{fit_options_, options_.threads, {}, options_.stop};
+    RefitOptions refit{fit_options_, {}, options_.stop};
     refit.progress = [this, from, to, what](double share) {
       say(what, from + share * (to - from));
     };
@@ -396,11 +398,22 @@ class Procedure {
     } else {
       conclude_causes();
     }
-    if (verdict.outcome == Outcome::unknown) look_for_force();
+    if (verdict.outcome == Outcome::unknown) name_nothing();
     conclude_outliers();
     report_parameters();
     what_could_hide();
     choose_next();
+  }
+
+  // What was fitted but does not explain the data is told in words, not as a cause.
+  void name_nothing() {
+    Verdict& verdict = result_.verdict;
+    std::string nearest;
+    for (const NamedCause& cause : verdict.causes)
+      nearest += (nearest.empty() ? "" : " with ") + cause.name;
+    verdict.causes.clear();
+    if (!nearest.empty()) verdict.remainder += "; the nearest known cause is " + nearest;
+    look_for_force();
   }
 
   // Where, when and of what kind the force is that no cause stands for.
@@ -503,7 +516,7 @@ class Procedure {
       double error = result_.base.standard_error[p];
       const double shift = p < parameter_shift_.size() ? std::abs(parameter_shift_[p]) : 0.0;
       // Three parameters share the few false alarms that are allowed.
-      if (std::abs(u) < 3.5 * error + shift + least_parameter_change(p)) continue;
+      if (std::abs(u) < 3.5 * error + shift + least_parameter_change) continue;
       NamedCause cause;
       cause.name = result_.base.hypothesis.effects[free.effect].name;
       cause.parameters["factor"] = {estimate_of(result_.base, p)};
@@ -515,9 +528,6 @@ class Procedure {
     }
     verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
   }
-  // What a mesh as coarse as the plant file's own would have moved it by: data made, or a modulus
-  // tuned, with such a mesh carry that error.
-  double least_parameter_change(int) const { return 0.005; }
 
   NamedCause named(const Candidate& candidate, const FitSummary& fit, int first_effect) const {
     NamedCause cause;
@@ -536,8 +546,7 @@ class Procedure {
       if (!cause.parameters.contains(name))
         for (const double x : numbers)
           cause.parameters[name].push_back({x, x, x, unit_of(cause.name, name)});
-    cause.because =
-        text("With it the fitted records are %.4g times likelier in log units", cause.evidence);
+    cause.because = because(cause.name);
     return cause;
   }
 
@@ -546,6 +555,8 @@ class Procedure {
     const Admission& admission = result_.admission;
     if (admission.outliers < least_outliers) return;
     Verdict& verdict = result_.verdict;
+    // Among rivals, or where nothing is known, they would read as one more explanation.
+    if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) return;
     NamedCause cause;
     cause.name = "outliers";
     const double count = admission.outliers, fraction = admission.outlier_fraction();
@@ -557,7 +568,7 @@ class Procedure {
     // Each lies 10 deviations out: as Gaussian noise it would cost 50 nats.
     cause.evidence = 50.0 * count;
     verdict.causes.push_back(cause);
-    if (verdict.outcome == Outcome::adequate) verdict.outcome = Outcome::named;
+    verdict.outcome = Outcome::named;
   }
 
   // The end of a curve that is clamped.
