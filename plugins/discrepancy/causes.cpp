@@ -145,7 +145,7 @@ class Candidates {
           junction.push_back(Start("attachment_compliance")
                                  .place(curve.name, 0.0)
                                  .positive("stiffness", part * k, 1e-5 * k, 1e4 * k));
-      for (const double at : {0.15, 0.4, 0.7}) {
+      for (const double at : {0.04, 0.15, 0.4, 0.7}) {
         const double length = 0.1 * length_of(curve);
         weak.push_back(Start("weak_segment")
                            .moving_place(curve.name, at)
@@ -230,15 +230,18 @@ class Candidates {
                            .prior(1.5, 0.02));
     }
     add("wind", wind);
-    for (const double frequency : {0.15, 0.3, 0.5, 0.8, 1.2, 1.8})
+    // A record of duration T parts frequencies 1/T from each other; halfway between two of these
+    // starts a fit still slides to the right one.
+    const int count = std::clamp(static_cast<int>(1.8 * scales_.duration), 6, 16);
+    for (int f = 1; f <= count; ++f)
       for (int i = 0; i < 2; ++i)
         gust.push_back(
             Start("gust")
                 .vector("velocity", 0.7 * (i ? Vec3::UnitY() : Vec3::UnitX()), 0.3, 30.0, 2)
                 .positive("drag_area", 0.02, 1e-4, 1.0)
                 .prior(1.5, 0.02)
-                .positive("frequency", frequency, 0.03, 5.0)
-                .positive("amplitude", 0.3, 1e-3, 5.0));
+                .positive("frequency", 1.9 * f / count, 0.03, 5.0)
+                .positive("amplitude", 0.7, 1e-3, 5.0));
     add("gust", gust);
   }
 

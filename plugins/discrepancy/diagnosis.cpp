@@ -185,17 +185,23 @@ class Procedure {
       start = starts[scan(evaluator, starts, early).best];
     }
     constexpr std::array horizons{0.3, 1.0};
-    note(text("Noise %.3g m, lag-one correlation %.3g", result_.position_noise.std,
-              result_.position_noise.correlation()));
+    note_noise();
     result_.base = fit_growing(evaluator, start, fit_options_, horizons);
     note_fit("Baseline", result_.base);
     refine();
     renew_noise(result_.base);
     Evaluator again = wide();
     result_.base = fit(again, result_.base.hypothesis, fit_options_);
-    note(text("Noise %.3g m, lag-one correlation %.3g", result_.position_noise.std,
-              result_.position_noise.correlation()));
+    note_noise();
     note_fit("Baseline", result_.base);
+  }
+
+  void note_noise() {
+    const auto said = [](const Noise& noise) {
+      return text("%.3g, lag-one correlation %.2g", noise.std, noise.correlation());
+    };
+    note("Noise of positions (m) " + said(result_.position_noise) + "; of forces (N) " +
+         said(result_.force_noise) + ".");
   }
 
   // Mesh and step, until our own error is a small part of the noise, or until that costs too much.
@@ -310,9 +316,8 @@ class Procedure {
   }
 
   void search() {
-    result_.ranking =
-        refit_all(workers_, result_.base, causes_, promise_of(causes_, result_.directions),
-                  refit_options(0.2, 0.6, "refitting candidates"));
+    result_.ranking = refit_all(workers_, result_.base, causes_, result_.directions,
+                                refit_options(0.2, 0.6, "refitting candidates"));
     for (std::size_t i = 0; i < std::min<std::size_t>(6, result_.ranking.size()); ++i)
       note_fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit);
     if (result_.ranking.empty() || result_.ranking.front().evidence < enough_evidence) return;
@@ -336,7 +341,7 @@ class Procedure {
       const double from = 0.5 + 0.15 * static_cast<double>(chain_.size());
       const std::vector<Cause> likely = promising(directions);
       const std::vector<Candidate> next =
-          refit_all(workers_, result_.best, likely, promise_of(likely, directions),
+          refit_all(workers_, result_.best, likely, directions,
                     refit_options(from, from + 0.15, "looking for another cause"));
       if (next.empty() || next.front().evidence < enough_evidence) return;
       chain_.push_back(next.front());
@@ -347,20 +352,6 @@ class Procedure {
     std::vector<Direction> directions =
         directions_of(evaluator, result_.best, causes_, fit_options_);
     result_.after = judge(directions, result_.best, numerical_, options_.seed);
-  }
-
-  // The largest directed statistic of each cause.
-  static std::vector<double> promise_of(const std::vector<Cause>& causes,
-                                        const std::vector<Direction>& directions) {
-    std::vector<double> promise;
-    for (const Cause& cause : causes) {
-      double loudest = 0.0;
-      for (const Direction& direction : directions)
-        if (direction.cause == cause.name)
-          loudest = std::max(loudest, std::abs(direction.statistic));
-      promise.push_back(loudest);
-    }
-    return promise;
   }
 
   // Causes whose direction shows in what is left; the loudest dozen.
