@@ -261,17 +261,30 @@ class Candidates {
       compliance.push_back(
           Start("grip_compliance").positive("stiffness", part * from, 0.1 * soft, 1e5 * soft));
     add("grip_compliance", compliance);
-    for (const Trial& trial : experiment_.trials) {
-      if (trial.holds.empty()) continue;
-      const double end = std::min(trial.holds[0].release, trial.duration());
-      for (const double part : {0.3, 0.6})
-        for (const double distance : {0.01, -0.01})
-          slip.push_back(Start("grip_slip")
-                             .word("trial", trial.name)
-                             .signed_number("distance", distance, 0.01, -0.1, 0.1)
-                             .signed_number("time", part * end, 0.2 * end, 0.0, end));
-    }
+    // In every trial, or in one.
+    double first_end = 1e300;
+    for (const Trial& trial : experiment_.trials)
+      if (!trial.holds.empty()) first_end = std::min(first_end, end_of_hold(trial));
+    slips("", first_end, slip);
+    for (const Trial& trial : experiment_.trials)
+      if (!trial.holds.empty()) slips(trial.name, end_of_hold(trial), slip);
     add("grip_slip", slip);
+  }
+
+  static double end_of_hold(const Trial& trial) {
+    return std::min(trial.holds[0].release, trial.duration());
+  }
+
+  // A slip in the trial of that name (empty: in all) before `end`.
+  static void slips(const std::string& trial, double end, std::vector<Hypothesis>& starts) {
+    for (const double part : {0.3, 0.6})
+      for (const double distance : {0.01, -0.01}) {
+        Start start("grip_slip");
+        if (!trial.empty()) start.word("trial", trial);
+        start.signed_number("distance", distance, 0.01, -0.1, 0.1)
+            .signed_number("time", part * end, 0.2 * end, 0.0, end);
+        starts.push_back(start);
+      }
   }
 
   void sensors() {
