@@ -135,7 +135,7 @@ class Procedure {
     wide_ = std::make_unique<Simulator>(experiment(), result_.numerics, options_.threads);
   }
   const Corrections* corrections() const {
-    return corrections_.own.empty() ? nullptr : &corrections_;
+    return corrections_.empty() ? nullptr : &corrections_;
   }
   Evaluator wide() { return Evaluator(*wide_, *data_, corrections()); }
   void count_simulations() {

@@ -125,7 +125,7 @@ class Run {
     simulator_ = std::make_unique<Simulator>(experiment(), result_.numerics, options_.threads);
   }
   Evaluator evaluator() {
-    return Evaluator(*simulator_, data_, corrections_.own.empty() ? nullptr : &corrections_);
+    return Evaluator(*simulator_, data_, corrections_.empty() ? nullptr : &corrections_);
   }
   int samples() const { return data_.samples(fit_options_.trials); }
 
