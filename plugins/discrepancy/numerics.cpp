@@ -24,14 +24,15 @@ Prediction difference(const Prediction& finer, const Prediction& coarser, double
 
 NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
                              const FitSummary& base, const Numerics& numerics,
-                             const FitOptions& options, int threads, long& simulations) {
+                             const FitOptions& options, int threads, long& simulations,
+                             const std::atomic<bool>* stop) {
   NumericsCheck check;
   check.numerics = numerics;
   FitOptions all = options;
   all.trials.clear();
   for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t) all.trials.push_back(t);
   const auto run = [&](const Numerics& with) {
-    Simulator simulator(experiment, with, threads);
+    Simulator simulator(experiment, with, threads, stop);
     Evaluator evaluator(simulator, data);
     auto predicted = evaluator.predictions(std::span(&base.hypothesis, 1), all);
     simulations += simulator.simulations();

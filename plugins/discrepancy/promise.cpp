@@ -1,0 +1,39 @@
+#include "discrepancy/promise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr std::size_t most_promising = 12;
+
+}  // namespace
+
+std::vector<double> promise_of(const std::vector<Cause>& causes,
+                               const std::vector<Direction>& directions) {
+  std::vector<double> promise;
+  for (const Cause& cause : causes) {
+    double loudest = 0.0;
+    for (const Direction& direction : directions)
+      if (direction.cause == cause.name) loudest = std::max(loudest, std::abs(direction.statistic));
+    promise.push_back(loudest);
+  }
+  return promise;
+}
+
+std::vector<Cause> promising(const std::vector<Cause>& causes,
+                             const std::vector<Direction>& directions) {
+  const std::vector<double> promise = promise_of(causes, directions);
+  std::vector<std::size_t> order(causes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return promise[a] > promise[b]; });
+  order.resize(std::min(most_promising, order.size()));
+  std::vector<Cause> chosen;
+  for (const std::size_t i : order) chosen.push_back(causes[i]);
+  return chosen;
+}
+
+}  // namespace pedicel::discrepancy
