@@ -62,7 +62,7 @@ class Candidates {
           junction.push_back(Start("attachment_compliance")
                                  .place(curve.name, 0.0)
                                  .positive("stiffness", part * k, 1e-5 * k, 1e4 * k));
-      for (const double at : {0.15, 0.4, 0.7}) {
+      for (const double at : {0.04, 0.15, 0.4, 0.7}) {
         const double length = 0.1 * length_of(curve);
         weak.push_back(Start("weak_segment")
                            .moving_place(curve.name, at)
@@ -147,15 +147,18 @@ class Candidates {
                            .prior(1.5, 0.02));
     }
     add("wind", wind);
-    for (const double frequency : {0.15, 0.3, 0.5, 0.8, 1.2, 1.8})
+    // A record of duration T parts frequencies 1/T from each other; halfway between two of these
+    // starts a fit still slides to the right one.
+    const int count = std::clamp(static_cast<int>(1.8 * scales_.duration), 6, 16);
+    for (int f = 1; f <= count; ++f)
       for (int i = 0; i < 2; ++i)
         gust.push_back(
             Start("gust")
                 .vector("velocity", 0.7 * (i ? Vec3::UnitY() : Vec3::UnitX()), 0.3, 30.0, 2)
                 .positive("drag_area", 0.02, 1e-4, 1.0)
                 .prior(1.5, 0.02)
-                .positive("frequency", frequency, 0.03, 5.0)
-                .positive("amplitude", 0.3, 1e-3, 5.0));
+                .positive("frequency", 1.9 * f / count, 0.03, 5.0)
+                .positive("amplitude", 0.7, 1e-3, 5.0));
     add("gust", gust);
   }
 
@@ -175,17 +178,30 @@ class Candidates {
       compliance.push_back(
           Start("grip_compliance").positive("stiffness", part * from, 0.1 * soft, 1e5 * soft));
     add("grip_compliance", compliance);
-    for (const Trial& trial : experiment_.trials) {
-      if (trial.holds.empty()) continue;
-      const double end = std::min(trial.holds[0].release, trial.duration());
-      for (const double part : {0.3, 0.6})
-        for (const double distance : {0.01, -0.01})
-          slip.push_back(Start("grip_slip")
-                             .word("trial", trial.name)
-                             .signed_number("distance", distance, 0.01, -0.1, 0.1)
-                             .signed_number("time", part * end, 0.2 * end, 0.0, end));
-    }
+    // In every trial, or in one.
+    double first_end = 1e300;
+    for (const Trial& trial : experiment_.trials)
+      if (!trial.holds.empty()) first_end = std::min(first_end, end_of_hold(trial));
+    slips("", first_end, slip);
+    for (const Trial& trial : experiment_.trials)
+      if (!trial.holds.empty()) slips(trial.name, end_of_hold(trial), slip);
     add("grip_slip", slip);
+  }
+
+  static double end_of_hold(const Trial& trial) {
+    return std::min(trial.holds[0].release, trial.duration());
+  }
+
+  // A slip in the trial of that name (empty: in all) before `end`.
+  static void slips(const std::string& trial, double end, std::vector<Hypothesis>& starts) {
+    for (const double part : {0.3, 0.6})
+      for (const double distance : {0.01, -0.01}) {
+        Start start("grip_slip");
+        if (!trial.empty()) start.word("trial", trial);
+        start.signed_number("distance", distance, 0.01, -0.1, 0.1)
+            .signed_number("time", part * end, 0.2 * end, 0.0, end);
+        starts.push_back(start);
+      }
   }
 
   void sensors() {

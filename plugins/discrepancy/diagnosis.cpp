@@ -85,13 +85,13 @@ class Procedure {
     Evaluator evaluator = setup_->evaluator();
     const Hypothesis start = baseline_start(evaluator, fit_options(), result_.unseen);
     constexpr std::array horizons{0.3, 1.0};
-    log_.noise(setup_->data().position_noise());
+    log_.noise(setup_->data());
     result_.base = fit_growing(evaluator, start, fit_options(), horizons);
     log_.fit("Baseline", result_.base, setup_->samples());
     refine();
     setup_->renew_noise(result_.base.hypothesis);
     refit_base();
-    log_.noise(setup_->data().position_noise());
+    log_.noise(setup_->data());
     log_.fit("Baseline", result_.base, setup_->samples());
   }
 
@@ -176,9 +176,8 @@ class Procedure {
 
   void search() {
     make_workers();
-    result_.ranking =
-        refit_all(workers_, result_.base, causes_, promise_of(causes_, result_.directions),
-                  refit_options(0.2, 0.6, "refitting candidates"));
+    result_.ranking = refit_all(workers_, result_.base, causes_, result_.directions,
+                                refit_options(0.2, 0.6, "refitting candidates"));
     for (std::size_t i = 0; i < std::min<std::size_t>(6, result_.ranking.size()); ++i)
       log_.fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit,
                setup_->samples());
@@ -204,7 +203,7 @@ class Procedure {
       const double from = 0.5 + 0.15 * static_cast<double>(findings_.chain.size());
       const std::vector<Cause> likely = promising(causes_, directions);
       const std::vector<Candidate> next =
-          refit_all(workers_, result_.best, likely, promise_of(likely, directions),
+          refit_all(workers_, result_.best, likely, directions,
                     refit_options(from, from + 0.15, "looking for another cause"));
       if (next.empty() || next.front().evidence < enough_evidence) return;
       findings_.chain.push_back(next.front());

@@ -16,8 +16,12 @@ void DiagnosisLog::note(const std::string& sentence) {
   if (found_) found_(sentence);
 }
 
-void DiagnosisLog::noise(const Noise& position) {
-  note(text("Noise %.3g m, lag-one correlation %.3g", position.std, position.correlation()));
+void DiagnosisLog::noise(const DataSet& data) {
+  const auto said = [](const Noise& noise) {
+    return text("%.3g, lag-one correlation %.2g", noise.std, noise.correlation());
+  };
+  note("Noise of positions (m) " + said(data.position_noise()) + "; of forces (N) " +
+       said(data.force_noise()) + ".");
 }
 
 void DiagnosisLog::fit(const std::string& what, const FitSummary& fit, int samples) {

@@ -19,7 +19,7 @@ class DiagnosisLog {
 
   void say(const std::string& what, double share) const;
   void note(const std::string& sentence);
-  void noise(const Noise& position);
+  void noise(const DataSet& data);
   /// A fit's parameters; `samples` were fitted.
   void fit(const std::string& what, const FitSummary& fit, int samples);
   /// The loudest directions.

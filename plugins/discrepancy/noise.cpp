@@ -127,7 +127,7 @@ Noise estimate_noise(std::span<const Series> channels, double stated_std) {
     samples += size;
   }
   level /= samples;
-  std::vector<double> covariance(most_lags + 1, level);
+  std::vector<double> semivariance;
   for (int lag = 1; lag <= most_lags; ++lag) {
     double sum = 0.0;
     int count = 0;
@@ -136,8 +136,13 @@ Noise estimate_noise(std::span<const Series> channels, double stated_std) {
       sum += squares;
       count += pairs;
     }
-    covariance[lag] = level - 0.5 * sum / count;
+    semivariance.push_back(0.5 * sum / count);
   }
+  // A slow misfit raises the plateau and would pass for a long memory, which then hides it.
+  if (stated_std > 0.0)
+    level = std::max(stated_std * stated_std, *std::ranges::max_element(semivariance));
+  std::vector<double> covariance{level};
+  for (const double value : semivariance) covariance.push_back(level - value);
   return autoregressive(covariance, samples);
 }
 

@@ -1,7 +1,6 @@
 #include "discrepancy/promise.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pedicel::discrepancy {
 
@@ -10,18 +9,6 @@ namespace {
 constexpr std::size_t most_promising = 12;
 
 }  // namespace
-
-std::vector<double> promise_of(const std::vector<Cause>& causes,
-                               const std::vector<Direction>& directions) {
-  std::vector<double> promise;
-  for (const Cause& cause : causes) {
-    double loudest = 0.0;
-    for (const Direction& direction : directions)
-      if (direction.cause == cause.name) loudest = std::max(loudest, std::abs(direction.statistic));
-    promise.push_back(loudest);
-  }
-  return promise;
-}
 
 std::vector<Cause> promising(const std::vector<Cause>& causes,
                              const std::vector<Direction>& directions) {
