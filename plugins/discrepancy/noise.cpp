@@ -11,6 +11,7 @@ namespace {
 constexpr int most_lags = 6;
 constexpr int window_size = 100;  // samples; long against the memory of a sensor
 constexpr int least_window = 16;
+constexpr double most_share = 1.2;  // of a stated deviation, that an estimate may be
 
 // A stretch without gaps.
 struct Window {
@@ -143,6 +144,18 @@ Noise estimate_noise(std::span<const Series> channels, double stated_std) {
   std::vector<double> covariance{level};
   for (const double value : semivariance) covariance.push_back(level - value);
   return autoregressive(covariance, samples);
+}
+
+Noise choose_noise(std::span<const Series> channels, double stated_std, const NoiseRule& rule) {
+  Noise noise = estimate_noise(channels, stated_std);
+  if (!(stated_std > 0.0)) return noise;
+  const bool small = noise.std < rule.least_share * stated_std;
+  if (small && !rule.keep_colour) return white_noise(stated_std);
+  if (!small && noise.std <= most_share * stated_std) return noise;
+  const double share = stated_std / noise.std;
+  noise.std = stated_std;
+  for (double& innovation : noise.innovation) innovation *= share;
+  return noise;
 }
 
 Eigen::VectorXd whiten(const Series& residual, const Noise& noise) {

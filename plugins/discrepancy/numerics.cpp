@@ -34,15 +34,21 @@ void add_difference(Predictions& sum, double share, const Predictions& finer,
 class Comparison {
  public:
   Comparison(const Experiment& experiment, const DataSet& data, const FitSummary& base,
-             const Numerics& numerics, const FitOptions& options, int threads)
-      : experiment_(experiment), data_(data), base_(base), options_(options), threads_(threads) {
+             const Numerics& numerics, const FitOptions& options, int threads,
+             const std::atomic<bool>* stop)
+      : experiment_(experiment),
+        data_(data),
+        base_(base),
+        options_(options),
+        threads_(threads),
+        stop_(stop) {
     Numerics half_step = numerics, half_mesh = numerics, file_mesh = numerics;
     half_step.dt *= 0.5;
     half_mesh.distance *= 0.5;
     file_mesh.distance = experiment.plant.distance;
     Numerics plain_mesh = file_mesh;
     plain_mesh.junction = 0.0;
-    Simulator own(experiment, numerics, threads), files(experiment, file_mesh, threads);
+    Simulator own(experiment, numerics, threads, stop), files(experiment, file_mesh, threads, stop);
     now_ = run(own, {Shift{}}).front();
     measure_parameters(own);
     const Predictions step = run(half_step), mesh = run(half_mesh), plain = run(plain_mesh);
@@ -105,7 +111,7 @@ class Comparison {
     return result;
   }
   Predictions run(const Numerics& numerics) {
-    Simulator simulator(experiment_, numerics, threads_);
+    Simulator simulator(experiment_, numerics, threads_, stop_);
     Predictions predicted = run(simulator, {Shift{}}).front();
     simulations_ += simulator.simulations();
     return predicted;
@@ -160,6 +166,7 @@ class Comparison {
   const FitSummary& base_;
   const FitOptions& options_;
   int threads_;
+  const std::atomic<bool>* stop_;
   long simulations_ = 0;
   Predictions now_, step_rest_, mesh_rest_;
   Eigen::MatrixXd by_parameter_;
@@ -170,8 +177,9 @@ class Comparison {
 
 NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
                              const FitSummary& base, const Numerics& numerics,
-                             const FitOptions& options, int threads, long& simulations) {
-  const Comparison comparison(experiment, data, base, numerics, options, threads);
+                             const FitOptions& options, int threads, long& simulations,
+                             const std::atomic<bool>* stop) {
+  const Comparison comparison(experiment, data, base, numerics, options, threads, stop);
   simulations += comparison.simulations();
   return comparison.result(numerics);
 }
