@@ -15,9 +15,8 @@ constexpr double small_excess = 0.01;
 constexpr double clear_margin = 5.0;   // nats by which a rival must lose
 constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
 constexpr double most_margin = 20.0;   // nats, of that
-constexpr double least_gain = 0.2;     // on trials kept back
-// Logarithm of a factor: two honest solvers' moduli differ by up to 0.3 % on the same data.
-constexpr double least_parameter_change = 0.005;
+// Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
+constexpr double least_parameter_change = 0.002;
 constexpr int least_outliers = 12;  // wild samples that are worth a name
 
 // Modulus, density or damping, where nothing else is wrong and their interval leaves out 1.
@@ -29,8 +28,9 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
     if (free.name != "factor") continue;
     const double u = free.to_unknown(base.hypothesis.value(p));
     const double error = base.standard_error[p];
-    const double shift =
-        p < findings.parameter_shift.size() ? std::abs(findings.parameter_shift[p]) : 0.0;
+    const double shift = p < findings.parameter_shift.size()
+                             ? left_uncorrected * std::abs(findings.parameter_shift[p])
+                             : 0.0;
     // Three parameters share the few false alarms that are allowed.
     if (std::abs(u) < 3.5 * error + shift + least_parameter_change) continue;
     NamedCause cause;
@@ -110,7 +110,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   weigh_rivals(findings, diagnosis, base_effects);
   judge_remainder(findings, diagnosis);
   // A cause that does nothing for trials that it was not fitted to is none.
-  if (verdict.outcome == Outcome::named && verdict.gain && *verdict.gain < least_gain) {
+  if (verdict.outcome == Outcome::named && !findings.chain.front().held_out.carries_over()) {
     verdict.outcome = Outcome::unknown;
     verdict.remainder = "what was fitted does not carry over to the trials kept back";
   }

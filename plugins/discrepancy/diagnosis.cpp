@@ -167,7 +167,7 @@ class Procedure {
   // ---- Steps 4 to 7 -----------------------------------------------------------------------------
 
   RefitOptions refit_options(double from, double to, const std::string& what) {
-    RefitOptions refit{fit_options(), {}, options_.stop};
+    RefitOptions refit{fit_options(), result_.check_trials, {}, options_.stop};
     refit.progress = [this, from, to, what](double share) {
       log_.say(what, from + share * (to - from));
     };
@@ -205,7 +205,9 @@ class Procedure {
       const std::vector<Candidate> next =
           refit_all(workers_, result_.best, likely, directions,
                     refit_options(from, from + 0.15, "looking for another cause"));
-      if (next.empty() || next.front().evidence < enough_evidence) return;
+      if (next.empty() || next.front().evidence < enough_evidence ||
+          !next.front().held_out.carries_over())
+        return;
       findings_.chain.push_back(next.front());
       result_.best = next.front().fit;
     }
