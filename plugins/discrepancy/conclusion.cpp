@@ -12,6 +12,7 @@ namespace {
 
 // Of the noise variance, an excess that is no sign of a missing effect.
 constexpr double small_excess = 0.01;
+constexpr double most_missed = 0.1;    // of the gain of all causes found, by what is left
 constexpr double clear_margin = 5.0;   // nats by which a rival must lose
 constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
 constexpr double most_margin = 20.0;   // nats, of that
@@ -69,6 +70,7 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& rival, cons
   return false;
 }
 
+// Whether something is left that what was found should have explained.
 void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   if (!diagnosis.after.raised) return;
@@ -77,8 +79,12 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   const double left = excess_after / std::max(excess_before, 1.0);
   verdict.remainder =
       text("%.2g %% of what the refitted model left above the noise", 100.0 * std::max(left, 0.0));
-  if (left > 0.05 && findings.excess(diagnosis.best) > small_excess)
-    verdict.outcome = Outcome::unknown;
+  double gain = 0.0;
+  for (const Candidate& found : findings.chain) gain += found.gain;
+  // What the loudest direction would still gain.
+  const double missed = 0.5 * std::pow(diagnosis.after.statistic, 2);
+  const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
+  if (much || missed > most_missed * gain) verdict.outcome = Outcome::unknown;
 }
 
 // Those that the data cannot tell from the best are causes, too; the others are rivals.
