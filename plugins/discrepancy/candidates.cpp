@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/thread_pool.h"
+#include "discrepancy/promise.h"
 
 namespace pedicel::discrepancy {
 
@@ -320,16 +321,6 @@ class Refits {
 double cost_of(int parameters, int samples, std::size_t candidates) {
   return 0.5 * parameters * std::log(std::max(samples, 2)) +
          std::log(static_cast<double>(std::max<std::size_t>(candidates, 1)));
-}
-
-std::vector<double> promise_of(const std::vector<Cause>& causes,
-                               const std::vector<Direction>& directions) {
-  std::vector<double> promise(causes.size(), 0.0);
-  for (std::size_t i = 0; i < causes.size(); ++i)
-    for (const Direction& direction : directions)
-      if (direction.cause == causes[i].name)
-        promise[i] = std::max(promise[i], std::abs(direction.statistic));
-  return promise;
 }
 
 std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,

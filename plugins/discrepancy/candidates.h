@@ -46,10 +46,6 @@ std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSumma
                                  const std::vector<Direction>& directions,
                                  const RefitOptions& options);
 
-/// The largest directed statistic of each cause.
-std::vector<double> promise_of(const std::vector<Cause>& causes,
-                               const std::vector<Direction>& directions);
-
 /// Bayesian information criterion: what a model's additional parameters cost, with the choice
 /// between so many candidates (nats).
 double cost_of(int parameters, int samples, std::size_t candidates);

@@ -1,6 +1,7 @@
 #include "discrepancy/promise.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pedicel::discrepancy {
 
@@ -9,6 +10,16 @@ namespace {
 constexpr std::size_t most_promising = 12;
 
 }  // namespace
+
+std::vector<double> promise_of(const std::vector<Cause>& causes,
+                               const std::vector<Direction>& directions) {
+  std::vector<double> promise(causes.size(), 0.0);
+  for (std::size_t i = 0; i < causes.size(); ++i)
+    for (const Direction& direction : directions)
+      if (direction.cause == causes[i].name)
+        promise[i] = std::max(promise[i], std::abs(direction.statistic));
+  return promise;
+}
 
 std::vector<Cause> promising(const std::vector<Cause>& causes,
                              const std::vector<Direction>& directions) {
