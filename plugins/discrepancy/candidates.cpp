@@ -14,11 +14,14 @@ namespace {
 constexpr double first_horizon = 0.35;
 constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
-constexpr std::size_t most_whole = 8;        // of each of the two lists
-constexpr std::size_t linear_starts = 3;     // looked at, of a cause
-constexpr double small_residual = 2.0;       // mean square in noise units, see refit_all()
-constexpr double least_statistic = 1.0;      // below it a direction says nothing of the size
-constexpr double far_from_linear = 1.0e-12;  // a direction without length
+constexpr std::size_t most_whole = 8;     // of each of the two lists
+constexpr std::size_t linear_starts = 3;  // looked at, of a cause
+constexpr double small_residual = 2.0;    // mean square in noise units, see refit_all()
+constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
+// What is known of an unknown beforehand, as standard deviations: a factor of 4.5 either way, or
+// three times the scale of its steps.
+constexpr double wide_factor = 1.5, wide_number = 3.0;
+constexpr double no_change = 1.0e-12;  // a direction without length
 
 Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nominal) {
   Hypothesis both = base;
@@ -68,7 +71,7 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
 // it; nothing where the data ask for the sign that the cause cannot have.
 std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
   const double size = direction.change.norm();
-  if (size < far_from_linear || std::abs(direction.statistic) < least_statistic) return {};
+  if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
   const double share = direction.statistic / size;
   for (const FreeParameter& free : direction.start.free) {
     const bool one_sided = free.vanishes == Vanishes::at_infinity ||
@@ -84,11 +87,17 @@ std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& 
   return both;
 }
 
-// The best of a cause's linear starts, by their cost over the whole records.
-std::optional<Hypothesis> best_linear_start(Evaluator& evaluator, const FitSummary& base,
-                                            const std::string& cause,
-                                            const std::vector<Direction>& directions,
-                                            const FitOptions& options) {
+bool has_place(const Hypothesis& hypothesis) {
+  return std::ranges::any_of(hypothesis.free,
+                             [](const FreeParameter& p) { return p.name == "at"; });
+}
+
+// A cause's linear starts that are worth a fit: the best by their cost over the whole records, or,
+// because places are apart by ridges, those of every place.
+std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummary& base,
+                                           const std::string& cause,
+                                           const std::vector<Direction>& directions,
+                                           const FitOptions& options) {
   std::vector<const Direction*> own;
   for (const Direction& direction : directions)
     if (direction.cause == cause) own.push_back(&direction);
@@ -100,8 +109,8 @@ std::optional<Hypothesis> best_linear_start(Evaluator& evaluator, const FitSumma
     if (starts.size() == linear_starts) break;
     if (auto start = linear_start(base, *direction)) starts.push_back(std::move(*start));
   }
-  if (starts.empty()) return {};
-  return starts[scan(evaluator, starts, options).best];
+  if (starts.size() < 2 || has_place(starts.front())) return starts;
+  return {starts[scan(evaluator, starts, options).best]};
 }
 
 // Calls task(evaluator, i) for i below count, each on one worker.
@@ -129,6 +138,30 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
   return order;
 }
 
+// What a model's numbers cost: how much narrower the data make them than what is known beforehand,
+// by Laplace's approximation (MacKay 2003, chapter 28). A number that the data leave open is free.
+double cost_of_numbers(const FitSummary& model, double dispersion) {
+  const int n = model.hypothesis.size();
+  if (n == 0) return 0.0;
+  Eigen::VectorXd width(n);
+  double away = 0.0;
+  for (int p = 0; p < n; ++p) {
+    const FreeParameter& free = model.hypothesis.free[p];
+    width[p] = free.prior > 0.0 ? free.prior : free.logarithmic ? wide_factor : wide_number;
+    if (free.prior > 0.0)
+      away += std::pow(
+          (free.to_unknown(model.hypothesis.value(p)) - free.to_unknown(free.prior_centre)) /
+              free.prior,
+          2);
+  }
+  const Eigen::MatrixXd scaled = model.jacobian * width.asDiagonal() / std::sqrt(dispersion);
+  const Eigen::MatrixXd narrowed = Eigen::MatrixXd::Identity(n, n) + scaled.transpose() * scaled;
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(narrowed, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  return 0.5 * (values.cwiseMax(1.0).array().log().sum() + away);
+}
+
 // Gains and evidence of the whole fits, and the order.
 void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples) {
   // Where even the best model leaves more than noise, differences count for less.
@@ -137,10 +170,16 @@ void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int sampl
     if (candidate.whole && candidate.fit.why != "not run")
       least = std::min(least, candidate.fit.cost);
   const double dispersion = std::max(1.0, 2.0 * least / samples);
+  const double cost = cost_of_numbers(base, dispersion);
   for (Candidate& candidate : candidates) {
-    if (candidate.whole) candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
-    const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
-    candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
+    if (candidate.whole) {
+      candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
+      candidate.evidence = candidate.gain - (cost_of_numbers(candidate.fit, dispersion) - cost) -
+                           std::log(static_cast<double>(candidates.size()));
+    } else {
+      const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
+      candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
+    }
   }
   std::erase_if(candidates, [](const Candidate& c) { return c.fit.why == "not run"; });
   std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
@@ -223,8 +262,9 @@ class Refits {
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
     if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
-    auto linear = best_linear_start(evaluator, base_, candidate.cause, directions_, options_.fit);
-    if (linear) starts.push_back(std::move(*linear));
+    std::ranges::move(
+        best_linear_starts(evaluator, base_, candidate.cause, directions_, options_.fit),
+        std::back_inserter(starts));
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     FitSummary best;

@@ -25,7 +25,7 @@ class FitSetup {
   const std::vector<int>& check_trials() const { return check_; }
   const Numerics& numerics() const { return numerics_; }
   const Corrections* corrections() const {
-    return corrections_.own.empty() ? nullptr : &corrections_;
+    return corrections_.empty() ? nullptr : &corrections_;
   }
   const std::atomic<bool>* stop() const { return stop_; }
   bool stopped() const { return stop_ && *stop_; }
