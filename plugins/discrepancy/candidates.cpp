@@ -16,6 +16,7 @@ constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
 constexpr std::size_t most_whole = 8;     // of each of the two lists
 constexpr std::size_t linear_starts = 3;  // looked at, of a cause
+constexpr double near_the_best = 60.0;    // nats
 constexpr double small_residual = 2.0;    // mean square in noise units, see refit_all()
 constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
 // What is known of an unknown beforehand, as standard deviations: a factor of 4.5 either way, or
@@ -162,8 +163,15 @@ double cost_of_numbers(const FitSummary& model, double dispersion) {
   return 0.5 * (values.cwiseMax(1.0).array().log().sum() + away);
 }
 
-// Gains and evidence of the whole fits, and the order.
-void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples) {
+void sort_by_evidence(std::vector<Candidate>& candidates) {
+  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+    return a.whole != b.whole ? a.whole : a.evidence > b.evidence;
+  });
+}
+
+// Gains and evidence of the whole fits, and the order; returns the mean square that even the best
+// one leaves, 1 where that is noise.
+double weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples) {
   // Where even the best model leaves more than noise, differences count for less.
   double least = base.cost;
   for (const Candidate& candidate : candidates)
@@ -182,9 +190,8 @@ void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int sampl
     }
   }
   std::erase_if(candidates, [](const Candidate& c) { return c.fit.why == "not run"; });
-  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
-    return a.whole != b.whole ? a.whole : a.evidence > b.evidence;
-  });
+  sort_by_evidence(candidates);
+  return dispersion;
 }
 
 // All candidates of one model, on their way from starts to a ranking.
@@ -223,7 +230,8 @@ class Refits {
                 FitSummary& found = candidates_[first[c]].fit;
                 found = fit(evaluator, found.hypothesis, options_.fit);
               });
-    weigh(candidates_, base_, samples_);
+    const double dispersion = weigh(candidates_, base_, samples_);
+    ask_kept_back(dispersion);
     return std::move(candidates_);
   }
 
@@ -273,6 +281,28 @@ class Refits {
       if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
     }
     candidate.fit = std::move(best);
+  }
+
+  // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
+  void ask_kept_back(double dispersion) {
+    if (options_.check_trials.empty() || candidates_.empty()) return;
+    FitOptions check = options_.fit;
+    check.trials = options_.check_trials;
+    const double best = candidates_.front().evidence;
+    std::vector<Hypothesis> models{base_.hypothesis};
+    std::vector<Candidate*> near;
+    for (Candidate& candidate : candidates_)
+      if (candidate.whole && candidate.evidence > best - near_the_best) {
+        models.push_back(candidate.fit.hypothesis);
+        near.push_back(&candidate);
+      }
+    const Eigen::MatrixXd residuals = workers_.front().residuals(models, check);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      near[i]->held_out =
+          held_out(residuals.col(0), residuals.col(static_cast<Eigen::Index>(i) + 1), dispersion);
+      near[i]->evidence += near[i]->held_out.gain;
+    }
+    sort_by_evidence(candidates_);
   }
 
   std::vector<Evaluator>& workers_;

@@ -7,6 +7,7 @@
 
 #include "discrepancy/causes.h"
 #include "discrepancy/fit.h"
+#include "discrepancy/held_out.h"
 #include "discrepancy/statistics.h"
 
 namespace pedicel::discrepancy {
@@ -15,8 +16,11 @@ namespace pedicel::discrepancy {
 struct Candidate {
   std::string cause;  ///< the one that was added last
   FitSummary fit;
-  double gain = 0.0;      ///< log-likelihood above the model that it extends
-  double evidence = 0.0;  ///< gain less what its parameters and the number of candidates cost
+  double gain = 0.0;  ///< log-likelihood above the model that it extends
+  /// Gain less what its parameters and the number of candidates cost, and for those that come near
+  /// the best what it gains on the trials kept back.
+  double evidence = 0.0;
+  HeldOut held_out;  ///< on the trials kept back, for those that come near the best
   /// False: it fell so far behind over the first part of the records, and its direction shows so
   /// little, that it was not refitted over the whole; its gain is that of the first part, or what
   /// its direction promises.
@@ -25,6 +29,7 @@ struct Candidate {
 
 struct RefitOptions {
   FitOptions fit;
+  std::vector<int> check_trials;  ///< kept back from the fits; may be empty
   /// Called now and then, from any thread, with the share that is done.
   std::function<void(double)> progress;
   const std::atomic<bool>* stop = nullptr;

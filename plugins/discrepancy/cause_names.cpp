@@ -68,4 +68,33 @@ std::string plain_name(const std::string& cause) {
   return found == names.end() ? cause : found->second;
 }
 
+bool same_family(const std::string& a, const std::string& b) {
+  static const std::map<std::string, int> family = {{"mass_damping", 0},
+                                                    {"structural_damping", 0},
+                                                    {"internal_friction", 0},
+                                                    {"relaxation", 0},
+                                                    {"creep", 0},
+                                                    {"extra_mass", 1},
+                                                    {"mass_distribution", 1},
+                                                    {"base_compliance", 2},
+                                                    {"attachment_compliance", 2},
+                                                    {"weak_segment", 2},
+                                                    {"stiffness_gradient", 2},
+                                                    {"anisotropy", 2},
+                                                    {"material_nonlinearity", 3},
+                                                    {"yield", 3},
+                                                    {"wind", 4},
+                                                    {"gust", 4},
+                                                    {"leaf_drag", 4},
+                                                    {"grip_compliance", 5},
+                                                    {"grip_slip", 5},
+                                                    {"force_gain", 5},
+                                                    {"frame_rotation", 6},
+                                                    {"marker_scale", 6},
+                                                    {"marker_offset", 6}};
+  if (a == b) return true;
+  const auto of_a = family.find(a), of_b = family.find(b);
+  return of_a != family.end() && of_b != family.end() && of_a->second == of_b->second;
+}
+
 }  // namespace pedicel::discrepancy

@@ -12,12 +12,12 @@ namespace {
 
 // Of the noise variance, an excess that is no sign of a missing effect.
 constexpr double small_excess = 0.01;
+constexpr double most_missed = 0.1;    // of the gain of all causes found, by what is left
 constexpr double clear_margin = 5.0;   // nats by which a rival must lose
 constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
 constexpr double most_margin = 20.0;   // nats, of that
-constexpr double least_gain = 0.2;     // on trials kept back
-// Logarithm of a factor: two honest solvers' moduli differ by up to 0.3 % on the same data.
-constexpr double least_parameter_change = 0.005;
+// Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
+constexpr double least_parameter_change = 0.002;
 constexpr int least_outliers = 12;  // wild samples that are worth a name
 
 // Modulus, density or damping, where nothing else is wrong and their interval leaves out 1.
@@ -29,8 +29,9 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
     if (free.name != "factor") continue;
     const double u = free.to_unknown(base.hypothesis.value(p));
     const double error = base.standard_error[p];
-    const double shift =
-        p < findings.parameter_shift.size() ? std::abs(findings.parameter_shift[p]) : 0.0;
+    const double shift = p < findings.parameter_shift.size()
+                             ? left_uncorrected * std::abs(findings.parameter_shift[p])
+                             : 0.0;
     // Three parameters share the few false alarms that are allowed.
     if (std::abs(u) < 3.5 * error + shift + least_parameter_change) continue;
     NamedCause cause;
@@ -69,6 +70,7 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& rival, cons
   return false;
 }
 
+// Whether something is left that what was found should have explained.
 void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   if (!diagnosis.after.raised) return;
@@ -77,8 +79,12 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   const double left = excess_after / std::max(excess_before, 1.0);
   verdict.remainder =
       text("%.2g %% of what the refitted model left above the noise", 100.0 * std::max(left, 0.0));
-  if (left > 0.05 && findings.excess(diagnosis.best) > small_excess)
-    verdict.outcome = Outcome::unknown;
+  double gain = 0.0;
+  for (const Candidate& found : findings.chain) gain += found.gain;
+  // What the loudest direction would still gain.
+  const double missed = 0.5 * std::pow(diagnosis.after.statistic, 2);
+  const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
+  if (much || missed > most_missed * gain) verdict.outcome = Outcome::unknown;
 }
 
 // Those that the data cannot tell from the best are causes, too; the others are rivals.
@@ -110,7 +116,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   weigh_rivals(findings, diagnosis, base_effects);
   judge_remainder(findings, diagnosis);
   // A cause that does nothing for trials that it was not fitted to is none.
-  if (verdict.outcome == Outcome::named && verdict.gain && *verdict.gain < least_gain) {
+  if (verdict.outcome == Outcome::named && !findings.chain.front().held_out.carries_over()) {
     verdict.outcome = Outcome::unknown;
     verdict.remainder = "what was fitted does not carry over to the trials kept back";
   }

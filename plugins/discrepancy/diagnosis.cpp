@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "discrepancy/baseline_start.h"
+#include "discrepancy/cause_names.h"
 #include "discrepancy/conclusion.h"
 #include "discrepancy/diagnosis_log.h"
 #include "discrepancy/fit_setup.h"
@@ -23,6 +24,8 @@ namespace {
 // to 15.
 constexpr double enough_evidence = 25.0;
 constexpr double numerical_limit = 0.5;  // of the noise, RMS
+// Of the gain of a cause, what another of its family must bring to be one.
+constexpr double family_share = 0.5;
 constexpr int most_causes = 3;
 
 /// One diagnosis on its way from the data to the verdict.
@@ -167,7 +170,7 @@ class Procedure {
   // ---- Steps 4 to 7 -----------------------------------------------------------------------------
 
   RefitOptions refit_options(double from, double to, const std::string& what) {
-    RefitOptions refit{fit_options(), {}, options_.stop};
+    RefitOptions refit{fit_options(), result_.check_trials, {}, options_.stop};
     refit.progress = [this, from, to, what](double share) {
       log_.say(what, from + share * (to - from));
     };
@@ -205,7 +208,7 @@ class Procedure {
       const std::vector<Candidate> next =
           refit_all(workers_, result_.best, likely, directions,
                     refit_options(from, from + 0.15, "looking for another cause"));
-      if (next.empty() || next.front().evidence < enough_evidence) return;
+      if (next.empty() || !is_another_cause(next.front())) return;
       findings_.chain.push_back(next.front());
       result_.best = next.front().fit;
     }
@@ -214,6 +217,13 @@ class Procedure {
     std::vector<Direction> directions =
         directions_of(evaluator, result_.best, causes_, fit_options());
     result_.after = judge(directions, result_.best, numerical_, options_.seed);
+  }
+
+  bool is_another_cause(const Candidate& next) const {
+    if (next.evidence < enough_evidence || !next.held_out.carries_over()) return false;
+    return std::ranges::all_of(findings_.chain, [&](const Candidate& found) {
+      return !same_family(found.cause, next.cause) || next.gain > family_share * found.gain;
+    });
   }
 
   // One simulator a thread: candidates are refitted side by side.

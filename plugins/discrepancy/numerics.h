@@ -17,7 +17,7 @@ struct NumericsCheck {
 };
 
 /// Of our own error, and of the data's own, what a correction by Richardson may leave.
-inline constexpr double left_uncorrected = 0.3;
+inline constexpr double left_uncorrected = 0.1;
 
 /// Simulates the fitted model with half the step and with half the mesh.
 NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
