@@ -138,9 +138,11 @@ Noise estimate_noise(std::span<const Series> channels, double stated_std) {
     }
     semivariance.push_back(0.5 * sum / count);
   }
-  // A slow misfit raises the plateau and would pass for a long memory, which then hides it.
+  // A slow misfit raises the plateau and would pass for a long memory, which then hides it. A
+  // plateau below what is stated stays: raised by itself it would pass for a memory, too.
   if (stated_std > 0.0)
-    level = std::max(stated_std * stated_std, *std::ranges::max_element(semivariance));
+    level =
+        std::min(level, std::max(stated_std * stated_std, *std::ranges::max_element(semivariance)));
   std::vector<double> covariance{level};
   for (const double value : semivariance) covariance.push_back(level - value);
   return autoregressive(covariance, samples);
