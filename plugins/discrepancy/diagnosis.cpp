@@ -245,18 +245,29 @@ class Procedure {
     measure_errors(findings_, result_);
     findings_.symptoms = symptoms(experiment(), setup_->data(), result_.predictions[refitted]);
     conclude(findings_, result_);
-    if (result_.verdict.outcome == Outcome::unknown) {
-      name_nothing(result_.verdict);
-      look_for_force();
-    }
+    if (result_.verdict.outcome == Outcome::unknown)
+      tell_of_force(missing_force());
+    else if (findings_.chain.size() > 1)
+      ask_for_one_force();
     conclude_outliers(result_);
     report_parameters(findings_, result_);
     report_hidden(causes_, result_);
     choose_next();
   }
 
+  // Several causes that together explain less than one force from outside the list are none.
+  void ask_for_one_force() {
+    double evidence = 0.0;
+    for (const Candidate& found : findings_.chain) evidence += found.evidence;
+    const MissingForce force = missing_force();
+    if (!force.found || force.fit.why == "not run" || force.evidence < evidence) return;
+    result_.verdict.outcome = Outcome::unknown;
+    result_.verdict.remainder = "one force explains more than several known causes together";
+    tell_of_force(force);
+  }
+
   // Where, when and of what kind the force is that no cause stands for.
-  void look_for_force() {
+  MissingForce missing_force() {
     log_.say("looking for a force that is missing", 0.96);
     Evaluator evaluator = setup_->evaluator();
     MissingForceOptions options;
@@ -264,13 +275,19 @@ class Procedure {
     options.check = result_.check_trials;
     options.threads = options_.threads;
     options.note = [this](const std::string& sentence) { log_.note(sentence); };
-    const MissingForce force = infer_missing_force(evaluator, result_.base, options);
+    MissingForce force = infer_missing_force(evaluator, result_.base, options);
     result_.verdict.simulations += force.simulations;
+    return force;
+  }
+
+  void tell_of_force(const MissingForce& force) {
+    name_nothing(result_.verdict);
     std::string& remainder = result_.verdict.remainder;
     if (!remainder.empty()) remainder += ". ";
     remainder +=
         force.found ? force.sentence() : "No force at a marker explains it. Do not extrapolate.";
     if (force.fit.why == "not run") return;
+    Evaluator evaluator = setup_->evaluator();
     std::vector<Direction> left = directions_of(evaluator, force.fit, causes_, fit_options());
     const Alarm alarm = judge(left, force.fit, numerical_, options_.seed);
     log_.note(text("With that force the largest directed statistic is %.3g, level %.3g.",
