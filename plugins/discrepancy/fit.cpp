@@ -76,6 +76,13 @@ class Problem : public ceres::CostFunction {
     }
   }
 
+  /// Finds out how large differences should be: a first guess of one in a hundred turns a long
+  /// swing by a radian, or moves nothing, and a step from a wrong derivative is refused.
+  void find_differences(const Eigen::VectorXd& u) const {
+    compute(u);
+    at_.resize(0);
+  }
+
   const Eigen::VectorXd& residual() const { return residual_; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
 
@@ -217,6 +224,7 @@ FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& 
     result.converged = true;
     result.why = "nothing is free";
   } else {
+    problem.find_differences(u);
     ceres::Problem::Options ownership;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem ceres_problem(ownership);
