@@ -7,6 +7,7 @@
 #include "app/scene_assets.h"
 #include "core/check.h"
 #include "io/atomic_file.h"
+#include "support/stem_plants.h"
 #include "support/temporary_folder.h"
 #include "world/scene_reader.h"
 
@@ -30,15 +31,7 @@ loads:
 ground: {height: 0}
 )";
 
-const char* const plant_text = R"(format: pedicel-plant
-version: 1
-name: stem
-material: {youngs_modulus: 1.0e8, poisson_ratio: 0.3, density: 800, damping_time: 0.01}
-sampling: {connect: 0.01, distance: 0.02}
-root: [0, 0, 0]
-curves:
-  - {name: stem, points: [[0, 0, 0], [0, 0, 0.1], [0.01, 0, 0.2]], radius: 0.004}
-fruits:
+const std::string plant_text = bent_stem_text + R"(fruits:
   - {name: tip, curve: stem, at: 1.0, radius: 0.01, density: 900, detach: {force: 2}}
 )";
 

@@ -14,6 +14,7 @@
 #include "cosserat/rod_model.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
+#include "support/stem_plants.h"
 
 namespace pedicel {
 namespace {
@@ -31,16 +32,6 @@ expect:
   - {quantity: detached_count, is: 0}
 )";
 
-const char* const stem_plant = R"(format: pedicel-plant
-version: 1
-name: stem
-material: {youngs_modulus: 1.0e8, poisson_ratio: 0.3, density: 800, damping_time: 0.01}
-sampling: {connect: 0.01, distance: 0.02}
-root: [0, 0, 0]
-curves:
-  - {name: stem, points: [[0, 0, 0], [0, 0, 0.1], [0.01, 0, 0.2]], radius: 0.004}
-)";
-
 std::string with(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos);
@@ -54,7 +45,7 @@ class Program : public ::testing::Test {
     folder_ =
         std::filesystem::path(::testing::TempDir()) / ("program_" + std::string(test->name()));
     std::filesystem::remove_all(folder_);
-    write("stem.plant.yaml", stem_plant);
+    write("stem.plant.yaml", bent_stem_text);
     write("quick.scene.yaml", quick_scene);
   }
   void write(const std::string& name, const std::string& text) {
@@ -151,7 +142,7 @@ TEST_F(Program, BadFilesEndWith3AndSayWhere) {
 
 // A kick of 1e9 N moves a stem of grams faster than anything may move.
 TEST_F(Program, UnstableRunEndsWith4NamesTheOrganAndKeepsItsRecord) {
-  write("stem.plant.yaml", std::string(stem_plant) +
+  write("stem.plant.yaml", std::string(bent_stem_text) +
                                "fruits:\n  - {name: fruit_1, curve: stem, at: 1.0, radius: 0.01, "
                                "density: 900, detach: {}}\n");
   write("wild.scene.yaml", with(quick_scene, "expect:",

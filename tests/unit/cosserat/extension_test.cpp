@@ -7,6 +7,7 @@
 #include "cosserat/lane_kernels.h"
 #include "cosserat/rod_system.h"
 #include "cosserat/turn_frame.h"
+#include "support/rod_tips.h"
 #include "unit/cosserat/extension_cases.h"
 #include "unit/cosserat/step_potential.h"
 
@@ -149,15 +150,6 @@ std::vector<RodModel> extended_garden(int plants) {
     if (p % 4 != 3) extend(garden.back(), own, 0.2);
   }
   return garden;
-}
-
-std::vector<Vec3> tips_after(const std::vector<RodModel>& plants, int threads, int steps) {
-  RodSystem system(RodSettings{}, threads);
-  for (const RodModel& plant : plants) system.add_plant(plant);
-  for (int i = 0; i < steps; ++i) system.step(dt, gravity);
-  std::vector<Vec3> tips;
-  for (int p = 0; p < system.size(); ++p) tips.push_back(system.state(p).position.back());
-  return tips;
 }
 
 // Plants with laws, plants without and plants with other laws share packs.

@@ -7,8 +7,8 @@
 
 #include "cosserat/lane_kernels.h"
 #include "cosserat/lane_layout.h"
-#include "cosserat/rod_system.h"
 #include "plant/reference_plants.h"
+#include "support/rod_tips.h"
 #include "unit/cosserat/random_plants.h"
 #include "unit/cosserat/step_potential.h"
 
@@ -116,15 +116,6 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
       EXPECT_LT(worst, 1e-9 * largest) << seed;  // stretch over inertia: conditions of 1e6
     }
   }
-}
-
-std::vector<Vec3> tips_after(const std::vector<RodModel>& plants, int threads, int steps) {
-  RodSystem system(RodSettings{}, threads);
-  for (const RodModel& plant : plants) system.add_plant(plant);
-  for (int i = 0; i < steps; ++i) system.step(dt, gravity);
-  std::vector<Vec3> tips;
-  for (int p = 0; p < system.size(); ++p) tips.push_back(system.state(p).position.back());
-  return tips;
 }
 
 TEST(RodRows, APlantAloneMovesAsItDoesAmongOthers) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "discrepancy/promise.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
@@ -79,7 +80,7 @@ TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
     EXPECT_LT((hidden.base.jacobian.transpose() * direction.change).norm(),
               1e-6 * hidden.base.jacobian.norm() * (1.0 + direction.change.norm()));
   const std::vector<Candidate> ranking = refit_all(hidden.workers, hidden.base, hidden.causes,
-                                                   directions, {hidden.options, {}, nullptr});
+                                                   directions, {hidden.options, {}, {}, nullptr});
   ASSERT_EQ(ranking.size(), hidden.causes.size());
   const Candidate& best = ranking.front();
   EXPECT_EQ(best.cause, "base_compliance");

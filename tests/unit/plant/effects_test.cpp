@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "plant/plant_builder.h"
+#include "support/stem_plants.h"
 
 namespace pedicel::plant {
 namespace {
@@ -16,15 +17,7 @@ namespace {
 constexpr double length = 0.4;  // m
 
 std::optional<BuiltPlant> built_with(const std::string& effects, Diagnostics& diagnostics) {
-  const auto plant = parse_plant(
-      "format: pedicel-plant\nversion: 1\nname: p\nshape: rest\n"
-      "material: {youngs_modulus: 1e8, poisson_ratio: 0.3, density: 700, "
-      "damping_time: 0.01}\n"
-      "sampling: {connect: 0.01, distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n"
-      "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, "
-      "0.4]], radius: 0.004}\n" +
-          effects,
-      "p.plant.yaml", diagnostics);
+  const auto plant = parse_plant(straight_stem_text + effects, "p.plant.yaml", diagnostics);
   if (!plant) return std::nullopt;
   return build_plant(*plant, {}, diagnostics);
 }

@@ -7,6 +7,7 @@
 #include "cosserat/detachment.h"
 #include "cosserat/direct_solver.h"
 #include "plant/plant_builder.h"
+#include "support/stem_plants.h"
 
 namespace pedicel::plant {
 namespace {
@@ -15,14 +16,12 @@ namespace {
 // 20 mm.
 std::optional<BuiltPlant> built_with(const std::string& effects, Diagnostics& diagnostics) {
   const auto plant = parse_plant(
-      "format: pedicel-plant\nversion: 1\nname: p\nshape: rest\n"
-      "material: {youngs_modulus: 1e8, poisson_ratio: 0.3, density: 700, damping_time: 0.01}\n"
-      "sampling: {connect: 0.01, distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n"
-      "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, 0.4]], radius: 0.004}\n"
-      "  - {name: branch, interpolation: linear, points: [[0, 0, 0.2], [0.2, 0, 0.2]],"
-      " radius: 0.002}\n"
-      "fruits:\n"
-      "  - {name: apple, curve: branch, at: 1, radius: 0.01, density: 900, detach: {force: 5}}\n" +
+      straight_stem_text +
+          "  - {name: branch, interpolation: linear, points: [[0, 0, 0.2], [0.2, 0, 0.2]],"
+          " radius: 0.002}\n"
+          "fruits:\n"
+          "  - {name: apple, curve: branch, at: 1, radius: 0.01, density: 900, detach: {force: "
+          "5}}\n" +
           effects,
       "p.plant.yaml", diagnostics);
   if (!plant) return std::nullopt;
