@@ -43,7 +43,8 @@ double scatter_near(const std::vector<double>& distance, int i) {
                                                     : std::numeric_limits<double>::infinity();
 }
 
-// Samples next to which the force jumps, because something is let go or loaded.
+// Samples next to which the force jumps, because something is let go or loaded; light tips start to
+// move there within a sample.
 std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& time) {
   std::vector<char> beside(time.size(), 0);
   for (const double jump : jumps_of(trial, trial.effects)) {
@@ -54,7 +55,7 @@ std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& ti
   return beside;
 }
 
-// The worst first: a wild sample makes its neighbours look wild. `spared` (may be empty) stay.
+// The worst first: a wild sample makes its neighbours look wild. `spared` stay.
 int take_out_wild(Eigen::Ref<Eigen::VectorXd> x, const std::vector<char>& spared) {
   int count = 0;
   while (true) {
@@ -63,7 +64,7 @@ int take_out_wild(Eigen::Ref<Eigen::VectorXd> x, const std::vector<char>& spared
     double most = wild * 1.4826;  // turns a median into the deviation of a normal distribution
     for (int i = 0; i < static_cast<int>(distance.size()); ++i) {
       if (!std::isfinite(distance[i]) || distance[i] == 0.0) continue;
-      if (!spared.empty() && spared[i]) continue;
+      if (spared[i]) continue;
       const double share = distance[i] / scatter_near(distance, i);
       if (share <= most || !std::isfinite(share)) continue;
       most = share;
@@ -151,8 +152,7 @@ Admission admit(const Experiment& experiment) {
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     admission.swaps += put_back_labels(trial.markers.value);
     for (Samples* samples : {&trial.markers, &trial.force}) {
-      std::vector<char> spared;
-      if (samples == &trial.force) spared = beside_jumps(trial, samples->time);
+      const std::vector<char> spared = beside_jumps(trial, samples->time);
       for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
         admission.samples += count_finite(samples->value.col(c));
         // A force that is exactly zero after the release is what the format asks for.

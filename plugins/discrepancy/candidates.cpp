@@ -1,6 +1,7 @@
 #include "discrepancy/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,7 +17,7 @@ constexpr double first_horizon = 0.35;
 constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
 constexpr std::size_t most_whole = 8;     // of each of the two lists
-constexpr std::size_t linear_starts = 3;  // looked at, of a cause
+constexpr std::size_t linear_starts = 2;  // looked at, of a cause and either sign
 constexpr double near_the_best = 60.0;    // nats
 constexpr double small_residual = 2.0;    // mean square in noise units, see refit_all()
 constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
@@ -74,7 +75,7 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
 std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
   const double size = direction.change.norm();
   if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
-  const double share = direction.statistic / size;
+  const double share = direction.has_threshold ? 1.0 : direction.statistic / size;
   for (const FreeParameter& free : direction.start.free) {
     const bool one_sided = free.vanishes == Vanishes::at_infinity ||
                            (free.vanishes == Vanishes::at_zero && free.logarithmic);
@@ -106,13 +107,28 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
   std::ranges::stable_sort(own, [](const Direction* a, const Direction* b) {
     return std::abs(a->statistic) > std::abs(b->statistic);
   });
+  // A place may be softer or stiffer than drawn: the loudest of both.
   std::vector<Hypothesis> starts;
+  std::array<std::size_t, 2> of_sign{};
   for (const Direction* direction : own) {
-    if (starts.size() == linear_starts) break;
-    if (auto start = linear_start(base, *direction)) starts.push_back(std::move(*start));
+    auto start = linear_start(base, *direction);
+    if (start && of_sign[direction->statistic > 0.0]++ < linear_starts)
+      starts.push_back(std::move(*start));
   }
   if (starts.size() < 2 || has_place(starts.front())) return starts;
   return {starts[scan(evaluator, starts, options).best]};
+}
+
+// The best of all starts of a cause as they are, where it does better than the base: for laws with
+// a threshold, which no linear model sees.
+std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,
+                                           const Cause& cause, const FitOptions& options) {
+  std::vector<Hypothesis> starts;
+  for (const Hypothesis& start : cause.starts)
+    starts.push_back(joined(base.hypothesis, start, false));
+  const Scan found = scan(evaluator, starts, options);
+  if (!(found.cost[found.best] < base.cost)) return {};
+  return starts[found.best];
 }
 
 // Calls task(evaluator, i) for i below count, each on one worker.
@@ -267,13 +283,15 @@ class Refits {
 
   void fit_whole(Evaluator& evaluator, int i) {
     FitOptions few = options_.fit;
-    few.iterations = whole_iterations;
+    few.iterations = has_place(causes_[i].starts.front()) ? 2 * whole_iterations : whole_iterations;
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
     if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
     std::ranges::move(
         best_linear_starts(evaluator, base_, candidate.cause, directions_, options_.fit),
         std::back_inserter(starts));
+    auto plain = best_plain_start(evaluator, base_, causes_[i], options_.fit);
+    if (plain) starts.push_back(std::move(*plain));
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     FitSummary best;

@@ -194,14 +194,13 @@ class Candidates {
 
   // A slip in the trial of that name (empty: in all) before `end`.
   static void slips(const std::string& trial, double end, std::vector<Hypothesis>& starts) {
-    for (const double part : {0.3, 0.6})
-      for (const double distance : {0.01, -0.01}) {
-        Start start("grip_slip");
-        if (!trial.empty()) start.word("trial", trial);
-        start.signed_number("distance", distance, 0.01, -0.1, 0.1)
-            .signed_number("time", part * end, 0.2 * end, 0.0, end);
-        starts.push_back(start);
-      }
+    for (const double part : {0.1, 0.25, 0.4, 0.55, 0.7, 0.85}) {
+      Start start("grip_slip");
+      if (!trial.empty()) start.word("trial", trial);
+      start.signed_number("distance", 0.01, 0.01, -0.1, 0.1)
+          .signed_number("time", part * end, 0.2 * end, 0.0, end);
+      starts.push_back(start);
+    }
   }
 
   void sensors() {

@@ -18,7 +18,10 @@ constexpr double margin_share = 0.01;  // and of the gain: our model errors scal
 constexpr double most_margin = 20.0;   // nats, of that
 // Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
 constexpr double least_parameter_change = 0.002;
-constexpr int least_outliers = 12;  // wild samples that are worth a name
+// Wild samples that are worth a name: so many, and of all samples (a swing that starts within a
+// sample makes a few).
+constexpr int least_outliers = 12;
+constexpr double least_outlier_share = 0.0015;
 
 // Modulus, density or damping, where nothing else is wrong and their interval leaves out 1.
 void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
@@ -166,7 +169,9 @@ void name_nothing(Verdict& verdict) {
 
 void conclude_outliers(Diagnosis& diagnosis) {
   const Admission& admission = diagnosis.admission;
-  if (admission.outliers < least_outliers) return;
+  if (admission.outliers <
+      std::max<double>(least_outliers, least_outlier_share * admission.samples))
+    return;
   Verdict& verdict = diagnosis.verdict;
   // Among rivals, or where nothing is known, they would read as one more explanation.
   if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) return;

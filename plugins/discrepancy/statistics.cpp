@@ -12,6 +12,8 @@ namespace {
 
 // Noise units in all: well above what the solver's tolerance leaves, and still a small change.
 constexpr double wanted_change = 15.0, most_change = 60.0;
+constexpr double full_size = 10.0;  // of a start over the size that is looked at first
+constexpr double no_change = 1.0e-3;
 // Small steady differences between any two simulators (when exactly a grip lets go, how a branch
 // leads into its stem) reach 4; what is worth a name reaches 10.
 constexpr double least_level = 5.0;
@@ -32,22 +34,23 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
   std::vector<Hypothesis> models{base.hypothesis};
   for (const Cause& cause : causes)
     for (const Hypothesis& start : cause.starts) {
-      directions.push_back({cause.name, start.shrunk(0.1), {}, {}});
+      directions.push_back({cause.name, start.shrunk(1.0 / full_size), {}, {}, false});
       models.push_back(with(base.hypothesis, directions.back().start));
     }
-  // Twice: the first pass says how large a start is in units of the noise.
+  // Twice: the first pass says how large a start is in units of the noise. What has a threshold and
+  // does nothing when it is small is taken at its full size.
   for (int pass = 0; pass < 2; ++pass) {
     const Eigen::MatrixXd residuals = evaluator.residuals(models, options);
     for (std::size_t d = 0; d < directions.size(); ++d) {
       Direction& direction = directions[d];
       direction.change = residuals.col(0) - residuals.col(static_cast<Eigen::Index>(d) + 1);
       const double size = direction.change.norm();
-      if (pass == 1 || size == 0.0) continue;
-      if (size > most_change || size < 0.2 * wanted_change) {
-        const double share = std::clamp(wanted_change / size, 1.0e-4, 20.0);
-        direction.start = direction.start.shrunk(share);
-        models[d + 1] = with(base.hypothesis, direction.start);
-      }
+      if (pass == 1 || (size >= 0.2 * wanted_change && size <= most_change)) continue;
+      direction.has_threshold = size < no_change;
+      const double share =
+          direction.has_threshold ? full_size : std::clamp(wanted_change / size, 1.0e-4, 20.0);
+      direction.start = direction.start.shrunk(share);
+      models[d + 1] = with(base.hypothesis, direction.start);
     }
   }
   for (Direction& direction : directions) {
