@@ -82,7 +82,9 @@ std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& 
     if (share < 0.0 && one_sided) return {};
   }
   Hypothesis both = base.hypothesis;
-  both.set_unknowns(base.hypothesis.unknowns() - share * direction.absorbed);
+  // A change of full size is too large to move along with.
+  if (!direction.has_threshold)
+    both.set_unknowns(base.hypothesis.unknowns() - share * direction.absorbed);
   both.add(direction.start.shrunk(share));
   both.name = direction.cause;
   // The bounds of what was added, too.
@@ -112,7 +114,8 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
   std::array<std::size_t, 2> of_sign{};
   for (const Direction* direction : own) {
     auto start = linear_start(base, *direction);
-    if (start && of_sign[direction->statistic > 0.0]++ < linear_starts)
+    if (start &&
+        (direction->has_threshold || of_sign[direction->statistic > 0.0]++ < linear_starts))
       starts.push_back(std::move(*start));
   }
   if (starts.size() < 2 || has_place(starts.front())) return starts;

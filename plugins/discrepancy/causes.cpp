@@ -98,7 +98,7 @@ class Candidates {
                                          -0.9 / long_time, 5.0 / long_time));
     add("stiffness_drift", drift);
     std::vector<Hypothesis> yield;
-    for (const double part : {0.3, 0.6, 1.0})
+    for (const double part : {0.3, 0.6, 1.0, 1.5, 2.2, 3.3})
       yield.push_back(Start("yield").positive("curvature", part * scales_.curvature,
                                               1e-2 * scales_.curvature, 20 * scales_.curvature));
     add("yield", yield);
