@@ -35,6 +35,12 @@ class PlantDrawing {
   /// coloured by surface_strain() on a scale from 0 to that value (> 0).
   void add_to(render::DrawList& list, const cosserat::RodState& state,
               std::optional<double> strain_scale = {}) const;
+  /// The same with a colour for each element; leaf blades and fruits keep theirs. Leaves are left
+  /// out without `blades`.
+  void add_to(render::DrawList& list, const cosserat::RodState& state,
+              const std::vector<render::Colour>& colours, bool blades = true) const;
+  /// The colours that elements have by themselves.
+  std::vector<render::Colour> plain_colours() const;
 
  private:
   void add_chains(render::DrawList& list, const cosserat::RodState& state,
