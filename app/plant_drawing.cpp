@@ -64,13 +64,6 @@ PlantLook PlantLook::apple() {
   return look;
 }
 
-double surface_strain(const RodModel& model, const RodState& state, int element) {
-  const cosserat::Strain strain = strain_of(model, state, element);
-  const Element& e = model.elements[element];
-  const double radius = std::max(e.radius_near, e.radius_far);
-  return strain.stretch.norm() + radius * strain.bend.norm() / e.length;
-}
-
 PlantDrawing::PlantDrawing(const RodModel& model, std::vector<Blade> blades, const PlantLook& look)
     : model_(model), blades_(std::move(blades)), is_leaf_(model.organs.size(), 0), look_(look) {
   for (const Blade& blade : blades_)

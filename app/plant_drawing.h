@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/drawing.h"
+#include "app/surface_strain.h"
 #include "cosserat/rod_state.h"
 
 namespace pedicel::app {
@@ -17,11 +18,6 @@ struct PlantLook {
   static PlantLook tomato() { return {}; }
   static PlantLook apple();
 };
-
-/// How far an element is strained at its surface, from its unloaded rest shape: stretch and shear,
-/// plus radius times curvature (1).
-double surface_strain(const cosserat::RodModel& model, const cosserat::RodState& state,
-                      int element);
 
 /// A plant prepared for drawing.
 class PlantDrawing {
