@@ -69,6 +69,7 @@ Desktop::Desktop(Platform& platform, Session& session, const DesktopOptions& opt
   ui_.preferences.theme = options.theme;
   if (!preferences_path_.empty() && std::filesystem::exists(preferences_path_))
     ui_.preferences = read_preferences(preferences_path_);
+  if (options.theme_given) ui_.preferences.theme = options.theme;
   written_ = ui_.preferences;
   ui_.times.platform = platform.name();
   ui_.times.renderer = platform.renderer_name();
@@ -232,12 +233,6 @@ std::optional<render::Image> Desktop::window_picture() const {
 std::optional<render::Image> Desktop::scene_picture(int width, int height) {
   if (!canvas_) return {};
   return canvas_->still(list_, camera_.camera(), width, height);
-}
-
-void run_desktop(Platform& platform, Session& session, const DesktopOptions& options) {
-  Desktop desktop(platform, session, options);
-  while (desktop.frame()) {
-  }
 }
 
 }  // namespace pedicel::app

@@ -24,6 +24,7 @@ class DrawTool;
 struct DesktopOptions {
   std::filesystem::path preferences;  ///< where they are kept; empty: nowhere
   Theme theme = Theme::dark;          ///< without a file of preferences
+  bool theme_given = false;           ///< `theme` goes before what the file says
 };
 
 /// The desktop: a session seen and led by hand. The same on every platform; on the null platform
@@ -94,8 +95,5 @@ class Desktop {
   double next_video_picture_ = 0.0;
   std::uint64_t drawn_key_ = 0;
 };
-
-/// Runs until the user quits (or a signal asks for it).
-void run_desktop(Platform& platform, Session& session, const DesktopOptions& options);
 
 }  // namespace pedicel::app
