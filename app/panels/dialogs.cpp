@@ -123,6 +123,24 @@ void files(Ui& ui) {
   ImGui::End();
 }
 
+void problem(Ui& ui) {
+  if (begin_dialog(ui, "This file cannot be read", 640, 300)) {
+    const float buttons = ImGui::GetFrameHeightWithSpacing();
+    if (ImGui::BeginChild("text", ImVec2(0, -buttons))) {
+      ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
+      ImGui::TextWrapped("%s", ui.problem.c_str());
+      ImGui::PopStyleColor();
+      note("What was open stays. Mend the file and read it again (" + keys_of(Action::reload) +
+           ").");
+    }
+    ImGui::EndChild();
+    if (ImGui::Button("Read it again")) ui.dialog = Dialog::none, ui.ask(Action::reload);
+    ImGui::SameLine();
+    if (ImGui::Button("Close")) ui.dialog = Dialog::none;
+  }
+  ImGui::End();
+}
+
 }  // namespace
 
 void draw_dialogs(Ui& ui) {
@@ -136,6 +154,8 @@ void draw_dialogs(Ui& ui) {
       return help(ui);
     case Dialog::info:
       return info(ui);
+    case Dialog::problem:
+      return problem(ui);
   }
 }
 

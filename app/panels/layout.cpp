@@ -119,6 +119,12 @@ LayoutAreas Layout::draw(Ui& ui) {
   const float low = top, high = size.y - status;
   if (left > 0) dock(ui, Dock::left, "left", ImVec2(0, low), ImVec2(left, high));
   if (right > 0) dock(ui, Dock::right, "right", ImVec2(size.x - right, low), ImVec2(size.x, high));
+  const auto hidden = [&](Dock where) {
+    return (where == Dock::left && left == 0) || (where == Dock::right && right == 0) ||
+           (where == Dock::bottom && bottom == 0);
+  };
+  for (const auto& panel : panels_)
+    if (hidden(panel->dock())) panel->idle(ui);
   if (bottom > 0)
     dock(ui, Dock::bottom, "bottom", ImVec2(left, high - bottom), ImVec2(size.x - right, high));
   return {ImVec2(left, low), ImVec2(size.x - right, high - bottom)};

@@ -17,6 +17,7 @@ class MessagesPanel : public Panel {
   Dock dock() const override { return Dock::bottom; }
 
   void draw(Ui& ui) override {
+    idle(ui);
     const float line = ImGui::GetFrameHeightWithSpacing();
     if (ImGui::BeginChild("messages", ImVec2(0, -line))) {
       const auto& messages = ui.session.messages();
@@ -27,15 +28,19 @@ class MessagesPanel : public Panel {
         ImGui::PopID();
       }
       if (!answer_.empty()) ImGui::TextWrapped("%s", answer_.c_str());
-      if (shown_ != messages.size()) ImGui::SetScrollHereY(1.0f), shown_ = messages.size();
+      if (scrolled_ != messages.size()) ImGui::SetScrollHereY(1.0f), scrolled_ = messages.size();
     }
     ImGui::EndChild();
     command_line(ui);
   }
 
+  /// A file that cannot be read is shown at once, with what to do; other news bring the tab up.
   void idle(Ui& ui) override {
-    if (ui.session.messages().size() > shown_) ui.show_panel = "Messages";
-    shown_ = ui.session.messages().size();
+    const auto& messages = ui.session.messages();
+    if (messages.size() > shown_) ui.show_panel = "Messages";
+    for (std::size_t i = shown_; i < messages.size(); ++i)
+      if (messages[i].can_retry) ui.problem = messages[i].text, ui.dialog = Dialog::problem;
+    shown_ = messages.size();
   }
 
  private:
@@ -62,7 +67,7 @@ class MessagesPanel : public Panel {
     if (ImGui::Button("Clear")) ui.session.clear_messages(), answer_.clear(), shown_ = 0;
   }
 
-  std::size_t shown_ = 0;
+  std::size_t shown_ = 0, scrolled_ = 0;
   std::string answer_;
 };
 

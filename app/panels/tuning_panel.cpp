@@ -42,7 +42,11 @@ class TuningPanel : public Panel {
   Dock dock() const override { return Dock::right; }
 
   void draw(Ui& ui) override {
-    const std::vector<SessionParameter> parameters = ui.session.parameters();
+    std::vector<SessionParameter> parameters = ui.session.parameters();
+    const auto plant = [&ui](const SessionParameter& p) {
+      return ui.session.document().plant_index(p.group) >= 0;
+    };
+    std::ranges::stable_partition(parameters, plant);  // what people come for first
     ImGui::SetNextItemWidth(-1);
     ImGui::InputTextWithHint("##search", "search: density, damping, ...", search_, sizeof search_);
     changed_row(ui, parameters);
@@ -57,10 +61,8 @@ class TuningPanel : public Panel {
       any = true;
       if (p.group != group) {
         group = p.group;
-        const bool plant = ui.session.document().plant_index(group) >= 0;
-        ImGui::SetNextItemOpen(true, *search_ ? ImGuiCond_Always : ImGuiCond_Once);
+        ImGui::SetNextItemOpen(*search_ || plant(p), *search_ ? ImGuiCond_Always : ImGuiCond_Once);
         open = ImGui::CollapsingHeader(group.c_str());
-        if (plant) tip("The plant " + group);
       }
       if (open) parameter(ui, p);
     }
@@ -84,43 +86,48 @@ class TuningPanel : public Panel {
                        static_cast<int>(changed));
   }
 
+  /// Name and value above, the slider below; a changed one can be set back.
   void parameter(Ui& ui, const SessionParameter& p) {
     ImGui::PushID(p.key.c_str());
-    const std::string unit = p.unit == "1" ? "" : p.unit;
-    const float reset = p.changed ? ImGui::CalcTextSize("reset").x + 12.0f * ui.scale : 0.0f;
-    const float unit_width = ImGui::CalcTextSize(unit.c_str()).x;
-    const std::string label =
-        elide(short_name(p), rest_width(reset + unit_width + 10.0f * ui.scale));
+    const double value = dragged_ == p.key ? dragged_value_ : p.value;
+    const std::string unit = p.unit == "1" || p.unit.empty() ? "" : " " + p.unit;
+    const std::string text = p.flag ? (value != 0.0 ? "on" : "off") : number_text(value, 5) + unit;
+    const float wide = ImGui::GetContentRegionMax().x;
+    const float value_width = ImGui::CalcTextSize(text.c_str()).x;
+    const std::string label = elide(short_name(p), rest_width(value_width + 10.0f * ui.scale));
     ImGui::TextColored(p.changed ? palette().warning : palette().text, "%s", label.c_str());
     tip(tip_of(p));
-    ImGui::SameLine(0, 6.0f * ui.scale);
-    ImGui::TextColored(palette().dim, "%s", unit.c_str());
+    ImGui::SameLine(wide - value_width);
+    ImGui::TextColored(palette().dim, "%s", text.c_str());
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6.0f * ui.scale, 0.0f));
+    control(ui, p);
     if (p.changed) {
-      ImGui::SameLine(ImGui::GetContentRegionMax().x - reset + 4.0f * ui.scale);
-      if (ImGui::SmallButton("reset")) ui.report(ui.session.reset_parameter(p.key));
+      ImGui::SameLine();
+      if (ImGui::Button("reset")) ui.report(ui.session.reset_parameter(p.key));
       tip("Back to " + number_text(p.initial, 5));
     }
-    control(ui, p);
+    ImGui::PopStyleVar();
     ImGui::PopID();
   }
 
   void control(Ui& ui, const SessionParameter& p) {
     if (p.flag) {
       bool on = p.value != 0.0;
-      if (ImGui::Checkbox(on ? "on" : "off", &on)) set(ui, p, on ? 1.0 : 0.0);
+      if (ImGui::Checkbox("##on", &on)) set(ui, p, on ? 1.0 : 0.0);
       return;
     }
     double value = dragged_ == p.key ? dragged_value_ : p.value;
     int whole = static_cast<int>(value);
     const int low = static_cast<int>(p.minimum), high = static_cast<int>(p.maximum);
-    ImGui::SetNextItemWidth(-1);
+    const float reset = p.changed ? ImGui::CalcTextSize("reset").x + 20.0f * ui.scale : 0.0f;
+    ImGui::SetNextItemWidth(rest_width(reset));
     const ImGuiSliderFlags flags =
         ImGuiSliderFlags_AlwaysClamp |
         (p.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-    const bool moved = p.whole ? ImGui::SliderScalar("##value", ImGuiDataType_S32, &whole, &low,
-                                                     &high, "%d", flags)
-                               : ImGui::SliderScalar("##value", ImGuiDataType_Double, &value,
-                                                     &p.minimum, &p.maximum, "%.5g", flags);
+    const bool moved =
+        p.whole ? ImGui::SliderScalar("##value", ImGuiDataType_S32, &whole, &low, &high, "", flags)
+                : ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &p.minimum,
+                                      &p.maximum, "", flags);
     if (p.whole) value = whole;
     const bool started = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated();
     tip(tip_of(p) + "\nCtrl+click: type a value.");

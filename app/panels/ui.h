@@ -18,7 +18,7 @@ struct ImFont;
 namespace pedicel::app {
 
 /// A window over the others; one at a time.
-enum class Dialog { none, open, save_as, help, info };
+enum class Dialog { none, open, save_as, help, info, problem };
 
 /// How fast things go, for the profiler.
 struct FrameTimes {
@@ -35,6 +35,8 @@ struct FrameTimes {
 /// Everything that panels see and share during a picture. What changes the document goes through
 /// `session`; what changes the view is here.
 struct Ui {
+  Ui(Session& of, std::shared_ptr<const Snapshot> first) : session(of), snapshot(first) {}
+
   Session& session;
   std::shared_ptr<const Snapshot> snapshot;  ///< of this picture; never null
   Preferences preferences;
@@ -55,6 +57,7 @@ struct Ui {
   double now = 0.0;                              ///< s
   bool recording = false;                        ///< a film is being made
   std::string command_line;                      ///< typed in the messages panel
+  std::string problem;  ///< of a file that could not be read, for the dialog
 
   void ask(Action action) { actions.push_back(action); }
   /// Runs a command and shows the fault, where it is refused. Whether it was taken.

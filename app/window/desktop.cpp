@@ -54,16 +54,7 @@ Desktop::Desktop(Platform& platform, Session& session, const DesktopOptions& opt
     : platform_(platform),
       preferences_path_(options.preferences),
       context_(std::make_unique<Context>(Preferences{})),
-      ui_{session, session.snapshot(),
-          {},      {},
-          {},      {},
-          {},      Dialog::none,
-          {},      1.0f,
-          nullptr, {},
-          {},      {},
-          {},      0.0,
-          0.0,     false,
-          {}},
+      ui_(session, session.snapshot()),
       input_(platform),
       draw_tool_(std::make_unique<DrawTool>()) {
   ui_.preferences.theme = options.theme;
@@ -202,6 +193,7 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
     ImGui::GetWindowDrawList()->AddImage(texture, areas.scene_min, areas.scene_max, ImVec2(0, 1),
                                          ImVec2(1, 0));
   }
+  draw_labels();
   ImGui::End();
 }
 

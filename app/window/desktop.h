@@ -58,6 +58,7 @@ class Desktop {
   void follow_document();
   void keys();
   void draw_scene(const LayoutAreas& areas);
+  void draw_labels();
   void paint();
   void perform_all();
   void perform(Action action);

@@ -20,6 +20,9 @@ class DrawTool {
   bool update(Ui& ui, const SceneFrame& frame, const RigidShapes& shapes);
   /// The stroke in hand, the snap, control points of the chosen stem.
   void add_to(render::DrawList& list, const Ui& ui, const SceneFrame& frame) const;
+  /// What the stroke is, or would be: "branch of truss/stem"; empty where nothing is to be said.
+  std::string label() const;
+  Vec3 label_place() const;  ///< m, W
   /// Drops the stroke or the drag in hand; false where there is none.
   bool cancel(Ui& ui);
   /// Takes away the chosen point, organ or stem.

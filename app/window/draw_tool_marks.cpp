@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "app/panels/stem_editor.h"
 #include "app/window/draw_tool.h"
@@ -29,6 +30,21 @@ void add_curve_line(render::DrawList& list, const geometry::Curve& curve, const 
 }
 
 }  // namespace
+
+std::string DrawTool::label() const {
+  if (hand_ == Hand::stroke) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < stroke_W_.size(); ++i)
+      length += (stroke_W_[i] - stroke_W_[i - 1]).norm();
+    return std::to_string(static_cast<int>(std::lround(1e3 * length))) + " mm";
+  }
+  return hand_ == Hand::idle && foot_ ? "on " + foot_->plant + "/" + foot_->stem : "";
+}
+
+Vec3 DrawTool::label_place() const {
+  if (hand_ == Hand::stroke && !stroke_W_.empty()) return stroke_W_.back();
+  return foot_ ? foot_->now_W : start_W_;
+}
 
 void DrawTool::add_points(render::DrawList& list, const Ui& ui, const SceneFrame& frame) const {
   std::string plant;
