@@ -1,6 +1,7 @@
 #pragma once
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 #include <set>
@@ -41,8 +42,10 @@ inline std::vector<CutLetter> cut_letters() {
         if (a.uv.x == c.uv.x || a.uv.y == c.uv.y) continue;  // a filled shape
         const bool in_rows = c.pos.y > command.ClipRect.y + 2 && a.pos.y < command.ClipRect.w - 2;
         if (!in_rows) continue;
-        const bool outside = a.pos.x < command.ClipRect.x - 0.5f ||
-                             c.pos.x > command.ClipRect.z + 0.5f;
+        // Some letters lean a little out of their place.
+        const float lean = 0.3f * (c.pos.x - a.pos.x) + 0.5f;
+        const bool outside =
+            a.pos.x < command.ClipRect.x - lean || c.pos.x > command.ClipRect.z + lean;
         const bool shortened = !whole.contains({key(a.uv.x), key(c.uv.x)});
         if (outside || shortened)
           cut.push_back({list._OwnerName ? list._OwnerName : "", a.pos.x, a.pos.y});
@@ -50,6 +53,21 @@ inline std::vector<CutLetter> cut_letters() {
     }
   }
   return cut;
+}
+
+/// Windows of the last picture in which something reaches farther to the right than they do, with
+/// how far (px): ImGui leaves out whole letters beyond the edge.
+inline std::vector<std::pair<std::string, float>> overflowing() {
+  std::vector<std::pair<std::string, float>> found;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!window->WasActive || (window->Flags & ImGuiWindowFlags_Tooltip)) continue;
+    const float room = window->InnerRect.GetWidth() - 2 * window->WindowPadding.x;
+    if (window->ContentSize.x > room + 1.0f && window->ScrollMax.x == 0.0f)
+      found.emplace_back(window->Name, window->ContentSize.x - room);
+    else if (window->ScrollMax.x > 0.0f)
+      found.emplace_back(window->Name, window->ScrollMax.x);
+  }
+  return found;
 }
 
 inline std::string describe(const std::vector<CutLetter>& cut) {

@@ -36,7 +36,7 @@ TEST(Story, DrawPullUndoSaveReload) {
   desk.drag({from, ImVec2(from.x + 30, from.y - 12), ImVec2(from.x + 60, from.y - 18),
              ImVec2(from.x + 90, from.y - 20)});
   desk.settle();
-  ASSERT_EQ(only_plant(desk)->curves.size(), 2u);
+  ASSERT_EQ(only_plant(desk)->curves.size(), 2u) << desk.ui().notice;
   EXPECT_EQ(desk.session().document().plants.size(), 1u) << "a branch, no plant of its own";
 
   // A fruit near the branch's tip.
