@@ -12,8 +12,8 @@ using std::chrono::steady_clock;
 
 namespace {
 
-/// Between snapshots that nobody has asked for since, and between those of a replay.
-constexpr std::chrono::milliseconds frame{16}, replay_frame{100};
+/// Between snapshots, between those that nobody looks at, and between those of a replay.
+constexpr std::chrono::milliseconds frame{16}, idle_frame{100}, replay_frame{100};
 /// A simulation that has fallen back by more than this no longer tries to catch up.
 constexpr std::chrono::milliseconds most_behind{100};
 
@@ -278,7 +278,7 @@ void RunThread::check_stability() {
 }
 
 void RunThread::publish(bool now) {
-  const bool wanted = taken_ && steady_clock::now() - last_publish_ > frame;
+  const bool wanted = steady_clock::now() - last_publish_ > (taken_ ? frame : idle_frame);
   if (!now && !wanted) return;
   if (!run_) {
     auto snapshot = std::make_shared<Snapshot>();

@@ -53,7 +53,7 @@ class Spline {
   }
 
   /// What each control point weighs at a place: the mirrored ends are linear in the others.
-  void add_row(const Place& place, Eigen::Ref<Eigen::RowVectorXd> row) const {
+  void add_row(const Place& place, Eigen::Ref<Eigen::VectorXd> row) const {
     const Weights w = piece_weights(knots(place.piece), place.u);
     const int last = pieces();
     for (int i = 0; i < 4; ++i) {
@@ -126,12 +126,13 @@ std::vector<Vec3> solve(const Spline& spline, const std::vector<Vec3>& samples,
   const int count = static_cast<int>(spline.points().size()), inner = count - 2;
   if (inner < 1) return spline.points();
   const int rows = static_cast<int>(samples.size());
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, count);
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(count, rows);
   Eigen::MatrixXd target(rows, 3);
   for (int s = 0; s < rows; ++s) {
-    spline.add_row(places[s], all.row(s));
+    spline.add_row(places[s], weights.col(s));
     target.row(s) = samples[s].transpose();
   }
+  const Eigen::MatrixXd all = weights.transpose();
   target -= all.col(0) * spline.points().front().transpose();
   target -= all.col(count - 1) * spline.points().back().transpose();
   const Eigen::MatrixXd a = all.middleCols(1, inner);

@@ -13,7 +13,7 @@ inline const char* const draw_lines[] = {
     "new plant p",
     "draw stem p stem 0,0,0;0,0,0.15;0,0,0.3 0.004",
     "draw stem p branch 0,0,0.15;0.05,0,0.16;0.1,0,0.15 0.0015",
-    "add fruit p berry branch 1 0.01 stretch=0.05 bend=0.5",
+    "add fruit p berry branch 1 0.01 force=2 bend=0.5",
 };
 
 inline void must(const Result& result) {

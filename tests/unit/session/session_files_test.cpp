@@ -72,7 +72,7 @@ TEST_F(Files, AFaultNamesFileAndLineAndCanBeRetried) {
   draw_plant(session);
   EXPECT_FALSE(session.open(file));
   ASSERT_FALSE(session.messages().empty());
-  EXPECT_THAT(session.messages().back().text, HasSubstr("bad.plant.yaml:7:8: error"));
+  EXPECT_THAT(session.messages().back().text, HasSubstr("bad.plant.yaml:8:8: error"));
   EXPECT_TRUE(session.messages().back().can_retry);
   EXPECT_EQ(session.document().plants.size(), 1u) << "what was open stays";
   std::ofstream(file) << good;
