@@ -144,9 +144,9 @@ void RunThread::do_build(Build build) {
     }
     const std::shared_ptr<const SceneAssets> assets = build.make();
     news.restarted = build.restart || !run_ || !run_->simulation().can_change_to(*assets);
-    document_hash_ = build.document_hash;
     mode_ = before == RunMode::empty ? RunMode::paused : before;
     take_assets(assets, news.restarted);
+    document_hash_ = build.document_hash;
     news.built = true;
     news.notes = assets->notes;
   } catch (const InvalidFile& fault) {

@@ -45,6 +45,10 @@ struct SessionParameter {
   bool changed = false;      ///< over what the files say
 };
 
+/// Where journals lie by default: $XDG_STATE_HOME/pedicel, else ~/.local/state/pedicel; empty where
+/// there is neither.
+std::filesystem::path autosave_folder();
+
 struct SessionOptions {
   std::vector<std::string> packages;  ///< "NAME=PATH"
   std::filesystem::path autosave;     ///< folder of the journals; empty: none
@@ -79,6 +83,7 @@ class Session {
   const std::filesystem::path& path() const { return document_.path; }
 
   // Commands.
+  /// Does a command of any scope. Document commands refuse as a whole.
   Result run(const Command& command);
   Result run_text(const std::string& line);
   /// Everything until end_gesture() is one step of the history; commands that go on changing the
@@ -91,6 +96,9 @@ class Session {
   Result redo();
   const History& history() const { return history_; }
   const Document& document() const { return document_; }
+  /// Whether what is simulated is what is drawn: false while it is being built, and where it cannot
+  /// be (see messages()).
+  bool is_simulated() const { return snapshot()->document_hash == hash_; }
   /// Everything that was done, one line each; as a script it does the same again.
   const std::vector<std::string>& log() const { return log_; }
 
@@ -141,6 +149,7 @@ class Session {
   void set_document(Document document);
   void rebuild(bool restart = false);
   Result dispatch(const Command& command);
+  void take_back(const Document& document);
   Result change_document(const Command& command);
   void record(History::Step step);
   void note(const std::string& line);
@@ -155,7 +164,7 @@ class Session {
 
   SessionOptions options_;
   Document document_;
-  std::uint64_t saved_hash_ = 0;
+  std::uint64_t hash_ = 0, saved_hash_ = 0;  // of the document; as it was opened or saved
   History history_;
   std::optional<Gesture> gesture_;
   std::vector<std::string> log_;

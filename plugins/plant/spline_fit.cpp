@@ -40,13 +40,17 @@ Weights piece_weights(const std::array<double, 4>& t, double u) {
 /// The spline through control points, its ends extended by the mirrored neighbour.
 class Spline {
  public:
-  explicit Spline(std::vector<Vec3> points) : points_(std::move(points)) {}
+  explicit Spline(std::vector<Vec3> points) : points_(std::move(points)) {
+    for (int piece = 0; piece < pieces(); ++piece) knots_.push_back(knots(piece));
+    for (int piece = 0; piece < pieces(); ++piece)
+      for (int k = 0; k <= parts; ++k) looked_at_.push_back(at({piece, share(k)}));
+  }
 
   int pieces() const { return static_cast<int>(points_.size()) - 1; }
   const std::vector<Vec3>& points() const { return points_; }
 
   Vec3 at(const Place& place) const {
-    const Weights w = piece_weights(knots(place.piece), place.u);
+    const Weights w = piece_weights(knots_[place.piece], place.u);
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < 4; ++i) sum += w[i] * point(place.piece - 1 + i);
     return sum;
@@ -54,7 +58,7 @@ class Spline {
 
   /// What each control point weighs at a place: the mirrored ends are linear in the others.
   void add_row(const Place& place, Eigen::Ref<Eigen::VectorXd> row) const {
-    const Weights w = piece_weights(knots(place.piece), place.u);
+    const Weights w = piece_weights(knots_[place.piece], place.u);
     const int last = pieces();
     for (int i = 0; i < 4; ++i) {
       const int index = place.piece - 1 + i;
@@ -70,18 +74,16 @@ class Spline {
     }
   }
 
-  /// The nearest of some places.
-  Place nearest(const Vec3& sample) const {
+  /// The nearest place of some pieces.
+  Place nearest(const Vec3& sample, int first_piece, int last_piece) const {
     Place best;
     double least = std::numeric_limits<double>::infinity();
-    for (int piece = 0; piece < pieces(); ++piece)
+    for (int piece = std::max(0, first_piece); piece <= std::min(last_piece, pieces() - 1); ++piece)
       for (int k = 0; k <= parts; ++k) {
-        const Place place{piece, static_cast<double>(k) / parts};
-        const double distance = (at(place) - sample).squaredNorm();
-        if (distance < least) {
-          least = distance;
-          best = place;
-        }
+        const double distance = (looked_at_[piece * (parts + 1) + k] - sample).squaredNorm();
+        if (distance >= least) continue;
+        least = distance;
+        best = {piece, share(k)};
       }
     return refined(best, sample);
   }
@@ -116,7 +118,10 @@ class Spline {
     return {near.piece, 0.5 * (low + high)};
   }
 
-  std::vector<Vec3> points_;
+  static double share(int k) { return static_cast<double>(k) / parts; }
+
+  std::vector<Vec3> points_, looked_at_;
+  std::vector<std::array<double, 4>> knots_;  // of each piece
 };
 
 /// Inner control points by least squares, ends fixed; a little weight on where they are keeps those
@@ -146,9 +151,15 @@ std::vector<Vec3> solve(const Spline& spline, const std::vector<Vec3>& samples,
   return points;
 }
 
-std::vector<Place> places_of(const Spline& spline, const std::vector<Vec3>& samples) {
+/// Where the samples lie, near the piece that they were between.
+std::vector<Place> places_of(const Spline& spline, const std::vector<Vec3>& samples,
+                             const std::vector<std::size_t>& seeds) {
   std::vector<Place> places;
-  for (const Vec3& sample : samples) places.push_back(spline.nearest(sample));
+  int piece = 0;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    while (piece + 1 < spline.pieces() && s >= seeds[piece + 1]) ++piece;
+    places.push_back(spline.nearest(samples[s], piece - 1, piece + 1));
+  }
   places.front() = {0, 0.0};
   places.back() = {spline.pieces() - 1, 1.0};
   return places;
@@ -160,31 +171,67 @@ bool stand_apart(const std::vector<Vec3>& points) {
   return true;
 }
 
+/// The sample in the middle of a piece, by its own length; the piece has one.
+std::size_t middle_of(const std::vector<Vec3>& samples, std::size_t from, std::size_t to) {
+  double length = 0.0, half = 0.0;
+  for (std::size_t s = from; s < to; ++s) length += (samples[s + 1] - samples[s]).norm();
+  std::size_t middle = from;
+  while (middle + 2 < to && half < 0.5 * length) {
+    half += (samples[middle + 1] - samples[middle]).norm();
+    ++middle;
+  }
+  return std::max(middle, from + 1);
+}
+
+/// The piece between two seeds in which a sample lies.
+std::size_t piece_of(const std::vector<std::size_t>& seeds, std::size_t sample) {
+  const auto above = std::upper_bound(seeds.begin() + 1, seeds.end() - 1, sample);
+  return static_cast<std::size_t>(above - seeds.begin()) - 1;
+}
+
+struct Fit {
+  std::vector<Vec3> points;
+  std::vector<double> error;  // m, one a sample
+};
+
+/// One round of the loop with control points where the seeds are.
+Fit fit_with(const std::vector<std::size_t>& seeds, const std::vector<Vec3>& samples) {
+  std::vector<Vec3> points;
+  for (const std::size_t seed : seeds) points.push_back(samples[seed]);
+  Spline spline(points);
+  std::vector<Place> places = places_of(spline, samples, seeds);
+  for (int i = 0; i < reparametrised; ++i) {
+    std::vector<Vec3> solved = solve(spline, samples, places);
+    if (!stand_apart(solved)) break;
+    spline = Spline(std::move(solved));
+    places = places_of(spline, samples, seeds);
+  }
+  Fit fit{spline.points(), {}};
+  for (std::size_t s = 0; s < samples.size(); ++s)
+    fit.error.push_back((spline.at(places[s]) - samples[s]).norm());
+  return fit;
+}
+
 }  // namespace
 
 std::vector<Vec3> fit_spline(const std::vector<Vec3>& samples, double tolerance) {
   std::vector<std::size_t> seeds = {0, samples.size() - 1};  // samples that gave a control point
   while (true) {
-    std::vector<Vec3> points;
-    for (const std::size_t seed : seeds) points.push_back(samples[seed]);
-    Spline spline(points);
-    std::vector<Place> places = places_of(spline, samples);
-    for (int i = 0; i < reparametrised; ++i) {
-      std::vector<Vec3> solved = solve(spline, samples, places);
-      if (!stand_apart(solved)) break;
-      spline = Spline(std::move(solved));
-      places = places_of(spline, samples);
-    }
+    const Fit fit = fit_with(seeds, samples);
+    // The piece with the largest error that can still be split.
     double largest = 0.0;
-    std::size_t worst = 0;
+    std::size_t split = 0;
+    bool holds = true;
     for (std::size_t s = 0; s < samples.size(); ++s) {
-      const double error = (spline.at(places[s]) - samples[s]).norm();
-      if (error <= largest || std::binary_search(seeds.begin(), seeds.end(), s)) continue;
-      largest = error;
-      worst = s;
+      holds = holds && fit.error[s] <= tolerance;
+      const std::size_t piece = piece_of(seeds, s);
+      if (fit.error[s] <= largest || seeds[piece + 1] - seeds[piece] < 2) continue;
+      largest = fit.error[s];
+      split = piece;
     }
-    if (largest <= tolerance || seeds.size() == samples.size()) return spline.points();
-    seeds.insert(std::lower_bound(seeds.begin(), seeds.end(), worst), worst);
+    if (holds || largest == 0.0) return fit.points;
+    seeds.insert(seeds.begin() + static_cast<long>(split) + 1,
+                 middle_of(samples, seeds[split], seeds[split + 1]));
   }
 }
 

@@ -50,6 +50,21 @@ TEST_F(Files, TheFileBeforeStays) {
   EXPECT_NE(io::read_file(file), before);
 }
 
+TEST_F(Files, UndoDoesNotForgetWhereItWasSaved) {
+  draw_plant(session);
+  must(session.save(folder / "p.plant.yaml"));
+  must(session.undo());
+  EXPECT_TRUE(session.dirty());
+  EXPECT_TRUE(session.is_simulated());
+  must(session.save());
+  EXPECT_TRUE(read(folder / "p.plant.yaml").fruits.empty());
+  must(session.run_text("new plant q"));
+  must(session.run_text("new plant r"));
+  must(session.run_text("draw stem q s 0,0,0;0,0,1 0.01"));
+  must(session.run_text("draw stem r s 0,0,0;0,0,1 0.01"));
+  EXPECT_THAT(session.save(folder / "both.plant.yaml").text, HasSubstr("2 plants have no file"));
+}
+
 TEST_F(Files, AnEditByHandAndReload) {
   draw_plant(session);
   const auto file = folder / "p.plant.yaml";
