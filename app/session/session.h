@@ -127,6 +127,8 @@ class Session {
   /// Moves the tool by a shift (m, W) and a turn (rad, a rotation vector, W), or says why not.
   Result jog(const Vec3& shift_W, const Vec3& turn_W = Vec3::Zero());
   Result play_waypoints();
+  /// Of a table time_s,joint,... ; its time 0 is now.
+  Result play_trajectory(const std::filesystem::path& file);
 
   // Recovery.
   /// Documents that a killed program left, the newest first. Empty without autosave.

@@ -84,7 +84,18 @@ Result Session::play_waypoints() {
     positions.push_back(model.clamped(Eigen::Map<const Eigen::VectorXd>(
         one.joints.data(), static_cast<Eigen::Index>(one.joints.size()))));
   }
-  control_.play_trajectory(std::move(times), std::move(positions));
+  control_.play_trajectory({std::move(times), std::move(positions)});
+  return {};
+}
+
+Result Session::play_trajectory(const std::filesystem::path& file) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Diagnostics diagnostics;
+  robot::Trajectory trajectory =
+      robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
+  if (diagnostics.has_errors()) return {false, diagnostics.text()};
+  control_.play_trajectory(std::move(trajectory));
   return {};
 }
 
@@ -115,6 +126,7 @@ Result Session::robot_command(const Command& c) {
     const robot::IkResult reached = reach(tool);
     return reached.reached ? move_joints(reached.q) : Result{false, reached.sentence};
   }
+  if (verb == "play trajectory") return play_trajectory(c.word("file"));
   return verb == "play waypoints" ? play_waypoints() : Result{};
 }
 

@@ -117,6 +117,22 @@ TEST_F(Scripts, TheRobotGoesWhereItIsSent) {
   EXPECT_THAT(errors.str(), HasSubstr("unreachable"));
 }
 
+TEST_F(Scripts, ATrajectoryIsPlayed) {
+  const std::string scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml").string();
+  ASSERT_EQ(run("open " + scene + "\nrun 0.1\n"), 0) << errors.str();
+  const auto now = session.snapshot();
+  const std::string joint = robot::KinematicModel(*now->assets->robot).joint_names()[0];
+  const double from = now->robot.q[0], to = from + 0.1;
+  std::ofstream(folder / "move.csv")
+      << "time_s," << joint << "\n0," << from << "\n0.5," << to << "\n";
+  const std::string file = (folder / "move.csv").string();
+  ASSERT_EQ(run("play trajectory " + file + "\nrun 1\n"), 0) << errors.str();
+  EXPECT_NEAR(session.snapshot()->robot.q[0], to, 5.0e-3);
+  std::ofstream(folder / "move.csv") << "time_s,elbow_of_nobody\n0,0\n";
+  EXPECT_EQ(run("play trajectory " + file + "\n"), 1);
+  EXPECT_THAT(errors.str(), HasSubstr("move.csv:1:8"));
+}
+
 TEST_F(Scripts, WaypointsArePlayed) {
   const std::string scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml").string();
   ASSERT_EQ(run("open " + scene + "\n"), 0) << errors.str();
