@@ -17,6 +17,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "render/image.h"
+#include "session/script.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -37,7 +38,26 @@ extern "C" void request_stop(int) {
   stop_requested = true;
 }
 
+/// `pedicel --script FILE [SCENE]`: commands in place of a window, see session/script.h.
+int script_verb(const RunArguments& a) {
+  SessionOptions options;
+  options.packages = a.packages;
+  options.waits = true;
+  Session session(options);
+  if (!a.scene.empty() && !session.open(a.scene)) {
+    std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
+    return invalid;
+  }
+  for (const std::string& assignment : a.set) {
+    const auto [key, value] = world::split_assignment(assignment);
+    const Result result = session.run(Command("set", {{"key", key}, {"value", value}}));
+    if (!result) throw UsageError(result.text);
+  }
+  return run_script(a.script, session, std::cout, std::cerr);
+}
+
 int run_verb(const RunArguments& a) {
+  if (!a.script.empty()) return script_verb(a);
   if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
   const RunOptions options = run_options(a);
   const world::Scene scene = load_scene(a);
@@ -65,7 +85,7 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
 int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
                 const OpenDesktop& open_desktop) {
   const bool picture = !window.screenshot.empty();
-  const bool run = a.headless || a.json || a.quiet || !a.out.empty();
+  const bool run = a.headless || a.json || a.quiet || !a.out.empty() || !a.script.empty();
   if (!open_desktop || (run && !picture)) return run_verb(a);
   window.file = a.scene;
   window.set = a.set;
@@ -172,7 +192,8 @@ WorldsResult bench_scene(const BenchArguments& a) {
   run.dt = a.dt;
   run.duration = a.duration;
   const world::Scene scene = load_scene(run);
-  return run_worlds(scene_worlds(scene, {a.packages, {}, {}}), worlds_options(a, scene.dt, scene.duration));
+  return run_worlds(scene_worlds(scene, {a.packages, {}, {}}),
+                    worlds_options(a, scene.dt, scene.duration));
 }
 
 int bench_verb(const BenchArguments& a) {
@@ -221,6 +242,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop) {
 
   RunArguments run;
   app.add_option("scene", run.scene, "scene file (*.scene.yaml)");
+  app.add_option("--script", run.script, "run commands from a file, one a line, off screen");
   app.add_flag("--headless", run.headless,
                "no window: run off screen (so do --out, --json and --quiet)");
   DesktopRequest window;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/panels/stem_editor.h"
-#include "app/window/stroke_fit.h"
 
 namespace pedicel::app {
 
@@ -148,8 +147,9 @@ void DrawTool::end_stroke(Ui& ui) {
     return;
   }
   const DrawMode& d = ui.draw;
-  std::vector<Vec3> points = fit_stroke(stroke, {d.tolerance, d.detect_corners, 0.9, 40});
-  if (points.size() < 2) return;
+  const auto shape = shape_of(stroke, d);
+  if (!shape) return;
+  std::vector<Vec3> points = shape->points;
   ui.session.begin_gesture();
   bool taken = true;
   std::string plant = foot_ ? foot_->plant : d.plant;
@@ -167,10 +167,10 @@ void DrawTool::end_stroke(Ui& ui) {
   const Pose to_plant = plant_pose(ui.session, plant).inverse();
   for (Vec3& point : points) point = to_plant * Vec3(point + offset);
   const std::string stem = unused_name(ui.session, plant, foot_ ? "branch" : "stem");
-  const auto radii = taper_radii(points, d.radius_max, d.radius_min, d.taper_start, d.taper_end);
-  taken = taken && ui.run(Command(
-                       "draw stem",
-                       {{"plant", plant}, {"stem", stem}, {"points", points}, {"radius", radii}}));
+  taken = taken &&
+          ui.run(Command(
+              "draw stem",
+              {{"plant", plant}, {"stem", stem}, {"points", points}, {"radius", shape->radius}}));
   if (!taken) return ui.session.cancel_gesture();
   ui.session.end_gesture();
   ui.draw.plant = plant;

@@ -17,8 +17,8 @@ struct CutLetter {
 };
 
 /// Letters of the last picture that are cut at the left or right of what they stand in: by the
-/// clipping of the picture, or by ImGui itself, which shortens a letter's rectangle. Above and below
-/// they may be cut, that is what scrolling does.
+/// clipping of the picture, or by ImGui itself, which shortens a letter's rectangle. Above and
+/// below they may be cut, that is what scrolling does.
 inline std::vector<CutLetter> cut_letters() {
   const ImDrawData& data = *ImGui::GetDrawData();
   // The letters' places in the atlas, to see whether a rectangle has the whole of one.
