@@ -73,6 +73,10 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
   app.add_flag("--with-ui", window.with_interface, "the picture shows the window with its panels");
   app.add_option("--at", window.time, "simulated time of the picture, s")
       ->check(CLI::Range(0.0, 1e4));
+  app.add_option("--show", window.show, "a panel to bring to the front (Plots); may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--colours", window.colours, "of stems in the window")
+      ->check(CLI::IsMember({"strain", "margin", "contact"}));
   app.add_option("--theme", window.theme, "of the window")->check(CLI::IsMember({"dark", "light"}));
   app.add_option("--scale", window.scale, "of the window's texts (default: as the monitor says)")
       ->check(CLI::Range(0.5, 4.0));
