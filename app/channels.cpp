@@ -7,9 +7,11 @@ namespace pedicel::app {
 
 namespace {
 
+using Channels = std::vector<Channel>;
+
 constexpr std::size_t most_organs = 60;
 
-void add_robot(world::Recorder& recorder, const Simulation& simulation) {
+void add_robot(Channels& all, const Simulation& simulation) {
   const RobotControl* robot = simulation.robot();
   if (!robot) return;
   const robot::KinematicModel& model = robot->robot().model();
@@ -17,18 +19,18 @@ void add_robot(world::Recorder& recorder, const Simulation& simulation) {
     const std::string& joint = model.joint_names()[i];
     const bool slides = robot->description().joints[robot->description().joint(joint)].type ==
                         robot::JointType::prismatic;
-    recorder.add_channel("joint_" + joint + (slides ? "_m" : "_rad"),
-                         [robot, i] { return robot->robot().positions()[i]; });
-    recorder.add_channel("torque_" + joint + (slides ? "_N" : "_Nm"),
-                         [robot, i] { return robot->robot().motor_torques()[i]; });
+    all.emplace_back("joint_" + joint + (slides ? "_m" : "_rad"),
+                     [robot, i] { return robot->robot().positions()[i]; });
+    all.emplace_back("torque_" + joint + (slides ? "_N" : "_Nm"),
+                     [robot, i] { return robot->robot().motor_torques()[i]; });
   }
   const char* names[] = {"tool_x_m", "tool_y_m", "tool_z_m"};
   for (int i = 0; i < 3; ++i)
-    recorder.add_channel(names[i], [robot, i] { return robot->tool_pose().position[i]; });
+    all.emplace_back(names[i], [robot, i] { return robot->tool_pose().position[i]; });
 }
 
 // One column a link or body, over all its colliders.
-void add_colliders(world::Recorder& recorder, const Simulation& simulation) {
+void add_colliders(Channels& all, const Simulation& simulation) {
   std::vector<std::string> done;
   const coupling::ColliderSet& set = simulation.colliders();
   for (int c = 0; c < set.size(); ++c) {
@@ -42,31 +44,31 @@ void add_colliders(world::Recorder& recorder, const Simulation& simulation) {
           total += simulation.plant_step().contacts().colliders()[i].*value;
       return total;
     };
-    recorder.add_channel("contact_" + name + "_normal_N",
-                         [sum] { return sum(&coupling::ContactSum::normal); });
-    recorder.add_channel("contact_" + name + "_tangential_N",
-                         [sum] { return sum(&coupling::ContactSum::tangential); });
+    all.emplace_back("contact_" + name + "_normal_N",
+                     [sum] { return sum(&coupling::ContactSum::normal); });
+    all.emplace_back("contact_" + name + "_tangential_N",
+                     [sum] { return sum(&coupling::ContactSum::tangential); });
   }
 }
 
-void add_organs(world::Recorder& recorder, const Simulation& simulation) {
+void add_organs(Channels& all, const Simulation& simulation) {
   std::size_t organs = 0;
   for (int p = 0; p < simulation.rods().size(); ++p)
     organs += simulation.rods().model(p).organs.size();
   for (int p = 0; p < simulation.rods().size() && organs <= most_organs; ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
     for (std::size_t o = 0; o < model.organs.size(); ++o) {
-      recorder.add_channel("contact_" + model.organs[o] + "_normal_N", [&simulation, p, o] {
+      all.emplace_back("contact_" + model.organs[o] + "_normal_N", [&simulation, p, o] {
         return simulation.plant_step().contacts().organs(p)[o].normal;
       });
-      recorder.add_channel("contact_" + model.organs[o] + "_tangential_N", [&simulation, p, o] {
+      all.emplace_back("contact_" + model.organs[o] + "_tangential_N", [&simulation, p, o] {
         return simulation.plant_step().contacts().organs(p)[o].tangential;
       });
     }
   }
 }
 
-void add_fruit(world::Recorder& recorder, const Simulation& simulation, int p, int f) {
+void add_fruit(Channels& all, const Simulation& simulation, int p, int f) {
   const cosserat::RodModel& model = simulation.rods().model(p);
   const std::string name = fruit_name(model, f);
   const auto strain = [&simulation, p, f](bool bend) {
@@ -76,22 +78,21 @@ void add_fruit(world::Recorder& recorder, const Simulation& simulation, int p, i
                                                    simulation.rods().model(p).fruits[f].element);
     return bend ? s.bend.norm() : s.stretch.norm();
   };
-  recorder.add_channel(name + "_stretch_1", [strain] { return strain(false); });
-  recorder.add_channel(name + "_bend_rad", [strain] { return strain(true); });
-  recorder.add_channel(name + "_margin_used_1", [&simulation, p, f] {
+  all.emplace_back(name + "_stretch_1", [strain] { return strain(false); });
+  all.emplace_back(name + "_bend_rad", [strain] { return strain(true); });
+  all.emplace_back(name + "_margin_used_1", [&simulation, p, f] {
     return cosserat::margin_used(simulation.rods().model(p), simulation.rods().state(p), f);
   });
-  recorder.add_channel(name + "_contact_N", [&simulation, p, f] {
+  all.emplace_back(name + "_contact_N", [&simulation, p, f] {
     return simulation.plant_step().contacts().fruits(p)[f].normal;
   });
   world::Anchor anchor;
   anchor.kind = world::Anchor::Kind::fruit;
   anchor.name = name;
-  recorder.add_channel(name + "_z_m",
-                       [&simulation, anchor] { return simulation.find(anchor)->z(); });
+  all.emplace_back(name + "_z_m", [&simulation, anchor] { return simulation.find(anchor)->z(); });
 }
 
-void add_plants(world::Recorder& recorder, const Simulation& simulation) {
+void add_plants(Channels& all, const Simulation& simulation) {
   const auto energy = [&simulation](double cosserat::Energy::*part) {
     double sum = 0.0;
     for (int p = 0; p < simulation.rods().size(); ++p)
@@ -100,10 +101,10 @@ void add_plants(world::Recorder& recorder, const Simulation& simulation) {
              part;
     return sum;
   };
-  recorder.add_channel("energy_kinetic_J", [energy] { return energy(&cosserat::Energy::kinetic); });
-  recorder.add_channel("energy_elastic_J", [energy] { return energy(&cosserat::Energy::elastic); });
-  recorder.add_channel("energy_gravity_J", [energy] { return energy(&cosserat::Energy::gravity); });
-  recorder.add_channel("stretch_max_1", [&simulation] {
+  all.emplace_back("energy_kinetic_J", [energy] { return energy(&cosserat::Energy::kinetic); });
+  all.emplace_back("energy_elastic_J", [energy] { return energy(&cosserat::Energy::elastic); });
+  all.emplace_back("energy_gravity_J", [energy] { return energy(&cosserat::Energy::gravity); });
+  all.emplace_back("stretch_max_1", [&simulation] {
     double largest = 0.0;
     for (int p = 0; p < simulation.rods().size(); ++p)
       for (int e = 0; e < simulation.rods().model(p).size(); ++e)
@@ -113,24 +114,31 @@ void add_plants(world::Recorder& recorder, const Simulation& simulation) {
                                           .stretch.norm());
     return largest;
   });
-  recorder.add_channel("contacts_1", [&simulation] {
+  all.emplace_back("contacts_1", [&simulation] {
     return static_cast<double>(simulation.world().report().contacts);
   });
-  recorder.add_channel("detached_1", [&simulation] {
+  all.emplace_back("detached_1", [&simulation] {
     return static_cast<double>(simulation.plant_step().detached().size());
   });
 }
 
 }  // namespace
 
-void add_channels(world::Recorder& recorder, const Simulation& simulation) {
-  add_robot(recorder, simulation);
-  add_plants(recorder, simulation);
+std::vector<Channel> channels_of(const Simulation& simulation) {
+  Channels all;
+  add_robot(all, simulation);
+  add_plants(all, simulation);
   for (int p = 0; p < simulation.rods().size(); ++p)
     for (int f = 0; f < static_cast<int>(simulation.rods().model(p).fruits.size()); ++f)
-      add_fruit(recorder, simulation, p, f);
-  add_colliders(recorder, simulation);
-  add_organs(recorder, simulation);
+      add_fruit(all, simulation, p, f);
+  add_colliders(all, simulation);
+  add_organs(all, simulation);
+  return all;
+}
+
+void add_channels(world::Recorder& recorder, const Simulation& simulation) {
+  for (Channel& channel : channels_of(simulation))
+    recorder.add_channel(std::move(channel.name), std::move(channel.read));
 }
 
 world::Event to_event(const Detached& detached) {

@@ -1,9 +1,21 @@
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "app/simulation.h"
 #include "world/recorder.h"
 
 namespace pedicel::app {
+
+/// A quantity of a simulation as it stands; its name ends with its unit ("tool_z_m").
+struct Channel {
+  std::string name;
+  std::function<double()> read;
+};
+/// Every column of log.csv. The simulation must outlive them.
+std::vector<Channel> channels_of(const Simulation& simulation);
 
 /// Adds the columns of log.csv: robot joints and torques, tool, contact force per link, organ and
 /// fruit, strain of every fruit's stalk against its thresholds, energies. Organs are left out where

@@ -17,6 +17,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "render/image.h"
+#include "session/script.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -37,17 +38,67 @@ extern "C" void request_stop(int) {
   stop_requested = true;
 }
 
+/// `pedicel --script FILE [SCENE]`: commands in place of a window, see session/script.h.
+int script_verb(const RunArguments& a) {
+  SessionOptions options;
+  options.packages = a.packages;
+  options.waits = true;
+  Session session(options);
+  if (!a.scene.empty() && !session.open(a.scene)) {
+    std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
+    return invalid;
+  }
+  for (const std::string& assignment : a.set) {
+    const auto [key, value] = world::split_assignment(assignment);
+    const Result result = session.run(Command("set", {{"key", key}, {"value", value}}));
+    if (!result) throw UsageError(result.text);
+  }
+  return run_script(a.script, session, std::cout, std::cerr);
+}
+
 int run_verb(const RunArguments& a) {
+  if (!a.script.empty()) return script_verb(a);
   if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
   const RunOptions options = run_options(a);
   const world::Scene scene = load_scene(a);
-  if (!a.headless && !a.quiet)
-    std::fprintf(stderr,
-                 "this version has no window yet: it runs off screen, as with --headless\n");
   const RunResult result = run_with_sweep(scene, options);
   if (a.json) std::cout << to_json(scene, result) << std::endl;
   if (!a.quiet) std::fprintf(stderr, "written to %s\n", options.out.string().c_str());
   return result.exit_code;
+}
+
+void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
+  app.add_flag("--paused", paused, "the window opens with the simulation held");
+  app.add_option("--screenshot", window.screenshot, "writes a picture there (PNG), off screen");
+  app.add_flag("--with-ui", window.with_interface, "the picture shows the window with its panels");
+  app.add_option("--at", window.time, "simulated time of the picture, s")
+      ->check(CLI::Range(0.0, 1e4));
+  app.add_option("--show", window.show, "a panel to bring to the front (Plots); may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--colours", window.colours, "of stems in the window")
+      ->check(CLI::IsMember({"strain", "margin", "contact"}));
+  app.add_option("--theme", window.theme, "of the window")->check(CLI::IsMember({"dark", "light"}));
+  app.add_option("--scale", window.scale, "of the window's texts (default: as the monitor says)")
+      ->check(CLI::Range(0.5, 4.0));
+  app.add_option("--platform", window.platform, "where the window is shown")
+      ->check(CLI::IsMember({"window", "offscreen", "null"}));
+}
+
+/// The window, or a run off screen: with --headless, with what only a run can give, and where no
+/// window can be opened.
+int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
+                const OpenDesktop& open_desktop) {
+  const bool picture = !window.screenshot.empty();
+  const bool run = a.headless || a.json || a.quiet || !a.out.empty() || !a.script.empty();
+  if (!open_desktop || (run && !picture)) return run_verb(a);
+  window.file = a.scene;
+  window.set = a.set;
+  window.packages = a.packages;
+  window.playing = !a.scene.empty() && !paused;
+  if (const auto size = run_options(a).size) window.size = *size;
+  if (const std::optional<int> code = open_desktop(window)) return *code;
+  if (!a.scene.empty()) return run_verb(a);
+  throw std::runtime_error("there is no window to open; give a scene to run it off screen");
 }
 
 /// `pedicel sweep SCENE --set key=v1,v2,...`: the scene's own sweep is replaced by this one.
@@ -145,7 +196,8 @@ WorldsResult bench_scene(const BenchArguments& a) {
   run.dt = a.dt;
   run.duration = a.duration;
   const world::Scene scene = load_scene(run);
-  return run_worlds(scene_worlds(scene, {a.packages}), worlds_options(a, scene.dt, scene.duration));
+  return run_worlds(scene_worlds(scene, {a.packages, {}, {}}),
+                    worlds_options(a, scene.dt, scene.duration));
 }
 
 int bench_verb(const BenchArguments& a) {
@@ -185,7 +237,7 @@ int guarded(const std::function<int()>& verb) {
 
 }  // namespace
 
-int run_cli(int argc, char** argv) {
+int run_cli(int argc, char** argv, const OpenDesktop& open_desktop) {
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   CLI::App app("Pedicel: a sandbox where robots handle plants.");
@@ -194,7 +246,12 @@ int run_cli(int argc, char** argv) {
 
   RunArguments run;
   app.add_option("scene", run.scene, "scene file (*.scene.yaml)");
-  app.add_flag("--headless", run.headless, "run off screen");
+  app.add_option("--script", run.script, "run commands from a file, one a line, off screen");
+  app.add_flag("--headless", run.headless,
+               "no window: run off screen (so do --out, --json and --quiet)");
+  DesktopRequest window;
+  bool paused = false;
+  add_window_options(app, window, paused);
   add_run_options(app, run);
 
   RunArguments swept;
@@ -233,7 +290,7 @@ int run_cli(int argc, char** argv) {
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);
   if (*observe) return guarded([&] { return observe_verb(observed); });
-  return guarded([&] { return run_verb(run); });
+  return guarded([&] { return window_verb(run, window, paused, open_desktop); });
 }
 
 }  // namespace pedicel::app

@@ -1,11 +1,38 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace pedicel::app {
 
-/// The whole program: reads the command line, does what it says, returns the exit code
+/// What the command line asks of the window.
+struct DesktopRequest {
+  std::string file;                    ///< scene or plant; empty: the first start's scene
+  std::vector<std::string> set;        ///< "key=value", over what the files say
+  std::vector<std::string> packages;   ///< "NAME=PATH"
+  std::array<int, 2> size{1280, 720};  ///< px
+  std::string platform = "window";     ///< window | offscreen | null
+  std::string theme;                   ///< dark | light; empty: as remembered
+  double scale = 0.0;                  ///< 1, of texts; 0: as the monitor says
+  bool playing = false;                ///< plays at once
+  std::string screenshot;         ///< a picture is written there, and the program ends; empty: none
+  bool with_interface = false;    ///< the picture shows the panels, too
+  double time = 0.0;              ///< s, simulated before the picture
+  std::vector<std::string> show;  ///< panels that are in front: "Plots"
+  std::string colours;            ///< of stems: strain | margin | contact; empty: their own
+};
+/// Opens the window and stays until it is closed: the exit code. Nothing where there is no window
+/// to open (it has said why, in one line).
+using OpenDesktop = std::function<std::optional<int>(const DesktopRequest&)>;
+
+/// The whole program: reads the command line, does what it says, returns the exit code. Without
+/// `open_desktop` there is no window. Codes:
 /// (0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the simulation is unstable,
 /// 5 an expectation is not met, 6 output cannot be written, 77 pictures were asked for and there is
 /// no OpenGL, 130 stopped by the user).
-int run_cli(int argc, char** argv);
+int run_cli(int argc, char** argv, const OpenDesktop& open_desktop = {});
 
 }  // namespace pedicel::app

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "app/blade.h"
 #include "core/frames.h"
 #include "render/draw_list.h"
 #include "robot/description.h"
@@ -11,13 +11,6 @@
 /// From the things of a simulation to the draw list of one picture. Rigid things are prepared once,
 /// as a draw list in their own frame (a "shape" below), and added to every frame at their pose.
 namespace pedicel::app {
-
-/// A corner of a leaf's triangle: a place on an element of a plant.
-struct BladeCorner {
-  int element = 0;
-  double back = 0.0;  ///< m, from the child node
-};
-using Blade = std::array<BladeCorner, 3>;
 
 /// A fruit's looks.
 struct FruitLook {

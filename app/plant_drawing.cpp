@@ -64,13 +64,6 @@ PlantLook PlantLook::apple() {
   return look;
 }
 
-double surface_strain(const RodModel& model, const RodState& state, int element) {
-  const cosserat::Strain strain = strain_of(model, state, element);
-  const Element& e = model.elements[element];
-  const double radius = std::max(e.radius_near, e.radius_far);
-  return strain.stretch.norm() + radius * strain.bend.norm() / e.length;
-}
-
 PlantDrawing::PlantDrawing(const RodModel& model, std::vector<Blade> blades, const PlantLook& look)
     : model_(model), blades_(std::move(blades)), is_leaf_(model.organs.size(), 0), look_(look) {
   for (const Blade& blade : blades_)
@@ -81,9 +74,20 @@ PlantDrawing::PlantDrawing(const RodModel& model, std::vector<Blade> blades, con
 
 void PlantDrawing::add_to(DrawList& list, const RodState& state,
                           std::optional<double> strain_scale) const {
-  add_chains(list, state, colours(state, strain_scale));
-  add_blades(list, state);
+  add_to(list, state, colours(state, strain_scale));
+}
+
+void PlantDrawing::add_to(DrawList& list, const RodState& state, const std::vector<Colour>& colours,
+                          bool blades) const {
+  add_chains(list, state, colours);
+  if (blades) add_blades(list, state);
   add_fruits(list, state);
+}
+
+std::vector<Colour> PlantDrawing::plain_colours() const {
+  std::vector<Colour> result(model_.elements.size());
+  for (int e = 0; e < model_.size(); ++e) result[e] = material_of(e).colour;
+  return result;
 }
 
 const render::Material& PlantDrawing::material_of(int element) const {

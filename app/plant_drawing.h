@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/drawing.h"
+#include "app/surface_strain.h"
 #include "cosserat/rod_state.h"
 
 namespace pedicel::app {
@@ -18,11 +19,6 @@ struct PlantLook {
   static PlantLook apple();
 };
 
-/// How far an element is strained at its surface, from its unloaded rest shape: stretch and shear,
-/// plus radius times curvature (1).
-double surface_strain(const cosserat::RodModel& model, const cosserat::RodState& state,
-                      int element);
-
 /// A plant prepared for drawing.
 class PlantDrawing {
  public:
@@ -35,6 +31,12 @@ class PlantDrawing {
   /// coloured by surface_strain() on a scale from 0 to that value (> 0).
   void add_to(render::DrawList& list, const cosserat::RodState& state,
               std::optional<double> strain_scale = {}) const;
+  /// The same with a colour for each element; leaf blades and fruits keep theirs. Leaves are left
+  /// out without `blades`.
+  void add_to(render::DrawList& list, const cosserat::RodState& state,
+              const std::vector<render::Colour>& colours, bool blades = true) const;
+  /// The colours that elements have by themselves.
+  std::vector<render::Colour> plain_colours() const;
 
  private:
   void add_chains(render::DrawList& list, const cosserat::RodState& state,

@@ -1,5 +1,7 @@
 #include "app/robot_control.h"
 
+#include <algorithm>
+
 namespace pedicel::app {
 
 namespace {
@@ -16,6 +18,19 @@ int tool_of(const world::SceneRobot& scene, const robot::RobotDescription& descr
   return named >= 0 ? named : static_cast<int>(description.links.size()) - 1;
 }
 
+/// How fast a joint goes where it is sent by hand.
+Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
+                             const robot::RobotDescription& description) {
+  Eigen::VectorXd speed = model.velocity_limits();
+  for (int i = 0; i < model.dofs(); ++i) {
+    const robot::JointType type =
+        description.joints[description.joint(model.joint_names()[i])].type;
+    const double own = type == robot::JointType::prismatic ? 0.25 : 1.0;
+    speed[i] = speed[i] > 0.0 ? std::min(speed[i], own) : own;
+  }
+  return speed;
+}
+
 }  // namespace
 
 RobotControl::RobotControl(const world::SceneRobot& scene,
@@ -30,19 +45,44 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
   qd_ = Eigen::VectorXd::Zero(q_.size());
   for (const auto& [joint, value] : scene.joints) q_[robot_.model().joint_index(joint)] = value;
   q_ = robot_.model().clamped(q_);
+  speed_ = manual_speed(robot_.model(), description);
   if (scene.gripper_force > 0.0 && !scene.gripper.empty())
     robot_.set_effort_limit(robot_.model().joint_index(scene.gripper), scene.gripper_force);
   robot_.reset(q_, qd_);
 }
 
 void RobotControl::act(world::SimWorld& world, world::StepReport&) {
-  if (!trajectory_.empty()) trajectory_.sample(world.time() + world.dt(), q_, qd_);
+  if (goal_)
+    approach_goal(world.dt());
+  else if (!trajectory_.empty())
+    trajectory_.sample(world.time() + world.dt() - start_, q_, qd_);
   for (int i = 0; i < q_.size(); ++i) {
     if (mode_ == "position") robot_.set_position_target(i, q_[i], qd_[i]);
     if (mode_ == "velocity") robot_.set_velocity_target(i, qd_[i]);
     if (mode_ == "torque") robot_.set_torque(i, 0.0);
   }
   robot_.begin_step(world.dt());
+}
+
+void RobotControl::go_to(const Eigen::VectorXd& q) {
+  goal_ = robot_.model().clamped(q);
+  trajectory_ = {};
+}
+
+Eigen::VectorXd RobotControl::goal() const {
+  if (goal_) return *goal_;
+  if (trajectory_.empty()) return q_;
+  Eigen::VectorXd q = q_, qd = qd_;
+  trajectory_.sample(trajectory_.duration(), q, qd);
+  return q;
+}
+
+void RobotControl::approach_goal(double dt) {
+  for (int i = 0; i < q_.size(); ++i) {
+    const double step = std::clamp((*goal_)[i] - q_[i], -speed_[i] * dt, speed_[i] * dt);
+    q_[i] += step;
+    qd_[i] = step / dt;
+  }
 }
 
 void RobotControl::Reader::act(world::SimWorld&, world::StepReport& report) {

@@ -38,7 +38,19 @@ class RobotControl : public world::Participant {
   int tool_link() const { return tool_link_; }
   /// X_W of the tool: the link that waypoints move, with the scene's offset.
   Pose tool_pose() const;
-  void set_trajectory(robot::Trajectory trajectory) { trajectory_ = std::move(trajectory); }
+  /// To be followed; its time 0 is at `start` (s) of the world.
+  void set_trajectory(robot::Trajectory trajectory, double start = 0.0) {
+    trajectory_ = std::move(trajectory);
+    start_ = start;
+    goal_.reset();
+  }
+  /// Gives up the program: from where the targets are, every joint moves evenly to `q` (rad or m,
+  /// moved into the limits), at its speed limit at most, at 1 rad/s or 0.25 m/s where that is
+  /// lower.
+  void go_to(const Eigen::VectorXd& q);
+  /// Where it is told to go in the end (rad or m).
+  Eigen::VectorXd goal() const;
+  bool follows_program() const { return !trajectory_.empty() && !goal_; }
 
   void add_to(StateHash& hash) const { robot_.add_to(hash); }
 
@@ -56,7 +68,12 @@ class RobotControl : public world::Participant {
   std::string name_, mode_;
   robot::Robot robot_;
   Reader reader_;
+  void approach_goal(double dt);
+
   robot::Trajectory trajectory_;
+  double start_ = 0.0;                   // s, of the trajectory
+  std::optional<Eigen::VectorXd> goal_;  // of go_to()
+  Eigen::VectorXd speed_;                // rad/s or m/s, of go_to()
   int tool_link_ = 0;
   Vec3 tool_offset_;
   Eigen::VectorXd q_, qd_;

@@ -16,4 +16,12 @@ void apply_rod_settings(const std::vector<world::Setting>& settings, cosserat::R
   rods.integrator = static_cast<cosserat::Integrator>(integrator);
 }
 
+void apply_coupling_settings(const std::vector<world::Setting>& settings,
+                             coupling::CouplingSettings& coupling, Diagnostics& diagnostics) {
+  int direction = coupling.two_way ? 1 : 0;
+  world::apply_settings(settings, "coupling", coupling::parameters_of(coupling),
+                        {{"direction", {"one_way", "two_way"}, &direction}}, diagnostics);
+  coupling.two_way = coupling.two_way || direction == 1;
+}
+
 }  // namespace pedicel::app

@@ -4,6 +4,7 @@
 
 #include "core/diagnostics.h"
 #include "cosserat/rod_solver.h"
+#include "coupling/coupling_settings.h"
 #include "world/scene.h"
 
 namespace pedicel::app {
@@ -12,5 +13,9 @@ namespace pedicel::app {
 /// RodSettings and the words `solver` and `integrator`. Faults go to `diagnostics`.
 void apply_rod_settings(const std::vector<world::Setting>& settings, cosserat::RodSettings& rods,
                         Diagnostics& diagnostics);
+
+/// The section `coupling:` of a scene to settings of the contacts.
+void apply_coupling_settings(const std::vector<world::Setting>& settings,
+                             coupling::CouplingSettings& coupling, Diagnostics& diagnostics);
 
 }  // namespace pedicel::app

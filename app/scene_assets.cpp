@@ -2,18 +2,14 @@
 
 #include "app/rod_options.h"
 #include "app/scene_plants.h"
-#include "world/settings.h"
 
 namespace pedicel::app {
 
 namespace {
 
 void read_settings(SceneAssets& assets, Diagnostics& diagnostics) {
-  int direction = assets.coupling.two_way ? 1 : 0;
   apply_rod_settings(assets.scene.rods, assets.rods, diagnostics);
-  world::apply_settings(assets.scene.coupling, "coupling", coupling::parameters_of(assets.coupling),
-                        {{"direction", {"one_way", "two_way"}, &direction}}, diagnostics);
-  assets.coupling.two_way = assets.coupling.two_way || direction == 1;
+  apply_coupling_settings(assets.scene.coupling, assets.coupling, diagnostics);
 }
 
 }  // namespace
@@ -22,7 +18,7 @@ SceneAssets::SceneAssets(const world::Scene& given, const SimulationOptions& opt
     : scene(given) {
   Diagnostics diagnostics;
   read_settings(*this, diagnostics);
-  for (ScenePlantModel& plant : build_plants(scene, diagnostics, notes)) {
+  for (ScenePlantModel& plant : build_plants(scene, options, diagnostics, notes)) {
     models.push_back(std::move(plant.model));
     plants.push_back(std::move(plant.info));
   }

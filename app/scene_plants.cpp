@@ -42,13 +42,17 @@ ScenePlantModel reference_plant(const ScenePlant& wanted, int index, Diagnostics
 /// The plants of one entry: names, places and overrides.
 class Builder {
  public:
-  Builder(const world::Scene& scene, Diagnostics& diagnostics, std::vector<std::string>& notes)
-      : scene_(scene), diagnostics_(diagnostics), notes_(notes) {}
+  Builder(const world::Scene& scene, const SimulationOptions& options, Diagnostics& diagnostics,
+          std::vector<std::string>& notes)
+      : scene_(scene), options_(options), diagnostics_(diagnostics), notes_(notes) {}
 
   void add(const ScenePlant& wanted) {
     if (wanted.source == ScenePlant::Source::built_in) return add_reference(wanted);
-    std::optional<plant::PlantFile> file = read_file(wanted, diagnostics_, notes_);
-    if (!file) return;
+    const auto edited = options_.edited.find(wanted.name);
+    const bool is_edited = edited != options_.edited.end();
+    std::optional<plant::PlantFile> file =
+        is_edited ? std::optional(edited->second) : read_file(wanted, diagnostics_, notes_);
+    if (!file || (is_edited && file->curves.empty())) return;
     apply_plant_overrides(*file, wanted.set, diagnostics_);
     if (diagnostics_.has_errors()) return;
     const int count = wanted.repeat[0] * wanted.repeat[1];
@@ -66,9 +70,13 @@ class Builder {
  private:
   plant::BuildOptions options_for(const ScenePlant& wanted, const Pose& pose) const {
     const auto beside = wanted.file.parent_path();
-    return {pose,
-            scene_.gravity,
-            {beside, beside / "../assets/leaves", scene_.file.parent_path() / "../leaves"}};
+    plant::BuildOptions options{
+        pose,
+        scene_.gravity,
+        {beside, beside / "../assets/leaves", scene_.file.parent_path() / "../leaves"}};
+    options.leaf_folders.insert(options.leaf_folders.end(), options_.leaf_folders.begin(),
+                                options_.leaf_folders.end());
+    return options;
   }
 
   void add_file(const plant::PlantFile& file, const ScenePlant& wanted, const Pose& pose) {
@@ -106,15 +114,18 @@ class Builder {
   }
 
   const world::Scene& scene_;
+  const SimulationOptions& options_;
   Diagnostics& diagnostics_;
   std::vector<std::string>& notes_;
 };
 
 }  // namespace
 
-std::vector<ScenePlantModel> build_plants(const world::Scene& scene, Diagnostics& diagnostics,
+std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
+                                          const SimulationOptions& options,
+                                          Diagnostics& diagnostics,
                                           std::vector<std::string>& notes) {
-  Builder builder(scene, diagnostics, notes);
+  Builder builder(scene, options, diagnostics, notes);
   for (const ScenePlant& wanted : scene.plants) builder.add(wanted);
   return std::move(builder.plants);
 }

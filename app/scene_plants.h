@@ -20,7 +20,9 @@ struct ScenePlantModel {
 /// Overrides: detach.stretch, .bend, .force, .moment, .torsion (all fruits),
 /// material.youngs_modulus, .poisson_ratio, .density, .damping_time (the whole plant, curves' own
 /// values too), sampling.connect, sampling.distance.
-std::vector<ScenePlantModel> build_plants(const world::Scene& scene, Diagnostics& diagnostics,
+std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
+                                          const SimulationOptions& options,
+                                          Diagnostics& diagnostics,
                                           std::vector<std::string>& notes);
 
 }  // namespace pedicel::app

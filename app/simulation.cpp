@@ -4,8 +4,7 @@
 
 #include "app/colliders.h"
 #include "app/scene_assets.h"
-#include "cosserat/self_contact.h"
-#include "coupling/collider_source.h"
+#include "core/check.h"
 
 namespace pedicel::app {
 
@@ -37,15 +36,13 @@ Simulation::Simulation(const world::Scene& scene, const SimulationOptions& optio
     : Simulation(std::make_shared<const SceneAssets>(scene, options)) {}
 
 Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
-    : assets_(std::move(assets)),
-      scene_(assets_->scene),
-      rod_settings_(assets_->rods),
-      coupling_settings_(assets_->coupling),
-      plants_(assets_->plants),
+    : first_assets_(assets),
+      assets_(std::move(assets)),
+      scene_(first_assets_->scene),
       world_(world_settings(scene_)),
       notes_(assets_->notes) {
   Diagnostics diagnostics;
-  rods_ = std::make_unique<cosserat::RodSystem>(rod_settings_, scene_.threads);
+  rods_ = std::make_unique<cosserat::RodSystem>(rod_settings(), scene_.threads);
   add_plants();
   add_bodies();
   add_loads(diagnostics);
@@ -63,7 +60,7 @@ void Simulation::add_plants() {
 
 std::string Simulation::worst_residual() const {
   const PlantInfo* worst = nullptr;
-  for (const PlantInfo& plant : plants_)
+  for (const PlantInfo& plant : plants())
     if (plant.residual && (!worst || plant.residual->largest > worst->residual->largest))
       worst = &plant;
   return worst ? worst->residual_text : "";
@@ -91,18 +88,20 @@ void Simulation::add_contacts() {
     add_robot_colliders(colliders_, robot_->name(), robot_->description(), assets_->robot_fields,
                         robot_->link_poses());
   for (int p = 0; p < rods_->size(); ++p) {
-    auto source = std::make_unique<coupling::ColliderSource>(colliders_, coupling_settings_);
+    auto source = std::make_unique<coupling::ColliderSource>(colliders_, coupling_settings());
     source->ignore_touching(rods_->model(p), rods_->state(p));
+    collider_sources_.push_back(source.get());
     rods_->add_contact_source(p, std::move(source));
-    if (coupling_settings_.self_contact)
-      rods_->add_contact_source(
-          p, std::make_unique<cosserat::SelfContact>(
-                 rods_->model(p), coupling::self_contact_settings(coupling_settings_)));
+    if (!coupling_settings().self_contact) continue;
+    auto own = std::make_unique<cosserat::SelfContact>(
+        rods_->model(p), coupling::self_contact_settings(coupling_settings()));
+    self_contacts_.push_back(own.get());
+    rods_->add_contact_source(p, std::move(own));
   }
   plant_step_ = std::make_unique<PlantStep>(
       *rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
   if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
-  if (coupling_settings_.two_way) {
+  if (coupling_settings().two_way) {
     reaction_ = std::make_unique<Reaction>(world_, robot_.get(), colliders_);
     plant_step_->set_reaction(
         [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
@@ -112,6 +111,43 @@ void Simulation::add_contacts() {
   world_.add(*load_step_);
   world_.add(*plant_step_);
   world_.add(*measurements_);
+}
+
+const std::vector<PlantInfo>& Simulation::plants() const {
+  return assets_->plants;
+}
+const cosserat::RodSettings& Simulation::rod_settings() const {
+  return assets_->rods;
+}
+const coupling::CouplingSettings& Simulation::coupling_settings() const {
+  return assets_->coupling;
+}
+
+bool Simulation::can_change_to(const SceneAssets& assets) const {
+  const coupling::CouplingSettings &now = coupling_settings(), &then = assets.coupling;
+  const bool same_contacts = now.margin == then.margin && now.two_way == then.two_way &&
+                             now.self_contact == then.self_contact;
+  const bool same_world = scene_.dt == assets.scene.dt && scene_.gravity == assets.scene.gravity &&
+                          scene_.threads == assets.scene.threads &&
+                          scene_.file == assets.scene.file &&
+                          rod_settings().solver == assets.rods.solver;
+  if (!same_contacts || !same_world || rods_->size() != static_cast<int>(assets.models.size()))
+    return false;
+  for (int p = 0; p < rods_->size(); ++p)
+    if (!cosserat::differs_in_constants_only(rods_->model(p), assets.models[p])) return false;
+  return true;
+}
+
+void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
+  if (!can_change_to(*assets))
+    throw UsageError("Simulation::change_to: another scene, must differ in constants only");
+  for (int p = 0; p < rods_->size(); ++p) rods_->change_constants(p, assets->models[p]);
+  rods_->change_settings(assets->rods);
+  for (coupling::ColliderSource* source : collider_sources_)
+    source->change_settings(assets->coupling);
+  for (cosserat::SelfContact* own : self_contacts_)
+    own->change_settings(coupling::self_contact_settings(assets->coupling));
+  assets_ = std::move(assets);
 }
 
 Pose Simulation::link_pose(const coupling::Collider& collider) const {

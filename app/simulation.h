@@ -2,19 +2,23 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/drawing.h"
+#include "app/blade.h"
 #include "app/measurements.h"
 #include "app/plant_step.h"
 #include "app/reaction.h"
 #include "app/robot_control.h"
+#include "cosserat/self_contact.h"
 #include "cosserat/standing.h"
+#include "coupling/collider_source.h"
 #include "coupling/coupling_settings.h"
+#include "plant/plant_file.h"
 #include "world/scene.h"
 #include "world/sim_world.h"
 
@@ -24,6 +28,11 @@ struct SceneAssets;
 
 struct SimulationOptions {
   std::vector<std::string> packages;  ///< "NAME=PATH" of `--package`
+  /// Taken in place of the files of the scene's plants, by their names in the scene (plants that
+  /// are being edited). One without curves is left out.
+  std::map<std::string, plant::PlantFile> edited = {};
+  /// Where leaf templates are looked for beside the plants' own folders.
+  std::vector<std::filesystem::path> leaf_folders = {};
 };
 
 /// A plant of the simulation and what is known of it beyond its rods.
@@ -50,11 +59,20 @@ class Simulation {
 
   const world::StepReport& step() { return world_.step(); }
 
+  /// Goes on with the constants of other assets (stiffness, mass, thresholds, solver and contact
+  /// settings); loads, bodies and robot stay. Throws UsageError where can_change_to() is false.
+  void change_to(std::shared_ptr<const SceneAssets> assets);
+  /// Whether these assets differ from its own in constants only.
+  bool can_change_to(const SceneAssets& assets) const;
+  const std::shared_ptr<const SceneAssets>& assets() const { return assets_; }
+
   const world::Scene& scene() const { return scene_; }
   world::SimWorld& world() { return world_; }
   const world::SimWorld& world() const { return world_; }
   const cosserat::RodSystem& rods() const { return *rods_; }
-  const std::vector<PlantInfo>& plants() const { return plants_; }
+  /// To act on the plants between two steps.
+  cosserat::RodSystem& rods() { return *rods_; }
+  const std::vector<PlantInfo>& plants() const;
   /// Of the plant that settles farthest from its drawing: residual_text; empty where none is drawn
   /// as it hangs.
   std::string worst_residual() const;
@@ -62,10 +80,11 @@ class Simulation {
   const coupling::ColliderSet& colliders() const { return colliders_; }
   const Measurements& measurements() const { return *measurements_; }
   Measurements& measurements() { return *measurements_; }
-  const cosserat::RodSettings& rod_settings() const { return rod_settings_; }
-  const coupling::CouplingSettings& coupling_settings() const { return coupling_settings_; }
+  const cosserat::RodSettings& rod_settings() const;
+  const coupling::CouplingSettings& coupling_settings() const;
   /// Null where the scene has no robot.
   const RobotControl* robot() const { return robot_.get(); }
+  RobotControl* robot() { return robot_.get(); }
   /// What a user should know and that stops nothing, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -92,13 +111,13 @@ class Simulation {
   };
   class LoadStep;
 
-  std::shared_ptr<const SceneAssets> assets_;  // what the references below are parts of
+  std::shared_ptr<const SceneAssets> first_assets_;  // that it was built from; holds the scene
+  std::shared_ptr<const SceneAssets> assets_;        // whose constants count
   const world::Scene& scene_;
-  const cosserat::RodSettings& rod_settings_;
-  const coupling::CouplingSettings& coupling_settings_;
-  const std::vector<PlantInfo>& plants_;
   world::SimWorld world_;
   std::unique_ptr<cosserat::RodSystem> rods_;
+  std::vector<coupling::ColliderSource*> collider_sources_;  // of rods_
+  std::vector<cosserat::SelfContact*> self_contacts_;
   std::unique_ptr<RobotControl> robot_;
   coupling::ColliderSet colliders_;
   std::unique_ptr<PlantStep> plant_step_;

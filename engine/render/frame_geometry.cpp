@@ -64,10 +64,11 @@ void MeshCache::drop_unused() {
   std::erase_if(entries_, [](const auto& item) { return item.second.owner.expired(); });
 }
 
-Detail::Detail(const Camera& camera, int width, int height)
+Detail::Detail(const Camera& camera, int width, int height, double share)
     : to_camera_(camera.view().topRows<3>()),
       focal_(camera.focal_length(height)),
       near_(camera.near_plane),
+      share_(share),
       slope_(0.5 * width / focal_, 0.5 * height / focal_) {}
 
 int Detail::level(const Vec3& centre, double radius) const {
@@ -84,7 +85,7 @@ int Detail::level(const Vec3& centre, double reach, double radius) const {
     const double out = (std::abs(p[axis]) - slope_[axis] * depth) / std::hypot(1.0, slope_[axis]);
     if (out > reach) return -1;
   }
-  return UnitMeshes::level_for(focal_ * radius / std::max(depth - reach, near_));
+  return UnitMeshes::level_for(share_ * focal_ * radius / std::max(depth - reach, near_));
 }
 
 FrameGeometry::FrameGeometry(const GlFunctions& gl, const UnitMeshes& shapes, MeshCache& cache)

@@ -36,8 +36,8 @@ class MeshCache {
 /// How finely to draw, and what may be left out.
 class Detail {
  public:
-  /// As a camera sees it in a picture of that size.
-  Detail(const Camera& camera, int width, int height);
+  /// As a camera sees it in a picture of that size; `share` multiplies the pixels that count.
+  Detail(const Camera& camera, int width, int height, double share = 1.0);
   /// Complete, for a parallel projection with that many pixels a metre: depth maps.
   explicit Detail(double pixels_per_metre) : everything_(true), focal_(pixels_per_metre) {}
 
@@ -49,7 +49,7 @@ class Detail {
  private:
   bool everything_ = false;
   Eigen::Matrix<double, 3, 4> to_camera_ = Eigen::Matrix<double, 3, 4>::Zero();
-  double focal_ = 0.0, near_ = 0.0;
+  double focal_ = 0.0, near_ = 0.0, share_ = 1.0;
   Eigen::Vector2d slope_ = Eigen::Vector2d::Zero();  ///< half width, half height at distance 1
 };
 

@@ -65,11 +65,13 @@ namespace pedicel::render {
   X(READBUFFER, ReadBuffer)                                         \
   X(READPIXELS, ReadPixels)                                         \
   X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample) \
+  X(SCISSOR, Scissor)                                               \
   X(SHADERSOURCE, ShaderSource)                                     \
   X(TEXIMAGE2D, TexImage2D)                                         \
   X(TEXPARAMETERFV, TexParameterfv)                                 \
   X(TEXPARAMETERI, TexParameteri)                                   \
   X(UNIFORM1I, Uniform1i)                                           \
+  X(UNIFORM2F, Uniform2f)                                           \
   X(UNIFORMBLOCKBINDING, UniformBlockBinding)                       \
   X(USEPROGRAM, UseProgram)                                         \
   X(VERTEXATTRIBDIVISOR, VertexAttribDivisor)                       \

@@ -48,6 +48,7 @@ void check(const RenderSettings& s) {
   if (!(s.to_sun.z() > 0.0) || !s.to_sun.allFinite())
     refuse("to_sun.z", std::to_string(s.to_sun.z()), "> 0 (the sun is above the horizon)");
   if (!(s.sun >= 0.0)) refuse("sun", std::to_string(s.sun), ">= 0");
+  if (!(s.detail > 0.0)) refuse("detail", std::to_string(s.detail), "> 0");
   if (!(s.exposure > 0.0)) refuse("exposure", std::to_string(s.exposure), "> 0");
 }
 
@@ -61,7 +62,7 @@ class Renderer::Implementation {
         cache_(gl_),
         seen_(gl_, shapes_, cache_),
         casting_(gl_, shapes_, cache_),
-        shadow_(gl_, settings.shadow_size, true),
+        shadow_(std::make_unique<DepthMap>(gl_, settings.shadow_size, true)),
         contact_(gl_) {
     gl_.GenVertexArrays(1, &empty_array_);
   }
@@ -70,11 +71,11 @@ class Renderer::Implementation {
   const RenderTarget& draw(const DrawList& list, const Camera& camera, int width, int height) {
     prepare_target(width, height);
     cache_.drop_unused();
-    seen_.prepare(list, Detail(camera, width, height));
+    seen_.prepare(list, Detail(camera, width, height, settings_.detail));
     Eigen::AlignedBox3d casters = list.bounds();
     if (casters.isEmpty()) casters.extend(camera.target);
-    const SunView sun = fit_sun(casters, settings_.to_sun, shadow_.size());
-    casting_.prepare(list, Detail(1.0 / sun.texel));
+    const SunView sun = fit_sun(casters, settings_.to_sun, shadow_->size());
+    casting_.prepare(list, Detail(settings_.detail / sun.texel));
     FrameUniforms frame = light(list, casters);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_LESS);
@@ -83,6 +84,13 @@ class Renderer::Implementation {
     look(frame, camera, casters, width, height);
     draw_picture(frame, list.ground.has_value());
     return *target_;
+  }
+
+  void set(const RenderSettings& settings) {
+    if (settings.samples != settings_.samples) target_.reset();
+    if (settings.shadow_size != settings_.shadow_size)
+      shadow_ = std::make_unique<DepthMap>(gl_, settings.shadow_size, true);
+    settings_ = settings;
   }
 
   long triangles() const { return seen_.triangles(); }
@@ -156,7 +164,7 @@ class Renderer::Implementation {
     frame.sun_direction = floats(settings_.to_sun.normalized(), 2.0 * sun.texel);
     frame.view_projection = columns(sun.matrix);
     programs_.set_frame(frame);
-    shadow_.begin();
+    shadow_->begin();
     if (!settings_.shadows) return;
     gl_.Enable(GL_POLYGON_OFFSET_FILL);
     gl_.PolygonOffset(1.5f, 2.0f);
@@ -168,7 +176,7 @@ class Renderer::Implementation {
     programs_.set_frame(frame);
     target_->bind();
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    shadow_.bind_texture(shadow_unit);
+    shadow_->bind_texture(shadow_unit);
     contact_.bind_texture(contact_unit);
     for (int kind = 0; kind < kind_count; ++kind) {
       programs_.use_lit(static_cast<Kind>(kind));
@@ -190,7 +198,7 @@ class Renderer::Implementation {
   UnitMeshes shapes_;
   MeshCache cache_;
   FrameGeometry seen_, casting_;
-  DepthMap shadow_;
+  std::unique_ptr<DepthMap> shadow_;
   ContactMap contact_;
   std::unique_ptr<RenderTarget> target_;
   GLuint empty_array_ = 0;
@@ -201,6 +209,11 @@ Renderer::Renderer(const GlFunctions& gl, const RenderSettings& settings) {
   implementation_ = std::make_unique<Implementation>(gl, settings);
 }
 Renderer::~Renderer() = default;
+
+void Renderer::set(const RenderSettings& settings) {
+  check(settings);
+  implementation_->set(settings);
+}
 
 namespace {
 

@@ -14,6 +14,8 @@ struct RenderSettings {
   int samples = 4;         ///< samples a pixel for smooth edges: 1, 2 or 4
   int shadow_size = 2048;  ///< side of the shadow map, px, 256 .. 8192
   bool shadows = true;
+  /// 1, > 0: below 1 round things get fewer triangles, which is what software rendering costs by.
+  double detail = 1.0;
   Vec3 to_sun{0.45, -0.55, 0.85};  ///< W, any length; z > 0
   double sun = 0.82;               ///< strength of the sun on a surface that faces it
   double exposure = 1.0;           ///< multiplies all light
@@ -30,6 +32,9 @@ class Renderer {
   /// Throws UsageError (settings) or std::runtime_error (a driver that refuses our shaders).
   explicit Renderer(const GlFunctions& gl, const RenderSettings& settings = {});
   ~Renderer();
+
+  /// For the pictures from now on. Throws UsageError.
+  void set(const RenderSettings& settings);
 
   /// A picture in main memory, without text (overlay.h adds it). Throws UsageError for a size below
   /// 1 x 1 or above 8192, or a bad camera.

@@ -50,6 +50,7 @@ class DirectSolver : public RodSolver {
   const std::vector<ContactForce>& contact_forces(int plant) const {
     return plants_[plant].contacts.forces();
   }
+  void change_settings(const RodSettings& settings) override { settings_ = settings; }
   void reset() override { reset(0); }
   void reset(int plant);
 

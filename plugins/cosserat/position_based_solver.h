@@ -43,6 +43,7 @@ class PositionBasedSolver final : public RodSolver {
   /// Forces of the last sub-step: accumulated correction x mass / h^2.
   const std::vector<ContactForce>& contact_forces() const override { return forces_; }
   /// There is no history beyond positions and velocities: only the contact forces are dropped.
+  void change_settings(const RodSettings& settings) override { settings_ = settings; }
   void reset() override { forces_.clear(); }
 
  private:

@@ -132,4 +132,21 @@ void finish(RodModel& model) {
   add_shapes(model);
 }
 
+bool differs_in_constants_only(const RodModel& a, const RodModel& b) {
+  if (!a.laws.empty() || !b.laws.empty() || a.welds.size() != b.welds.size()) return false;
+  const auto same_element = [](const Element& x, const Element& y) {
+    return x.parent == y.parent && x.organ == y.organ && x.length == y.length &&
+           x.drawn_position == y.drawn_position &&
+           x.drawn_rotation.coeffs() == y.drawn_rotation.coeffs() &&
+           x.radius_near == y.radius_near && x.radius_far == y.radius_far;
+  };
+  const auto same_fruit = [](const Fruit& x, const Fruit& y) {
+    return x.name == y.name && x.element == y.element && x.back == y.back && x.radius == y.radius;
+  };
+  return a.organs == b.organs && a.shapes.size() == b.shapes.size() &&
+         std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(),
+                    same_element) &&
+         std::equal(a.fruits.begin(), a.fruits.end(), b.fruits.begin(), b.fruits.end(), same_fruit);
+}
+
 }  // namespace pedicel::cosserat

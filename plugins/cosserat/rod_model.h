@@ -160,6 +160,10 @@ void finish(RodModel& model);
 /// as gone (`fruit_gone` empty: none is).
 void lump_inertia(RodModel& model, int element, const std::vector<bool>& fruit_gone = {});
 
+/// Whether two finished models are one plant with other constants: the same elements (parents,
+/// organs, lengths, drawn shape), organs, fruits (names and places) and shapes, without joint laws.
+bool differs_in_constants_only(const RodModel& a, const RodModel& b);
+
 /// Mass and volume of a fruit.
 double fruit_mass(const Fruit& fruit);
 

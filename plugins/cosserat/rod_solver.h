@@ -21,8 +21,8 @@ struct RodSettings {
   int newton_iterations = 4;                 ///< 1, at most, a step
   /// 1, Newton stops when it expects to be nearer than this (m and rad) to the step's solution.
   double tolerance = 1.0e-5;
-  int iterations = 5;                        ///< 1, position-based: Gauss-Seidel sweeps a sub-step
-  int substeps = 1;                          ///< 1, position-based
+  int iterations = 5;  ///< 1, position-based: Gauss-Seidel sweeps a sub-step
+  int substeps = 1;    ///< 1, position-based
 };
 std::vector<Parameter> parameters_of(RodSettings& settings);
 
@@ -68,6 +68,8 @@ class RodSolver {
   virtual StepReport step(const RodModel& model, RodState& state, const StepInput& input) = 0;
   /// Contacts that carried a force at the end of the last step.
   virtual const std::vector<ContactForce>& contact_forces() const = 0;
+  /// Goes on with other settings, of the same kind of solver.
+  virtual void change_settings(const RodSettings& settings) = 0;
   /// Forgets history (after the state was set from outside or the model changed).
   virtual void reset() = 0;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/check.h"
+
 namespace pedicel::cosserat {
 
 namespace {
@@ -116,6 +118,35 @@ void RodSystem::set_state(int plant, const RodState& state) {
   if (beds_.empty() || settings_.solver != SolverKind::direct) return;
   Bed& bed = beds_[plants_[plant].bed];
   bed.solver->reset(plant - bed.first);
+}
+
+void RodSystem::change_constants(int plant, RodModel model) {
+  Plant& held = plants_[plant];
+  if (!differs_in_constants_only(held.model, model))
+    throw UsageError("RodSystem::change_constants: \"" + model.name +
+                     "\" has another shape than \"" + held.model.name +
+                     "\", which is running: must have the same");
+  for (std::size_t f = 0; f < model.fruits.size(); ++f)
+    if (held.state.fruit_gone[f])
+      lump_inertia(model, model.fruits[f].element, held.state.fruit_gone);
+  // A velocity is that of the centre of mass, which may lie elsewhere now.
+  for (int e = 0; e < model.size(); ++e) {
+    const double shift = held.model.elements[e].com_back - model.elements[e].com_back;
+    held.state.velocity[e] +=
+        held.state.orientation[e] * held.state.angular_velocity[e].cross(Vec3(0, 0, shift));
+  }
+  held.model = std::move(model);
+  held.model_changed = true;
+  held.state.previous_dt = 0.0;
+}
+
+void RodSystem::change_settings(const RodSettings& settings) {
+  if (settings.solver != settings_.solver)
+    throw UsageError("RodSystem::change_settings: another solver, must be the same");
+  settings_ = settings;
+  for (Plant& plant : plants_)
+    if (plant.solver) plant.solver->change_settings(settings);
+  for (Bed& bed : beds_) bed.solver->change_settings(settings);
 }
 
 void RodSystem::add_to(StateHash& hash) const {

@@ -36,6 +36,12 @@ class RodSystem {
   }
   /// To change it between two steps. Set `previous_dt` to 0 with anything but the clamp's pose.
   RodState& edit_state(int plant) { return plants_[plant].state; }
+  /// Goes on with other constants: stiffness, mass, rest shape, thresholds. The model has the same
+  /// elements (parents, drawn shape), organs and fruits, and no joint laws. Supports are its own.
+  /// Throws UsageError where it is another plant.
+  void change_constants(int plant, RodModel model);
+  /// Goes on with other settings of the same solver. Throws UsageError for another solver.
+  void change_settings(const RodSettings& settings);
   /// Supports, to move, add or take away between two steps: nothing else of the model is read anew.
   /// They are of the model that add_plant() was given, then its own.
   std::vector<Support>& supports(int plant) { return plants_[plant].model.supports; }

@@ -179,6 +179,13 @@ SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& setti
   work_ = {};
 }
 
+void SelfContact::change_settings(const SelfContactSettings& settings) {
+  check(settings);
+  if (settings.margin != settings_.margin)
+    throw UsageError("SelfContactSettings.margin: must stay");
+  settings_ = settings;
+}
+
 void SelfContact::begin_step(const RodModel&, const RodState& start, double) {
   start_position_ = start.position;
   start_orientation_ = start.orientation;

@@ -79,6 +79,9 @@ class SelfContact : public ContactSource {
   void find(const RodModel& model, const RodState& state, double dt,
             std::vector<ContactPoint>& found) override;
 
+  /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
+  void change_settings(const SelfContactSettings& settings);
+
   /// What find() has done so far: how often it collected the pairs, and at how many it looked.
   struct Work {
     long collections = 0, pairs = 0;

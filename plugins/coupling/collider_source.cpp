@@ -27,6 +27,13 @@ void ColliderSource::ignore_touching(const RodModel& model, const RodState& stat
   std::sort(ignored_.begin(), ignored_.end());
 }
 
+void ColliderSource::change_settings(const CouplingSettings& settings) {
+  std::string refusal = check(settings);
+  if (settings.margin != settings_.margin) refusal = "CouplingSettings.margin: must stay";
+  if (!refusal.empty()) throw UsageError(refusal);
+  settings_ = settings;
+}
+
 bool ColliderSource::is_ignored(int shape, int collider) const {
   return std::binary_search(ignored_.begin(), ignored_.end(), std::pair(shape, collider));
 }

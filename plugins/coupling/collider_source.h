@@ -29,6 +29,9 @@ class ColliderSource : public cosserat::ContactSource {
   /// stem stands in the ground, a trellis wire runs through it. Adds to what is left out already.
   void ignore_touching(const cosserat::RodModel& model, const cosserat::RodState& state);
 
+  /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
+  void change_settings(const CouplingSettings& settings);
+
   void begin_step(const cosserat::RodModel& model, const cosserat::RodState& start,
                   double dt) override;
   void find(const cosserat::RodModel& model, const cosserat::RodState& state, double dt,

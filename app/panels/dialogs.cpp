@@ -1,0 +1,188 @@
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "app/panels/file_list.h"
+#include "app/panels/layout.h"
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+#include "app/version.h"
+
+namespace pedicel::app {
+
+namespace {
+
+/// A window in the middle with a title and a cross; closes by the cross or Esc.
+bool begin_dialog(Ui& ui, const char* title, float width, float height) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(0.5f * size.x, 0.5f * size.y), ImGuiCond_Always,
+                          ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSize(ImVec2(std::min(width * ui.scale, 0.94f * size.x),
+                                  std::min(height * ui.scale, 0.92f * size.y)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(16 * ui.scale, 12 * ui.scale));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+  const bool open = ImGui::Begin(
+      title, nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(2);
+  if (!open) return false;
+  ImGui::PushFont(ui.bold);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(title);
+  ImGui::PopFont();
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.25f * ImGui::GetFrameHeight());
+  if (icon_button("close", Icon::cross, "Close (Esc)")) ui.dialog = Dialog::none;
+  ImGui::Separator();
+  return true;
+}
+
+void keys_table(const char* group) {
+  if (!ImGui::BeginTable(group, 2, ImGuiTableFlags_SizingFixedFit)) return;
+  Action last = Action::none;
+  for (const Binding& binding : bindings()) {
+    if (std::string(binding.group) != group || binding.action == last) continue;
+    last = binding.action;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(palette().accent, "%s", keys_of(binding.action).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(binding.sentence);
+  }
+  ImGui::EndTable();
+}
+
+void mouse_table(bool blender) {
+  if (!ImGui::BeginTable("mouse", 2, ImGuiTableFlags_SizingStretchProp)) return;
+  for (const MouseHabit& habit : mouse_habits(blender)) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+    ImGui::TextWrapped("%s", habit.gesture);
+    ImGui::PopStyleColor();
+    ImGui::TableNextColumn();
+    ImGui::TextWrapped("%s", habit.sentence);
+  }
+  ImGui::EndTable();
+}
+
+void help(Ui& ui) {
+  if (begin_dialog(ui, "Help", 900, 620)) {
+    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingStretchSame)) {
+      ImGui::TableNextColumn();
+      for (const char* group : {"Simulation", "File", "Edit"})
+        heading(ui, group), keys_table(group);
+      ImGui::TableNextColumn();
+      for (const char* group : {"View", "Windows"}) heading(ui, group), keys_table(group);
+      heading(ui, "Mouse in the scene");
+      mouse_table(ui.preferences.mouse == MousePreset::blender);
+      ImGui::EndTable();
+    }
+  }
+  ImGui::End();
+}
+
+void info(Ui& ui) {
+  if (begin_dialog(ui, "About", 560, 420)) {
+    row("Pedicel", version() + " (" + git_hash() + ")");
+    row("OpenGL", ui.times.renderer.empty() ? "none" : ui.times.renderer);
+    row("Platform", ui.times.platform);
+    row("File", ui.session.path().empty() ? "none" : ui.session.path().string());
+    if (ui.snapshot->assets) {
+      const SceneAssets& assets = *ui.snapshot->assets;
+      row("Time step", quantity_text(assets.scene.dt, "s"));
+      row("Plants", std::to_string(ui.snapshot->plants.size()));
+      int elements = 0, fruits = 0;
+      for (const PlantSnapshot& plant : ui.snapshot->plants)
+        elements += plant.model->size(), fruits += static_cast<int>(plant.model->fruits.size());
+      row("Rods", std::to_string(elements));
+      row("Fruits", std::to_string(fruits));
+      heading(ui, "What the scene is for");
+      ImGui::TextWrapped("%s", assets.scene.purpose.c_str());
+      for (const std::string& text : assets.notes) note(text);
+    }
+  }
+  ImGui::End();
+}
+
+void files(Ui& ui) {
+  static FileList list;
+  const bool saves = ui.dialog == Dialog::save_as;
+  if (begin_dialog(ui, saves ? "Save as" : "Open", 640, 480)) {
+    const auto chosen = list.draw(ui, saves);
+    if (chosen) {
+      ui.dialog = Dialog::none;
+      if (saves) {
+        const Result result = ui.session.save(*chosen);
+        ui.say(result.ok ? "saved in " + chosen->string() : result.text);
+      } else {
+        ui.session.open(*chosen);
+      }
+    }
+  }
+  ImGui::End();
+}
+
+void problem(Ui& ui) {
+  if (begin_dialog(ui, "This file cannot be read", 640, 300)) {
+    const float buttons = ImGui::GetFrameHeightWithSpacing();
+    if (ImGui::BeginChild("text", ImVec2(0, -buttons))) {
+      ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
+      ImGui::TextWrapped("%s", ui.problem.c_str());
+      ImGui::PopStyleColor();
+      note("What was open stays. Mend the file and read it again (" + keys_of(Action::reload) +
+           ").");
+    }
+    ImGui::EndChild();
+    if (ImGui::Button("Read it again")) ui.dialog = Dialog::none, ui.ask(Action::reload);
+    ImGui::SameLine();
+    if (ImGui::Button("Close")) ui.dialog = Dialog::none;
+  }
+  ImGui::End();
+}
+
+void recover(Ui& ui) {
+  if (begin_dialog(ui, "Edits that were not saved", 560, 300)) {
+    note("The program ended before these were saved.");
+    const std::vector<Session::Lost> all = ui.session.lost_documents();
+    if (all.empty()) ui.dialog = Dialog::none;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));
+      const std::string name =
+          all[i].document.empty() ? "new scene" : all[i].document.filename().string();
+      row(name.c_str(), std::to_string(all[i].commands) + " edits, " + all[i].when);
+      const bool taken = ImGui::Button("Recover");
+      if (taken) ui.session.recover(all[i]);
+      ImGui::SameLine();
+      if (ImGui::Button("Forget")) ui.session.forget(all[i]);
+      ImGui::PopID();
+      if (taken) {
+        ui.dialog = Dialog::none;
+        break;
+      }
+    }
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+void draw_dialogs(Ui& ui) {
+  switch (ui.dialog) {
+    case Dialog::none:
+      return;
+    case Dialog::open:
+    case Dialog::save_as:
+      return files(ui);
+    case Dialog::help:
+      return help(ui);
+    case Dialog::info:
+      return info(ui);
+    case Dialog::problem:
+      return problem(ui);
+    case Dialog::recover:
+      return recover(ui);
+  }
+}
+
+}  // namespace pedicel::app

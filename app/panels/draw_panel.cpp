@@ -1,0 +1,124 @@
+#include <imgui.h>
+
+#include <array>
+
+#include "app/panels/panel.h"
+#include "app/panels/theme.h"
+#include "app/panels/ui.h"
+#include "app/panels/widgets.h"
+
+namespace pedicel::app {
+
+namespace {
+
+template <class Choice, std::size_t count>
+void radio_row(const Ui& ui, Choice& value, const std::array<const char*, count>& names) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i) ImGui::SameLine(0, 12.0f * ui.scale);
+    if (ImGui::RadioButton(names[i], value == static_cast<Choice>(i)))
+      value = static_cast<Choice>(i);
+  }
+}
+
+/// A slider of millimetres for a length in metres.
+void millimetres(const Ui& ui, const char* name, double& metres, float low, float high,
+                 const char* what, const char* format = "%.1f mm") {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name);
+  tip(what);
+  ImGui::SameLine(0.46f * ImGui::GetContentRegionMax().x);
+  ImGui::SetNextItemWidth(-1);
+  ImGui::PushID(name);
+  float shown = static_cast<float>(1e3 * metres);
+  if (ImGui::SliderFloat("##mm", &shown, low, high, format, ImGuiSliderFlags_Logarithmic))
+    metres = 1e-3 * shown;
+  ImGui::PopID();
+  tip(what);
+  (void)ui;
+}
+
+void share(const char* name, double& value, const char* what) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name);
+  tip(what);
+  ImGui::SameLine(0.46f * ImGui::GetContentRegionMax().x);
+  ImGui::SetNextItemWidth(-1);
+  ImGui::PushID(name);
+  float shown = static_cast<float>(value);
+  if (ImGui::SliderFloat("##share", &shown, 0.0f, 1.0f, "%.2f")) value = shown;
+  ImGui::PopID();
+  tip(what);
+}
+
+/// The draw mode and its options, with Blender's names.
+class DrawPanel : public Panel {
+ public:
+  std::string_view name() const override { return "Draw"; }
+  Dock dock() const override { return Dock::left; }
+
+  void draw(Ui& ui) override {
+    DrawMode& d = ui.draw;
+    if (d.on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_TabActive));
+    const bool was = d.on;
+    if (wide_button(d.on ? "Drawing (Esc leaves)" : "Draw (D)")) d.on = !d.on;
+    if (was) ImGui::PopStyleColor();
+    heading(ui, "What");
+    radio_row(ui, d.thing, std::array<const char*, 3>{"Stem", "Fruit", "Leaf"});
+    if (d.thing == DrawThing::stem) stem_options(ui, d);
+    if (d.thing == DrawThing::fruit) fruit_options(ui, d);
+    if (d.thing == DrawThing::leaf)
+      millimetres(ui, "Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
+    heading(ui, "How");
+    note(
+        d.thing == DrawThing::stem
+            ? "Drag: a stem. Begun on a stem (green ball) it becomes its branch, elsewhere a plant "
+              "of its own. Drag a white ball to move a point, Shift+click a stem to add one, Del "
+              "takes it away. Drag a fruit along its stem."
+            : "Click on a stem to put it there. Drag a fruit to move it along.");
+  }
+
+ private:
+  static void stem_options(Ui& ui, DrawMode& d) {
+    heading(ui, "Stroke");
+    millimetres(ui, "Tolerance", d.tolerance, 0.2f, 30.0f,
+                "How far the stem may be from the stroke: less gives more points");
+    ImGui::Checkbox("Detect corners", &d.detect_corners);
+    heading(ui, "Radius");
+    millimetres(ui, "Max", d.radius_max, 0.2f, 40.0f, "At the foot", "%.2f mm");
+    millimetres(ui, "Min", d.radius_min, 0.2f, 40.0f, "At the tip", "%.2f mm");
+    share("Taper start", d.taper_start, "Where along the stem it begins to get thinner");
+    share("Taper end", d.taper_end, "Where along the stem it has its smallest radius");
+    heading(ui, "Projection plane");
+    radio_row(ui, d.plane, std::array<const char*, 3>{"View", "Ground", "Tangent"});
+    tip("Tangent: the plane along the stem that the stroke begins on");
+    heading(ui, "Depth");
+    radio_row(ui, d.depth, std::array<const char*, 2>{"Cursor", "Surface"});
+    if (d.depth != DrawDepth::surface) return;
+    ImGui::Checkbox("Only first", &d.only_first);
+    tip("The depth is taken where the stroke begins; else the stroke creeps over what it crosses");
+    if (!d.only_first)
+      millimetres(ui, "Offset", d.offset, 0.1f, 50.0f, "From the surface towards the eye");
+  }
+
+  static void fruit_options(Ui& ui, DrawMode& d) {
+    heading(ui, "Fruit");
+    millimetres(ui, "Radius", d.fruit_radius, 2.0f, 60.0f, "Of the fruit");
+    float density = static_cast<float>(d.fruit_density),
+          stretch = static_cast<float>(d.fruit_stretch);
+    ImGui::TextUnformatted("Density");
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##density", &density, 200.0f, 1500.0f, "%.0f kg/m3"))
+      d.fruit_density = density;
+    ImGui::TextUnformatted("Comes off at a strain of");
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##stretch", &stretch, 0.01f, 1.0f, "%.2f")) d.fruit_stretch = stretch;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_draw_panel() {
+  return std::make_unique<DrawPanel>();
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,94 @@
+#include "app/panels/file_list.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "app/panels/theme.h"
+#include "app/panels/ui.h"
+#include "app/panels/widgets.h"
+
+namespace pedicel::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool can_be_opened(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const auto ends = [&name](const char* with) { return name.ends_with(with); };
+  return ends(".scene.yaml") || ends(".plant.yaml") || ends(".csv") || ends(".mtg") ||
+         name == "experiment.yaml";
+}
+
+}  // namespace
+
+void FileList::read() {
+  entries_.clear();
+  problem_.clear();
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    std::error_code ignored;
+    const bool is_folder = entry.is_directory(ignored);
+    if (entry.path().filename().string().starts_with('.')) continue;
+    if (is_folder || can_be_opened(entry.path())) entries_.push_back({entry.path(), is_folder});
+  }
+  if (error) problem_ = folder_.string() + ": " + error.message();
+  std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
+    return std::pair(!a.is_folder, a.path) < std::pair(!b.is_folder, b.path);
+  });
+}
+
+std::optional<fs::path> FileList::draw(Ui& ui, bool saves) {
+  if (folder_.empty() || ImGui::IsWindowAppearing()) {
+    const fs::path open = ui.session.path();
+    std::error_code ignored;
+    folder_ = fs::absolute(open.empty() ? fs::path(".") : open, ignored);
+    folder_ = open.empty() ? fs::current_path(ignored) : folder_.parent_path();
+    typed_ = saves ? (open.empty() ? (folder_ / "plant.plant.yaml").string() : open.string()) : "";
+    read();
+  }
+  std::optional<fs::path> chosen;
+  const char* verb = saves ? "Save" : "Open";
+  const float button = ImGui::CalcTextSize(verb).x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(rest_width(button + ImGui::GetStyle().ItemSpacing.x));
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  bool taken = ImGui::InputTextWithHint("##path", "a path, or choose below", &typed_,
+                                        ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SameLine();
+  taken = ImGui::Button(verb) || taken;
+  if (taken && !typed_.empty()) {
+    fs::path path(typed_);
+    if (path.is_relative()) path = folder_ / path;
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored))
+      chosen = path;
+    else
+      folder_ = path, typed_.clear(), read();
+  }
+  note(folder_.string());
+  if (!problem_.empty()) ImGui::TextColored(palette().error, "%s", problem_.c_str());
+  if (ImGui::BeginChild("files", ImVec2(0, 0), true)) {
+    if (folder_.has_parent_path() && folder_ != folder_.root_path() &&
+        ImGui::Selectable(".. (up)")) {
+      folder_ = folder_.parent_path();
+      read();
+    }
+    std::optional<Entry> clicked;
+    for (const Entry& entry : entries_) {
+      const std::string name = entry.path.filename().string() + (entry.is_folder ? "/" : "");
+      if (ImGui::Selectable(name.c_str())) clicked = entry;
+    }
+    if (clicked && clicked->is_folder)
+      folder_ = clicked->path, read();
+    else if (clicked && saves)
+      typed_ = clicked->path.string();
+    else if (clicked)
+      chosen = clicked->path;
+  }
+  ImGui::EndChild();
+  return chosen;
+}
+
+}  // namespace pedicel::app

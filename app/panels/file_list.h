@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pedicel::app {
+
+struct Ui;
+
+/// Folders and files to choose from, with a line to type a path into.
+class FileList {
+ public:
+  /// Draws it into the current window. The file that was chosen, once.
+  std::optional<std::filesystem::path> draw(Ui& ui, bool saves);
+
+ private:
+  struct Entry {
+    std::filesystem::path path;
+    bool is_folder = false;
+  };
+  void read();
+
+  std::filesystem::path folder_;
+  std::string typed_, problem_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace pedicel::app

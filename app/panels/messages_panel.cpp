@@ -1,0 +1,80 @@
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "app/panels/panel.h"
+#include "app/panels/theme.h"
+#include "app/panels/ui.h"
+#include "app/panels/widgets.h"
+
+namespace pedicel::app {
+
+namespace {
+
+/// What the program has to say, and a line for commands.
+class MessagesPanel : public Panel {
+ public:
+  std::string_view name() const override { return "Messages"; }
+  Dock dock() const override { return Dock::bottom; }
+
+  void draw(Ui& ui) override {
+    idle(ui);
+    const float line = ImGui::GetFrameHeightWithSpacing();
+    if (ImGui::BeginChild("messages", ImVec2(0, -line))) {
+      const auto& messages = ui.session.messages();
+      if (messages.empty()) note("Nothing to say.");
+      for (std::size_t i = 0; i < messages.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        message(ui, messages[i]);
+        ImGui::PopID();
+      }
+      if (!answer_.empty()) ImGui::TextWrapped("%s", answer_.c_str());
+      if (scrolled_ != messages.size()) ImGui::SetScrollHereY(1.0f), scrolled_ = messages.size();
+    }
+    ImGui::EndChild();
+    command_line(ui);
+  }
+
+  /// A file that cannot be read is shown at once, with what to do; other news bring the tab up.
+  void idle(Ui& ui) override {
+    const auto& messages = ui.session.messages();
+    if (messages.size() > shown_) ui.show_panel = "Messages";
+    for (std::size_t i = shown_; i < messages.size(); ++i)
+      if (messages[i].can_retry) ui.problem = messages[i].text, ui.dialog = Dialog::problem;
+    shown_ = messages.size();
+  }
+
+ private:
+  static void message(Ui& ui, const Message& one) {
+    const bool fault = one.severity == Severity::error;
+    ImGui::PushStyleColor(ImGuiCol_Text, fault ? palette().error : palette().warning);
+    ImGui::TextWrapped("%s", one.text.c_str());
+    ImGui::PopStyleColor();
+    if (one.can_retry && ImGui::SmallButton("Read it again")) ui.ask(Action::reload);
+    tip(keys_of(Action::reload));
+  }
+
+  void command_line(Ui& ui) {
+    const float button = ImGui::CalcTextSize("Clear").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(rest_width(button + ImGui::GetStyle().ItemSpacing.x));
+    if (ImGui::InputTextWithHint("##command", "a command, as in scripts: help, play, pull ...",
+                                 &ui.command_line, ImGuiInputTextFlags_EnterReturnsTrue)) {
+      const Result result = ui.session.run_text(ui.command_line);
+      answer_ = result.text;
+      if (result.ok) ui.command_line.clear();
+      ImGui::SetKeyboardFocusHere(-1);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Clear")) ui.session.clear_messages(), answer_.clear(), shown_ = 0;
+  }
+
+  std::size_t shown_ = 0, scrolled_ = 0;
+  std::string answer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_messages_panel() {
+  return std::make_unique<MessagesPanel>();
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,147 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/panels/panel.h"
+#include "app/panels/plot.h"
+#include "app/panels/theme.h"
+#include "app/panels/ui.h"
+#include "app/panels/widgets.h"
+#include "io/atomic_file.h"
+#include "io/csv.h"
+
+namespace pedicel::app {
+
+namespace {
+
+/// Quantities of the run over time, to be picked from a list, and the loads of the organ that was
+/// clicked.
+class PlotsPanel : public Panel {
+ public:
+  std::string_view name() const override { return "Plots"; }
+  Dock dock() const override { return Dock::bottom; }
+
+  void draw(Ui& ui) override {
+    const std::vector<std::string> names = ui.session.control().log().names();
+    if (stage_ != ui.snapshot->stage) {
+      stage_ = ui.snapshot->stage;
+      std::erase_if(picked_, [&](const std::string& one) {
+        return !one.starts_with(organ_prefix) && std::ranges::count(names, one) == 0;
+      });
+      if (picked_.empty()) pick_something(names);
+    }
+    const float list_width =
+        std::min(15.0f * ImGui::GetFontSize(), 0.36f * ImGui::GetContentRegionAvail().x);
+    if (ImGui::BeginChild("list", ImVec2(list_width, 0))) choose(ui, names);
+    ImGui::EndChild();
+    ImGui::SameLine();
+    const std::vector<PlotLine> lines = make_lines(ui);
+    draw_plot("plot", lines, view_, ImGui::GetContentRegionAvail(), "s");
+  }
+
+ private:
+  static constexpr const char* organ_prefix = "clicked organ: ";
+
+  void pick_something(const std::vector<std::string>& names) {
+    for (const char* wanted : {"margin", "strain", "force"})
+      for (const std::string& one : names)
+        if (picked_.empty() && one.find(wanted) != std::string::npos) picked_.push_back(one);
+    if (picked_.empty() && !names.empty()) picked_.push_back(names.front());
+  }
+
+  void choose(Ui& ui, const std::vector<std::string>& names) {
+    const float button = ImGui::CalcTextSize("CSV").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(rest_width(button + ImGui::GetStyle().ItemSpacing.x));
+    ImGui::InputTextWithHint("##search", "search", search_, sizeof search_);
+    ImGui::SameLine();
+    if (ImGui::Button("CSV")) export_csv(ui);
+    tip("Writes the lines that are shown to plot.csv in the working folder");
+    if (ImGui::BeginChild("names", ImVec2(0, 0), true)) {
+      for (const char* part : {"strain_1", "force_N", "moment_Nm"})
+        toggle(std::string(organ_prefix) + part);
+      for (const std::string& one : names) toggle(one);
+    }
+    ImGui::EndChild();
+  }
+
+  void toggle(const std::string& one) {
+    if (*search_ && one.find(search_) == std::string::npos) return;
+    const auto at = std::ranges::find(picked_, one);
+    const bool on = at != picked_.end();
+    ImGui::PushStyleColor(ImGuiCol_Text, on ? line_colour(static_cast<int>(at - picked_.begin()))
+                                            : ImGui::GetColorU32(ImGuiCol_Text));
+    const std::string shown = elide(one, rest_width());
+    ImGui::PushID(one.c_str());
+    if (ImGui::Selectable(shown.c_str(), on)) {
+      if (on)
+        picked_.erase(at);
+      else
+        picked_.push_back(one);
+      view_.follows = true;
+    }
+    ImGui::PopID();
+    ImGui::PopStyleColor();
+    if (shown != one) tip(one);
+  }
+
+  std::vector<PlotLine> make_lines(const Ui& ui) const {
+    std::vector<PlotLine> lines;
+    const RunLog& log = ui.session.control().log();
+    for (const std::string& one : picked_) {
+      PlotLine line{one, line_colour(static_cast<int>(lines.size())), {}, {}};
+      if (one.starts_with(organ_prefix)) {
+        const char kind = one[std::string(organ_prefix).size()];
+        for (const OrganLoad& load : log.loads()) {
+          line.x.push_back(load.time);
+          line.y.push_back(kind == 's' ? load.strain : kind == 'f' ? load.force : load.moment);
+        }
+      } else {
+        RunLog::Series series = log.series(one);
+        line.x = std::move(series.time), line.y = std::move(series.value);
+      }
+      lines.push_back(std::move(line));
+    }
+    return lines;
+  }
+
+  /// One row a time of the first line; the others have a value there where they were sampled, too.
+  void export_csv(Ui& ui) const {
+    const std::vector<PlotLine> lines = make_lines(ui);
+    if (lines.empty()) return ui.say("no line is shown: choose one first");
+    std::string text = "time_s";
+    for (const PlotLine& line : lines) text += "," + line.name;
+    text += "\n";
+    for (std::size_t i = 0; i < lines.front().x.size(); ++i) {
+      const double time = lines.front().x[i];
+      text += io::format_number(time);
+      for (const PlotLine& line : lines) {
+        const auto at = std::ranges::lower_bound(line.x, time);
+        const bool there = at != line.x.end() && *at == time;
+        text +=
+            "," + (there ? io::format_number(line.y[static_cast<std::size_t>(at - line.x.begin())])
+                         : std::string("nan"));
+      }
+      text += "\n";
+    }
+    try {
+      io::write_file_atomically("plot.csv", text);
+      ui.say("written: " + std::filesystem::absolute("plot.csv").string());
+    } catch (const std::exception& error) {
+      ui.say(error.what());
+    }
+  }
+
+  std::vector<std::string> picked_;
+  PlotView view_;
+  char search_[64] = "";
+  std::uint64_t stage_ = ~0ull;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_plots_panel() {
+  return std::make_unique<PlotsPanel>();
+}
+
+}  // namespace pedicel::app

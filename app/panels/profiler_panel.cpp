@@ -1,0 +1,77 @@
+#include <imgui.h>
+
+#include "app/panels/panel.h"
+#include "app/panels/theme.h"
+#include "app/panels/ui.h"
+#include "app/panels/widgets.h"
+
+namespace pedicel::app {
+
+namespace {
+
+std::string ms(double seconds) {
+  return number_text(1e3 * seconds, 3) + " ms";
+}
+
+/// Where the time goes: of a step, and of a picture.
+class ProfilerPanel : public Panel {
+ public:
+  std::string_view name() const override { return "Profiler"; }
+  Dock dock() const override { return Dock::bottom; }
+
+  void draw(Ui& ui) override {
+    if (!ImGui::BeginTable("profiler", 2, ImGuiTableFlags_SizingStretchSame)) return;
+    ImGui::TableNextColumn();
+    step(ui);
+    ImGui::TableNextColumn();
+    picture(ui);
+    ImGui::EndTable();
+  }
+
+ private:
+  static void step(Ui& ui) {
+    const Snapshot& s = *ui.snapshot;
+    heading(ui, "A step of the simulation");
+    row("mean, last half second", number_text(s.ms_per_step, 3) + " ms");
+    row("95 % are below", number_text(s.ms_per_step_p95, 3) + " ms");
+    row("steps a second", number_text(s.steps_per_second, 4));
+    const double whole = s.report.wall_seconds();
+    for (int i = 0; i < world::phase_count; ++i) {
+      const auto phase = static_cast<world::Phase>(i);
+      const double seconds = s.report.seconds_of(phase);
+      bar(std::string(world::name_of(phase)), seconds, whole);
+    }
+  }
+
+  static void picture(Ui& ui) {
+    const FrameTimes& t = ui.times;
+    heading(ui, "A picture");
+    row("pictures a second", number_text(t.picture > 0 ? 1.0 / t.picture : 0.0, 3));
+    row("snapshots a second", number_text(ui.snapshot->snapshots_per_second, 3));
+    bar("draw list", t.list, t.picture);
+    bar("scene", t.scene, t.picture);
+    bar("panels", t.interface, t.picture);
+    row("triangles", std::to_string(t.triangles));
+    row("quality level", std::to_string(t.quality));
+    row("OpenGL", t.renderer.empty() ? "none" : t.renderer);
+  }
+
+  static void bar(const std::string& name, double seconds, double whole) {
+    row(name.c_str(), ms(seconds));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, tall = 3.0f;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float share = whole > 0 ? static_cast<float>(std::min(1.0, seconds / whole)) : 0.0f;
+    list.AddRectFilled(at, ImVec2(at.x + width, at.y + tall), colour_u32(palette().line));
+    list.AddRectFilled(at, ImVec2(at.x + share * width, at.y + tall), colour_u32(palette().accent));
+    ImGui::Dummy(ImVec2(width, tall));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_profiler_panel() {
+  return std::make_unique<ProfilerPanel>();
+}
+
+}  // namespace pedicel::app

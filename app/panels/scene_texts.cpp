@@ -1,0 +1,123 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/layout.h"
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+#include "render/colormap.h"
+
+namespace pedicel::app {
+
+namespace {
+
+/// Text on a rounded, half transparent ground. Returns its size.
+ImVec2 plate(ImDrawList& list, ImVec2 at, const std::string& text, float scale, ImU32 ground,
+             ImU32 ink) {
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 pad(9.0f * scale, 5.0f * scale);
+  const ImVec2 high(at.x + extent.x + 2 * pad.x, at.y + extent.y + 2 * pad.y);
+  list.AddRectFilled(at, high, ground, 5.0f * scale);
+  list.AddText(ImVec2(at.x + pad.x, at.y + pad.y), ink, text.c_str());
+  return {high.x - at.x, high.y - at.y};
+}
+
+constexpr ImU32 dark_ground = IM_COL32(18, 22, 26, 200), white = IM_COL32(240, 243, 245, 255);
+
+void banner(Ui& ui, ImDrawList& list, const LayoutAreas& areas, const std::string& text,
+            ImU32 ground) {
+  const float width = ImGui::CalcTextSize(text.c_str()).x + 18.0f * ui.scale;
+  const float middle = 0.5f * (areas.scene_min.x + areas.scene_max.x);
+  plate(list,
+        ImVec2(std::max(areas.scene_min.x + 4.0f, middle - 0.5f * width),
+               areas.scene_min.y + 10.0f * ui.scale),
+        text, ui.scale, ground, white);
+}
+
+void legend(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
+  const ViewState& view = ui.view;
+  if (view.colours == ColourMap::none) return;
+  std::string title = "surface strain, 1", top = number_text(view.strain_scale, 3);
+  if (view.colours == ColourMap::margin) title = "used of the threshold, %", top = "100";
+  if (view.colours == ColourMap::contact)
+    title = "contact force, N", top = number_text(view.contact_scale, 3);
+  const float s = ui.scale, line = ImGui::GetTextLineHeight();
+  const float width = std::max(ImGui::CalcTextSize(title.c_str()).x, 130.0f * s) + 20.0f * s;
+  const ImVec2 low(areas.scene_max.x - width - 12.0f * s, areas.scene_max.y - 2 * line - 46.0f * s);
+  const ImVec2 high(areas.scene_max.x - 12.0f * s, areas.scene_max.y - 12.0f * s);
+  list.AddRectFilled(low, high, dark_ground, 5.0f * s);
+  list.AddText(ImVec2(low.x + 10.0f * s, low.y + 6.0f * s), white, title.c_str());
+  const float bar_low = low.y + line + 10.0f * s, bar_high = bar_low + 10.0f * s;
+  const float left = low.x + 10.0f * s, right = high.x - 10.0f * s;
+  constexpr int parts = 48;
+  for (int i = 0; i < parts; ++i) {
+    const render::Colour c = render::strain_colour((i + 0.5) / parts);
+    const auto at = [&](int k) { return left + (right - left) * static_cast<float>(k) / parts; };
+    list.AddRectFilled(ImVec2(at(i), bar_low), ImVec2(at(i + 1), bar_high),
+                       ImGui::ColorConvertFloat4ToU32(ImVec4(c.r, c.g, c.b, 1.0f)));
+  }
+  list.AddText(ImVec2(left, bar_high + 3.0f * s), white, "0");
+  list.AddText(ImVec2(right - ImGui::CalcTextSize(top.c_str()).x, bar_high + 3.0f * s), white,
+               top.c_str());
+}
+
+void hint(Ui& ui, const LayoutAreas& areas) {
+  if (ui.preferences.seen_hint) return;
+  const float s = ui.scale, side = 14.0f * s;
+  const float width = std::min(620.0f * s, areas.scene_max.x - areas.scene_min.x - 2 * side);
+  const float middle = 0.5f * (areas.scene_min.x + areas.scene_max.x);
+  ImGui::SetNextWindowPos(ImVec2(middle - 0.5f * width, areas.scene_max.y - side), ImGuiCond_Always,
+                          ImVec2(0, 1));
+  ImGui::SetNextWindowSize(ImVec2(width, 0));
+  ImGui::SetNextWindowBgAlpha(0.92f);
+  if (ImGui::Begin("hint", nullptr,
+                   ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing)) {
+    const float button = ImGui::CalcTextSize("Got it").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - button - 12.0f * s);
+    ImGui::TextUnformatted(
+        "Press Space to play. Hold Ctrl and drag a fruit or a stem to pull it, or press D and draw "
+        "a new branch. Drag to turn the view; F1 shows everything else.");
+    ImGui::PopTextWrapPos();
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
+    if (ImGui::Button("Got it")) ui.preferences.seen_hint = true;
+  }
+  ImGui::End();
+}
+
+void notice(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
+  constexpr double shown = 6.0;  // s
+  if (ui.notice.empty() || ui.now - ui.notice_time > shown) return;
+  const float room = areas.scene_max.x - areas.scene_min.x - 50.0f * ui.scale;
+  const std::string first = ui.notice.substr(0, ui.notice.find('\n'));
+  plate(list, ImVec2(areas.scene_min.x + 12.0f * ui.scale, areas.scene_min.y + 44.0f * ui.scale),
+        elide(first, room), ui.scale, dark_ground, white);
+}
+
+}  // namespace
+
+void draw_scene_texts(Ui& ui, const LayoutAreas& areas) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  ImDrawList& over = *ImGui::GetForegroundDrawList();
+  (void)list;
+  const Snapshot& s = *ui.snapshot;
+  if (s.mode == RunMode::unstable)
+    banner(ui, over, areas,
+           "Unstable: " + (s.culprit.empty() ? s.error : s.culprit) + ", last good at " +
+               number_text(s.last_good_time, 4) + " s. Step back or reset.",
+           IM_COL32(170, 40, 34, 235));
+  else if (ui.draw.on)
+    banner(ui, over, areas, "Drawing: left draws, Alt+left turns the view, Esc leaves",
+           IM_COL32(62, 120, 34, 235));
+  else if (s.mode == RunMode::building)
+    banner(ui, over, areas, "Building the plants ...", dark_ground);
+  if (ui.recording)
+    over.AddCircleFilled(
+        ImVec2(areas.scene_max.x - 20.0f * ui.scale, areas.scene_min.y + 20.0f * ui.scale),
+        6.0f * ui.scale, IM_COL32(224, 50, 45, 255));
+  legend(ui, over, areas);
+  notice(ui, over, areas);
+  hint(ui, areas);
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,71 @@
+#include <array>
+#include <cstdio>
+
+#include "app/panels/layout.h"
+#include "app/panels/theme.h"
+#include "app/panels/widgets.h"
+
+namespace pedicel::app {
+
+namespace {
+
+void field(const Ui& ui, const char* name, const std::string& value, const std::string& what,
+           const ImVec4& colour) {
+  ImGui::TextColored(palette().dim, "%s", name);
+  tip(what);
+  ImGui::SameLine(0, 5.0f * ui.scale);
+  ImGui::TextColored(colour, "%s", value.c_str());
+  tip(what);
+  ImGui::SameLine(0, 16.0f * ui.scale);
+}
+
+std::string fixed(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+ImVec4 mode_colour(RunMode mode) {
+  if (mode == RunMode::playing) return palette().good;
+  if (mode == RunMode::unstable) return palette().error;
+  return mode == RunMode::building || mode == RunMode::replaying ? palette().warning
+                                                                 : palette().text;
+}
+
+}  // namespace
+
+void draw_status_bar(Ui& ui) {
+  const Snapshot& s = *ui.snapshot;
+  const ImVec4 plain = palette().text;
+  std::string mode = to_string(s.mode);
+  if (s.mode == RunMode::replaying) mode += fixed(" %.0f %%", 100.0 * s.replay_share);
+  if (s.pull.active) mode += ", pulling";
+  if (ui.draw.on) mode += ", drawing";
+  field(ui, "", mode, "What the simulation does", mode_colour(s.mode));
+  field(ui, "t", fixed("%.3f s", s.time), "Simulated time", plain);
+  field(ui, "RTF", fixed("%.2f", s.real_time_factor),
+        "Real-time factor: simulated over wall time, last half second", plain);
+  field(ui, "step", fixed("%.2f ms", s.ms_per_step),
+        "Wall time a step, mean of the last half second", plain);
+  field(ui, "contacts", std::to_string(s.report.contacts), "Between plants and other things",
+        plain);
+  field(ui, "strain", fixed("%.3f", s.largest_strain),
+        "Largest strain at a surface: " + s.largest_strain_organ, plain);
+  field(ui, "picture", fixed("%.0f/s", ui.times.picture > 0 ? 1.0 / ui.times.picture : 0.0),
+        "Pictures a second; the simulation does not wait for them", plain);
+  std::string right;
+  if (ui.selection)
+    right = describe(ui.selection, s);
+  else if (ui.hover)
+    right = describe(ui.hover, s);
+  if (right.empty()) {
+    ImGui::NewLine();
+    return;
+  }
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::string shown = elide(right, room);
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - ImGui::CalcTextSize(shown.c_str()).x);
+  ImGui::TextColored(ui.selection ? palette().warning : palette().dim, "%s", shown.c_str());
+}
+
+}  // namespace pedicel::app

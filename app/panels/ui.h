@@ -1,0 +1,72 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/panels/bindings.h"
+#include "app/panels/preferences.h"
+#include "app/panels/view_state.h"
+#include "session/session.h"
+
+struct ImFont;
+
+namespace pedicel::app {
+
+/// A window over the others; one at a time.
+enum class Dialog { none, open, save_as, help, info, problem, recover };
+
+/// How fast things go, for the profiler.
+struct FrameTimes {
+  double picture = 0.0;    ///< s, from picture to picture
+  double scene = 0.0;      ///< s, drawing of the scene
+  double interface = 0.0;  ///< s, building of the panels
+  double list = 0.0;       ///< s, from snapshot to draw list
+  long triangles = 0;
+  int quality = 0;
+  std::string renderer;  ///< OpenGL's driver
+  std::string platform;
+};
+
+/// Everything that panels see and share during a picture. What changes the document goes through
+/// `session`; what changes the view is here.
+struct Ui {
+  Ui(Session& of, std::shared_ptr<const Snapshot> first) : session(of), snapshot(first) {}
+
+  Session& session;
+  std::shared_ptr<const Snapshot> snapshot;  ///< of this picture; never null
+  Preferences preferences;
+  ViewState view;
+  Selection selection, hover;
+  DrawMode draw;
+  Dialog dialog = Dialog::none;
+  FrameTimes times;
+  float scale = 1.0f;  ///< px a point of the layout: monitor times font scale
+  ImFont* bold = nullptr;
+
+  /// What was asked for by keys, buttons and menus, to be done at the end of the picture.
+  std::deque<Action> actions;
+  std::string show_panel;  ///< tab to be brought to the front; emptied by the layout
+  std::optional<Eigen::AlignedBox3d> frame_box;  ///< what the camera is to show next
+  std::string notice;                            ///< one line over the scene that fades
+  double notice_time = 0.0;                      ///< s, of the platform's clock
+  double now = 0.0;                              ///< s
+  bool recording = false;                        ///< a film is being made
+  std::string command_line;                      ///< typed in the messages panel
+  std::string problem;  ///< of a file that could not be read, for the dialog
+
+  void ask(Action action) { actions.push_back(action); }
+  /// Runs a command and shows the fault, where it is refused. Whether it was taken.
+  bool run(const Command& command);
+  bool report(const Result& result);
+  void say(const std::string& text) { notice = text, notice_time = now; }
+};
+
+/// "tomato/fruit_3", "link_4", "stem of tomato, point 2": what the selection is.
+std::string describe(const Selection& selection, const Snapshot& snapshot);
+
+}  // namespace pedicel::app

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace pedicel::app {
+
+/// What gives stems their colour.
+enum class ColourMap { none, strain, margin, contact };
+
+/// What the picture of the scene shows.
+struct ViewState {
+  ColourMap colours = ColourMap::none;
+  double strain_scale = 0.1;   ///< 1, upper end of the strain colours
+  double contact_scale = 5.0;  ///< N, upper end of the contact colours
+  bool shadows = true;
+  bool contacts = false;  ///< arrows of contact forces
+  bool frames = false;    ///< axes of links and tool
+  bool rods = false;      ///< elements and nodes as lines
+  bool leaves = true;
+  bool labels = false;  ///< names of fruits
+  bool automatic_quality = true;
+  int quality = 1;
+  int camera = -1;  ///< of the scene's; -1: led by hand
+};
+
+/// What a person points at or has chosen.
+struct Selection {
+  enum class Kind { none, element, fruit, link, body, curve_point, curve };
+  Kind kind = Kind::none;
+  int plant = -1, element = -1, fruit = -1, link = -1, body = -1;  ///< of the snapshot
+  std::string plant_name, curve;  ///< of the document: curve, curve_point
+  int point = -1;
+  double back = 0.0;            ///< m, place on the element
+  Vec3 place_W = Vec3::Zero();  ///< m, where it was hit
+  double distance = 0.0;        ///< m, from the eye
+
+  explicit operator bool() const { return kind != Kind::none; }
+  bool same_thing(const Selection& other) const {
+    return kind == other.kind && plant == other.plant && element == other.element &&
+           fruit == other.fruit && link == other.link && body == other.body &&
+           plant_name == other.plant_name && curve == other.curve && point == other.point;
+  }
+};
+
+enum class PlaneChoice { view, ground, tangent };
+enum class DrawDepth { cursor, surface };
+enum class DrawThing { stem, fruit, leaf };
+
+/// The draw tool: its options, with Blender's names, and the stroke in hand.
+struct DrawMode {
+  bool on = false;
+  DrawThing thing = DrawThing::stem;
+  double tolerance = 0.003;  ///< m, fit
+  bool detect_corners = true;
+  double radius_min = 0.0015, radius_max = 0.004;  ///< m
+  double taper_start = 0.0, taper_end = 1.0;       ///< 1, share of the way from max to min
+  PlaneChoice plane = PlaneChoice::view;
+  DrawDepth depth = DrawDepth::surface;
+  bool only_first = true;         ///< depth taken from the stroke's start
+  double offset = 0.0;            ///< m, from the surface
+  double fruit_radius = 0.012;    ///< m
+  double fruit_density = 1000.0;  ///< kg/m3
+  double fruit_stretch = 0.15;    ///< 1, threshold of its stalk
+  double leaf_size = 0.08;        ///< m
+
+  std::string plant;  ///< that strokes go to
+  bool stroking = false;
+  std::vector<Vec3> stroke_W;  ///< m
+  bool snapped = false;        ///< the stroke starts, or would start, on a stem
+  Vec3 snap_W = Vec3::Zero();  ///< m
+  std::string snap_curve;
+  double snap_at = 0.0;    ///< 1, place on that curve
+  int dragged_point = -1;  ///< of the selected curve
+};
+
+}  // namespace pedicel::app

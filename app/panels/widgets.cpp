@@ -1,0 +1,127 @@
+#include "app/panels/widgets.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/theme.h"
+#include "app/panels/ui.h"
+
+namespace pedicel::app {
+
+void tip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (ImGui::GetCurrentContext() && ImGui::GetIO().MouseDown[0]) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void heading(const Ui& ui, const char* text) {
+  ImGui::Spacing();
+  ImGui::PushFont(ui.bold);
+  ImGui::TextColored(palette().dim, "%s", text);
+  ImGui::PopFont();
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float y = 0.5f * (low.y + high.y), right = low.x + ImGui::GetContentRegionAvail().x;
+  const float left = high.x + ImGui::GetStyle().ItemSpacing.x;
+  if (left < right)
+    ImGui::GetWindowDrawList()->AddLine(ImVec2(left, y), ImVec2(right, y),
+                                        colour_u32(palette().line));
+}
+
+float rest_width(float right) {
+  return std::max(10.0f, ImGui::GetContentRegionAvail().x - right);
+}
+
+std::string elide(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string cut = text;
+  while (!cut.empty() && ImGui::CalcTextSize((cut + "...").c_str()).x > width) {
+    char last = 0;
+    do {  // bytes after the first of a letter belong to it
+      last = cut.back();
+      cut.pop_back();
+    } while ((last & 0xC0) == 0x80 && !cut.empty());
+  }
+  return cut + "...";
+}
+
+void elided(const std::string& text, float width, const ImVec4* colour) {
+  const std::string shown = elide(text, width);
+  if (colour)
+    ImGui::TextColored(*colour, "%s", shown.c_str());
+  else
+    ImGui::TextUnformatted(shown.c_str());
+  if (shown != text) tip(text);
+}
+
+void row(const char* name, const std::string& value) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float name_width = ImGui::CalcTextSize(name).x + ImGui::GetStyle().ItemSpacing.x;
+  ImGui::TextColored(palette().dim, "%s", name);
+  const std::string shown = elide(value, std::max(10.0f, width - name_width));
+  const float place = width - ImGui::CalcTextSize(shown.c_str()).x;
+  ImGui::SameLine(ImGui::GetCursorPosX() + std::max(place, name_width));
+  ImGui::TextUnformatted(shown.c_str());
+  if (shown != value) tip(value);
+}
+
+void note(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+bool wide_button(const char* label) {
+  return ImGui::Button(label, ImVec2(-1, 0));
+}
+
+std::string number_text(double value, int digits) {
+  std::array<char, 48> text{};
+  const double size = std::abs(value);
+  if (value == 0.0) return "0";
+  if (!std::isfinite(value)) return std::isnan(value) ? "none" : (value > 0 ? "inf" : "-inf");
+  if (size >= 1e5 || size < 1e-3)
+    std::snprintf(text.data(), text.size(), "%.*e", digits - 1, value);
+  else
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+std::string quantity_text(double value, const std::string& unit, int digits) {
+  struct Prefix {
+    double factor;
+    const char* name;
+  };
+  constexpr std::array<Prefix, 7> prefixes = {
+      {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "\xC2\xB5"}, {1e-9, "n"}}};
+  const bool takes =
+      unit == "m" || unit == "N" || unit == "Pa" || unit == "s" || unit == "J" || unit == "N m";
+  const std::string tail = unit == "1" || unit.empty() ? "" : " " + unit;
+  if (!takes || value == 0.0 || !std::isfinite(value)) return number_text(value, digits) + tail;
+  for (const Prefix& prefix : prefixes)
+    if (std::abs(value) >= 0.9995 * prefix.factor || prefix.factor == 1e-9)
+      return number_text(value / prefix.factor, digits) + " " + prefix.name + unit;
+  return {};
+}
+
+bool number_field(const char* id, double& value, const char* format) {
+  double shown = value;
+  ImGui::InputDouble(id, &shown, 0.0, 0.0, format);
+  if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+  value = shown;
+  return true;
+}
+
+bool text_field(const char* id, std::string& text, const char* hint) {
+  ImGui::InputTextWithHint(id, hint, &text);
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+
+#include "app/panels/bindings.h"
+
+namespace pedicel::app {
+
+struct Ui;
+
+enum class Icon {
+  play,
+  pause,
+  step,
+  step_back,
+  reset,
+  reload,
+  open,
+  save,
+  undo,
+  redo,
+  pencil,
+  camera,
+  help,
+  cross,
+  warning
+};
+
+/// A square button with a drawn sign; the tip says the sentence and the keys.
+bool icon_button(const char* id, Icon icon, const std::string& tip, bool enabled = true,
+                 bool active = false);
+/// The same for an action of the binding table, which it asks for when pressed.
+bool action_button(Ui& ui, Action action, Icon icon, bool enabled = true, bool active = false);
+void draw_icon(ImDrawList& list, Icon icon, const ImVec2& centre, float size, ImU32 colour);
+
+/// A tip over the last item, wrapped, after a moment.
+void tip(const std::string& text);
+/// A heading inside a panel.
+void heading(const Ui& ui, const char* text);
+/// "name        value" with the value to the right; what does not fit ends in "...".
+void row(const char* name, const std::string& value);
+/// Dim, wrapped text.
+void note(const std::string& text);
+/// A button as wide as its column.
+bool wide_button(const char* label);
+/// Text cut to a width (px) with "..."; the whole text as a tip.
+void elided(const std::string& text, float width, const ImVec4* colour = nullptr);
+std::string elide(const std::string& text, float width);
+/// The width that is left, but for `right` px.
+float rest_width(float right = 0.0f);
+
+/// 0.00123 as "1.23e-03", 12.3 as "12.3": `digits` that count.
+std::string number_text(double value, int digits = 4);
+/// With its unit, in the prefix that reads best for m, N, Pa, s ("12.3 mm", "4.2 MPa").
+std::string quantity_text(double value, const std::string& unit, int digits = 3);
+
+/// An input of a number that is committed by Enter or by leaving it. True once, when it was.
+bool number_field(const char* id, double& value, const char* format = "%.6g");
+/// An input of a text, as number_field().
+bool text_field(const char* id, std::string& text, const char* hint = "");
+
+}  // namespace pedicel::app

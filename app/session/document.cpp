@@ -1,0 +1,144 @@
+#include "session/document.h"
+
+#include "core/check.h"
+#include "core/state_hash.h"
+#include "plant/mtg_reader.h"
+#include "session/plant_import.h"
+#include "world/scene_reader.h"
+#include "world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+void add_text(StateHash& hash, const std::string& text) {
+  hash.add(static_cast<std::uint64_t>(text.size()));
+  for (const char c : text) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+}
+
+std::shared_ptr<const world::Scene> bare_scene() {
+  auto scene = std::make_shared<world::Scene>();
+  scene->name = "untitled";
+  scene->purpose = "a plant that is being drawn";
+  scene->see = "what was drawn";
+  scene->duration = 10.0;
+  scene->ground = world::GroundPlane{};
+  return scene;
+}
+
+/// Reads the plant files that a scene names. One that is absent and optional is left to the scene's
+/// own rules.
+void read_plants(Document& document, Diagnostics& diagnostics) {
+  for (const world::ScenePlant& entry : document.scene->plants) {
+    DocumentPlant one{entry, nullptr};
+    const bool is_file = entry.source != world::ScenePlant::Source::built_in;
+    const auto& path =
+        std::filesystem::exists(entry.file) || !entry.optional ? entry.file : entry.fallback;
+    if (is_file && !path.empty())
+      if (auto file = read_plant(path, diagnostics))
+        one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
+    document.plants.push_back(std::move(one));
+  }
+}
+
+bool is_scene(const std::filesystem::path& path) {
+  return path.filename().string().ends_with(".scene.yaml");
+}
+
+}  // namespace
+
+int Document::plant_index(const std::string& name) const {
+  for (std::size_t i = 0; i < plants.size(); ++i)
+    if (plants[i].entry.name == name) return static_cast<int>(i);
+  return -1;
+}
+
+const plant::PlantFile& Document::plant(const std::string& name) const {
+  const int index = plant_index(name);
+  if (index >= 0 && plants[index].file) return *plants[index].file;
+  std::string names;
+  for (const DocumentPlant& one : plants)
+    if (one.file) names += (names.empty() ? "" : ", ") + one.entry.name;
+  throw UsageError("no plant \"" + name + "\" to edit, expected " +
+                   (names.empty() ? "one (see: new plant)" : "one of: " + names));
+}
+
+plant::PlantFile& Document::edit_plant(const std::string& name) {
+  auto copy = std::make_shared<plant::PlantFile>(plant(name));
+  plant::PlantFile& edited = *copy;
+  plants[plant_index(name)].file = std::move(copy);
+  return edited;
+}
+
+std::uint64_t Document::state_hash() const {
+  StateHash hash;
+  for (const DocumentPlant& one : plants) {
+    add_text(hash, one.entry.name);
+    add_text(hash, one.file ? plant::plant_text(*one.file) : "");
+    hash.add(one.entry.pose.position);
+    hash.add(one.entry.pose.rotation);
+  }
+  for (const auto& [key, text] : settings) {
+    add_text(hash, key);
+    add_text(hash, text);
+  }
+  for (const RobotWaypoint& waypoint : waypoints) {
+    hash.add(waypoint.time);
+    for (const double q : waypoint.joints) hash.add(q);
+  }
+  return hash.value();
+}
+
+Document empty_document() {
+  Document document;
+  document.scene = bare_scene();
+  return document;
+}
+
+Document open_document(const std::filesystem::path& path) {
+  Diagnostics diagnostics;
+  Document document = empty_document();
+  if (is_scene(path)) {
+    auto scene = world::read_scene(path, diagnostics);
+    if (!scene) throw InvalidFile(diagnostics);
+    document.scene = std::make_shared<const world::Scene>(std::move(*scene));
+    read_plants(document, diagnostics);
+  } else if (auto file = read_plant(path, diagnostics)) {
+    DocumentPlant one;
+    one.entry.name = file->name;
+    if (is_plant_file(path)) one.entry.file = path;
+    one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
+    document.plants.push_back(std::move(one));
+  }
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  document.path = path;
+  return document;
+}
+
+world::Scene scene_of(const Document& document) {
+  world::Scene scene = *document.scene;
+  scene.plants.clear();
+  for (const DocumentPlant& one : document.plants) scene.plants.push_back(one.entry);
+  for (const auto& [key, text] : document.settings) world::apply_override(scene, key, text);
+  return scene;
+}
+
+SimulationOptions options_of(const Document& document, const std::vector<std::string>& packages) {
+  SimulationOptions options;
+  options.packages = packages;
+  if (const auto assets = asset_folder(); !assets.empty())
+    options.leaf_folders.push_back(assets / "leaves");
+  for (const DocumentPlant& one : document.plants)
+    if (one.file) options.edited[one.entry.name] = *one.file;
+  return options;
+}
+
+std::filesystem::path asset_folder() {
+  std::error_code none;
+  for (auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+       folder.has_relative_path(); folder = folder.parent_path())
+    if (std::filesystem::is_directory(folder / "assets" / "leaves", none)) return folder / "assets";
+  return {};
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/simulation.h"
+#include "plant/plant_file.h"
+#include "world/scene.h"
+
+namespace pedicel::app {
+
+/// A plant of the document: where it stands in the scene, and what its file says now.
+struct DocumentPlant {
+  world::ScenePlant entry;
+  /// Null for what cannot be edited (built-in plants). Shared between the document's past states.
+  std::shared_ptr<const plant::PlantFile> file;
+};
+
+/// Where the robot is to be at a time after the program's start.
+struct RobotWaypoint {
+  double time = 0.0;           ///< s
+  std::vector<double> joints;  ///< rad or m, one a degree of freedom
+  bool operator==(const RobotWaypoint&) const = default;
+};
+
+/// Everything that a user edits, as a value: copies are cheap (plants are shared until one is
+/// changed), so a document's past states are kept whole for undo.
+struct Document {
+  /// As read; its plants are in `plants`. Made up where a lone plant, or nothing, was opened.
+  std::shared_ptr<const world::Scene> scene;
+  std::filesystem::path path;  ///< the scene's or the lone plant's; empty: new
+  std::vector<DocumentPlant> plants;
+  /// Over what the scene says, as in `--set`: key and text.
+  std::vector<std::pair<std::string, std::string>> settings;
+  std::vector<RobotWaypoint> waypoints;
+
+  /// -1 where there is none of that name.
+  int plant_index(const std::string& name) const;
+  /// Throws UsageError for a plant that is not there or cannot be edited.
+  const plant::PlantFile& plant(const std::string& name) const;
+  /// The same, to change it: a copy of its own.
+  plant::PlantFile& edit_plant(const std::string& name);
+
+  /// Of everything that commands change, bit by bit; not of paths.
+  std::uint64_t state_hash() const;
+};
+
+/// An empty document: ground, gravity, nothing on it.
+Document empty_document();
+/// Reads a scene (*.scene.yaml), a plant file, a skeleton table (*.csv) or an MTG (*.mtg) with
+/// everything that it names. Throws InvalidFile with every fault found.
+Document open_document(const std::filesystem::path& path);
+
+/// The scene with the document's plants and settings in it, and the plants that take the place of
+/// files. Throws UsageError for a setting that is impossible.
+world::Scene scene_of(const Document& document);
+SimulationOptions options_of(const Document& document, const std::vector<std::string>& packages);
+
+/// The program's own assets (leaf templates, scenes): the folder `assets` beside the program or
+/// above it; empty where there is none.
+std::filesystem::path asset_folder();
+
+}  // namespace pedicel::app

@@ -1,0 +1,171 @@
+#include <algorithm>
+
+#include "app/plant_overrides.h"
+#include "app/rod_options.h"
+#include "core/check.h"
+#include "coupling/coupling_settings.h"
+#include "session/command_table.h"
+#include "session/document.h"
+#include "session/settings_check.h"
+
+/// Plants as a whole, settings and waypoints as commands.
+namespace pedicel::app {
+
+namespace {
+
+using Kind = ArgumentKind;
+
+const ArgumentDescription plant_name{"plant", Kind::word, true, "name of the plant in the scene"};
+
+void check_new(const Document& document, const std::string& name) {
+  if (document.plant_index(name) >= 0)
+    throw UsageError("a plant \"" + name + "\" is there already, expected a new name");
+  if (name.empty() || name.find('/') != std::string::npos)
+    throw UsageError("a plant's name \"" + name + "\", expected one without /");
+}
+
+void add(Document& document, const std::string& name, plant::PlantFile file, const Command& c) {
+  DocumentPlant one;
+  one.entry.name = name;
+  if (c.has("position")) one.entry.pose.position = c.point("position");
+  one.file = std::make_shared<const plant::PlantFile>(std::move(file));
+  document.plants.push_back(std::move(one));
+}
+
+/// A herb's green stem: the order of magnitude of turgid stems (Niklas, Plant Biomechanics, 1992,
+/// table 2.1); what a drawing says later replaces it.
+void new_plant(Document& document, const Command& c) {
+  check_new(document, c.word("plant"));
+  plant::PlantFile file;
+  file.name = c.word("plant");
+  file.material = {2.0e8, 0.35, 800.0, 0.02};
+  file.connect = 0.01;
+  file.distance = 0.02;
+  add(document, c.word("plant"), std::move(file), c);
+}
+
+void add_plant(Document& document, const Command& c) {
+  check_new(document, c.word("plant"));
+  Diagnostics diagnostics;
+  auto file = plant::parse_plant(c.word("text"), c.word("plant"), diagnostics);
+  if (!file) throw UsageError(diagnostics.text());
+  add(document, c.word("plant"), std::move(*file), c);
+}
+
+/// For texts that were edited by hand, and journals.
+void set_plant(Document& document, const Command& c) {
+  const int index = document.plant_index(c.word("plant"));
+  if (index < 0) return add_plant(document, c);
+  document.plant(c.word("plant"));  // it must be one that can be edited
+  Diagnostics diagnostics;
+  auto file = plant::parse_plant(c.word("text"), c.word("plant"), diagnostics);
+  if (!file) throw UsageError(diagnostics.text());
+  DocumentPlant& one = document.plants[index];
+  one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
+  if (c.has("position")) one.entry.pose.position = c.point("position");
+}
+
+void delete_plant(Document& document, const Command& c) {
+  const int index = document.plant_index(c.word("plant"));
+  if (index < 0) document.plant(c.word("plant"));  // says which there are
+  document.plants.erase(document.plants.begin() + std::max(index, 0));
+}
+
+void move_plant(Document& document, const Command& c) {
+  const int index = document.plant_index(c.word("plant"));
+  if (index < 0) document.plant(c.word("plant"));
+  document.plants[std::max(index, 0)].entry.pose.position = c.point("to");
+}
+
+void set(Document& document, const Command& c) {
+  const std::string &key = c.word("key"), &value = c.word("value");
+  const auto held = std::find_if(document.settings.begin(), document.settings.end(),
+                                 [&](const auto& one) { return one.first == key; });
+  if (held == document.settings.end())
+    document.settings.emplace_back(key, value);
+  else
+    held->second = value;
+  check_settings(document);
+}
+
+void unset(Document& document, const Command& c) {
+  if (std::erase_if(document.settings,
+                    [&](const auto& one) { return one.first == c.word("key"); }) == 0)
+    throw UsageError("\"" + c.word("key") + "\" is as the files say already");
+}
+
+void add_waypoint(Document& document, const Command& c) {
+  const RobotWaypoint waypoint{c.number("time"), c.numbers("joints")};
+  const auto place =
+      std::find_if(document.waypoints.begin(), document.waypoints.end(),
+                   [&](const RobotWaypoint& one) { return one.time >= waypoint.time; });
+  if (waypoint.time < 0.0) throw UsageError("a time before 0, expected s from 0 on");
+  if (place != document.waypoints.end() && place->time == waypoint.time)
+    *place = waypoint;
+  else
+    document.waypoints.insert(place, waypoint);
+}
+
+void delete_waypoint(Document& document, const Command& c) {
+  const int index = c.whole("index"), count = static_cast<int>(document.waypoints.size());
+  if (index < 0 || index >= count)
+    throw UsageError("waypoint " + std::to_string(index) + ", expected one of " +
+                     std::to_string(count) + " from 0 on");
+  document.waypoints.erase(document.waypoints.begin() + index);
+}
+
+void clear_waypoints(Document& document, const Command&) {
+  document.waypoints.clear();
+}
+
+}  // namespace
+
+std::vector<CommandDescription> document_commands() {
+  const Scope d = Scope::document;
+  const ArgumentDescription position{"position", Kind::point, false,
+                                     "m, in the world (the origin)"};
+  return {
+      {"new plant", d, {plant_name, position}, "Adds a plant without stems, to draw.", new_plant},
+      {"add plant",
+       d,
+       {plant_name, {"text", Kind::text, true, "of a plant file, lines ended by \\n"}, position},
+       "Adds a plant as a plant file says it.",
+       add_plant},
+      {"set plant",
+       d,
+       {plant_name, {"text", Kind::text, true, "of a plant file, lines ended by \\n"}, position},
+       "Makes a plant what a plant file says; adds it where it is new.",
+       set_plant},
+      {"delete plant", d, {plant_name}, "Takes a plant out of the scene.", delete_plant},
+      {"move plant",
+       d,
+       {plant_name, {"to", Kind::point, true, "m, in the world"}},
+       "Puts a plant elsewhere.",
+       move_plant},
+      {"set",
+       d,
+       {{"key", Kind::word, true, "rods.KEY, coupling.KEY, plants.NAME.KEY, dt, ..."},
+        {"value", Kind::text, true, "of the key"}},
+       "Sets a described number or word of the scene, as --set does.",
+       set},
+      {"unset",
+       d,
+       {{"key", Kind::word, true, "that was set"}},
+       "Sets a number back to what the files say.",
+       unset},
+      {"add waypoint",
+       d,
+       {{"time", Kind::number, true, "s after the program's start"},
+        {"joints", Kind::numbers, true, "rad or m, one a joint"}},
+       "Records where the robot is to be.",
+       add_waypoint},
+      {"delete waypoint",
+       d,
+       {{"index", Kind::whole, true, "from 0"}},
+       "Takes a waypoint away.",
+       delete_waypoint},
+      {"clear waypoints", d, {}, "Takes all waypoints away.", clear_waypoints},
+  };
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "session/pull.h"
+#include "session/snapshot.h"
+
+namespace pedicel::app {
+
+/// Where an organ is in the rods: a fruit by "PLANT/FRUIT" (its centre), a stem by "PLANT/STEM" and
+/// the fraction `at` of its rods' length, from its foot.
+std::optional<PullPlace> find_organ(const Snapshot& snapshot, const std::string& organ, double at);
+/// What can be found, comma separated, shortened.
+std::string organ_names(const Snapshot& snapshot);
+
+}  // namespace pedicel::app

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "session/run_control.h"
+#include "session/run_rates.h"
+#include "session/snapshot_maker.h"
+
+namespace pedicel::app {
+
+/// The simulation's thread. What RunControl asks for is done here, between two steps.
+class RunThread {
+ public:
+  using Request = std::function<void(RunThread&)>;
+  struct Build {
+    MakeAssets make;
+    std::uint64_t document_hash = 0;
+    bool restart = false;
+  };
+
+  RunThread();
+  ~RunThread();
+
+  // From any thread.
+  void ask(Request request);
+  void ask_build(Build build);
+  void wait();
+  std::shared_ptr<const Snapshot> snapshot();
+  std::vector<BuildNews> take_news();
+  RunLog log;
+
+  // On the thread itself.
+  void play();
+  void pause();
+  void advance(long steps);
+  void go_to(long step);
+  void reset();
+  void set_speed(double speed);
+  void act(LiveRun::Input input);
+  LiveRun* run() { return run_.get(); }
+
+ private:
+  void loop();
+  bool take_request();
+  bool has_work() const;
+  void wait_for_work(std::unique_lock<std::mutex>& lock);
+  void do_build(Build build);
+  void take_assets(const std::shared_ptr<const SceneAssets>& assets, bool restart);
+  void one_step();
+  void check_stability();
+  void start_clock();
+  void publish(bool now);
+  void hand_over(std::shared_ptr<Snapshot> snapshot);
+  void fill_state(Snapshot& snapshot) const;
+  std::chrono::steady_clock::time_point due() const;
+
+  // Shared, under the mutex.
+  std::mutex mutex_;
+  std::condition_variable wake_, idle_;
+  std::deque<Request> requests_;
+  std::optional<Build> build_;
+  std::vector<BuildNews> news_;
+  bool stop_ = false, busy_ = false, working_ = false;  // working_: steps are to be done
+  std::mutex snapshot_mutex_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  std::atomic<bool> taken_{true};
+  std::atomic<bool> stopping_{false};
+
+  // The thread's own.
+  std::unique_ptr<LiveRun> run_;
+  SnapshotMaker maker_;
+  RunRates rates_;
+  RunMode mode_ = RunMode::empty;
+  long to_do_ = 0;  // steps, then it pauses
+  double speed_ = 1.0, replay_share_ = 0.0, last_good_time_ = 0.0;
+  std::string error_, culprit_;
+  int culprit_plant_ = -1, culprit_element_ = -1;
+  std::uint64_t document_hash_ = 0;
+  std::chrono::steady_clock::time_point clock_start_, last_publish_;
+  double clock_time_ = 0.0;  // s, simulated, at clock_start_
+  std::thread thread_;
+};
+
+}  // namespace pedicel::app

@@ -1,0 +1,197 @@
+#include "session/session.h"
+
+#include <cstdlib>
+
+#include "core/check.h"
+#include "io/atomic_file.h"
+#include "session/command_table.h"
+#include "session/journal.h"
+
+namespace pedicel::app {
+
+Session::Session(const SessionOptions& options) : options_(options) {
+  if (!options.autosave.empty()) journal_ = std::make_unique<Journal>(options.autosave);
+  set_document(empty_document());
+}
+
+Session::~Session() {
+  if (journal_) journal_->close();
+}
+
+void Session::set_document(Document document) {
+  gesture_.reset();
+  history_.clear();
+  log_.clear();
+  document_ = std::move(document);
+  saved_hash_ = document_.state_hash();
+  if (journal_) journal_->begin(document_);
+  rebuild(true);
+}
+
+void Session::rebuild(bool restart) {
+  hash_ = document_.state_hash();
+  control_.build(
+      [document = document_, packages = options_.packages] {
+        return std::make_shared<const SceneAssets>(scene_of(document),
+                                                   options_of(document, packages));
+      },
+      hash_, restart);
+}
+
+bool Session::dirty() const {
+  return hash_ != saved_hash_;
+}
+
+Result Session::run(const Command& command) {
+  Result result;
+  try {
+    result = dispatch(command);
+  } catch (const UsageError& fault) {
+    result = {false, command.verb() + ": " + fault.what()};
+  } catch (const InvalidFile& fault) {
+    result = {false, fault.what()};
+  } catch (const io::WriteError& fault) {
+    result = {false, fault.what()};
+  }
+  return finish(std::move(result));
+}
+
+Result Session::run_text(const std::string& line) {
+  Diagnostics diagnostics;
+  const auto command = parse_command(line, {"command", 1, 1}, diagnostics);
+  if (!command) return {false, diagnostics.text()};
+  return run(*command);
+}
+
+// Where commands wait, a build that failed is the fault of the command that asked for it.
+Result Session::finish(Result result) {
+  if (!options_.waits) return result;
+  control_.wait();
+  const std::size_t before = messages_.size();
+  update();
+  for (std::size_t i = before; i < messages_.size() && result.ok; ++i)
+    if (messages_[i].severity == Severity::error) result = {false, messages_[i].text};
+  return result;
+}
+
+Result Session::dispatch(const Command& command) {
+  const CommandDescription* description = find_command(command.verb());
+  if (!description) throw UsageError("no such command");
+  if (description->scope == Scope::document) return change_document(command);
+  Result result =
+      description->scope == Scope::session ? session_command(command) : run_command(command);
+  if (result.ok && description->scope == Scope::run) log_.push_back(command.text());
+  return result;
+}
+
+Result Session::change_document(const Command& command) {
+  const bool merges = gesture_ && !gesture_->commands.empty() &&
+                      gesture_->commands.back().merge_key() == command.merge_key();
+  const Document before = merges ? gesture_->before_last : document_;
+  Document changed = before;
+  apply_command(changed, command);
+  document_ = std::move(changed);
+  if (!gesture_) {
+    record({{command}, before, document_});
+  } else {
+    if (merges) gesture_->commands.pop_back();
+    gesture_->commands.push_back(command);
+    gesture_->before_last = before;
+  }
+  rebuild();
+  return {};
+}
+
+void Session::record(History::Step step) {
+  for (const Command& command : step.commands) note(command.text());
+  history_.add(std::move(step));
+}
+
+void Session::note(const std::string& line) {
+  log_.push_back(line);
+  if (!journal_) return;
+  try {
+    journal_->add(line, document_.state_hash());
+  } catch (const io::WriteError& fault) {
+    say(Severity::warning, std::string("autosave is off: ") + fault.what());
+    journal_.reset();
+  }
+}
+
+void Session::begin_gesture() {
+  end_gesture();
+  gesture_ = Gesture{document_, document_, {}};
+}
+
+void Session::end_gesture() {
+  if (!gesture_) return;
+  Gesture gesture = std::move(*gesture_);
+  gesture_.reset();
+  if (gesture.commands.empty()) return;
+  record({std::move(gesture.commands), std::move(gesture.before), document_});
+}
+
+void Session::cancel_gesture() {
+  if (!gesture_) return;
+  document_ = std::move(gesture_->before);
+  gesture_.reset();
+  rebuild();
+}
+
+// Another state of the document. Where plants are saved is no part of what is undone.
+void Session::take_back(const Document& document) {
+  const Document now = std::move(document_);
+  document_ = document;
+  document_.path = now.path;
+  for (DocumentPlant& one : document_.plants) {
+    const int index = now.plant_index(one.entry.name);
+    if (index < 0) continue;
+    one.entry.file = now.plants[index].entry.file;
+    one.entry.source = now.plants[index].entry.source;
+  }
+  rebuild();
+}
+
+Result Session::undo() {
+  end_gesture();
+  if (!history_.can_undo()) return {false, "nothing to undo"};
+  const std::string name = history_.undo_name();
+  take_back(history_.undo());
+  note("undo");
+  return finish({true, name});
+}
+
+Result Session::redo() {
+  end_gesture();
+  if (!history_.can_redo()) return {false, "nothing to redo"};
+  const std::string name = history_.redo_name();
+  take_back(history_.redo());
+  note("redo");
+  return finish({true, name});
+}
+
+void Session::update() {
+  for (const BuildNews& news : control_.take_news()) {
+    std::string text;
+    for (const Diagnostic& one : news.problems)
+      text += (text.empty() ? "" : "\n") + (one.where.file.empty() ? one.what : to_string(one));
+    if (!text.empty()) say(Severity::error, text, true);
+    if (!news.restarted) continue;
+    for (const std::string& one : news.notes) say(Severity::warning, one);
+  }
+}
+
+void Session::say(Severity severity, std::string text, bool can_retry) {
+  if (!messages_.empty() && messages_.back().text == text) return;
+  messages_.push_back({severity, std::move(text), can_retry});
+}
+
+std::filesystem::path autosave_folder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state)
+    return std::filesystem::path(state) / "pedicel";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::filesystem::path(home) / ".local" / "state" / "pedicel";
+  return {};
+}
+
+}  // namespace pedicel::app

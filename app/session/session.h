@@ -1,0 +1,179 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameter.h"
+#include "robot/inverse_kinematics.h"
+#include "session/command.h"
+#include "session/document.h"
+#include "session/history.h"
+#include "session/run_control.h"
+
+namespace pedicel::app {
+
+class Journal;
+
+/// Something to tell the user.
+struct Message {
+  Severity severity = Severity::error;
+  std::string text;  ///< one or more lines, "file:line:column: error: ..." where a file is meant
+  bool can_retry = false;  ///< reload() reads the file again
+};
+
+/// What became of a command.
+struct Result {
+  bool ok = true;
+  std::string text;  ///< the fault, or what a query answers; may be empty
+  explicit operator bool() const { return ok; }
+};
+
+/// A described number of the document that may be changed while it runs.
+struct SessionParameter {
+  std::string key;    ///< as in `set`: "rods.newton_iterations", "plants.tomato.material.density"
+  std::string group;  ///< "rods", "coupling", "tomato"
+  std::string unit, sentence;
+  double value = 0.0, initial = 0.0;  ///< now; as the files say
+  double minimum = 0.0, maximum = 0.0;
+  bool flag = false;         ///< 0 or 1
+  bool whole = false;        ///< only whole numbers
+  bool logarithmic = false;  ///< spans orders of magnitude
+  bool restarts = false;     ///< a change starts the run anew
+  bool changed = false;      ///< over what the files say
+};
+
+/// Where journals lie by default: $XDG_STATE_HOME/pedicel, else ~/.local/state/pedicel; empty where
+/// there is neither.
+std::filesystem::path autosave_folder();
+
+struct SessionOptions {
+  std::vector<std::string> packages;  ///< "NAME=PATH"
+  std::filesystem::path autosave;     ///< folder of the journals; empty: none
+  /// Every command waits until the simulation has done it (scripts, tests): then what it finds
+  /// wrong is the command's own fault, too.
+  bool waits = false;
+};
+
+/// Everything that the program's window does, without a window: a document, its history, the
+/// simulation that runs it, files, messages. All calls are made from one thread, and none waits for
+/// a step. What changes the document goes through run().
+class Session {
+ public:
+  explicit Session(const SessionOptions& options = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Files. Faults go to messages(); what was open stays.
+  bool open(const std::filesystem::path& path);
+  void open_empty();
+  /// Reads the files anew; edits that were not saved are lost (undo brings them back).
+  bool reload();
+  /// Writes the plants that have changed, each to its own file (the old one stays beside it as
+  /// NAME~). A new plant needs `path`.
+  Result save(const std::filesystem::path& path = {});
+  /// One plant as it is drawn: *.plant.yaml, *.csv (skeleton), *.obj or *.ply.
+  Result export_plant(const std::string& plant, const std::filesystem::path& path);
+  /// Adds the plant of a plant file, skeleton table or MTG to the document.
+  Result import_plant(const std::filesystem::path& path, const std::string& name = {});
+  bool dirty() const;
+  const std::filesystem::path& path() const { return document_.path; }
+
+  // Commands.
+  /// Does a command of any scope. Document commands refuse as a whole.
+  Result run(const Command& command);
+  Result run_text(const std::string& line);
+  /// Everything until end_gesture() is one step of the history; commands that go on changing the
+  /// same thing (a slider, a dragged point) replace each other. Gestures do not nest.
+  void begin_gesture();
+  void end_gesture();
+  /// As if the gesture had not begun.
+  void cancel_gesture();
+  Result undo();
+  Result redo();
+  const History& history() const { return history_; }
+  const Document& document() const { return document_; }
+  /// Whether what is simulated is what is drawn: false while it is being built, and where it cannot
+  /// be (see messages()).
+  bool is_simulated() const { return snapshot()->document_hash == hash_; }
+  /// Everything that was done, one line each; as a script it does the same again.
+  const std::vector<std::string>& log() const { return log_; }
+
+  // The simulation.
+  RunControl& control() { return control_; }
+  const RunControl& control() const { return control_; }
+  std::shared_ptr<const Snapshot> snapshot() const { return control_.snapshot(); }
+  /// Takes what the simulation's thread has to tell into messages(); once a frame.
+  void update();
+
+  const std::vector<Message>& messages() const { return messages_; }
+  void clear_messages() { messages_.clear(); }
+
+  // Parameters.
+  std::vector<SessionParameter> parameters() const;
+  /// Sets a parameter back to what the files say.
+  Result reset_parameter(const std::string& key);
+  /// Writes changed plant parameters into the plants themselves, so that saving keeps them.
+  Result keep_parameters();
+  Result discard_parameters();
+
+  // Robot.
+  /// Joint positions with which the tool is at a pose; `reached` false and a sentence where it
+  /// cannot be. Starts from the goal that the robot has.
+  robot::IkResult reach(const Pose& tool_W) const;
+  /// Moves the tool by a shift (m, W) and a turn (rad, a rotation vector, W), or says why not.
+  Result jog(const Vec3& shift_W, const Vec3& turn_W = Vec3::Zero());
+  Result play_waypoints();
+  /// Of a table time_s,joint,... ; its time 0 is now.
+  Result play_trajectory(const std::filesystem::path& file);
+
+  // Recovery.
+  /// Documents that a killed program left, the newest first. Empty without autosave.
+  struct Lost {
+    std::filesystem::path file;      ///< the journal
+    std::filesystem::path document;  ///< that was open; empty: a new one
+    int commands = 0;
+    std::string when;  ///< UTC
+  };
+  std::vector<Lost> lost_documents() const;
+  bool recover(const Lost& lost);
+  void forget(const Lost& lost);
+
+ private:
+  struct Gesture {
+    Document before;       // the gesture
+    Document before_last;  // its last command
+    std::vector<Command> commands;
+  };
+  void set_document(Document document);
+  void rebuild(bool restart = false);
+  Result dispatch(const Command& command);
+  void take_back(const Document& document);
+  Result change_document(const Command& command);
+  void record(History::Step step);
+  void note(const std::string& line);
+  Result session_command(const Command& command);
+  Result run_command(const Command& command);
+  Result robot_command(const Command& command);
+  Result pull_command(const Command& command);
+  Result expect_command(const Command& command) const;
+  Result move_joints(const Eigen::VectorXd& q);
+  Result finish(Result result);
+  void say(Severity severity, std::string text, bool can_retry = false);
+
+  SessionOptions options_;
+  Document document_;
+  std::uint64_t hash_ = 0, saved_hash_ = 0;  // of the document; as it was opened or saved
+  History history_;
+  std::optional<Gesture> gesture_;
+  std::vector<std::string> log_;
+  std::vector<Message> messages_;
+  std::unique_ptr<Journal> journal_;
+  std::filesystem::path failed_path_;  // what could not be opened, for reload()
+  RunControl control_;
+};
+
+}  // namespace pedicel::app

@@ -1,0 +1,77 @@
+#include <chrono>
+#include <ctime>
+
+#include "core/check.h"
+#include "io/atomic_file.h"
+#include "session/journal.h"
+#include "session/session.h"
+
+/// What a killed program left.
+namespace pedicel::app {
+
+namespace {
+
+std::string time_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto written = std::filesystem::last_write_time(file, ignored);
+  const auto moment = std::chrono::file_clock::to_sys(written);
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(moment));
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &utc);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Session::Lost> Session::lost_documents() const {
+  std::vector<Lost> lost;
+  if (options_.autosave.empty()) return lost;
+  for (const std::filesystem::path& file : lost_journals(options_.autosave)) {
+    try {
+      const JournalContent content = read_journal(file);
+      if (content.commands.empty()) continue;
+      lost.push_back(
+          {file, content.document, static_cast<int>(content.commands.size()), time_text(file)});
+    } catch (const InvalidFile&) {
+      continue;  // of another program
+    }
+  }
+  return lost;
+}
+
+bool Session::recover(const Lost& lost) {
+  JournalContent content;
+  try {
+    content = read_journal(lost.file);
+  } catch (const InvalidFile& fault) {
+    say(Severity::error, fault.what());
+    return false;
+  }
+  if (content.document.empty() || !open(content.document)) open_empty();
+  const auto do_line = [this](const std::string& line) {
+    Diagnostics diagnostics;
+    const auto command = parse_command(line, {"journal", 1, 1}, diagnostics);
+    const Result result = command ? run(*command) : Result{false, diagnostics.text()};
+    if (!result) say(Severity::warning, "not recovered: " + line + ": " + result.text);
+  };
+  const std::uint64_t on_disk = content.document.empty() ? 0 : saved_hash_;
+  for (const JournalContent::Line& line : content.base) do_line(line.command);
+  history_.clear();
+  for (const JournalContent::Line& line : content.commands) do_line(line.command);
+  saved_hash_ = on_disk;
+  const auto wanted = content.commands.empty() ? std::nullopt : content.commands.back().hash;
+  if (wanted && *wanted != document_.state_hash())
+    say(Severity::warning, "what was recovered is not exactly what was lost");
+  forget(lost);
+  return true;
+}
+
+void Session::forget(const Lost& lost) {
+  std::error_code ignored;
+  std::filesystem::remove(lost.file, ignored);
+}
+
+}  // namespace pedicel::app

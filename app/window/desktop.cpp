@@ -1,0 +1,232 @@
+#include "app/window/desktop.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/panels/theme.h"
+#include "app/window/draw_tool.h"
+
+namespace pedicel::app {
+
+namespace {
+
+constexpr double text_points = 15.0;  // px of a line of text at scale 1
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Cursor cursor_of(ImGuiMouseCursor cursor) {
+  switch (cursor) {
+    case ImGuiMouseCursor_TextInput:
+      return Cursor::text;
+    case ImGuiMouseCursor_Hand:
+      return Cursor::hand;
+    case ImGuiMouseCursor_ResizeEW:
+      return Cursor::size_across;
+    case ImGuiMouseCursor_ResizeNS:
+      return Cursor::size_down;
+    default:
+      return Cursor::arrow;
+  }
+}
+
+}  // namespace
+
+struct Desktop::Context {
+  explicit Context(const Preferences& preferences) : context(ImGui::CreateContext()) {
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().LogFilename = nullptr;
+    ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
+    ImGui::GetIO().MouseDoubleClickTime = 0.35f;
+    apply_theme(preferences.theme, 1.0f);
+  }
+  ~Context() { ImGui::DestroyContext(context); }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  ImGuiContext* context;
+};
+
+Desktop::Desktop(Platform& platform, Session& session, const DesktopOptions& options)
+    : platform_(platform),
+      preferences_path_(options.preferences),
+      context_(std::make_unique<Context>(Preferences{})),
+      ui_(session, session.snapshot()),
+      input_(platform),
+      draw_tool_(std::make_unique<DrawTool>()) {
+  ui_.preferences.theme = options.theme;
+  if (!preferences_path_.empty() && std::filesystem::exists(preferences_path_))
+    ui_.preferences = read_preferences(preferences_path_);
+  if (options.theme_given) ui_.preferences.theme = options.theme;
+  written_ = ui_.preferences;
+  ui_.times.platform = platform.name();
+  ui_.times.renderer = platform.renderer_name();
+  ui_.now = platform.now();
+  if (platform.gl()) {
+    painter_ = std::make_unique<GuiPainter>(*platform.gl());
+    canvas_ = std::make_unique<SceneCanvas>(*platform.gl());
+  }
+  follow_fonts();
+}
+
+Desktop::~Desktop() {
+  if (video_) toggle_video();
+  if (ui_.preferences != written_) write_preferences(ui_.preferences, preferences_path_);
+}
+
+/// Letters are made anew for another scale; themes only change colours.
+void Desktop::follow_fonts() {
+  const double scale = platform_.scale() * ui_.preferences.font_scale;
+  if (scale != fonts_for_) {
+    fonts_ = load_fonts(text_points * scale);
+    ui_.bold = fonts_.bold;
+    if (painter_) painter_->upload(*ImGui::GetIO().Fonts);
+  }
+  if (scale != fonts_for_ || theme_ != ui_.preferences.theme)
+    apply_theme(ui_.preferences.theme, static_cast<float>(scale));
+  fonts_for_ = scale;
+  theme_ = ui_.preferences.theme;
+  ui_.scale = static_cast<float>(scale);
+}
+
+/// Another document: its own first camera, and nothing chosen. The same one read anew keeps both.
+void Desktop::follow_document() {
+  const Snapshot& snapshot = *ui_.snapshot;
+  if (shown_path_ != ui_.session.path()) {
+    shown_path_ = ui_.session.path();
+    framed_ = false;
+    ui_.selection = {};
+  }
+  std::string title = "Pedicel";
+  if (!shown_path_.empty()) title = shown_path_.filename().string() + " - " + title;
+  platform_.set_title(title);
+  if (framed_ || !snapshot.assets || snapshot.mode == RunMode::building) return;
+  framed_ = true;
+  if (!snapshot.assets->scene.cameras.empty())
+    use_camera(0);
+  else
+    ui_.ask(Action::frame_all);
+}
+
+void Desktop::keys() {
+  const ImGuiIO& io = ImGui::GetIO();
+  for (const Binding& binding : bindings()) {
+    // While a text is typed, only what cannot be part of it.
+    if (io.WantTextInput && !binding.control && binding.key < Key::f1) continue;
+    if (binding.control != io.KeyCtrl || binding.shift != io.KeyShift) continue;
+    const bool repeats = binding.action == Action::step || binding.action == Action::step_back;
+    if (ImGui::IsKeyPressed(static_cast<int>(binding.key), repeats)) ui_.ask(binding.action);
+  }
+}
+
+bool Desktop::frame() {
+  const auto start = std::chrono::steady_clock::now();
+  follow_fonts();
+  const std::vector<std::string> dropped = input_.begin_frame();
+  const double last = ui_.now;
+  ui_.now = platform_.now();
+  ui_.times.picture += 0.1 * ((ui_.now - last) - ui_.times.picture);
+  for (const std::string& path : dropped) ui_.session.open(path);
+  ui_.session.update();
+  ui_.snapshot = ui_.session.snapshot();
+  follow_document();
+
+  ImGui::NewFrame();
+  keys();
+  const LayoutAreas areas = layout_.draw(ui_);
+  draw_scene(areas);
+  draw_scene_texts(ui_, areas);
+  draw_dialogs(ui_);
+  perform_all();
+  ImGui::Render();
+  ui_.times.interface += 0.1 * (seconds_since(start) - ui_.times.scene - ui_.times.interface);
+  platform_.set_cursor(
+      ui_.draw.on && ui_.hover.distance > 0.0 ? Cursor::cross : cursor_of(ImGui::GetMouseCursor()));
+  paint();
+  if (ui_.preferences != written_ && !ImGui::IsAnyMouseDown()) {
+    written_ = ui_.preferences;
+    write_preferences(written_, preferences_path_);
+  }
+  return !quits_ && !platform_.wants_to_close();
+}
+
+void Desktop::draw_scene(const LayoutAreas& areas) {
+  const ImVec2 size(areas.scene_max.x - areas.scene_min.x, areas.scene_max.y - areas.scene_min.y);
+  if (size.x < 8 || size.y < 8) return;
+  ImGui::SetNextWindowPos(areas.scene_min);
+  ImGui::SetNextWindowSize(size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::Begin("scene", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
+  ImGui::PopStyleVar(2);
+  ImGui::InvisibleButton("picture", size,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  scene_ = {areas.scene_min, size, camera_.camera()};
+  const bool tool = draw_tool_->update(ui_, scene_, view_.shapes());
+  mouse_.update(ui_, camera_, scene_, view_.shapes(), tool);
+  if (ui_.frame_box) {
+    camera_.frame(*ui_.frame_box, size.x / size.y);
+    ui_.frame_box.reset();
+  }
+  scene_.camera = camera_.camera();
+
+  const auto start = std::chrono::steady_clock::now();
+  list_.clear();
+  view_.fill(list_, *ui_.snapshot, ui_.view, ui_.selection, ui_.hover);
+  draw_tool_->add_to(list_, ui_, scene_);
+  ui_.times.list = seconds_since(start);
+  if (canvas_) {
+    quality_.automatic = ui_.view.automatic_quality;
+    if (!quality_.automatic) quality_.level = ui_.view.quality;
+    canvas_->draw(list_, scene_.camera, scene_.width(), scene_.height(), quality_,
+                  ui_.view.shadows);
+    ui_.view.quality = ui_.times.quality = quality_.level;
+    ui_.times.triangles = canvas_->triangles();
+    ui_.times.scene += 0.2 * (seconds_since(start) - ui_.times.scene);
+    const auto texture =
+        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(canvas_->texture()));
+    ImGui::GetWindowDrawList()->AddImage(texture, areas.scene_min, areas.scene_max, ImVec2(0, 1),
+                                         ImVec2(1, 0));
+  }
+  draw_labels();
+  ImGui::End();
+}
+
+void Desktop::paint() {
+  if (!painter_) {
+    platform_.present(nullptr);
+    return;
+  }
+  const auto [width, height] = platform_.size();
+  if (width < 1 || height < 1) return;
+  if (!target_ || target_->width() != width || target_->height() != height) {
+    target_.reset();
+    target_ = std::make_unique<render::RenderTarget>(*platform_.gl(), width, height, 1);
+  }
+  target_->bind();
+  const ImVec4& back = palette().window;
+  platform_.gl()->ClearColor(back.x, back.y, back.z, 1.0f);
+  platform_.gl()->Clear(GL_COLOR_BUFFER_BIT);
+  painter_->paint(*ImGui::GetDrawData());
+  add_to_video();
+  platform_.present(target_.get());
+}
+
+std::optional<render::Image> Desktop::window_picture() const {
+  if (!target_) return {};
+  return target_->read();
+}
+
+std::optional<render::Image> Desktop::scene_picture(int width, int height) {
+  if (!canvas_) return {};
+  return canvas_->still(list_, camera_.camera(), width, height);
+}
+
+}  // namespace pedicel::app

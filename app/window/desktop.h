@@ -1,0 +1,102 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "app/panels/layout.h"
+#include "app/platform/platform.h"
+#include "app/window/fonts.h"
+#include "app/window/gui_input.h"
+#include "app/window/gui_painter.h"
+#include "app/window/scene_canvas.h"
+#include "app/window/scene_mouse.h"
+#include "app/window/snapshot_view.h"
+#include "render/video.h"
+
+struct ImGuiContext;
+
+namespace pedicel::app {
+
+class DrawTool;
+
+struct DesktopOptions {
+  std::filesystem::path preferences;  ///< where they are kept; empty: nowhere
+  Theme theme = Theme::dark;          ///< without a file of preferences
+  bool theme_given = false;           ///< `theme` goes before what the file says
+};
+
+/// The desktop: a session seen and led by hand. The same on every platform; on the null platform
+/// everything but the pictures.
+class Desktop {
+ public:
+  /// Both must outlive it. Throws std::runtime_error where the driver refuses our shaders.
+  Desktop(Platform& platform, Session& session, const DesktopOptions& options);
+  ~Desktop();
+  Desktop(const Desktop&) = delete;
+  Desktop& operator=(const Desktop&) = delete;
+
+  /// One picture: input, panels, scene. False once the user quits.
+  bool frame();
+  Ui& ui() { return ui_; }
+  ViewCamera& camera() { return camera_; }
+  const Layout& layout() const { return layout_; }
+  /// Where the scene is in the window, and how it is seen.
+  const SceneFrame& scene() const { return scene_; }
+  /// The file that the letters come from; empty: ImGui's own.
+  const std::string& letters() const { return fonts_.file; }
+  bool input_waits() const { return input_.has_more(); }
+
+  /// The last picture with the interface; a still one of the scene alone, in any size. Nothing on
+  /// the null platform.
+  std::optional<render::Image> window_picture() const;
+  std::optional<render::Image> scene_picture(int width, int height);
+
+ private:
+  struct Context;  // ImGui's, first made and last destroyed
+
+  void follow_fonts();
+  void follow_document();
+  void keys();
+  void draw_scene(const LayoutAreas& areas);
+  void draw_labels();
+  void paint();
+  void perform_all();
+  void perform(Action action);
+  void perform_file(Action action);
+  void perform_view(Action action);
+  void perform_edit(Action action);
+  void use_camera(int index);
+  void take_screenshot();
+  void toggle_video();
+  void add_to_video();
+
+  Platform& platform_;
+  std::filesystem::path preferences_path_;
+  std::unique_ptr<Context> context_;
+  Ui ui_;
+  Preferences written_;
+  GuiInput input_;
+  Fonts fonts_;
+  double fonts_for_ = 0.0;
+  std::optional<Theme> theme_;
+  std::unique_ptr<GuiPainter> painter_;
+  std::unique_ptr<SceneCanvas> canvas_;
+  std::unique_ptr<render::RenderTarget> target_;
+  Layout layout_;
+  SnapshotView view_;
+  render::DrawList list_;
+  ViewCamera camera_;
+  SceneMouse mouse_;
+  std::unique_ptr<DrawTool> draw_tool_;
+  SceneFrame scene_;
+  CanvasQuality quality_;
+  std::filesystem::path shown_path_;
+  bool framed_ = false, quits_ = false, full_screen_ = false;
+  std::unique_ptr<render::VideoWriter> video_;
+  double next_video_picture_ = 0.0;
+  std::uint64_t drawn_key_ = 0;
+};
+
+}  // namespace pedicel::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/panels/view_state.h"
+#include "render/draw_list.h"
+#include "session/snapshot.h"
+
+namespace pedicel::app {
+
+/// Adds what is not a thing of the scene: arrows of contact and pulling forces, frames, rods as
+/// lines, what made it unstable.
+void add_marks(render::DrawList& list, const Snapshot& snapshot, const ViewState& view);
+
+/// A cage about a chosen (or only pointed at) fruit, link or body; stems change their colour.
+void add_selection(render::DrawList& list, const Eigen::AlignedBox3d& box,
+                   const Selection& selection, bool chosen);
+
+/// Three lines along the axes of a pose, red, green, blue.
+void add_axes(render::DrawList& list, const Pose& X_WF, double length);
+
+/// The twelve edges of a box in the world.
+void add_cage(render::DrawList& list, const Eigen::AlignedBox3d& box, const render::Colour& colour,
+              float width);
+
+}  // namespace pedicel::app

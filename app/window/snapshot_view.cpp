@@ -1,0 +1,153 @@
+#include "app/window/snapshot_view.h"
+
+#include <algorithm>
+
+#include "app/window/scene_marks.h"
+#include "render/colormap.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using render::Colour;
+
+Colour lighter(const Colour& colour, float share) {
+  const auto mix = [share](float part, float to) { return part + share * (to - part); };
+  return {mix(colour.r, 1.0f), mix(colour.g, 0.92f), mix(colour.b, 0.35f)};
+}
+
+/// The share of its threshold that each element's stalk has used; elements without fruit: 0.
+std::vector<double> margins(const cosserat::RodModel& model, const PlantSnapshot& plant) {
+  std::vector<double> used(model.elements.size(), 0.0);
+  for (std::size_t f = 0; f < model.fruits.size() && f < plant.margin_used.size(); ++f)
+    for (int e = model.fruits[f].element; e >= 0; e = model.elements[e].parent) {
+      if (model.elements[e].organ != model.elements[model.fruits[f].element].organ) break;
+      used[e] = std::max(used[e], plant.margin_used[f]);
+    }
+  return used;
+}
+
+std::vector<double> contact_forces(const Snapshot& snapshot, int plant, int elements) {
+  std::vector<double> force(static_cast<std::size_t>(elements), 0.0);
+  for (const ContactSnapshot& contact : snapshot.contacts)
+    if (contact.plant == plant && contact.element < elements)
+      force[static_cast<std::size_t>(contact.element)] += contact.force_W.norm();
+  return force;
+}
+
+}  // namespace
+
+bool is_chosen(const Selection& selection, const cosserat::RodModel& model, int plant,
+               int element) {
+  return selection.kind == Selection::Kind::element && selection.plant == plant &&
+         selection.element < model.size() &&
+         model.elements[static_cast<std::size_t>(element)].organ ==
+             model.elements[static_cast<std::size_t>(selection.element)].organ;
+}
+
+void SnapshotView::follow(const Snapshot& snapshot) {
+  shapes_.follow(snapshot);
+  plants_.resize(snapshot.plants.size());
+  for (std::size_t p = 0; p < plants_.size(); ++p) {
+    if (plants_[p].model == snapshot.plants[p].model) continue;
+    const PlantInfo& info = snapshot.assets->plants[p];
+    plants_[p] = {
+        snapshot.plants[p].model, snapshot.assets,
+        std::make_unique<PlantDrawing>(*snapshot.plants[p].model, info.blades,
+                                       info.is_woody ? PlantLook::apple() : PlantLook::tomato())};
+  }
+}
+
+std::vector<Colour> SnapshotView::colours(const Snapshot& snapshot, int plant,
+                                          const ViewState& view) const {
+  const PlantSnapshot& shown = snapshot.plants[static_cast<std::size_t>(plant)];
+  const cosserat::RodModel& model = *shown.model;
+  std::vector<Colour> result = plants_[static_cast<std::size_t>(plant)].drawing->plain_colours();
+  std::vector<double> values;
+  double scale = 1.0;
+  if (view.colours == ColourMap::margin) values = margins(model, shown);
+  if (view.colours == ColourMap::contact) {
+    values = contact_forces(snapshot, plant, model.size());
+    scale = view.contact_scale;
+  }
+  if (view.colours == ColourMap::strain) {
+    scale = view.strain_scale;
+    for (int e = 0; e < model.size(); ++e)
+      values.push_back(shown.state.alive[e] ? surface_strain(model, shown.state, e) : 0.0);
+  }
+  for (std::size_t e = 0; e < values.size(); ++e)
+    result[e] = render::strain_colour(values[e] / scale);
+  return result;
+}
+
+void SnapshotView::fill(render::DrawList& list, const Snapshot& snapshot, const ViewState& view,
+                        const Selection& selection, const Selection& hover) {
+  list.ground.reset();
+  if (!snapshot.assets) {
+    list.ground.emplace();
+    return;
+  }
+  follow(snapshot);
+  if (const auto& ground = snapshot.assets->scene.ground) {
+    list.ground.emplace();
+    list.ground->height = ground->height;
+  }
+  for (int p = 0; p < static_cast<int>(plants_.size()); ++p) {
+    const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
+    std::vector<Colour> tints = colours(snapshot, p, view);
+    for (int e = 0; e < plant.model->size(); ++e) {
+      const auto i = static_cast<std::size_t>(e);
+      if (is_chosen(selection, *plant.model, p, e))
+        tints[i] = lighter(tints[i], 0.75f);
+      else if (is_chosen(hover, *plant.model, p, e))
+        tints[i] = lighter(tints[i], 0.4f);
+    }
+    plants_[static_cast<std::size_t>(p)].drawing->add_to(list, plant.state, tints, view.leaves);
+  }
+  for (std::size_t l = 0; l < shapes_.links().size() && l < snapshot.robot.links.size(); ++l)
+    add_at(list, shapes_.links()[l].list, snapshot.robot.links[l]);
+  for (std::size_t b = 0; b < snapshot.bodies.size(); ++b)
+    add_at(list, shapes_.bodies()[b].list, snapshot.bodies[b].pose);
+  add_marks(list, snapshot, view);
+  if (!hover.same_thing(selection))
+    add_selection(list, bounds_of(hover, snapshot, shapes_), hover, false);
+  add_selection(list, bounds_of(selection, snapshot, shapes_), selection, true);
+}
+
+Eigen::AlignedBox3d bounds_of(const Selection& s, const Snapshot& snapshot,
+                              const RigidShapes& shapes) {
+  using Kind = Selection::Kind;
+  const auto at = [](const auto& all, int index) {
+    return index >= 0 && index < static_cast<int>(all.size())
+               ? &all[static_cast<std::size_t>(index)]
+               : nullptr;
+  };
+  Eigen::AlignedBox3d box;
+  const auto* shape = s.kind == Kind::link   ? at(shapes.links(), s.link)
+                      : s.kind == Kind::body ? at(shapes.bodies(), s.body)
+                                             : nullptr;
+  if (shape && !shape->box.isEmpty()) {
+    const Pose pose = s.kind == Kind::link ? snapshot.robot.links[static_cast<std::size_t>(s.link)]
+                                           : snapshot.bodies[static_cast<std::size_t>(s.body)].pose;
+    for (int corner = 0; corner < 8; ++corner)
+      box.extend(pose * shape->box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+  }
+  const PlantSnapshot* plant = at(snapshot.plants, s.plant);
+  if (!plant) return box;
+  if (s.kind == Kind::element)
+    for (int e = 0; e < plant->model->size(); ++e)
+      if (plant->state.alive[e] && is_chosen(s, *plant->model, s.plant, e)) {
+        box.extend(plant->state.position[e]);
+        box.extend(start_of(*plant->model, plant->state, e));
+      }
+  if (s.kind != Kind::fruit || !at(plant->model->fruits, s.fruit) ||
+      plant->state.fruit_gone[static_cast<std::size_t>(s.fruit)])
+    return box;
+  const cosserat::Fruit& fruit = plant->model->fruits[static_cast<std::size_t>(s.fruit)];
+  const Vec3 centre = point_on(*plant->model, plant->state, fruit.element, fruit.back);
+  box.extend(centre - Vec3::Constant(fruit.radius));
+  box.extend(centre + Vec3::Constant(fruit.radius));
+  return box;
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+#include "plant/plant_file.h"
+
+/// A plant as it is drawn, for other programs. What cannot be said there (materials, thresholds) is
+/// left out.
+namespace pedicel::plant {
+
+/// id,parent,x_m,y_m,z_m,is_branch,diameter_m: what read_skeleton_csv() reads. One row a control
+/// point, in the order of the tree; a branch hangs from the parent's nearest control point. Curves
+/// that reach nothing are left out.
+std::string skeleton_text(const PlantFile& plant);
+
+/// Stems as tubes with `sides` sides, closed at both ends, and fruits as spheres; m, P.
+struct PlantMesh {
+  std::vector<Vec3> points, normals;          ///< one normal a point
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
+  struct Part {
+    std::string name;  ///< of the stem or fruit
+    int first_triangle = 0;
+  };
+  std::vector<Part> parts;
+};
+PlantMesh tube_mesh(const PlantFile& plant, int sides = 12);
+
+/// Wavefront OBJ: one object a part, with normals.
+std::string obj_text(const PlantMesh& mesh, const std::string& name);
+/// PLY, ASCII: points with normals, triangles.
+std::string ply_text(const PlantMesh& mesh);
+
+}  // namespace pedicel::plant
