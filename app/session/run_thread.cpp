@@ -103,10 +103,22 @@ bool RunThread::take_request() {
   if (build)
     do_build(std::move(*build));
   else
-    request(*this);
+    guarded(request);
   const std::lock_guard lock(mutex_);
   working_ = to_do_ > 0;
   return true;
+}
+
+// What cannot be done is told; the thread lives on.
+void RunThread::guarded(const Request& request) {
+  try {
+    request(*this);
+  } catch (const std::exception& fault) {
+    BuildNews news;
+    news.problems.push_back({Severity::error, {}, fault.what()});
+    const std::lock_guard lock(mutex_);
+    news_.push_back(std::move(news));
+  }
 }
 
 bool RunThread::has_work() const {

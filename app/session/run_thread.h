@@ -48,6 +48,7 @@ class RunThread {
  private:
   void loop();
   bool take_request();
+  void guarded(const Request& request);
   bool has_work() const;
   void wait_for_work(std::unique_lock<std::mutex>& lock);
   void do_build(Build build);
