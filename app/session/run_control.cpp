@@ -32,7 +32,7 @@ void RunControl::run_for(double duration) {
 }
 void RunControl::step_back(long count) {
   impl_->thread.ask([count](RunThread& t) {
-    if (t.run()) t.go_to(t.run()->steps() - count);
+    t.go_to(t.position() - count);
   });
 }
 void RunControl::go_to_step(long step) {
