@@ -65,6 +65,8 @@ void RobotControl::act(world::SimWorld& world, world::StepReport&) {
 }
 
 void RobotControl::go_to(const Eigen::VectorXd& q) {
+  // A program may be ahead of a robot that could not keep up.
+  if (follows_program()) q_ = robot_.model().clamped(robot_.positions());
   goal_ = robot_.model().clamped(q);
   trajectory_ = {};
 }

@@ -44,7 +44,7 @@ class RobotControl : public world::Participant {
     start_ = start;
     goal_.reset();
   }
-  /// Gives up the program: from where the targets are, every joint moves evenly to `q` (rad or m,
+  /// Gives up the program: from where it is, every joint moves evenly to `q` (rad or m,
   /// moved into the limits), at its speed limit at most, at 1 rad/s or 0.25 m/s where that is
   /// lower.
   void go_to(const Eigen::VectorXd& q);

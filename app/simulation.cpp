@@ -36,9 +36,8 @@ Simulation::Simulation(const world::Scene& scene, const SimulationOptions& optio
     : Simulation(std::make_shared<const SceneAssets>(scene, options)) {}
 
 Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
-    : first_assets_(assets),
-      assets_(std::move(assets)),
-      scene_(first_assets_->scene),
+    : assets_(std::move(assets)),
+      scene_(assets_->scene),
       world_(world_settings(scene_)),
       notes_(assets_->notes) {
   Diagnostics diagnostics;
@@ -147,6 +146,7 @@ void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
     source->change_settings(assets->coupling);
   for (cosserat::SelfContact* own : self_contacts_)
     own->change_settings(coupling::self_contact_settings(assets->coupling));
+  if (!first_assets_) first_assets_ = assets_;
   assets_ = std::move(assets);
 }
 

@@ -111,7 +111,7 @@ class Simulation {
   };
   class LoadStep;
 
-  std::shared_ptr<const SceneAssets> first_assets_;  // that it was built from; holds the scene
+  std::shared_ptr<const SceneAssets> first_assets_;  // that it was built from, once others count
   std::shared_ptr<const SceneAssets> assets_;        // whose constants count
   const world::Scene& scene_;
   world::SimWorld world_;

@@ -31,9 +31,7 @@ void RunControl::run_for(double duration) {
   });
 }
 void RunControl::step_back(long count) {
-  impl_->thread.ask([count](RunThread& t) {
-    if (t.run()) t.go_to(t.run()->steps() - count);
-  });
+  impl_->thread.ask([count](RunThread& t) { t.go_to(t.position() - count); });
 }
 void RunControl::go_to_step(long step) {
   impl_->thread.ask([step](RunThread& t) { t.go_to(step); });

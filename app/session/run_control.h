@@ -45,7 +45,9 @@ class RunControl {
   /// So much simulated time (s) forward, then pauses.
   void run_for(double duration);
   /// Back by so many steps, exactly: runs anew from time 0 with everything that was done since, and
-  /// pauses. What was done after stays for stepping forward until something else is done.
+  /// pauses. The last steps of stepping and of
+  /// such a run are kept to be shown again at once. What was done after stays for stepping forward
+  /// until something else is done.
   void step_back(long count = 1);
   /// To a step of the run, either way.
   void go_to_step(long step);

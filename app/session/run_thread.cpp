@@ -13,6 +13,8 @@ namespace {
 
 /// Between snapshots of a replay.
 constexpr std::chrono::milliseconds replay_frame{100};
+/// Steps that are kept to be shown again.
+constexpr std::size_t most_kept = 120;
 /// A simulation that has fallen back by more than this no longer tries to catch up.
 constexpr std::chrono::milliseconds most_behind{100};
 
@@ -103,10 +105,22 @@ bool RunThread::take_request() {
   if (build)
     do_build(std::move(*build));
   else
-    request(*this);
+    guarded(request);
   const std::lock_guard lock(mutex_);
   working_ = to_do_ > 0;
   return true;
+}
+
+// What cannot be done is told; the thread lives on.
+void RunThread::guarded(const Request& request) {
+  try {
+    request(*this);
+  } catch (const std::exception& fault) {
+    BuildNews news;
+    news.problems.push_back({Severity::error, {}, fault.what()});
+    const std::lock_guard lock(mutex_);
+    news_.push_back(std::move(news));
+  }
 }
 
 bool RunThread::has_work() const {
@@ -162,12 +176,15 @@ void RunThread::do_build(Build build) {
 
 void RunThread::take_assets(const std::shared_ptr<const SceneAssets>& assets, bool restart) {
   if (!restart) {
-    run_->change_to(assets);
+    run()->change_to(assets);
+    kept_.clear();
     maker_.forget_models();
     return;
   }
   auto run = std::make_unique<LiveRun>(assets);  // may throw: the one that runs goes on then
   run_ = std::move(run);
+  kept_.clear();
+  shown_.reset();
   maker_.forget(true);
   log.begin(run_->simulation());
   if (mode_ == RunMode::unstable) mode_ = RunMode::paused;
@@ -177,7 +194,7 @@ void RunThread::take_assets(const std::shared_ptr<const SceneAssets>& assets, bo
 }
 
 void RunThread::play() {
-  if (!run_ || mode_ == RunMode::unstable) return;
+  if (!run_ || mode_ == RunMode::unstable || !run()) return;
   mode_ = RunMode::playing;
   to_do_ = 0;
   start_clock();
@@ -192,23 +209,58 @@ void RunThread::pause() {
 }
 
 void RunThread::advance(long steps) {
-  if (!run_ || mode_ == RunMode::unstable) return;
+  if (!run_ || mode_ == RunMode::unstable || steps <= 0) return;
+  if (shown_ && show(*shown_ + steps)) return;
+  if (!run()) return;
   mode_ = RunMode::paused;
-  to_do_ += std::max(0l, steps);
+  to_do_ += steps;
 }
 
 void RunThread::go_to(long step) {
   if (!run_) return;
   step = std::max(0l, step);
-  if (step > run_->steps()) return advance(step - run_->steps());
   to_do_ = 0;
+  if (show(step)) return;
+  if (step > position()) return advance(step - position());
+  replay_to(step);
+}
+
+LiveRun* RunThread::run() {
+  if (shown_) replay_to(*shown_);
+  return run_.get();
+}
+
+// Shows a step that is kept; false: none is.
+bool RunThread::show(long step) {
+  if (kept_.empty() || step < kept_.front()->step || step > kept_.back()->step) return false;
+  shown_.reset();
+  if (step != run_->steps()) shown_ = step;
+  mode_ = RunMode::paused;
+  error_.clear();
+  rates_.rest();
+  publish(true);
+  return true;
+}
+
+void RunThread::keep_step() {
+  if (!kept_.empty() && kept_.back()->step + 1 != run_->steps()) kept_.clear();
+  kept_.push_back(maker_.make(*run_));
+  if (kept_.size() > most_kept) kept_.pop_front();
+}
+
+void RunThread::replay_to(long step) {
+  to_do_ = 0;
+  shown_.reset();
+  kept_.clear();
   mode_ = RunMode::replaying;
   run_->rewind();
   maker_.forget(false);
   log.begin(run_->simulation());
+  if (step < static_cast<long>(most_kept)) keep_step();
   while (run_->steps() < step && !stopping_) {
     run_->step();
     log.observe(run_->simulation());
+    if (run_->steps() + static_cast<long>(most_kept) > step) keep_step();
     replay_share_ = static_cast<double>(run_->steps()) / static_cast<double>(step);
     if (steady_clock::now() - last_publish_ > replay_frame) publish(true);
   }
@@ -221,6 +273,8 @@ void RunThread::go_to(long step) {
 void RunThread::reset() {
   if (!run_) return;
   to_do_ = 0;
+  kept_.clear();
+  shown_.reset();
   run_->reset();
   maker_.forget(false);
   log.begin(run_->simulation());
@@ -237,8 +291,9 @@ void RunThread::set_speed(double speed) {
 }
 
 void RunThread::act(LiveRun::Input input) {
-  if (!run_) return;
+  if (!run()) return;
   run_->act(std::move(input));
+  kept_.clear();
   if (mode_ != RunMode::playing) publish(true);
 }
 
@@ -248,6 +303,7 @@ void RunThread::one_step() {
   run_->step();
   rates_.step(timer.seconds(), run_->simulation().world().dt());
   log.observe(run_->simulation());
+  if (to_do_ > 0 && to_do_ <= static_cast<long>(most_kept)) keep_step();
   if (to_do_ > 0) --to_do_;
   if (speed_ > 0.0 && steady_clock::now() > due() + most_behind) start_clock();
   if (run_->unstable()) {

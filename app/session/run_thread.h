@@ -43,16 +43,23 @@ class RunThread {
   void reset();
   void set_speed(double speed);
   void act(LiveRun::Input input);
-  LiveRun* run() { return run_.get(); }
+  /// The run, at the step that is shown; null: there is none.
+  LiveRun* run();
+  /// The step that is shown.
+  long position() const { return shown_.value_or(run_ ? run_->steps() : 0); }
 
  private:
   void loop();
   bool take_request();
+  void guarded(const Request& request);
   bool has_work() const;
   void wait_for_work(std::unique_lock<std::mutex>& lock);
   void do_build(Build build);
   void take_assets(const std::shared_ptr<const SceneAssets>& assets, bool restart);
   void one_step();
+  void replay_to(long step);
+  bool show(long step);
+  void keep_step();
   void check_stability();
   void start_clock();
   void publish(bool now);
@@ -75,6 +82,10 @@ class RunThread {
   // The thread's own.
   std::unique_ptr<LiveRun> run_;
   SnapshotMaker maker_;
+  // Steps that may be shown again without running to them: those of stepping, and the last ones of
+  // a replay. While one is shown, the run stands where it stood, and goes there when it is needed.
+  std::deque<std::shared_ptr<const Snapshot>> kept_;
+  std::optional<long> shown_;
   RunRates rates_;
   RunMode mode_ = RunMode::empty;
   long to_do_ = 0;  // steps, then it pauses

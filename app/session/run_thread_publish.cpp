@@ -40,7 +40,11 @@ void RunThread::publish(bool now) {
     fill_state(*snapshot);
     return hand_over(std::move(snapshot));
   }
-  std::shared_ptr<Snapshot> snapshot = maker_.make(*run_);
+  std::shared_ptr<Snapshot> snapshot;
+  if (shown_)
+    snapshot = maker_.again(*kept_[static_cast<std::size_t>(*shown_ - kept_.front()->step)]);
+  else
+    snapshot = maker_.make(*run_);
   fill_state(*snapshot);
   hand_over(std::move(snapshot));
 }

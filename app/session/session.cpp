@@ -24,7 +24,7 @@ void Session::set_document(Document document) {
   log_.clear();
   document_ = std::move(document);
   saved_hash_ = document_.state_hash();
-  if (journal_) journal_->begin(document_);
+  begin_journal();
   rebuild(true);
 }
 
@@ -105,6 +105,16 @@ Result Session::change_document(const Command& command) {
 void Session::record(History::Step step) {
   for (const Command& command : step.commands) note(command.text());
   history_.add(std::move(step));
+}
+
+void Session::begin_journal() {
+  if (!journal_) return;
+  try {
+    journal_->begin(document_);
+  } catch (const io::WriteError& fault) {
+    say(Severity::warning, std::string("autosave is off: ") + fault.what());
+    journal_.reset();
+  }
 }
 
 void Session::note(const std::string& line) {

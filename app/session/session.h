@@ -155,6 +155,7 @@ class Session {
   Result change_document(const Command& command);
   void record(History::Step step);
   void note(const std::string& line);
+  void begin_journal();
   Result session_command(const Command& command);
   Result run_command(const Command& command);
   Result robot_command(const Command& command);

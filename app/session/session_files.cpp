@@ -71,7 +71,7 @@ bool Session::reload() {
     history_.add({{Command("reload", {})}, before, document_});
     rebuild(true);
     saved_hash_ = hash_;
-    if (journal_) journal_->begin(document_);
+    begin_journal();
     return true;
   } catch (const InvalidFile& fault) {
     say(Severity::error, fault.what(), true);
@@ -105,7 +105,7 @@ Result Session::save(const std::filesystem::path& path) {
     if (document_.path.empty()) document_.path = file;
   }
   saved_hash_ = hash_;
-  if (journal_) journal_->begin(document_);
+  begin_journal();
   return {true, where.empty() ? "nothing to save" : (written ? "saved " : "unchanged ") + where};
 }
 

@@ -39,6 +39,12 @@ std::shared_ptr<Snapshot> SnapshotMaker::make(const LiveRun& run) {
   return snapshot;
 }
 
+std::shared_ptr<Snapshot> SnapshotMaker::again(const Snapshot& before) {
+  auto snapshot = std::make_shared<Snapshot>(before);
+  snapshot->number = ++number_;
+  return snapshot;
+}
+
 void SnapshotMaker::add_events(const Simulation& simulation) {
   const auto& detached = simulation.plant_step().detached();
   if (events_ && events_->size() == detached.size()) return;

@@ -19,6 +19,8 @@ class SnapshotMaker {
 
   /// Everything but mode, rates and errors.
   std::shared_ptr<Snapshot> make(const LiveRun& run);
+  /// One that was made before, as the newest.
+  std::shared_ptr<Snapshot> again(const Snapshot& before);
 
  private:
   void add_plants(const Simulation& simulation, Snapshot& snapshot);

@@ -283,8 +283,8 @@ void SelfContact::find(const RodModel& model, const RodState& state, double dt,
     // On the whole way of this step the two middles are not nearer than now less what they have
     // moved against each other, nor are any of their places.
     const Body &a = bodies_[pair.element_a], &b = bodies_[pair.element_b];
-    const double reach = a.lever + b.lever + settings_.margin + a.turned + b.turned +
-                         (a.moved - b.moved).norm();
+    const double reach =
+        a.lever + b.lever + settings_.margin + a.turned + b.turned + (a.moved - b.moved).norm();
     if ((a.middle - b.middle).squaredNorm() > reach * reach) continue;
     ++work_.pairs;
     if (is_live(model.shapes[pair.a]) && is_live(model.shapes[pair.b]))

@@ -120,6 +120,15 @@ TEST(Recovery, ARunningOrWellEndedSessionIsNotLost) {
   EXPECT_TRUE(Session(saving(folder)).lost_documents().empty());
 }
 
+TEST(Recovery, AFolderThatCannotBeWrittenIsSaid) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "autosave") << "a file";
+  Session session(saving(folder));
+  ASSERT_EQ(session.messages().size(), 1u);
+  EXPECT_THAT(session.messages()[0].text, HasSubstr("autosave is off"));
+  draw_plant(session);
+}
+
 TEST(Recovery, HalfALineIsLeftOut) {
   TemporaryFolder folder;
   const auto file = folder / "x.journal";

@@ -121,6 +121,33 @@ TEST_F(Running, StepsBackAcrossABreak) {
   EXPECT_EQ(hash(), broken);
 }
 
+// Steps that are kept are shown at once, either way, and are the same as those that are run again.
+TEST_F(Running, KeptStepsAreWhatTheRunIsThere) {
+  session.control().begin_pull(berry(), {0.12, 0.02, 0.15});
+  steps(200);
+  back(150);  // beyond what is kept: a run from the start
+  EXPECT_EQ(session.snapshot()->step, 50);
+  for (long step = 49; step > 40; --step) {
+    back(1);
+    const auto shown = session.snapshot();
+    EXPECT_EQ(shown->step, step);
+    EXPECT_EQ(shown->mode, RunMode::paused);
+  }
+  steps(3);
+  const auto shown = session.snapshot();
+  ASSERT_EQ(shown->step, 44);
+  const std::uint64_t hash_there = hash();  // the run has to go there
+  const auto run = session.snapshot();
+  EXPECT_EQ(run->step, 44);
+  EXPECT_EQ(run->plants[0].state.position, shown->plants[0].state.position);
+  EXPECT_EQ(run->pull.force_W, shown->pull.force_W);
+  steps(20);
+  back(20);
+  EXPECT_EQ(hash(), hash_there);
+  steps(1);
+  EXPECT_EQ(session.snapshot()->step, 45);
+}
+
 TEST_F(Running, WhatIsDoneAfterGoingBackReplacesWhatWasDone) {
   session.control().begin_pull(berry(), {0.3, 0, 0.2});
   steps(40);
