@@ -29,7 +29,8 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
   const FitSummary& base = diagnosis.base;
   for (int p = 0; p < base.hypothesis.size(); ++p) {
     const FreeParameter& free = base.hypothesis.free[p];
-    if (free.name != "factor") continue;
+    const std::string& name = base.hypothesis.effects[free.effect].name;
+    if (free.name != "factor" || !std::ranges::count(findings.needed_parameters, name)) continue;
     const double u = free.to_unknown(base.hypothesis.value(p));
     const double error = base.standard_error[p];
     const double shift = p < findings.parameter_shift.size()
@@ -38,7 +39,7 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
     // Three parameters share the few false alarms that are allowed.
     if (std::abs(u) < 3.5 * error + shift + least_parameter_change) continue;
     NamedCause cause;
-    cause.name = base.hypothesis.effects[free.effect].name;
+    cause.name = name;
     cause.parameters["factor"] = {findings.estimate(base, p)};
     cause.evidence = 0.5 * std::pow(u / error, 2);
     cause.because =

@@ -11,6 +11,7 @@
 #include "discrepancy/diagnosis_log.h"
 #include "discrepancy/fit_setup.h"
 #include "discrepancy/missing_force.h"
+#include "discrepancy/needed_parameters.h"
 #include "discrepancy/promise.h"
 #include "discrepancy/sentence.h"
 #include "plant/effects.h"
@@ -244,6 +245,10 @@ class Procedure {
     predict();
     measure_errors(findings_, result_);
     findings_.symptoms = symptoms(experiment(), setup_->data(), result_.predictions[refitted]);
+    if (findings_.chain.empty()) {
+      Evaluator evaluator = setup_->evaluator();
+      findings_.needed_parameters = needed_parameters(evaluator, result_.base, fit_options());
+    }
     conclude(findings_, result_);
     if (result_.verdict.outcome == Outcome::unknown)
       tell_of_force(missing_force());

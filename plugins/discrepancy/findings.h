@@ -18,6 +18,8 @@ struct Findings {
   std::vector<Candidate> chain;     ///< causes found so far, in the order they were added
   std::vector<Symptom> symptoms;    ///< of the refitted model
   Eigen::VectorXd parameter_shift;  ///< of the baseline's unknowns, by our own error
+  /// Of modulus, density and damping, those that the data do not allow to be nominal.
+  std::vector<std::string> needed_parameters;
 
   int samples() const { return data->samples(fit_trials); }
 

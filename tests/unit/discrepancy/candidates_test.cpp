@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "discrepancy/needed_parameters.h"
 #include "discrepancy/promise.h"
 #include "unit/discrepancy/beam_experiment.h"
 
@@ -107,6 +108,20 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
 // ln(1000) / 2 a number, and the choice between 20.
 TEST(Candidates, CostHalfALogarithmANumber) {
   EXPECT_NEAR(cost_of(3, 1000, 20), 1.5 * std::log(1000.0) + std::log(20.0), 1e-12);
+}
+
+// Modulus and density nearly make up for each other in a swing, damping stands apart: only what was
+// changed may be called needed.
+TEST(NeededParameters, AreThoseThatWereChanged) {
+  const auto needed = [](const std::vector<plant::Effect>& effects) {
+    Hidden hidden(effects);
+    return needed_parameters(hidden.workers[0], hidden.base, hidden.options);
+  };
+  EXPECT_TRUE(needed({}).empty());
+  EXPECT_EQ(needed({testing::effect("youngs_modulus", "factor", {1.1})}),
+            std::vector<std::string>{"youngs_modulus"});
+  EXPECT_EQ(needed({testing::effect("damping_time", "factor", {0.8})}),
+            std::vector<std::string>{"damping_time"});
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ struct Case {
     diagnosis.before = {50.0, 5.0, 0, true};
     diagnosis.base.hypothesis = hypothesis_of("youngs_modulus", "factor", 1.2, "1");
     diagnosis.base.standard_error = Eigen::VectorXd::Constant(1, 0.01);
+    findings.needed_parameters = {"youngs_modulus"};
     diagnosis.base.cost = 2.0 * findings.samples();
     diagnosis.ranking = {candidate("base_compliance", "stiffness", 640.0, 631.0)};
   }
@@ -238,6 +239,15 @@ TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
     d.findings.parameter_shift = Eigen::VectorXd::Constant(1, shift);
     EXPECT_EQ(d.concluded().outcome, shift > 0.0 ? Outcome::named : Outcome::adequate) << shift;
   }
+}
+
+// Its error says so, but the others can stand for it.
+TEST(Conclusion, DoesNotBlameAParameterThatMayBeNominal) {
+  Case c;
+  c.diagnosis.before.raised = false;
+  c.diagnosis.ranking.clear();
+  c.findings.needed_parameters.clear();
+  EXPECT_EQ(c.concluded().outcome, Outcome::adequate);
 }
 
 TEST(Conclusion, OfASteadyDifferenceWithoutExcessIsAdequate) {
