@@ -61,7 +61,8 @@ inline std::vector<std::pair<std::string, float>> overflowing() {
   std::vector<std::pair<std::string, float>> found;
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (!window->WasActive || (window->Flags & ImGuiWindowFlags_Tooltip)) continue;
-    const float room = window->InnerRect.GetWidth() - 2 * window->WindowPadding.x;
+    const float room =
+        window->InnerRect.GetWidth() + window->ScrollbarSizes.x - 2 * window->WindowPadding.x;
     if (window->ContentSize.x > room + 1.0f && window->ScrollMax.x == 0.0f)
       found.emplace_back(window->Name, window->ContentSize.x - room);
     else if (window->ScrollMax.x > 0.0f)

@@ -94,7 +94,7 @@ class Desk {
   ImVec2 at(const Vec3& p_W) { return desktop_->scene().project(p_W).value_or(ImVec2(-1, -1)); }
   void show(const std::string& panel) {
     ui().show_panel = panel;
-    frames(3);
+    frames(6);  // a scroll bar comes after the first, and then all gets narrower
   }
   std::shared_ptr<const Snapshot> snapshot() { return session_->snapshot(); }
   render::Image picture() { return desktop_->window_picture().value(); }

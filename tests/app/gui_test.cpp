@@ -129,10 +129,6 @@ TEST_F(Gui, ASliderChangesTheRunningPlantAndUndoTakesItBack) {
     for (const SessionParameter& p : desk_.session().parameters())
       if (p.changed) changed = p.key;
   }
-  std::fprintf(stderr, "DBG %s %zu active %u hist %zu\n", changed.c_str(),
-               desk_.session().log().size(), ImGui::GetCurrentContext()->ActiveId,
-               desk_.session().history().size());
-  for (auto& l : desk_.session().log()) std::fprintf(stderr, "  %s\n", l.c_str());
   desk_.frames(5);
   ASSERT_FALSE(changed.empty()) << "no slider was found";
   EXPECT_EQ(desk_.session().history().size(), 1u)
