@@ -17,6 +17,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "render/image.h"
+#include "session/script.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -37,7 +38,26 @@ extern "C" void request_stop(int) {
   stop_requested = true;
 }
 
+/// `pedicel --script FILE [SCENE]`: commands in place of a window, see session/script.h.
+int script_verb(const RunArguments& a) {
+  SessionOptions options;
+  options.packages = a.packages;
+  options.waits = true;
+  Session session(options);
+  if (!a.scene.empty() && !session.open(a.scene)) {
+    std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
+    return invalid;
+  }
+  for (const std::string& assignment : a.set) {
+    const auto [key, value] = world::split_assignment(assignment);
+    const Result result = session.run(Command("set", {{"key", key}, {"value", value}}));
+    if (!result) throw UsageError(result.text);
+  }
+  return run_script(a.script, session, std::cout, std::cerr);
+}
+
 int run_verb(const RunArguments& a) {
+  if (!a.script.empty()) return script_verb(a);
   if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
   const RunOptions options = run_options(a);
   const world::Scene scene = load_scene(a);
@@ -221,6 +241,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop) {
 
   RunArguments run;
   app.add_option("scene", run.scene, "scene file (*.scene.yaml)");
+  app.add_option("--script", run.script, "run commands from a file, one a line, off screen");
   app.add_flag("--headless", run.headless,
                "no window: run off screen (so do --out, --json and --quiet)");
   DesktopRequest window;

@@ -30,9 +30,9 @@ struct SimulationOptions {
   std::vector<std::string> packages;  ///< "NAME=PATH" of `--package`
   /// Taken in place of the files of the scene's plants, by their names in the scene (plants that
   /// are being edited). One without curves is left out.
-  std::map<std::string, plant::PlantFile> edited;
+  std::map<std::string, plant::PlantFile> edited = {};
   /// Where leaf templates are looked for beside the plants' own folders.
-  std::vector<std::filesystem::path> leaf_folders;
+  std::vector<std::filesystem::path> leaf_folders = {};
 };
 
 /// A plant of the simulation and what is known of it beyond its rods.

@@ -65,10 +65,11 @@ class Command {
   std::map<std::string, Value> arguments_;
 };
 
-/// Reads one line: `move point tomato stem 2 0.01,0,0.2`, `add fruit tomato f1 stalk 1
-/// radius=0.012`. Words with blanks are quoted ("..."; \" \\ \n inside); a point is x,y,z without
-/// blanks, several are separated by ";". Faults go to `diagnostics` with the column; then nothing
-/// comes back.
+/// Reads one line: `move point tomato stem 2 0.01,0,0.2`, `add fruit tomato f1 stalk 1 0.012
+/// bend=0.3`. Arguments without a name are the needed ones in their order, then the others. Words
+/// with blanks are quoted ("..."; \" \\ \n inside); a point is x,y,z without blanks, several are
+/// separated by
+/// ";". Faults go to `diagnostics` with the column; then nothing comes back.
 std::optional<Command> parse_command(const std::string& line, const SourcePosition& where,
                                      Diagnostics& diagnostics);
 

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "session/command_line.h"
 
 namespace pedicel::app {
@@ -38,7 +40,7 @@ class ArgumentReader {
   void take(const LineWord& word) {
     const ArgumentDescription* argument = target(word);
     if (!argument) return;
-    if (arguments_.count(argument->name))
+    if (!taken_.insert(argument->name).second)
       return error(word.column, argument->name + " is given twice, expected once");
     const std::optional<Value> value = read_value(argument->kind, word.text);
     if (!value)
@@ -65,8 +67,9 @@ class ArgumentReader {
         error(word.column, "unknown argument \"" + word.name + "\", expected: " + command_.usage());
       return named;
     }
-    for (const ArgumentDescription& argument : command_.arguments)
-      if (argument.needed && !arguments_.count(argument.name)) return &argument;
+    for (const bool needed : {true, false})
+      for (const ArgumentDescription& argument : command_.arguments)
+        if (argument.needed == needed && !taken_.count(argument.name)) return &argument;
     error(word.column, "\"" + word.text + "\" is too much, expected: " + command_.usage());
     return nullptr;
   }
@@ -80,6 +83,7 @@ class ArgumentReader {
   const SourcePosition& where_;
   Diagnostics& diagnostics_;
   std::map<std::string, Value> arguments_;
+  std::set<std::string> taken_;  // rightly or not
   bool good_ = true;
 };
 

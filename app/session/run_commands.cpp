@@ -80,6 +80,11 @@ std::vector<CommandDescription> robot_commands() {
        {{"value", Kind::number, true, "m or rad, of the gripper's joint"}},
        "Opens or closes the gripper.",
        nullptr},
+      {"play trajectory",
+       r,
+       {{"file", Kind::text, true, "table time_s,JOINT,... in rad or m"}},
+       "Plays joint positions from a file, from now on.",
+       nullptr},
       {"play waypoints", r, {}, "Plays the recorded waypoints from now on.", nullptr},
   };
 }

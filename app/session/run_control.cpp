@@ -66,10 +66,8 @@ void RunControl::move_robot(const Eigen::VectorXd& q) {
   });
 }
 
-void RunControl::play_trajectory(std::vector<double> times,
-                                 std::vector<Eigen::VectorXd> positions) {
-  robot::Trajectory trajectory(std::move(times), std::move(positions));
-  impl_->thread.ask([trajectory](RunThread& t) {
+void RunControl::play_trajectory(robot::Trajectory trajectory) {
+  impl_->thread.ask([trajectory = std::move(trajectory)](RunThread& t) {
     t.act([trajectory](LiveRun& run) {
       if (RobotControl* robot = run.simulation().robot())
         robot->set_trajectory(trajectory, run.simulation().world().time());

@@ -62,7 +62,7 @@ class RunControl {
   /// freedom.
   void move_robot(const Eigen::VectorXd& q);
   /// Plays joint positions over time, from now on.
-  void play_trajectory(std::vector<double> times, std::vector<Eigen::VectorXd> positions);
+  void play_trajectory(robot::Trajectory trajectory);
 
   /// The newest complete step; never null.
   std::shared_ptr<const Snapshot> snapshot() const;

@@ -1,5 +1,7 @@
 #include "session/session.h"
 
+#include <cstdlib>
+
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "session/command_table.h"
@@ -27,16 +29,17 @@ void Session::set_document(Document document) {
 }
 
 void Session::rebuild(bool restart) {
+  hash_ = document_.state_hash();
   control_.build(
       [document = document_, packages = options_.packages] {
         return std::make_shared<const SceneAssets>(scene_of(document),
                                                    options_of(document, packages));
       },
-      document_.state_hash(), restart);
+      hash_, restart);
 }
 
 bool Session::dirty() const {
-  return document_.state_hash() != saved_hash_;
+  return hash_ != saved_hash_;
 }
 
 Result Session::run(const Command& command) {
@@ -135,24 +138,36 @@ void Session::cancel_gesture() {
   rebuild();
 }
 
+// Another state of the document. Where plants are saved is no part of what is undone.
+void Session::take_back(const Document& document) {
+  const Document now = std::move(document_);
+  document_ = document;
+  document_.path = now.path;
+  for (DocumentPlant& one : document_.plants) {
+    const int index = now.plant_index(one.entry.name);
+    if (index < 0) continue;
+    one.entry.file = now.plants[index].entry.file;
+    one.entry.source = now.plants[index].entry.source;
+  }
+  rebuild();
+}
+
 Result Session::undo() {
   end_gesture();
   if (!history_.can_undo()) return {false, "nothing to undo"};
   const std::string name = history_.undo_name();
-  document_ = history_.undo();
+  take_back(history_.undo());
   note("undo");
-  rebuild();
-  return {true, name};
+  return finish({true, name});
 }
 
 Result Session::redo() {
   end_gesture();
   if (!history_.can_redo()) return {false, "nothing to redo"};
   const std::string name = history_.redo_name();
-  document_ = history_.redo();
+  take_back(history_.redo());
   note("redo");
-  rebuild();
-  return {true, name};
+  return finish({true, name});
 }
 
 void Session::update() {
@@ -169,6 +184,14 @@ void Session::update() {
 void Session::say(Severity severity, std::string text, bool can_retry) {
   if (!messages_.empty() && messages_.back().text == text) return;
   messages_.push_back({severity, std::move(text), can_retry});
+}
+
+std::filesystem::path autosave_folder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state)
+    return std::filesystem::path(state) / "pedicel";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::filesystem::path(home) / ".local" / "state" / "pedicel";
+  return {};
 }
 
 }  // namespace pedicel::app

@@ -45,6 +45,10 @@ struct SessionParameter {
   bool changed = false;      ///< over what the files say
 };
 
+/// Where journals lie by default: $XDG_STATE_HOME/pedicel, else ~/.local/state/pedicel; empty where
+/// there is neither.
+std::filesystem::path autosave_folder();
+
 struct SessionOptions {
   std::vector<std::string> packages;  ///< "NAME=PATH"
   std::filesystem::path autosave;     ///< folder of the journals; empty: none
@@ -79,6 +83,7 @@ class Session {
   const std::filesystem::path& path() const { return document_.path; }
 
   // Commands.
+  /// Does a command of any scope. Document commands refuse as a whole.
   Result run(const Command& command);
   Result run_text(const std::string& line);
   /// Everything until end_gesture() is one step of the history; commands that go on changing the
@@ -91,6 +96,9 @@ class Session {
   Result redo();
   const History& history() const { return history_; }
   const Document& document() const { return document_; }
+  /// Whether what is simulated is what is drawn: false while it is being built, and where it cannot
+  /// be (see messages()).
+  bool is_simulated() const { return snapshot()->document_hash == hash_; }
   /// Everything that was done, one line each; as a script it does the same again.
   const std::vector<std::string>& log() const { return log_; }
 
@@ -119,6 +127,8 @@ class Session {
   /// Moves the tool by a shift (m, W) and a turn (rad, a rotation vector, W), or says why not.
   Result jog(const Vec3& shift_W, const Vec3& turn_W = Vec3::Zero());
   Result play_waypoints();
+  /// Of a table time_s,joint,... ; its time 0 is now.
+  Result play_trajectory(const std::filesystem::path& file);
 
   // Recovery.
   /// Documents that a killed program left, the newest first. Empty without autosave.
@@ -141,6 +151,7 @@ class Session {
   void set_document(Document document);
   void rebuild(bool restart = false);
   Result dispatch(const Command& command);
+  void take_back(const Document& document);
   Result change_document(const Command& command);
   void record(History::Step step);
   void note(const std::string& line);
@@ -155,7 +166,7 @@ class Session {
 
   SessionOptions options_;
   Document document_;
-  std::uint64_t saved_hash_ = 0;
+  std::uint64_t hash_ = 0, saved_hash_ = 0;  // of the document; as it was opened or saved
   History history_;
   std::optional<Gesture> gesture_;
   std::vector<std::string> log_;

@@ -69,9 +69,9 @@ bool Session::reload() {
     gesture_.reset();
     document_ = std::move(fresh);
     history_.add({{Command("reload", {})}, before, document_});
-    saved_hash_ = document_.state_hash();
-    if (journal_) journal_->begin(document_);
     rebuild(true);
+    saved_hash_ = hash_;
+    if (journal_) journal_->begin(document_);
     return true;
   } catch (const InvalidFile& fault) {
     say(Severity::error, fault.what(), true);
@@ -81,8 +81,13 @@ bool Session::reload() {
 
 Result Session::save(const std::filesystem::path& path) {
   end_gesture();
-  int written = 0;
+  int written = 0, without_file = 0;
   std::string where;
+  for (const DocumentPlant& one : document_.plants)
+    if (one.file && !one.file->curves.empty() && file_of(one, {}).empty()) ++without_file;
+  if (without_file > 1)
+    return {false, std::to_string(without_file) +
+                       " plants have no file yet, expected them to be exported one by one"};
   for (std::size_t p = 0; p < document_.plants.size(); ++p) {
     DocumentPlant& one = document_.plants[p];
     if (!one.file || one.file->curves.empty()) continue;
@@ -99,7 +104,7 @@ Result Session::save(const std::filesystem::path& path) {
     where += (where.empty() ? "" : ", ") + file.string();
     if (document_.path.empty()) document_.path = file;
   }
-  saved_hash_ = document_.state_hash();
+  saved_hash_ = hash_;
   if (journal_) journal_->begin(document_);
   return {true, where.empty() ? "nothing to save" : (written ? "saved " : "unchanged ") + where};
 }

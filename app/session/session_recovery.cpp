@@ -57,7 +57,7 @@ bool Session::recover(const Lost& lost) {
     const Result result = command ? run(*command) : Result{false, diagnostics.text()};
     if (!result) say(Severity::warning, "not recovered: " + line + ": " + result.text);
   };
-  const std::uint64_t on_disk = saved_hash_;
+  const std::uint64_t on_disk = content.document.empty() ? 0 : saved_hash_;
   for (const JournalContent::Line& line : content.base) do_line(line.command);
   history_.clear();
   for (const JournalContent::Line& line : content.commands) do_line(line.command);

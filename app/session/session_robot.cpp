@@ -13,6 +13,12 @@ robot::KinematicModel kinematics_of(const Snapshot& now) {
   return robot::KinematicModel(*now.assets->robot, now.assets->scene.robot->base);
 }
 
+/// What a move by hand starts from: where the robot is sent by hand, else where it is; a program
+/// ends with the move.
+const Eigen::VectorXd& start_of(const RobotSnapshot& robot) {
+  return robot.follows_program ? robot.q : robot.goal;
+}
+
 int joint_of(const robot::KinematicModel& model, const std::string& name) {
   const int joint = model.joint_index(name);
   if (joint >= 0) return joint;
@@ -34,7 +40,7 @@ robot::IkResult Session::reach(const Pose& tool_W) const {
   robot::IkSettings settings;
   settings.restarts = 6;
   if (!scene.gripper.empty()) settings.held = {joint_of(model, scene.gripper)};
-  return robot::inverse_kinematics(model, target, now->robot.goal, settings);
+  return robot::inverse_kinematics(model, target, start_of(now->robot), settings);
 }
 
 Result Session::move_joints(const Eigen::VectorXd& q) {
@@ -49,7 +55,7 @@ Result Session::move_joints(const Eigen::VectorXd& q) {
 Result Session::jog(const Vec3& shift_W, const Vec3& turn_W) {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
-  Pose tool = model.link_pose(now->robot.goal, now->robot.tool_link);
+  Pose tool = model.link_pose(start_of(now->robot), now->robot.tool_link);
   tool.position = tool * now->assets->scene.robot->tool_offset + shift_W;
   const double angle = turn_W.norm();
   if (angle > 0.0)
@@ -78,7 +84,18 @@ Result Session::play_waypoints() {
     positions.push_back(model.clamped(Eigen::Map<const Eigen::VectorXd>(
         one.joints.data(), static_cast<Eigen::Index>(one.joints.size()))));
   }
-  control_.play_trajectory(std::move(times), std::move(positions));
+  control_.play_trajectory({std::move(times), std::move(positions)});
+  return {};
+}
+
+Result Session::play_trajectory(const std::filesystem::path& file) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Diagnostics diagnostics;
+  robot::Trajectory trajectory =
+      robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
+  if (diagnostics.has_errors()) return {false, diagnostics.text()};
+  control_.play_trajectory(std::move(trajectory));
   return {};
 }
 
@@ -88,7 +105,7 @@ Result Session::robot_command(const Command& c) {
   if (verb == "joint" || verb == "gripper") {
     const robot::KinematicModel model = kinematics_of(*now);
     const std::string name = verb == "joint" ? c.word("name") : now->assets->scene.robot->gripper;
-    Eigen::VectorXd q = now->robot.goal;
+    Eigen::VectorXd q = start_of(now->robot);
     q[joint_of(model, name)] = c.number("value");
     return move_joints(q);
   }
@@ -109,6 +126,7 @@ Result Session::robot_command(const Command& c) {
     const robot::IkResult reached = reach(tool);
     return reached.reached ? move_joints(reached.q) : Result{false, reached.sentence};
   }
+  if (verb == "play trajectory") return play_trajectory(c.word("file"));
   return verb == "play waypoints" ? play_waypoints() : Result{};
 }
 

@@ -90,6 +90,29 @@ TEST_F(Program, GoodRunEndsWith0AndLeavesItsFiles) {
   EXPECT_THAT(err_, HasSubstr("24 steps"));
 }
 
+// The story of a first evening, off screen: draw, pull off, undo, save, and run what was saved.
+TEST_F(Program, AScriptDrawsPullsAndSaves) {
+  const std::string saved = path("drawn.plant.yaml");
+  write("story.txt",
+        "new plant p\n"
+        "draw stem p stem 0,0,0;0,0,0.15;0,0,0.3 0.004\n"
+        "draw stem p branch 0,0,0.15;0.05,0,0.16;0.1,0,0.15 0.0015\n"
+        "add fruit p berry branch 1 0.01 force=2\n"
+        "pull p/berry 0.4,0,0.1\nrun 1\nexpect breaks is=1\n"
+        "undo\nexpect fruits is=0\nredo\nsave " +
+            saved + "\nreload\nexpect fruits is=1\n");
+  EXPECT_EQ(run("--script " + path("story.txt")), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("breaks is 1"));
+  EXPECT_EQ(run("validate " + saved), 0) << err_;
+  write("more.txt", "set material.density 700\nrun 0.05\nexpect time_s above=0.04 below=0.06\n");
+  EXPECT_EQ(run("--script " + path("more.txt") + " " + saved), 0) << err_;
+  write("more.txt", "run 0.05\nexpect breaks is=1\n");
+  EXPECT_EQ(run("--script " + path("more.txt") + " " + saved), 5);
+  EXPECT_THAT(err_, HasSubstr("more.txt:2:1: error: breaks is 0, not as expected"));
+  EXPECT_EQ(run("--script " + path("more.txt") + " " + path("none.plant.yaml")), 3);
+  EXPECT_EQ(run("--script " + path("nothing.txt")), 3);
+}
+
 TEST_F(Program, HelpNamesTheExitCodes) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_THAT(out_, HasSubstr("Exit codes: 0 ok, 1 runtime failure, 2 usage"));

@@ -1,0 +1,102 @@
+// What a stroke would hang on, and what a drawing becomes.
+#include "plant/plant_pick.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "plant/plant_edit.h"
+#include "plant/plant_preview.h"
+
+namespace pedicel::plant {
+namespace {
+
+PlantFile drawing() {
+  PlantFile plant;
+  plant.name = "p";
+  plant.material = {1.0e8, 0.3, 800.0, 0.01};
+  plant.connect = 0.01;
+  plant.distance = 0.05;
+  const auto add = [&](const char* name, std::vector<Vec3> points) {
+    PlantCurve curve;
+    curve.name = name;
+    curve.points = std::move(points);
+    curve.radius = {0.004};
+    add_stem(plant, curve);
+  };
+  add("stem", {{0, 0, 0}, {0, 0, 0.4}});
+  add("branch", {{0, 0, 0.2}, {0.2, 0, 0.2}});
+  return plant;
+}
+
+TEST(StemPicker, FindsThePlaceNearAPoint) {
+  const StemPicker picker(drawing());
+  const auto found = picker.near_point({0.1, 0.006, 0.2}, 0.003);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->stem, "branch");
+  EXPECT_NEAR(found->at, 0.5, 1.0e-6);
+  EXPECT_NEAR(found->distance, 0.002, 1.0e-9);
+  EXPECT_NEAR((found->point - Vec3(0.1, 0, 0.2)).norm(), 0.0, 1.0e-9);
+  EXPECT_NEAR((found->tangent - Vec3::UnitX()).norm(), 0.0, 1.0e-9);
+  EXPECT_FALSE(picker.near_point({0.1, 0.02, 0.2}, 0.003).has_value());
+}
+
+TEST(StemPicker, ReachWidensWithTheDepth) {
+  const StemPicker picker(drawing());
+  const Vec3 towards(0, 1, 0);
+  const Vec3 beside(0.1, -2.0, 0.21);
+  EXPECT_FALSE(picker.under_ray(beside, towards, 0.001, 0.001).has_value());
+  const auto found = picker.under_ray(beside, towards, 0.001, 0.01);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->stem, "branch");
+  EXPECT_NEAR(found->depth, 2.0, 1.0e-6);
+  EXPECT_FALSE(picker.under_ray(beside, -towards, 0.001, 0.01).has_value()) << "behind";
+}
+
+TEST(StemPicker, WhatIsInFrontWins) {
+  PlantFile plant = drawing();
+  PlantCurve front;
+  front.name = "front";
+  front.points = {{-0.1, -0.3, 0.3}, {0.1, -0.3, 0.3}};
+  front.radius = {0.004};
+  add_stem(plant, front);
+  const auto found = StemPicker(plant).under_ray({0, -1, 0.3}, {0, 1, 0}, 0.01, 0.0);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->stem, "front");
+}
+
+TEST(PlantPreview, ShowsTheNodesThatAreKept) {
+  const PlantPreview shown = preview(drawing());
+  EXPECT_EQ(shown.problem, "");
+  EXPECT_TRUE(shown.loose.empty());
+  EXPECT_GT(shown.sampled, static_cast<int>(shown.nodes.size()));
+  double length = 0.0;
+  int roots = 0;
+  for (const PlantPreview::Node& node : shown.nodes) {
+    if (node.parent < 0)
+      ++roots;
+    else
+      length += (node.position - shown.nodes[node.parent].position).norm();
+  }
+  EXPECT_EQ(roots, 1);
+  EXPECT_NEAR(length, 0.6, 0.01);
+  PlantFile finer = drawing();
+  finer.distance = 0.02;
+  EXPECT_GT(preview(finer).nodes.size(), shown.nodes.size());
+}
+
+TEST(PlantPreview, SaysWhatReachesNothing) {
+  PlantFile plant = drawing();
+  PlantCurve loose;
+  loose.name = "loose";
+  loose.points = {{1, 0, 0}, {1, 0, 1}};
+  loose.radius = {0.004};
+  add_stem(plant, loose);
+  const PlantPreview shown = preview(plant);
+  EXPECT_THAT(shown.loose, ::testing::ElementsAre(2));
+  EXPECT_THAT(shown.problem, ::testing::HasSubstr("loose"));
+  EXPECT_TRUE(shown.nodes.empty());
+  EXPECT_NE(preview(PlantFile{}).problem, "");
+}
+
+}  // namespace
+}  // namespace pedicel::plant

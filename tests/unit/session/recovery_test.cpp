@@ -1,0 +1,137 @@
+// What a killed program leaves: a child process draws, is killed with SIGKILL, and the next session
+// finds everything that was done, but for the gesture in hand.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+
+#include "io/atomic_file.h"
+#include "session/journal.h"
+#include "session_cases.h"
+#include "support/temporary_folder.h"
+
+namespace pedicel::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+SessionOptions saving(const TemporaryFolder& folder) {
+  SessionOptions options = waiting();
+  options.autosave = folder / "autosave";
+  return options;
+}
+
+/// Runs `work` in a child with a session, until it has said its hash; then kills the child with -9.
+std::uint64_t killed_after(const SessionOptions& options,
+                           const std::function<void(Session&)>& work) {
+  int ends[2];
+  EXPECT_EQ(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    Session session(options);
+    work(session);
+    const std::uint64_t hash = session.document().state_hash();
+    if (write(ends[1], &hash, sizeof hash) < 0) _exit(1);
+    pause();
+    _exit(0);
+  }
+  std::uint64_t hash = 0;
+  EXPECT_EQ(read(ends[0], &hash, sizeof hash), static_cast<ssize_t>(sizeof hash));
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  close(ends[0]);
+  close(ends[1]);
+  return hash;
+}
+
+TEST(Recovery, AKilledSessionLosesNothingThatWasDone) {
+  TemporaryFolder folder;
+  const std::uint64_t lost_hash = killed_after(saving(folder), [](Session& session) {
+    draw_plant(session);
+    must(session.run_text("move point p branch 2 0.12,0,0.14"));
+    must(session.run_text("set coupling.friction 0.7"));
+    must(session.run_text("delete stem p branch"));
+    must(session.undo());
+  });
+  Session session(saving(folder));
+  const auto lost = session.lost_documents();
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_EQ(lost[0].commands, 8);
+  EXPECT_NE(session.document().state_hash(), lost_hash);
+  ASSERT_TRUE(session.recover(lost[0]));
+  EXPECT_EQ(session.document().state_hash(), lost_hash);
+  EXPECT_TRUE(session.dirty());
+  EXPECT_TRUE(session.lost_documents().empty());
+  must(session.redo());  // the history came back, too
+  EXPECT_EQ(session.document().plant("p").curves.size(), 1u);
+}
+
+TEST(Recovery, OnlyTheGestureInHandIsLost) {
+  TemporaryFolder folder;
+  killed_after(saving(folder), [](Session& session) {
+    draw_plant(session);
+    session.begin_gesture();
+    must(session.run_text("move point p branch 2 0.2,0,0.1"));
+  });
+  Session session(saving(folder));
+  ASSERT_EQ(session.lost_documents().size(), 1u);
+  ASSERT_TRUE(session.recover(session.lost_documents()[0]));
+  const plant::PlantFile& plant = session.document().plant("p");
+  ASSERT_EQ(plant.curves.size(), 2u);
+  EXPECT_EQ(plant.fruits.size(), 1u);
+  EXPECT_EQ(plant.curves[1].points[2], Vec3(0.1, 0, 0.15));
+}
+
+TEST(Recovery, EditsOfAFileComeBackOverTheFile) {
+  TemporaryFolder folder;
+  const auto file = folder / "tomato.plant.yaml";
+  std::filesystem::copy_file(source("plants/cherry_tomato.plant.yaml"), file);
+  const std::uint64_t lost_hash = killed_after(saving(folder), [&](Session& session) {
+    ASSERT_TRUE(session.open(file));
+    must(session.run_text("set radius \"cherry tomato\" truss 0.004"));
+    must(session.save());
+    must(session.run_text("set length \"cherry tomato\" stalk_5 0.05"));
+  });
+  Session session(saving(folder));
+  const auto lost = session.lost_documents();
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_EQ(lost[0].document, file);
+  EXPECT_EQ(lost[0].commands, 1);  // what was saved is in the file
+  ASSERT_TRUE(session.recover(lost[0]));
+  EXPECT_EQ(session.document().state_hash(), lost_hash);
+  EXPECT_TRUE(session.dirty());
+}
+
+TEST(Recovery, ARunningOrWellEndedSessionIsNotLost) {
+  TemporaryFolder folder;
+  {
+    Session first(saving(folder));
+    draw_plant(first);
+    Session second(saving(folder));
+    EXPECT_TRUE(second.lost_documents().empty()) << "the first one is alive";
+  }
+  EXPECT_TRUE(Session(saving(folder)).lost_documents().empty());
+}
+
+TEST(Recovery, HalfALineIsLeftOut) {
+  TemporaryFolder folder;
+  const auto file = folder / "x.journal";
+  std::ofstream(file) << "# pedicel journal 1\n# document \n# base\nnew plant p #0000000000000001\n"
+                         "draw stem p s 0,0,0;0,0,0.";
+  const JournalContent content = read_journal(file);
+  ASSERT_EQ(content.commands.size(), 1u);
+  EXPECT_EQ(content.commands[0].command, "new plant p");
+  EXPECT_EQ(content.commands[0].hash, 1u);
+  std::ofstream(file) << "something else\n";
+  EXPECT_THROW(read_journal(file), InvalidFile);
+}
+
+}  // namespace
+}  // namespace pedicel::app

@@ -1,0 +1,151 @@
+// Scripts: the whole story of a user, and what a script is told when it goes wrong.
+#include "session/script.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "session_cases.h"
+#include "support/temporary_folder.h"
+
+namespace pedicel::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+const char* const story = R"(# draw a stem and a branch, add a fruit
+new plant p
+draw stem p stem 0,0,0;0,0,0.15;0,0,0.3 0.004
+draw stem p branch 0,0,0.15;0.05,0,0.16;0.1,0,0.15 0.0015
+add fruit p berry branch 1 0.01 force=2
+expect stems is=2
+run 0.5
+expect breaks is=0
+# play, pull it off
+pull p/berry 0.4,0,0.1
+run 1
+expect breaks is=1
+expect time_s is=1.5
+release
+# undo takes the fruit away, and the plant starts anew
+undo
+expect fruits is=0
+expect time_s is=0
+redo
+expect fruits is=1
+save SAVED
+run 0.1
+reload
+expect fruits is=1
+expect stems is=2
+expect time_s is=0
+)";
+
+class Scripts : public ::testing::Test {
+ protected:
+  Scripts() : session(waiting()) {}
+  int run(const std::string& text) {
+    std::ofstream(folder / "story.txt") << text;
+    out.str("");
+    errors.str("");
+    return run_script(folder / "story.txt", session, out, errors);
+  }
+  TemporaryFolder folder;
+  Session session;
+  std::ostringstream out, errors;
+};
+
+TEST_F(Scripts, TheWholeStory) {
+  std::string text = story;
+  text.replace(text.find("SAVED"), 5, (folder / "mine.plant.yaml").string());
+  EXPECT_EQ(run(text), 0) << errors.str();
+  EXPECT_TRUE(std::filesystem::exists(folder / "mine.plant.yaml"));
+  EXPECT_THAT(out.str(), HasSubstr("breaks is 1"));
+}
+
+TEST_F(Scripts, TheSameTwiceIsTheSame) {
+  std::string text = story;
+  text = text.substr(0, text.find("release"));
+  ASSERT_EQ(run(text), 0) << errors.str();
+  const std::uint64_t hash = session.control().state_hash();
+  Session again(waiting());
+  std::ostringstream ignored;
+  ASSERT_EQ(run_script(folder / "story.txt", again, ignored, ignored), 0);
+  EXPECT_EQ(again.control().state_hash(), hash);
+}
+
+TEST_F(Scripts, TheLogIsAScriptThatDoesTheSame) {
+  draw_plant(session);
+  session.begin_gesture();
+  must(session.run_text("smooth points p branch 0.3"));
+  must(session.run_text("smooth points p branch 0.6"));
+  session.end_gesture();
+  must(session.run_text("delete organ p berry"));
+  must(session.undo());
+  std::string text;
+  for (const std::string& line : session.log()) text += line + "\n";
+  const std::uint64_t hash = session.document().state_hash();
+  session.open_empty();
+  ASSERT_EQ(run(text), 0) << errors.str();
+  EXPECT_EQ(session.document().state_hash(), hash);
+}
+
+TEST_F(Scripts, FaultsNameTheirLine) {
+  EXPECT_EQ(run("new plant p\n\ndraw sten p\n"), 3);
+  EXPECT_THAT(errors.str(), HasSubstr("story.txt:3:1: error: unknown command \"draw\""));
+  EXPECT_EQ(run("new plant q\ndelete stem q s\n"), 1);
+  EXPECT_THAT(errors.str(), HasSubstr("story.txt:2:1: error: delete stem: no stem \"s\""));
+  EXPECT_EQ(run("expect breaks is=7\n"), 5);
+  EXPECT_THAT(errors.str(), HasSubstr("breaks is 0, not as expected"));
+  EXPECT_EQ(run("open /nowhere/x.scene.yaml\n"), 3);
+  EXPECT_THAT(errors.str(), HasSubstr("/nowhere/x.scene.yaml"));
+  EXPECT_EQ(run("pull p/nothing 0,0,0\n"), 1);
+  EXPECT_EQ(run("joint wrist 1\n"), 1);
+  EXPECT_THAT(errors.str(), HasSubstr("the scene has no robot"));
+  EXPECT_THROW(run_script(folder / "none", session, out, errors), InvalidFile);
+}
+
+TEST_F(Scripts, TheRobotGoesWhereItIsSent) {
+  const std::string scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml").string();
+  ASSERT_EQ(run("open " + scene + "\nrun 0.02\n"), 0) << errors.str();
+  const Vec3 before = session.snapshot()->robot.tool.position;
+  ASSERT_EQ(run("jog -0.02,0,0.01\nrun 1.5\n"), 0) << errors.str();
+  const Vec3 moved = session.snapshot()->robot.tool.position - before;
+  EXPECT_NEAR((moved - Vec3(-0.02, 0, 0.01)).norm(), 0.0, 2.0e-3) << moved.transpose();
+  EXPECT_EQ(run("tool 9,9,9\n"), 1);
+  EXPECT_THAT(errors.str(), HasSubstr("unreachable"));
+}
+
+TEST_F(Scripts, ATrajectoryIsPlayed) {
+  const std::string scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml").string();
+  ASSERT_EQ(run("open " + scene + "\nrun 0.1\n"), 0) << errors.str();
+  const auto now = session.snapshot();
+  const std::string joint = robot::KinematicModel(*now->assets->robot).joint_names()[0];
+  const double from = now->robot.q[0], to = from + 0.1;
+  std::ofstream(folder / "move.csv")
+      << "time_s," << joint << "\n0," << from << "\n0.5," << to << "\n";
+  const std::string file = (folder / "move.csv").string();
+  ASSERT_EQ(run("play trajectory " + file + "\nrun 1\n"), 0) << errors.str();
+  EXPECT_NEAR(session.snapshot()->robot.q[0], to, 5.0e-3);
+  std::ofstream(folder / "move.csv") << "time_s,elbow_of_nobody\n0,0\n";
+  EXPECT_EQ(run("play trajectory " + file + "\n"), 1);
+  EXPECT_THAT(errors.str(), HasSubstr("move.csv:1:8"));
+}
+
+TEST_F(Scripts, WaypointsArePlayed) {
+  const std::string scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml").string();
+  ASSERT_EQ(run("open " + scene + "\n"), 0) << errors.str();
+  Eigen::VectorXd q = session.snapshot()->robot.q;
+  q[0] += 0.1;
+  must(session.run(
+      Command("add waypoint",
+              {{"time", 0.5}, {"joints", std::vector<double>(q.data(), q.data() + q.size())}})));
+  ASSERT_EQ(run("play waypoints\nrun 1\n"), 0) << errors.str();
+  EXPECT_NEAR(session.snapshot()->robot.q[0], q[0], 5.0e-3);
+  must(session.undo());
+  EXPECT_EQ(run("play waypoints\n"), 1);
+}
+
+}  // namespace
+}  // namespace pedicel::app

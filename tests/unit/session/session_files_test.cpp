@@ -1,0 +1,158 @@
+// Opening, saving, importing, exporting: what is written is what was drawn.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "io/atomic_file.h"
+#include "session_cases.h"
+#include "support/temporary_folder.h"
+
+namespace pedicel::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+plant::PlantFile read(const std::filesystem::path& path) {
+  Diagnostics diagnostics;
+  const auto plant = plant::read_plant_file(path, diagnostics);
+  EXPECT_TRUE(plant.has_value()) << diagnostics.text();
+  return plant.value_or(plant::PlantFile{});
+}
+
+class Files : public ::testing::Test {
+ protected:
+  Files() : session(waiting()) {}
+  TemporaryFolder folder;
+  Session session;
+};
+
+TEST_F(Files, SavingAndOpeningGiveTheSamePlant) {
+  draw_plant(session);
+  EXPECT_TRUE(session.dirty());
+  EXPECT_FALSE(session.save().ok) << "a new plant has no file yet";
+  must(session.save(folder / "new.plant.yaml"));
+  EXPECT_FALSE(session.dirty());
+  EXPECT_EQ(read(folder / "new.plant.yaml"), session.document().plant("p"));
+  Session other(waiting());
+  ASSERT_TRUE(other.open(folder / "new.plant.yaml"));
+  EXPECT_EQ(other.document().plant("p"), session.document().plant("p"));
+  EXPECT_EQ(other.document().state_hash(), session.document().state_hash());
+}
+
+TEST_F(Files, TheFileBeforeStays) {
+  draw_plant(session);
+  const auto file = folder / "p.plant.yaml";
+  must(session.save(file));
+  const std::string before = io::read_file(file);
+  must(session.run_text("set radius p stem 0.005"));
+  must(session.save());
+  EXPECT_EQ(io::read_file(file.string() + "~"), before);
+  EXPECT_NE(io::read_file(file), before);
+}
+
+TEST_F(Files, UndoDoesNotForgetWhereItWasSaved) {
+  draw_plant(session);
+  must(session.save(folder / "p.plant.yaml"));
+  must(session.undo());
+  EXPECT_TRUE(session.dirty());
+  EXPECT_TRUE(session.is_simulated());
+  must(session.save());
+  EXPECT_TRUE(read(folder / "p.plant.yaml").fruits.empty());
+  must(session.run_text("new plant q"));
+  must(session.run_text("new plant r"));
+  must(session.run_text("draw stem q s 0,0,0;0,0,1 0.01"));
+  must(session.run_text("draw stem r s 0,0,0;0,0,1 0.01"));
+  EXPECT_THAT(session.save(folder / "both.plant.yaml").text, HasSubstr("2 plants have no file"));
+}
+
+TEST_F(Files, AnEditByHandAndReload) {
+  draw_plant(session);
+  const auto file = folder / "p.plant.yaml";
+  must(session.save(file));
+  std::string text = io::read_file(file);
+  text.replace(text.find("radius: 0.004"), 13, "radius: 0.006");
+  std::ofstream(file) << text;
+  ASSERT_TRUE(session.reload());
+  EXPECT_EQ(session.document().plant("p").curves[0].radius[0], 0.006);
+  must(session.undo());
+  EXPECT_EQ(session.document().plant("p").curves[0].radius[0], 0.004);
+}
+
+TEST_F(Files, AFaultNamesFileAndLineAndCanBeRetried) {
+  const auto file = folder / "bad.plant.yaml";
+  const std::string good = io::read_file(source("plants/cherry_tomato.plant.yaml"));
+  std::string bad = good;
+  bad.replace(bad.find("shape: drawn"), 12, "shape: blue!");
+  std::ofstream(file) << bad;
+  draw_plant(session);
+  EXPECT_FALSE(session.open(file));
+  ASSERT_FALSE(session.messages().empty());
+  EXPECT_THAT(session.messages().back().text, HasSubstr("bad.plant.yaml:8:8: error"));
+  EXPECT_TRUE(session.messages().back().can_retry);
+  EXPECT_EQ(session.document().plants.size(), 1u) << "what was open stays";
+  std::ofstream(file) << good;
+  ASSERT_TRUE(session.reload());
+  EXPECT_EQ(session.path(), file);
+}
+
+TEST_F(Files, ASceneWithItsPlantsAndRobot) {
+  const auto scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml");
+  ASSERT_TRUE(session.open(scene));
+  const auto now = session.snapshot();
+  ASSERT_FALSE(now->plants.empty());
+  EXPECT_TRUE(now->robot.present);
+  EXPECT_FALSE(session.dirty());
+  must(session.run_text("run 0.1"));
+}
+
+TEST_F(Files, ASkeletonTableGoesOutAndComesBack) {
+  draw_plant(session);
+  must(session.run_text("export p " + (folder / "p.csv").string()));
+  must(session.run_text("import " + (folder / "p.csv").string() + " plant=again"));
+  const plant::PlantFile& back = session.document().plant("again");
+  ASSERT_EQ(back.curves.size(), 2u);
+  EXPECT_EQ(back.curves[0].points, session.document().plant("p").curves[0].points);
+  EXPECT_NEAR(back.curves[0].radius.back(), 0.004, 1.0e-9);
+  EXPECT_NEAR((back.curves[1].points.back() - Vec3(0.1, 0, 0.15)).norm(), 0.0, 1.0e-12);
+  must(session.undo());
+  EXPECT_EQ(session.document().plants.size(), 1u);
+}
+
+// Every edge of a closed surface is run through once each way, and the tubes have the volume of
+// their cylinders.
+TEST_F(Files, MeshesAreClosed) {
+  draw_plant(session);
+  must(session.run_text("export p " + (folder / "p.obj").string()));
+  must(session.run_text("export p " + (folder / "p.ply").string()));
+  std::ifstream obj(folder / "p.obj");
+  std::vector<Vec3> points;
+  std::map<std::pair<int, int>, int> edges;
+  double volume = 0.0;
+  int objects = 0;
+  for (std::string word, line; std::getline(obj, line);) {
+    std::istringstream in(line);
+    in >> word;
+    Vec3 p;
+    if (word == "v" && in >> p.x() >> p.y() >> p.z()) points.push_back(p);
+    if (word == "o") ++objects;
+    if (word != "f") continue;
+    std::array<int, 3> t{};
+    for (int& corner : t) {
+      in >> word;
+      corner = std::stoi(word) - 1;
+    }
+    for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+    volume += points[t[0]].cross(points[t[1]]).dot(points[t[2]]) / 6.0;
+  }
+  EXPECT_EQ(objects, 3);
+  const double pi = 3.14159265358979;
+  const double expected =
+      pi * 0.004 * 0.004 * 0.3 + pi * 0.0015 * 0.0015 * 0.1013 + 4.0 / 3.0 * pi * 1.0e-6;
+  EXPECT_NEAR(volume / expected, 1.0, 0.1);
+  EXPECT_GT(volume, 0.0) << "inside out";
+  EXPECT_THAT(io::read_file(folder / "p.ply"), HasSubstr("element face"));
+  EXPECT_FALSE(session.run_text("export p " + (folder / "p.stl").string()).ok);
+}
+
+}  // namespace
+}  // namespace pedicel::app
