@@ -1,13 +1,11 @@
 #include "app/fit.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <thread>
 
+#include "app/experiment_run.h"
 #include "app/headless.h"
 #include "discrepancy/diagnosis.h"
 #include "discrepancy/parameter_fit.h"
@@ -18,36 +16,25 @@ namespace pedicel::app {
 
 namespace {
 
-struct FitArguments {
-  std::string experiment, out;
+struct FitArguments : ExperimentArguments {
   std::vector<std::string> parameters;
-  int threads = 0, seed = 1;
-  bool json = false, quiet = false;
 };
 
 int run(const FitArguments& a) {
-  Diagnostics diagnostics;
-  const auto experiment = discrepancy::read_experiment(a.experiment, diagnostics);
-  if (!experiment) throw InvalidFile(diagnostics);
-  const auto starts = discrepancy::requested_starts(*experiment, a.parameters);
+  const discrepancy::Experiment experiment = load_experiment(a);
+  const auto starts = discrepancy::requested_starts(experiment, a.parameters);
+  ProgressLine progress;
   discrepancy::ParameterFitOptions options;
-  options.threads = a.threads > 0
-                        ? a.threads
-                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  options.threads = a.thread_count();
   options.seed = static_cast<std::uint64_t>(a.seed);
   options.stop = &stop_requested;
-  if (!a.quiet)
-    options.progress = [](const std::string& what, double share) {
-      std::fprintf(stderr, "%3.0f %% %s\n", 100.0 * share, what.c_str());
-    };
-  const discrepancy::ParameterFit fit = fit_parameters(*experiment, starts, options);
+  options.progress = progress.callback(a.quiet);
+  const discrepancy::ParameterFit fit = fit_parameters(experiment, starts, options);
+  progress.end(fit.stopped);
   if (fit.stopped) return 130;
-  const std::filesystem::path folder =
-      a.out.empty()
-          ? std::filesystem::path("out") / ("fit_" + experiment->folder.filename().string())
-          : std::filesystem::path(a.out);
+  const std::filesystem::path folder = a.folder("fit_", experiment);
   plant::write_plant_file(folder / "fitted.plant.yaml",
-                          discrepancy::extended_plant(*experiment, fit.summary.hypothesis));
+                          discrepancy::extended_plant(experiment, fit.summary.hypothesis));
   io::write_file_atomically(folder / "fit.json", to_json(fit) + "\n");
   if (a.json)
     std::cout << to_json(fit) << std::endl;
@@ -62,19 +49,15 @@ std::function<int()> add_fit_verb(CLI::App& app) {
   const auto a = std::make_shared<FitArguments>();
   CLI::App* verb = app.add_subcommand(
       "fit", "fit parameters of a plant to a measured experiment, with intervals");
-  verb->add_option("experiment", a->experiment, "experiment folder (or its experiment.yaml)")
-      ->required();
+  add_experiment(*verb, *a);
   verb->add_option("parameters", a->parameters,
                    "youngs_modulus, density, damping_time, EFFECT.PARAMETER[@CURVE:AT] (free) or "
                    "EFFECT.PARAMETER=VALUE[@CURVE:AT] (given)")
       ->required();
-  verb->add_option("--out", a->out, "folder for fit.json and fitted.plant.yaml");
-  verb->add_option("--threads", a->threads, "threads (default: all cores)")
-      ->check(CLI::Range(1, 1024));
-  verb->add_option("--seed", a->seed, "of the starts that are drawn")
-      ->check(CLI::NonNegativeNumber);
-  verb->add_flag("--json", a->json, "fit.json, and nothing else, on standard output");
-  verb->add_flag("--quiet", a->quiet, "no progress");
+  add_experiment_options(
+      *verb, *a,
+      {"folder for fit.json and fitted.plant.yaml", "of the starts that are drawn",
+       "fit.json, and nothing else, on standard output"});
   return [a] { return run(*a); };
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "discrepancy/trial_run.h"
 #include "plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
@@ -30,18 +31,31 @@ std::vector<double> from_neighbours(const Eigen::VectorXd& x) {
   return distance;
 }
 
-// The usual scatter around sample i, which it and those next to it take no part in.
+// The usual scatter around sample i, which it and those next to it take no part in, nor stretches
+// of one value: beside a force that is zero after its release, noise would look wild.
 double scatter_near(const std::vector<double>& distance, int i) {
   std::vector<double> near;
   const int last = static_cast<int>(distance.size()) - 1;
   for (int k = std::max(0, i - reach); k <= std::min(i + reach, last); ++k)
-    if (std::abs(k - i) > 2 && std::isfinite(distance[k])) near.push_back(distance[k]);
+    if (std::abs(k - i) > 2 && std::isfinite(distance[k]) && distance[k] > 0.0)
+      near.push_back(distance[k]);
   return static_cast<int>(near.size()) >= reach / 2 ? median(near)
                                                     : std::numeric_limits<double>::infinity();
 }
 
-// The worst first: a wild sample makes its neighbours look wild.
-int take_out_wild(Eigen::Ref<Eigen::VectorXd> x) {
+// Samples next to which the force jumps, because something is let go or loaded.
+std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& time) {
+  std::vector<char> beside(time.size(), 0);
+  for (const double jump : jumps_of(trial, trial.effects)) {
+    const auto after = std::lower_bound(time.begin(), time.end(), jump) - time.begin();
+    for (auto i = std::max<std::ptrdiff_t>(after - 2, 0); i < after + 2; ++i)
+      if (i < static_cast<std::ptrdiff_t>(time.size())) beside[i] = 1;
+  }
+  return beside;
+}
+
+// The worst first: a wild sample makes its neighbours look wild. `spared` (may be empty) stay.
+int take_out_wild(Eigen::Ref<Eigen::VectorXd> x, const std::vector<char>& spared) {
   int count = 0;
   while (true) {
     const std::vector<double> distance = from_neighbours(x);
@@ -49,6 +63,7 @@ int take_out_wild(Eigen::Ref<Eigen::VectorXd> x) {
     double most = wild * 1.4826;  // turns a median into the deviation of a normal distribution
     for (int i = 0; i < static_cast<int>(distance.size()); ++i) {
       if (!std::isfinite(distance[i]) || distance[i] == 0.0) continue;
+      if (!spared.empty() && spared[i]) continue;
       const double share = distance[i] / scatter_near(distance, i);
       if (share <= most || !std::isfinite(share)) continue;
       most = share;
@@ -135,13 +150,16 @@ Admission admit(const Experiment& experiment) {
     const int before = count_finite(trial.markers.value);
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     admission.swaps += put_back_labels(trial.markers.value);
-    for (Samples* samples : {&trial.markers, &trial.force})
+    for (Samples* samples : {&trial.markers, &trial.force}) {
+      std::vector<char> spared;
+      if (samples == &trial.force) spared = beside_jumps(trial, samples->time);
       for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
         admission.samples += count_finite(samples->value.col(c));
         // A force that is exactly zero after the release is what the format asks for.
         if (samples == &trial.markers) admission.stuck += take_out_stuck(samples->value.col(c));
-        admission.outliers += take_out_wild(samples->value.col(c));
+        admission.outliers += take_out_wild(samples->value.col(c), spared);
       }
+    }
     if (count_finite(trial.markers.value) + count_finite(trial.force.value) == 0)
       admission.refusal = "trial " + trial.name + " holds no usable sample";
   }

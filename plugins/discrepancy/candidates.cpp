@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/thread_pool.h"
+#include "discrepancy/promise.h"
 
 namespace pedicel::discrepancy {
 
@@ -13,7 +15,15 @@ namespace {
 constexpr double first_horizon = 0.35;
 constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
-constexpr std::size_t most_whole = 8;  // of each of the two lists
+constexpr std::size_t most_whole = 8;     // of each of the two lists
+constexpr std::size_t linear_starts = 3;  // looked at, of a cause
+constexpr double near_the_best = 60.0;    // nats
+constexpr double small_residual = 2.0;    // mean square in noise units, see refit_all()
+constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
+// What is known of an unknown beforehand, as standard deviations: a factor of 4.5 either way, or
+// three times the scale of its steps.
+constexpr double wide_factor = 1.5, wide_number = 3.0;
+constexpr double no_change = 1.0e-12;  // a direction without length
 
 Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nominal) {
   Hypothesis both = base;
@@ -59,6 +69,52 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   return best;
 }
 
+// Where the linear model about the baseline puts a cause, the baseline's numbers moved along with
+// it; nothing where the data ask for the sign that the cause cannot have.
+std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
+  const double size = direction.change.norm();
+  if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
+  const double share = direction.statistic / size;
+  for (const FreeParameter& free : direction.start.free) {
+    const bool one_sided = free.vanishes == Vanishes::at_infinity ||
+                           (free.vanishes == Vanishes::at_zero && free.logarithmic);
+    if (share < 0.0 && one_sided) return {};
+  }
+  Hypothesis both = base.hypothesis;
+  both.set_unknowns(base.hypothesis.unknowns() - share * direction.absorbed);
+  both.add(direction.start.shrunk(share));
+  both.name = direction.cause;
+  // The bounds of what was added, too.
+  both.set_unknowns(both.unknowns());
+  return both;
+}
+
+bool has_place(const Hypothesis& hypothesis) {
+  return std::ranges::any_of(hypothesis.free,
+                             [](const FreeParameter& p) { return p.name == "at"; });
+}
+
+// A cause's linear starts that are worth a fit: the best by their cost over the whole records, or,
+// because places are apart by ridges, those of every place.
+std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummary& base,
+                                           const std::string& cause,
+                                           const std::vector<Direction>& directions,
+                                           const FitOptions& options) {
+  std::vector<const Direction*> own;
+  for (const Direction& direction : directions)
+    if (direction.cause == cause) own.push_back(&direction);
+  std::ranges::stable_sort(own, [](const Direction* a, const Direction* b) {
+    return std::abs(a->statistic) > std::abs(b->statistic);
+  });
+  std::vector<Hypothesis> starts;
+  for (const Direction* direction : own) {
+    if (starts.size() == linear_starts) break;
+    if (auto start = linear_start(base, *direction)) starts.push_back(std::move(*start));
+  }
+  if (starts.size() < 2 || has_place(starts.front())) return starts;
+  return {starts[scan(evaluator, starts, options).best]};
+}
+
 // Calls task(evaluator, i) for i below count, each on one worker.
 template <class Task>
 void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& options, double from,
@@ -84,24 +140,181 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
   return order;
 }
 
-// Gains and evidence of the whole fits, and the order.
-void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples) {
+// What a model's numbers cost: how much narrower the data make them than what is known beforehand,
+// by Laplace's approximation (MacKay 2003, chapter 28). A number that the data leave open is free.
+double cost_of_numbers(const FitSummary& model, double dispersion) {
+  const int n = model.hypothesis.size();
+  if (n == 0) return 0.0;
+  Eigen::VectorXd width(n);
+  double away = 0.0;
+  for (int p = 0; p < n; ++p) {
+    const FreeParameter& free = model.hypothesis.free[p];
+    width[p] = free.prior > 0.0 ? free.prior : free.logarithmic ? wide_factor : wide_number;
+    if (free.prior > 0.0)
+      away += std::pow(
+          (free.to_unknown(model.hypothesis.value(p)) - free.to_unknown(free.prior_centre)) /
+              free.prior,
+          2);
+  }
+  const Eigen::MatrixXd scaled = model.jacobian * width.asDiagonal() / std::sqrt(dispersion);
+  const Eigen::MatrixXd narrowed = Eigen::MatrixXd::Identity(n, n) + scaled.transpose() * scaled;
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(narrowed, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  return 0.5 * (values.cwiseMax(1.0).array().log().sum() + away);
+}
+
+void sort_by_evidence(std::vector<Candidate>& candidates) {
+  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+    return a.whole != b.whole ? a.whole : a.evidence > b.evidence;
+  });
+}
+
+// Gains and evidence of the whole fits, and the order; returns the mean square that even the best
+// one leaves, 1 where that is noise.
+double weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples) {
   // Where even the best model leaves more than noise, differences count for less.
   double least = base.cost;
   for (const Candidate& candidate : candidates)
     if (candidate.whole && candidate.fit.why != "not run")
       least = std::min(least, candidate.fit.cost);
   const double dispersion = std::max(1.0, 2.0 * least / samples);
+  const double cost = cost_of_numbers(base, dispersion);
   for (Candidate& candidate : candidates) {
-    if (candidate.whole) candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
-    const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
-    candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
+    if (candidate.whole) {
+      candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
+      candidate.evidence = candidate.gain - (cost_of_numbers(candidate.fit, dispersion) - cost) -
+                           std::log(static_cast<double>(candidates.size()));
+    } else {
+      const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
+      candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
+    }
   }
   std::erase_if(candidates, [](const Candidate& c) { return c.fit.why == "not run"; });
-  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
-    return a.whole != b.whole ? a.whole : a.evidence > b.evidence;
-  });
+  sort_by_evidence(candidates);
+  return dispersion;
 }
+
+// All candidates of one model, on their way from starts to a ranking.
+class Refits {
+ public:
+  Refits(std::vector<Evaluator>& workers, const FitSummary& base, const std::vector<Cause>& causes,
+         const std::vector<Direction>& directions, const RefitOptions& options)
+      : workers_(workers),
+        base_(base),
+        causes_(causes),
+        directions_(directions),
+        options_(options),
+        promise_(promise_of(causes, directions)),
+        samples_(workers.front().data().samples(options.fit.trials)),
+        candidates_(causes.size()) {}
+
+  std::vector<Candidate> run() {
+    for (std::size_t i = 0; i < causes_.size(); ++i) candidates_[i].cause = causes_[i].name;
+    if (2.0 * base_.cost > small_residual * samples_)
+      fit_first_parts();
+    else
+      promise_gains();
+    for (const int i : first_by(promise_, most_whole)) candidates_[i].whole = true;
+    std::vector<int> whole;
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+      if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
+    // A few iterations tell who is behind; only the leaders are worth the rest.
+    share_out(workers_, static_cast<int>(whole.size()), options_, 0.5, 0.8,
+              [&](Evaluator& evaluator, int c) { fit_whole(evaluator, whole[c]); });
+    std::vector<double> closeness(causes_.size(), -std::numeric_limits<double>::infinity());
+    for (const int i : whole)
+      if (candidates_[i].fit.why != "not run") closeness[i] = -candidates_[i].fit.cost;
+    const std::vector<int> first = first_by(closeness, std::min(leaders, whole.size()));
+    share_out(workers_, static_cast<int>(first.size()), options_, 0.8, 1.0,
+              [&](Evaluator& evaluator, int c) {
+                FitSummary& found = candidates_[first[c]].fit;
+                found = fit(evaluator, found.hypothesis, options_.fit);
+              });
+    const double dispersion = weigh(candidates_, base_, samples_);
+    ask_kept_back(dispersion);
+    return std::move(candidates_);
+  }
+
+ private:
+  void fit_first_parts() {
+    FitOptions early = options_.fit;
+    early.horizon = first_horizon;
+    const double early_cost =
+        0.5 * workers_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
+    std::vector<std::size_t> starts(causes_.size(), 1);
+    for (const int i : first_by(promise_, most_whole)) starts[i] = 2;
+    share_out(workers_, static_cast<int>(causes_.size()), options_, 0.0, 0.5,
+              [&](Evaluator& evaluator, int i) {
+                candidates_[i].fit =
+                    fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
+                candidates_[i].gain = early_cost - candidates_[i].fit.cost;
+              });
+    std::vector<double> gain;
+    for (const Candidate& candidate : candidates_) gain.push_back(candidate.gain);
+    for (const int i : first_by(gain, most_whole)) candidates_[i].whole = true;
+  }
+
+  // Of a linear model the gain is half the squared statistic.
+  void promise_gains() {
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      candidates_[i].gain = 0.5 * promise_[i] * promise_[i];
+      candidates_[i].fit.hypothesis = base_.hypothesis;
+      candidates_[i].fit.hypothesis.add(causes_[i].starts.front());
+      candidates_[i].fit.why = "not fitted: its directions promise too little";
+    }
+  }
+
+  void fit_whole(Evaluator& evaluator, int i) {
+    FitOptions few = options_.fit;
+    few.iterations = whole_iterations;
+    Candidate& candidate = candidates_[i];
+    std::vector<Hypothesis> starts;
+    if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
+    std::ranges::move(
+        best_linear_starts(evaluator, base_, candidate.cause, directions_, options_.fit),
+        std::back_inserter(starts));
+    if (starts.empty())
+      starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
+    FitSummary best;
+    for (const Hypothesis& start : starts) {
+      FitSummary found = fit(evaluator, start, few);
+      if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
+    }
+    candidate.fit = std::move(best);
+  }
+
+  // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
+  void ask_kept_back(double dispersion) {
+    if (options_.check_trials.empty() || candidates_.empty()) return;
+    FitOptions check = options_.fit;
+    check.trials = options_.check_trials;
+    const double best = candidates_.front().evidence;
+    std::vector<Hypothesis> models{base_.hypothesis};
+    std::vector<Candidate*> near;
+    for (Candidate& candidate : candidates_)
+      if (candidate.whole && candidate.evidence > best - near_the_best) {
+        models.push_back(candidate.fit.hypothesis);
+        near.push_back(&candidate);
+      }
+    const Eigen::MatrixXd residuals = workers_.front().residuals(models, check);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      near[i]->held_out =
+          held_out(residuals.col(0), residuals.col(static_cast<Eigen::Index>(i) + 1), dispersion);
+      near[i]->evidence += near[i]->held_out.gain;
+    }
+    sort_by_evidence(candidates_);
+  }
+
+  std::vector<Evaluator>& workers_;
+  const FitSummary& base_;
+  const std::vector<Cause>& causes_;
+  const std::vector<Direction>& directions_;
+  const RefitOptions& options_;
+  const std::vector<double> promise_;
+  const int samples_;
+  std::vector<Candidate> candidates_;
+};
 
 }  // namespace
 
@@ -112,43 +325,9 @@ double cost_of(int parameters, int samples, std::size_t candidates) {
 
 std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,
-                                 const std::vector<double>& promise, const RefitOptions& options) {
-  const int count = static_cast<int>(causes.size());
-  std::vector<Candidate> candidates(causes.size());
-  FitOptions early = options.fit;
-  early.horizon = first_horizon;
-  const double early_cost =
-      0.5 * workers.front().residuals(std::span(&base.hypothesis, 1), early).squaredNorm();
-  std::vector<std::size_t> starts(causes.size(), 1);
-  for (const int i : first_by(promise, most_whole)) starts[i] = 2;
-  share_out(workers, count, options, 0.0, 0.6, [&](Evaluator& evaluator, int i) {
-    candidates[i].cause = causes[i].name;
-    candidates[i].fit = fit_first_part(evaluator, base, causes[i], options.fit, starts[i]);
-    candidates[i].gain = early_cost - candidates[i].fit.cost;
-  });
-  std::vector<double> early_gain;
-  for (const Candidate& candidate : candidates) early_gain.push_back(candidate.gain);
-  for (const int i : first_by(early_gain, most_whole)) candidates[i].whole = true;
-  for (const int i : first_by(promise, most_whole)) candidates[i].whole = true;
-  std::vector<int> whole;
-  for (int i = 0; i < count; ++i)
-    if (candidates[i].whole) whole.push_back(i);
-  // A few iterations tell who is behind; only the leaders are worth the rest.
-  const auto go_on = [&](const std::vector<int>& chosen, int iterations, double from, double to) {
-    FitOptions full = options.fit;
-    full.iterations = iterations;
-    share_out(workers, static_cast<int>(chosen.size()), options, from, to,
-              [&](Evaluator& evaluator, int c) {
-                Candidate& candidate = candidates[chosen[c]];
-                candidate.fit = fit(evaluator, candidate.fit.hypothesis, full);
-              });
-  };
-  go_on(whole, whole_iterations, 0.6, 0.85);
-  std::vector<double> closeness(causes.size(), -std::numeric_limits<double>::infinity());
-  for (const int i : whole) closeness[i] = -candidates[i].fit.cost;
-  go_on(first_by(closeness, std::min(leaders, whole.size())), options.fit.iterations, 0.85, 1.0);
-  weigh(candidates, base, workers.front().data().samples(options.fit.trials));
-  return candidates;
+                                 const std::vector<Direction>& directions,
+                                 const RefitOptions& options) {
+  return Refits(workers, base, causes, directions, options).run();
 }
 
 }  // namespace pedicel::discrepancy

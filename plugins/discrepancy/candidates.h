@@ -7,6 +7,8 @@
 
 #include "discrepancy/causes.h"
 #include "discrepancy/fit.h"
+#include "discrepancy/held_out.h"
+#include "discrepancy/statistics.h"
 
 namespace pedicel::discrepancy {
 
@@ -14,27 +16,35 @@ namespace pedicel::discrepancy {
 struct Candidate {
   std::string cause;  ///< the one that was added last
   FitSummary fit;
-  double gain = 0.0;      ///< log-likelihood above the model that it extends
-  double evidence = 0.0;  ///< gain less what its parameters and the number of candidates cost
+  double gain = 0.0;  ///< log-likelihood above the model that it extends
+  /// Gain less what its parameters and the number of candidates cost, and for those that come near
+  /// the best what it gains on the trials kept back.
+  double evidence = 0.0;
+  HeldOut held_out;  ///< on the trials kept back, for those that come near the best
   /// False: it fell so far behind over the first part of the records, and its direction shows so
-  /// little, that it was not refitted over the whole; its gain is that of the first part.
+  /// little, that it was not refitted over the whole; its gain is that of the first part, or what
+  /// its direction promises.
   bool whole = false;
 };
 
 struct RefitOptions {
   FitOptions fit;
+  std::vector<int> check_trials;  ///< kept back from the fits; may be empty
   /// Called now and then, from any thread, with the share that is done.
   std::function<void(double)> progress;
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Refits every cause on top of `base`: a look from all its starts over the first third of the
-/// records and a fit of the best one or two there; then those that did best, and those whose
-/// directed statistic (`promise`, one a cause) is largest, over the whole records. Sorted by
-/// evidence, those of the first part last.
+/// Refits every cause on top of `base`. Where the base leaves little more than noise, the linear
+/// model about it says from where: the sizes that the data give to the cause's loudest directions,
+/// the base's parameters moved along. Where it leaves much, all starts are looked at over the first
+/// third of the records and the best one or two fitted there, too. Over the whole records go the
+/// causes that did best there and those whose directions are loudest. Sorted by evidence, those
+/// that were not fitted over the whole last.
 std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,
-                                 const std::vector<double>& promise, const RefitOptions& options);
+                                 const std::vector<Direction>& directions,
+                                 const RefitOptions& options);
 
 /// Bayesian information criterion: what a model's additional parameters cost, with the choice
 /// between so many candidates (nats).

@@ -2,99 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
+#include "discrepancy/cause_start.h"
 #include "plant/effects.h"
 #include "plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
-
-using plant::Effect;
-
-Vanishes vanishing(const std::string& cause, const std::string& parameter) {
-  static const std::map<std::string, Vanishes> by_parameter = {
-      {"mass", Vanishes::at_zero},          {"gradient", Vanishes::at_zero},
-      {"stiffness", Vanishes::at_infinity}, {"factor", Vanishes::at_one},
-      {"coefficient", Vanishes::at_zero},   {"rate", Vanishes::at_zero},
-      {"loss_factor", Vanishes::at_zero},   {"fraction", Vanishes::at_zero},
-      {"velocity", Vanishes::at_zero},      {"delay", Vanishes::at_zero},
-      {"offset", Vanishes::at_zero},        {"rotation", Vanishes::at_zero},
-      {"gain", Vanishes::at_one},           {"distance", Vanishes::at_zero}};
-  if (parameter == "ratio") return cause == "anisotropy" ? Vanishes::at_one : Vanishes::at_zero;
-  if (cause == "yield") return Vanishes::at_infinity;
-  if (cause == "leaf_drag") return Vanishes::at_zero;
-  const auto found = by_parameter.find(parameter);
-  return found == by_parameter.end() ? Vanishes::never : found->second;
-}
-
-// A hypothesis under construction.
-class Start {
- public:
-  Start(const std::string& name) {
-    made_.name = name;
-    made_.effects.push_back(Effect{name, {}, {}, {}, {}});
-  }
-  Start& place(const std::string& curve, double at) {
-    made_.effects[0].place = plant::CurvePlace{curve, at, {}};
-    return *this;
-  }
-  Start& moving_place(const std::string& curve, double at) {
-    place(curve, at);
-    return parameter("at", 0, false, 0.1, 0.0, 1.0);
-  }
-  Start& fixed(const std::string& name, std::vector<double> value) {
-    made_.effects[0].numbers[name] = std::move(value);
-    return *this;
-  }
-  Start& word(const std::string& name, const std::string& value) {
-    made_.effects[0].words[name] = value;
-    return *this;
-  }
-  /// A positive quantity on a logarithmic scale.
-  Start& positive(const std::string& name, double value, double low, double high) {
-    fixed(name, {std::clamp(value, low, high)});
-    return parameter(name, 0, true, 1.0, low, high);
-  }
-  Start& signed_number(const std::string& name, double value, double scale, double low,
-                       double high) {
-    fixed(name, {value});
-    return parameter(name, 0, false, scale, low, high);
-  }
-  Start& vector(const std::string& name, const Vec3& value, double scale, double most,
-                int components = 3) {
-    fixed(name, {value.x(), value.y(), value.z()});
-    for (int i = 0; i < components; ++i) parameter(name, i, false, scale, -most, most);
-    return *this;
-  }
-  Start& free_share(double low, double high) {
-    return parameter("share", 0, false, 1.0, low, high);
-  }
-  Start& heading(double angle) {
-    fixed("direction", {std::cos(angle), std::sin(angle), 0.0});
-    return parameter("heading", 0, false, 0.3, -10.0, 10.0);
-  }
-  Start& prior(double deviation, double centre) {
-    made_.free.back().prior = deviation;
-    made_.free.back().prior_centre = centre;
-    return *this;
-  }
-  operator Hypothesis() const { return made_; }
-
- private:
-  Start& parameter(const std::string& name, int component, bool logarithmic, double scale,
-                   double low, double high) {
-    FreeParameter free{0, name, component, logarithmic, scale, low, high, {}};
-    free.unit = unit_of(made_.name, name);
-    free.vanishes = vanishing(made_.name, name);
-    made_.free.push_back(free);
-    return *this;
-  }
-  Hypothesis made_;
-};
 
 class Candidates {
  public:
@@ -145,7 +62,7 @@ class Candidates {
           junction.push_back(Start("attachment_compliance")
                                  .place(curve.name, 0.0)
                                  .positive("stiffness", part * k, 1e-5 * k, 1e4 * k));
-      for (const double at : {0.15, 0.4, 0.7}) {
+      for (const double at : {0.04, 0.15, 0.4, 0.7}) {
         const double length = 0.1 * length_of(curve);
         weak.push_back(Start("weak_segment")
                            .moving_place(curve.name, at)
@@ -230,15 +147,18 @@ class Candidates {
                            .prior(1.5, 0.02));
     }
     add("wind", wind);
-    for (const double frequency : {0.15, 0.3, 0.5, 0.8, 1.2, 1.8})
+    // A record of duration T parts frequencies 1/T from each other; halfway between two of these
+    // starts a fit still slides to the right one.
+    const int count = std::clamp(static_cast<int>(1.8 * scales_.duration), 6, 16);
+    for (int f = 1; f <= count; ++f)
       for (int i = 0; i < 2; ++i)
         gust.push_back(
             Start("gust")
                 .vector("velocity", 0.7 * (i ? Vec3::UnitY() : Vec3::UnitX()), 0.3, 30.0, 2)
                 .positive("drag_area", 0.02, 1e-4, 1.0)
                 .prior(1.5, 0.02)
-                .positive("frequency", frequency, 0.03, 5.0)
-                .positive("amplitude", 0.3, 1e-3, 5.0));
+                .positive("frequency", 1.9 * f / count, 0.03, 5.0)
+                .positive("amplitude", 0.7, 1e-3, 5.0));
     add("gust", gust);
   }
 
@@ -258,17 +178,30 @@ class Candidates {
       compliance.push_back(
           Start("grip_compliance").positive("stiffness", part * from, 0.1 * soft, 1e5 * soft));
     add("grip_compliance", compliance);
-    for (const Trial& trial : experiment_.trials) {
-      if (trial.holds.empty()) continue;
-      const double end = std::min(trial.holds[0].release, trial.duration());
-      for (const double part : {0.3, 0.6})
-        for (const double distance : {0.01, -0.01})
-          slip.push_back(Start("grip_slip")
-                             .word("trial", trial.name)
-                             .signed_number("distance", distance, 0.01, -0.1, 0.1)
-                             .signed_number("time", part * end, 0.2 * end, 0.0, end));
-    }
+    // In every trial, or in one.
+    double first_end = 1e300;
+    for (const Trial& trial : experiment_.trials)
+      if (!trial.holds.empty()) first_end = std::min(first_end, end_of_hold(trial));
+    slips("", first_end, slip);
+    for (const Trial& trial : experiment_.trials)
+      if (!trial.holds.empty()) slips(trial.name, end_of_hold(trial), slip);
     add("grip_slip", slip);
+  }
+
+  static double end_of_hold(const Trial& trial) {
+    return std::min(trial.holds[0].release, trial.duration());
+  }
+
+  // A slip in the trial of that name (empty: in all) before `end`.
+  static void slips(const std::string& trial, double end, std::vector<Hypothesis>& starts) {
+    for (const double part : {0.3, 0.6})
+      for (const double distance : {0.01, -0.01}) {
+        Start start("grip_slip");
+        if (!trial.empty()) start.word("trial", trial);
+        start.signed_number("distance", distance, 0.01, -0.1, 0.1)
+            .signed_number("time", part * end, 0.2 * end, 0.0, end);
+        starts.push_back(start);
+      }
   }
 
   void sensors() {
@@ -326,84 +259,6 @@ class Candidates {
 };
 
 }  // namespace
-
-Scales scales_of(const Experiment& experiment) {
-  Scales scales;
-  Diagnostics diagnostics;
-  const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
-  if (!built) throw InvalidFile(diagnostics);
-  for (const double length : built->curve_lengths) scales.length = std::max(scales.length, length);
-  for (const cosserat::Element& element : built->model.elements) scales.mass += element.mass;
-  const cosserat::Element& root = built->model.elements.front();
-  scales.root_stiffness = root.bend_stiffness.head<2>().mean() * 0.5 * root.length / scales.length;
-  double moved = 1.0e-3 * scales.length;
-  for (const Trial& trial : experiment.trials) {
-    scales.duration = std::max(scales.duration, trial.duration());
-    const Samples& markers = trial.markers;
-    if (markers.size() > 1)
-      scales.sample_time = (markers.time.back() - markers.time.front()) / (markers.size() - 1);
-    for (Eigen::Index c = 0; c < markers.value.cols(); ++c) {
-      double low = 1e300, high = -1e300;
-      for (const double x : markers.value.col(c))
-        if (std::isfinite(x)) {
-          low = std::min(low, x);
-          high = std::max(high, x);
-        }
-      if (high > low) moved = std::max(moved, 0.5 * (high - low));
-    }
-  }
-  // A cantilever with a force at its tip is bent most at the root, by 3 times its drop / length^2.
-  scales.curvature = 3.0 * moved / (scales.length * scales.length);
-  return scales;
-}
-
-std::string unit_of(const std::string& cause, const std::string& parameter) {
-  static const std::map<std::string, std::string> units = {
-      {"mass", "kg"},    {"rate", "1/s"},     {"time", "s"},           {"curvature", "1/m"},
-      {"k0", "1/m"},     {"velocity", "m/s"}, {"drag_area", "m2/m"},   {"frequency", "Hz"},
-      {"distance", "m"}, {"delay", "s"},      {"length", "m"},         {"rotation", "rad"},
-      {"moment", "N m"}, {"heading", "rad"},  {"stiffness", "N m/rad"}};
-  if (parameter == "stiffness" && cause == "grip_compliance") return "N/m";
-  if (parameter == "offset") return cause == "force_gain" ? "N" : "m";
-  const auto found = units.find(parameter);
-  return found == units.end() ? "1" : found->second;
-}
-
-std::string plain_name(const std::string& cause) {
-  static const std::map<std::string, std::string> names = {
-      {"youngs_modulus", "another modulus"},
-      {"density", "another density"},
-      {"damping_time", "another internal damping"},
-      {"extra_mass", "a mass that the model lacks"},
-      {"mass_distribution", "mass spread otherwise along the curves"},
-      {"base_compliance", "a root that turns elastically"},
-      {"attachment_compliance", "a branch whose junction gives"},
-      {"weak_segment", "a weak stretch"},
-      {"stiffness_gradient", "a modulus that changes along the curves"},
-      {"material_nonlinearity", "a material that is not linear"},
-      {"anisotropy", "bending that is softer in one direction"},
-      {"mass_damping", "damping proportional to mass"},
-      {"structural_damping", "damping that does not depend on the rate"},
-      {"internal_friction", "friction inside the stem"},
-      {"relaxation", "stress that relaxes"},
-      {"creep", "slow creep"},
-      {"yield", "bending that stays (yield)"},
-      {"stiffness_drift", "a stiffness that drifts with the clock"},
-      {"wind", "a steady wind"},
-      {"gust", "a gusting wind"},
-      {"leaf_drag", "air drag of the leaves"},
-      {"grip_compliance", "a soft grip"},
-      {"grip_slip", "a grip that slipped"},
-      {"detachment_law", "another law of detachment"},
-      {"latency", "markers that come late"},
-      {"marker_offset", "a marker that sits elsewhere"},
-      {"frame_rotation", "a measuring frame that is turned"},
-      {"marker_scale", "a measuring scale that is off"},
-      {"force_gain", "a force sensor that is off"},
-      {"outliers", "samples that are wrong"}};
-  const auto found = names.find(cause);
-  return found == names.end() ? cause : found->second;
-}
 
 Hypothesis baseline() {
   Hypothesis all;

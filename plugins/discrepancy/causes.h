@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "discrepancy/hypothesis.h"
+#include "discrepancy/scales.h"
 
 namespace pedicel::discrepancy {
 
@@ -14,17 +15,6 @@ struct Cause {
   std::string name;
   std::vector<Hypothesis> starts;
 };
-
-/// Rough sizes of an experiment, from which candidates take their first values.
-struct Scales {
-  double length = 0.0;          ///< m, of the longest curve
-  double mass = 0.0;            ///< kg, of the plant
-  double root_stiffness = 0.0;  ///< N m/rad, EI/length at the root
-  double curvature = 0.0;       ///< 1/m, the largest that the measured motion needs
-  double duration = 0.0;        ///< s, of the longest trial
-  double sample_time = 0.0;     ///< s, between samples
-};
-Scales scales_of(const Experiment& experiment);
 
 /// The parameters that a refit may always change: factors on modulus, density and damping.
 Hypothesis baseline();
@@ -39,10 +29,5 @@ Hypothesis junction_freedom(const Experiment& experiment);
 
 /// Every known effect that the experiment could show.
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales);
-
-/// "spring at the root", for sentences.
-std::string plain_name(const std::string& cause);
-/// Unit of an effect's parameter, "1" where it has none.
-std::string unit_of(const std::string& cause, const std::string& parameter);
 
 }  // namespace pedicel::discrepancy

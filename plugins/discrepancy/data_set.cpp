@@ -41,6 +41,13 @@ void DataSet::set_noise(const Noise& position, const Noise& force) {
   force_ = force;
 }
 
+void DataSet::choose_noise(std::span<const Series> position, std::span<const Series> force,
+                           const NoiseRule& rule) {
+  const StatedNoise& stated = experiment_->noise;
+  set_noise(discrepancy::choose_noise(position, stated.position_std.value_or(0.0), rule),
+            discrepancy::choose_noise(force, stated.force_std.value_or(0.0), rule));
+}
+
 double DataSet::end_of(int trial, double horizon) const {
   if (horizon >= 1.0) return std::numeric_limits<double>::infinity();
   return horizon * experiment_->trials[trial].duration();
@@ -103,6 +110,20 @@ void DataSet::raw_residuals(int trial, const Prediction& prediction, std::vector
         .push_back(column_residual(samples, is_force ? prediction.force : prediction.markers, c,
                                    end, is_force ? force_.std : position_.std));
   });
+}
+
+double DataSet::rms(std::span<const int> trials, std::span<const Prediction> predictions) const {
+  double sum = 0.0;
+  int count = 0;
+  for (const int t : trials) {
+    const Eigen::MatrixXd r = scaled_residual(t, predictions[t]);
+    for (const double x : r.reshaped())
+      if (std::isfinite(x)) {
+        sum += x * x;
+        ++count;
+      }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0.0;
 }
 
 void measured_series(const Experiment& experiment, std::vector<Series>& position,

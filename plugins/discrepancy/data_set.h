@@ -17,6 +17,9 @@ class DataSet {
 
   const Experiment& experiment() const { return *experiment_; }
   void set_noise(const Noise& position, const Noise& force);
+  /// Estimates it from series of positions (m) and forces (N), within what the experiment states.
+  void choose_noise(std::span<const Series> position, std::span<const Series> force,
+                    const NoiseRule& rule);
   const Noise& position_noise() const { return position_; }
   const Noise& force_noise() const { return force_; }
 
@@ -34,6 +37,10 @@ class DataSet {
   /// Data minus prediction (m and N), one series a channel and trial, for estimate_noise().
   void raw_residuals(int trial, const Prediction& prediction, std::vector<Series>& position,
                      std::vector<Series>& force) const;
+
+  /// RMS over these trials of data minus prediction in units of the noise of a sample, 0 without a
+  /// sample; one prediction a trial of the experiment.
+  double rms(std::span<const int> trials, std::span<const Prediction> predictions) const;
 
   double end_of(int trial, double horizon) const;
 

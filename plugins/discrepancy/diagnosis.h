@@ -45,6 +45,7 @@ struct Diagnosis {
   std::array<std::vector<Prediction>, model_count> predictions;
   NextExperiment next;             ///< empty where there is none
   std::vector<std::string> steps;  ///< what was done, one sentence each
+  bool stopped = false;            ///< the caller asked for it, and the rest is not complete
 };
 
 /// The procedure of the folder's README, from the data to the verdict. Throws InvalidFile where the

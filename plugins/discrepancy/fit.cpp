@@ -137,10 +137,42 @@ void judge(FitSummary& fit) {
 
 }  // namespace
 
+void Shift::add(double share, const Shift& other) {
+  for (std::size_t i = 0; i < names.size(); ++i) logarithm[i] += share * other.logarithm[i];
+}
+
+void Shift::apply(Variant& variant) const {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (logarithm[i] == 0.0) continue;
+    auto found = std::ranges::find(variant.effects, names[i], &plant::Effect::name);
+    if (found == variant.effects.end()) {
+      variant.effects.push_back({names[i], {}, {{"factor", {1.0}}}, {}, {}});
+      found = variant.effects.end() - 1;
+    }
+    found->numbers["factor"][0] *= std::exp(logarithm[i]);
+  }
+}
+
+Shift Corrections::shift(double share) const {
+  Shift sum = own.shift;
+  sum.add(share, first.shift);
+  sum.add(share * share, second.shift);
+  return sum;
+}
+
+void Corrections::add_rest(double share, int trial, Prediction& prediction) const {
+  add(prediction, 1.0, own.rest[trial]);
+  add(prediction, share, first.rest[trial]);
+  add(prediction, share * share, second.rest[trial]);
+}
+
 std::vector<std::vector<Prediction>> Evaluator::predictions(std::span<const Hypothesis> hypotheses,
                                                             const FitOptions& options) {
   std::vector<Variant> variants;
-  for (const Hypothesis& hypothesis : hypotheses) variants.push_back(hypothesis.variant());
+  for (const Hypothesis& hypothesis : hypotheses) {
+    variants.push_back(hypothesis.variant());
+    if (corrections_) corrections_->shift(hypothesis.mesh_share()).apply(variants.back());
+  }
   std::vector<Simulator::Request> requests;
   for (const Variant& variant : variants)
     for (const int trial : options.trials)
@@ -151,12 +183,7 @@ std::vector<std::vector<Prediction>> Evaluator::predictions(std::span<const Hypo
   for (std::size_t h = 0; h < hypotheses.size(); ++h)
     for (const int trial : options.trials) {
       Prediction& prediction = all[next++];
-      if (corrections_) {
-        add(prediction, 1.0, corrections_->own[trial]);
-        const double share = hypotheses[h].mesh_share();
-        add(prediction, share, corrections_->first[trial]);
-        add(prediction, share * share, corrections_->second[trial]);
-      }
+      if (corrections_) corrections_->add_rest(hypotheses[h].mesh_share(), trial, prediction);
       result[h].push_back(std::move(prediction));
     }
   return result;

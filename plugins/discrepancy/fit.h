@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <span>
@@ -31,12 +32,32 @@ struct FitSummary {
   std::string why = "not run";  ///< why it stopped
 };
 
-/// What is added to predictions, one entry a trial (numerics.h): `own`, what a prediction without
-/// error would have more, and what a mesh of the plant file's spacing would have more than that, by
-/// the power of the spacing: `first` at the junctions, half a segment of the parent; `second`
-/// everywhere. A hypothesis chooses its share s of the spacing: s first + s^2 second.
+/// Logarithms of factors on modulus, density and damping time.
+struct Shift {
+  static constexpr std::array names{"youngs_modulus", "density", "damping_time"};
+  std::array<double, 3> logarithm{};
+  void add(double share, const Shift& other);
+  /// Multiplies the factors of a variant, which are 1 where it has none.
+  void apply(Variant& variant) const;
+};
+
+/// A change of all predictions by our own numbers. What changed parameters can stand for is a shift
+/// of these, because a swing that drifts out of phase is no sum of small changes; the rest, one
+/// entry a trial, is added.
+struct Correction {
+  Shift shift;
+  std::vector<Prediction> rest;
+};
+
+/// How predictions are mended (numerics.h): `own`, what a prediction without error would have more,
+/// and what a mesh of the plant file's spacing would have more than that, by the power of the
+/// spacing: `first` at the junctions, half a segment of the parent; `second` everywhere. A
+/// hypothesis chooses its share s of the spacing: s first + s^2 second.
 struct Corrections {
-  std::vector<Prediction> own, first, second;
+  Correction own, first, second;
+  bool empty() const { return own.rest.empty(); }
+  Shift shift(double share) const;
+  void add_rest(double share, int trial, Prediction& prediction) const;
 };
 
 /// Simulates a list of hypotheses over the same trials at once.

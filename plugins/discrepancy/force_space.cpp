@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discrepancy/causes.h"
 #include "discrepancy/force_term.h"
 #include "discrepancy/places.h"
+#include "discrepancy/scales.h"
 
 namespace pedicel::discrepancy {
 
@@ -30,13 +30,13 @@ double hat(double t, double middle, double interval) {
 
 ForceResponses::ForceResponses(const Experiment& experiment, const DataSet& data,
                                const FitSummary& model, const FitOptions& options, double distance,
-                               int threads)
+                               int threads, const std::atomic<bool>* stop)
     : experiment_(experiment),
       data_(data),
       model_(model),
       trials_(options.trials),
       variant_(model.hypothesis.variant()),
-      simulator_(experiment, {distance, response_dt}, threads) {
+      simulator_(experiment, {distance, response_dt}, threads, stop) {
   std::vector<Simulator::Request> requests;
   for (const int trial : trials_) {
     const double duration = experiment.trials[trial].duration();

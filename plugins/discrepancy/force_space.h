@@ -66,7 +66,8 @@ class ForceResponses {
  public:
   /// `model`: fitted over `options.trials`. `distance`: m between nodes.
   ForceResponses(const Experiment& experiment, const DataSet& data, const FitSummary& model,
-                 const FitOptions& options, double distance, int threads);
+                 const FitOptions& options, double distance, int threads,
+                 const std::atomic<bool>* stop = nullptr);
 
   /// Of forces across the curve at a marker.
   ForceSpace force_at(int marker);

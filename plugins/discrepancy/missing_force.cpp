@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
 #include "discrepancy/candidates.h"
 #include "discrepancy/force_term.h"
 #include "discrepancy/places.h"
+#include "discrepancy/sentence.h"
 
 namespace pedicel::discrepancy {
 
@@ -22,12 +22,6 @@ constexpr std::size_t most_refits = 5;
 constexpr double refit_within = 30.0;  // nats of linear response, and
 constexpr double refit_share = 0.3;    // of the best one's: large forces are not linear
 constexpr std::size_t kinds = 11;
-
-std::string text(const char* format, double a, double b = 0.0) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
 
 /// A place with what was found there.
 struct Place {
@@ -44,7 +38,7 @@ class Inference {
         options_(options),
         experiment_(evaluator.data().experiment()),
         responses_(experiment_, evaluator.data(), model, options.fit, experiment_.plant.distance,
-                   options.threads) {
+                   options.threads, evaluator.simulator().stop()) {
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
       scales_.length = std::max(scales_.length, drawn_length(curve));

@@ -102,7 +102,7 @@ std::vector<Tried> try_designs(Experiment designs, const DataSet& data,
                                const std::vector<Variant>& variants,
                                const NextExperimentOptions& options, long& simulations) {
   for (const TrialDesign* design : list) designs.trials.push_back(design->trial);
-  Simulator simulator(designs, options.numerics, options.threads);
+  Simulator simulator(designs, options.numerics, options.threads, options.stop);
   std::vector<Simulator::Request> requests;
   for (std::size_t t = 0; t < list.size(); ++t)
     for (const Variant& variant : variants) requests.push_back({&variant, static_cast<int>(t)});

@@ -11,6 +11,7 @@ namespace {
 constexpr int most_lags = 6;
 constexpr int window_size = 100;  // samples; long against the memory of a sensor
 constexpr int least_window = 16;
+constexpr double most_share = 1.2;  // of a stated deviation, that an estimate may be
 
 // A stretch without gaps.
 struct Window {
@@ -126,7 +127,7 @@ Noise estimate_noise(std::span<const Series> channels, double stated_std) {
     samples += size;
   }
   level /= samples;
-  std::vector<double> covariance(most_lags + 1, level);
+  std::vector<double> semivariance;
   for (int lag = 1; lag <= most_lags; ++lag) {
     double sum = 0.0;
     int count = 0;
@@ -135,9 +136,28 @@ Noise estimate_noise(std::span<const Series> channels, double stated_std) {
       sum += squares;
       count += pairs;
     }
-    covariance[lag] = level - 0.5 * sum / count;
+    semivariance.push_back(0.5 * sum / count);
   }
+  // A slow misfit raises the plateau and would pass for a long memory, which then hides it. A
+  // plateau below what is stated stays: raised by itself it would pass for a memory, too.
+  if (stated_std > 0.0)
+    level =
+        std::min(level, std::max(stated_std * stated_std, *std::ranges::max_element(semivariance)));
+  std::vector<double> covariance{level};
+  for (const double value : semivariance) covariance.push_back(level - value);
   return autoregressive(covariance, samples);
+}
+
+Noise choose_noise(std::span<const Series> channels, double stated_std, const NoiseRule& rule) {
+  Noise noise = estimate_noise(channels, stated_std);
+  if (!(stated_std > 0.0)) return noise;
+  const bool small = noise.std < rule.least_share * stated_std;
+  if (small && !rule.keep_colour) return white_noise(stated_std);
+  if (!small && noise.std <= most_share * stated_std) return noise;
+  const double share = stated_std / noise.std;
+  noise.std = stated_std;
+  for (double& innovation : noise.innovation) innovation *= share;
+  return noise;
 }
 
 Eigen::VectorXd whiten(const Series& residual, const Noise& noise) {

@@ -35,6 +35,18 @@ using Series = Eigen::VectorXd;
 /// estimate (0: none). Without any samples: white noise of `stated_std`, or 1.
 Noise estimate_noise(std::span<const Series> channels, double stated_std);
 
+/// What becomes of an estimate below a deviation that is stated: it comes from channels that stand
+/// still, which scatter less than those that move.
+struct NoiseRule {
+  double least_share = 1.0;  ///< of what is stated, below which an estimate is too small
+  /// True: it is raised to what is stated, with its colour; false: white noise of what is stated.
+  bool keep_colour = true;
+};
+
+/// The estimate, bounded by what is stated (m or N; 0: nothing is). Motion that no window is free
+/// of can only raise an estimate: one above 1.2 times what is stated is brought down to it.
+Noise choose_noise(std::span<const Series> channels, double stated_std, const NoiseRule& rule);
+
 /// The innovations of a residual series in units of their standard deviation: white, and of unit
 /// variance where the noise is as modelled. NaN stays NaN; after a gap the process starts afresh.
 Eigen::VectorXd whiten(const Series& residual, const Noise& noise);

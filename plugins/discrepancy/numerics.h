@@ -16,10 +16,14 @@ struct NumericsCheck {
   Eigen::VectorXd parameter_shift;      ///< of the unknowns, that the correction makes
 };
 
+/// Of our own error, and of the data's own, what a correction by Richardson may leave.
+inline constexpr double left_uncorrected = 0.1;
+
 /// Simulates the fitted model with half the step and with half the mesh.
 NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,
                              const FitSummary& base, const Numerics& numerics,
-                             const FitOptions& options, int threads, long& simulations);
+                             const FitOptions& options, int threads, long& simulations,
+                             const std::atomic<bool>* stop = nullptr);
 
 /// The next finer numerics by what weighs more.
 Numerics refined(const NumericsCheck& check);

@@ -11,15 +11,14 @@
 #include "core/random.h"
 #include "discrepancy/admission.h"
 #include "discrepancy/causes.h"
-#include "discrepancy/trial_split.h"
+#include "discrepancy/fit_setup.h"
 #include "io/csv.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double allowed_error = 0.15;  // of the noise, RMS, before it is corrected for
-constexpr double early = 0.3;           // share of the records in which periods do not slip
+constexpr double early = 0.3;  // share of the records in which periods do not slip
 constexpr int drawn_starts = 4, carried_on = 3, most_rounds = 3;
 constexpr double probe = 0.1;         // of an unknown
 constexpr double least_change = 0.1;  // noise units
@@ -51,83 +50,56 @@ std::string name_of(const plant::Effect& effect, const FreeParameter& free) {
   return name;
 }
 
+// What is stated counts, with the colour that the data show. An estimate far below what is stated
+// comes from stretches in which nothing moves, and says little of the rest.
+constexpr NoiseRule noise_rule{0.5, false};
+
 /// One fit on its way.
 class Run {
  public:
   Run(const Experiment& experiment, const std::vector<Hypothesis>& starts,
       const ParameterFitOptions& options)
       : options_(options),
-        admission_(admit(experiment)),
+        admission_(admitted(experiment)),
         starts_(starts),
-        data_(this->experiment()) {
-    if (!admission_.refusal.empty())
-      throw InvalidFile({(experiment.folder / "experiment.yaml").string(), 0, 0},
-                        admission_.refusal);
+        setup_(admission_.experiment, options.threads, noise_rule, options.stop) {
     for (const std::string& remark : admission_.remarks) result_.remarks.push_back(remark + ".");
-    const TrialSplit split = split_trials(this->experiment());
-    fit_options_.trials = split.fit;
-    check_ = split.check;
-    result_.numerics = {this->experiment().plant.distance, 1.0 / 480.0};
-    std::vector<Series> position, force;
-    measured_series(this->experiment(), position, force);
-    set_noise(position, force);
-    renew();
   }
 
   ParameterFit run() {
     const Clock::time_point began = Clock::now();
     choose_start();
     refine();
-    renew_noise();
+    setup_.renew_noise(result_.summary.hypothesis);
     for (int round = 0; round < most_rounds && !stopped(); ++round) {
       say("fitting", 0.35);
       polish();
       if (!profile_all()) break;
     }
     measure_trials();
+    result_.position_noise = setup_.data().position_noise();
+    result_.force_noise = setup_.data().force_noise();
+    result_.numerics = setup_.numerics();
     result_.stopped = stopped();
-    count();
+    result_.simulations = setup_.simulations();
     result_.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     return std::move(result_);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  const Experiment& experiment() const { return admission_.experiment; }
-  bool stopped() const { return options_.stop && *options_.stop; }
+  static Admission admitted(const Experiment& experiment) {
+    Admission admission = admit(experiment);
+    if (!admission.refusal.empty())
+      throw InvalidFile({(experiment.folder / "experiment.yaml").string(), 0, 0},
+                        admission.refusal);
+    return admission;
+  }
+  const Experiment& experiment() const { return setup_.experiment(); }
+  bool stopped() const { return setup_.stopped(); }
   void say(const std::string& what, double share) const {
     if (options_.progress) options_.progress(what, share);
   }
-
-  // What is stated counts, with the colour that the data show. Motion can only raise an estimate;
-  // and one far below what is stated comes from stretches in which nothing moves, and says little
-  // of the rest.
-  void set_noise(const std::vector<Series>& position, const std::vector<Series>& force) {
-    const auto choose = [](const std::vector<Series>& series, double std) {
-      Noise noise = estimate_noise(series, std);
-      if (std > 0.0 && noise.std < 0.5 * std) return white_noise(std);
-      if (std > 0.0 && noise.std > 1.2 * std) {
-        for (double& innovation : noise.innovation) innovation *= std / noise.std;
-        noise.std = std;
-      }
-      return noise;
-    };
-    result_.position_noise = choose(position, experiment().noise.position_std.value_or(0.0));
-    result_.force_noise = choose(force, experiment().noise.force_std.value_or(0.0));
-    data_.set_noise(result_.position_noise, result_.force_noise);
-  }
-
-  void count() {
-    if (simulator_) result_.simulations += simulator_->simulations();
-  }
-  void renew() {
-    count();
-    simulator_ = std::make_unique<Simulator>(experiment(), result_.numerics, options_.threads);
-  }
-  Evaluator evaluator() {
-    return Evaluator(*simulator_, data_, corrections_.own.empty() ? nullptr : &corrections_);
-  }
-  int samples() const { return data_.samples(fit_options_.trials); }
 
   // Some starts besides, anywhere within reach of the given ones.
   void draw_starts() {
@@ -149,9 +121,9 @@ class Run {
     say("looking from several starts", 0.02);
     if (starts_.front().size() > 0) draw_starts();
     result_.starts = static_cast<int>(starts_.size());
-    FitOptions first = fit_options_;
+    FitOptions first = setup_.options();
     first.horizon = early;
-    Evaluator with = evaluator();
+    Evaluator with = setup_.evaluator();
     const Scan looked = scan(with, starts_, first);
     std::vector<int> order(starts_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -161,7 +133,7 @@ class Run {
     for (const int i : order) fits.push_back(fit(with, starts_[i], first));
     std::ranges::stable_sort(fits, {}, &FitSummary::cost);
     keep_what_is_seen(fits.front().hypothesis);
-    result_.summary = fit(with, result_.summary.hypothesis, fit_options_);
+    result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
   }
 
   // What moves no sample is held where it was given: a fit would only walk about.
@@ -174,8 +146,8 @@ class Run {
       models.push_back(found);
       models.back().set_value(p, free.to_value(u));
     }
-    Evaluator with = evaluator();
-    const Eigen::MatrixXd r = with.residuals(models, fit_options_);
+    Evaluator with = setup_.evaluator();
+    const Eigen::MatrixXd r = with.residuals(models, setup_.options());
     Hypothesis& kept = result_.summary.hypothesis;
     kept = found;
     kept.free.clear();
@@ -190,53 +162,26 @@ class Run {
     }
   }
 
-  // Mesh and step, until our own error is a small part of the noise, or until that costs too much.
   void refine() {
-    for (int round = 0;; ++round) {
-      say("checking our own numerical error", 0.1 + 0.05 * round);
-      const NumericsCheck check =
-          check_numerics(experiment(), data_, result_.summary, result_.numerics, fit_options_,
-                         options_.threads, result_.simulations);
-      result_.numerical_error = check.largest;
-      if (check.largest <= allowed_error || round == 3 || stopped()) {
-        corrections_ = check.corrections;
-        break;
-      }
-      result_.numerics = refined(check);
-      renew();
-      Evaluator with = evaluator();
-      result_.summary = fit(with, result_.summary.hypothesis, fit_options_);
-    }
+    const NumericsCheck check = setup_.refine(
+        result_.summary,
+        {[this](int round) { say("checking our own numerical error", 0.1 + 0.05 * round); }, {}});
+    result_.numerical_error = check.largest;
     asked_ = result_.summary.hypothesis.size();
     result_.summary.hypothesis.add(mesh_freedom());
-    Evaluator with = evaluator();
-    result_.summary = fit(with, result_.summary.hypothesis, fit_options_);
-  }
-
-  void renew_noise() {
-    const auto predicted = predictions();
-    std::vector<Series> position, force;
-    for (std::size_t t = 0; t < predicted.size(); ++t)
-      data_.raw_residuals(static_cast<int>(t), predicted[t], position, force);
-    set_noise(position, force);
-  }
-
-  std::vector<Prediction> predictions() {
-    FitOptions all = fit_options_;
-    all.trials.resize(experiment().trials.size());
-    std::iota(all.trials.begin(), all.trials.end(), 0);
-    Evaluator with = evaluator();
-    return with.predictions(std::span(&result_.summary.hypothesis, 1), all).front();
+    Evaluator with = setup_.evaluator();
+    result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
   }
 
   // To the bottom: an interval's end is a matter of nats, not of a share of the cost.
   void polish() {
-    Evaluator with = evaluator();
-    result_.summary = fit(with, result_.summary.hypothesis, fit_options_);
-    FitOptions fine = fit_options_;
+    Evaluator with = setup_.evaluator();
+    result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
+    FitOptions fine = setup_.options();
     fine.tolerance = std::min(fine.tolerance, 0.01 / std::max(1.0, result_.summary.cost));
     result_.summary = fit(with, result_.summary.hypothesis, fine);
-    result_.spread = std::sqrt(std::max(1.0, 2.0 * result_.summary.cost / std::max(1, samples())));
+    result_.spread =
+        std::sqrt(std::max(1.0, 2.0 * result_.summary.cost / std::max(1, setup_.samples())));
   }
 
   // True: a better fit turned up on the way, and the intervals must be done again.
@@ -245,8 +190,8 @@ class Run {
     for (int p = 0; p < asked_ && !stopped(); ++p) {
       say("profiling " + described(result_.summary.hypothesis.free[p]).name,
           0.4 + 0.55 * p / asked_);
-      Evaluator with = evaluator();
-      Profile found = profile(with, result_.summary, p, fit_options_,
+      Evaluator with = setup_.evaluator();
+      Profile found = profile(with, result_.summary, p, setup_.options(),
                               deviance95 * result_.spread * result_.spread);
       result_.refits += found.low.refits + found.high.refits;
       if (found.better) {
@@ -295,31 +240,18 @@ class Run {
   }
 
   void measure_trials() {
-    const auto predicted = predictions();
-    for (std::size_t t = 0; t < predicted.size(); ++t) {
-      double sum = 0.0;
-      int count = 0;
-      const int trial = static_cast<int>(t);
-      const Eigen::MatrixXd r = data_.scaled_residual(trial, predicted[t]);
-      for (const double x : r.reshaped())
-        if (std::isfinite(x)) {
-          sum += x * x;
-          ++count;
-        }
+    const auto predicted = setup_.predictions(std::span(&result_.summary.hypothesis, 1)).front();
+    const std::vector<int>& check = setup_.check_trials();
+    for (int t = 0; t < static_cast<int>(predicted.size()); ++t)
       result_.trials.push_back({experiment().trials[t].name,
-                                std::ranges::find(check_, trial) != check_.end(),
-                                count > 0 ? std::sqrt(sum / count) : 0.0});
-    }
+                                std::ranges::find(check, t) != check.end(),
+                                setup_.data().rms(std::span(&t, 1), predicted)});
   }
 
   ParameterFitOptions options_;
   Admission admission_;
   std::vector<Hypothesis> starts_;
-  DataSet data_;
-  FitOptions fit_options_;
-  std::vector<int> check_;
-  Corrections corrections_;
-  std::unique_ptr<Simulator> simulator_;
+  FitSetup setup_;
   std::vector<FreeParameter> unseen_;
   int asked_ = 0;  // free parameters that were asked for and are seen, the first of the model's
   ParameterFit result_;

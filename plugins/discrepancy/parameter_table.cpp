@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "discrepancy/causes.h"
 #include "discrepancy/parameter_fit.h"
 
 namespace pedicel::discrepancy {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "discrepancy/causes.h"
+#include "discrepancy/cause_names.h"
 #include "discrepancy/plant_sketch.h"
 #include "discrepancy/report_words.h"
 #include "discrepancy/symptom_parts.h"

@@ -68,11 +68,12 @@ struct Group {
 }  // namespace
 
 struct Simulator::Impl {
-  Impl(const Experiment& given, const Numerics& how, int threads)
+  Impl(const Experiment& given, const Numerics& how, int threads, const std::atomic<bool>* caller)
       : experiment(given),
         numerics(how),
         maker(given, how.distance, how.junction * how.distance),
-        pool(threads) {
+        pool(threads),
+        stop(caller ? *caller : never) {
     check_places();
   }
 
@@ -251,12 +252,14 @@ struct Simulator::Impl {
   const PlantMaker maker;
   ThreadPool pool;
   MotionCache cache{cache_bytes};
-  std::atomic<bool> stop{false};
+  const std::atomic<bool> never{false};
+  const std::atomic<bool>& stop;
   std::atomic<long> simulations{0};
 };
 
-Simulator::Simulator(const Experiment& experiment, const Numerics& numerics, int threads)
-    : impl_(std::make_unique<Impl>(experiment, numerics, threads)) {}
+Simulator::Simulator(const Experiment& experiment, const Numerics& numerics, int threads,
+                     const std::atomic<bool>* stop)
+    : impl_(std::make_unique<Impl>(experiment, numerics, threads, stop)) {}
 
 Simulator::~Simulator() = default;
 
@@ -286,8 +289,8 @@ const Numerics& Simulator::numerics() const {
 long Simulator::simulations() const {
   return impl_->simulations;
 }
-void Simulator::stop() {
-  impl_->stop = true;
+const std::atomic<bool>* Simulator::stop() const {
+  return &impl_->stop;
 }
 
 }  // namespace pedicel::discrepancy

@@ -50,10 +50,12 @@ struct Prediction {
 /// plants share the solver's lanes, and groups of them run on all threads.
 class Simulator {
  public:
-  /// Keeps a reference to the experiment.
+  /// Keeps a reference to the experiment. Once `stop` is set, by whomever, run() returns early:
+  /// everything not done is NaN and unhealthy.
   /// Throws InvalidFile where the plant cannot be built, UsageError where the experiment names a
   /// curve that it lacks.
-  Simulator(const Experiment& experiment, const Numerics& numerics, int threads);
+  Simulator(const Experiment& experiment, const Numerics& numerics, int threads,
+            const std::atomic<bool>* stop = nullptr);
   ~Simulator();
 
   struct Request {
@@ -74,9 +76,8 @@ class Simulator {
 
   const Experiment& experiment() const;
   const Numerics& numerics() const;
-  long simulations() const;  ///< trials simulated so far
-  /// Makes run() return early, everything not done NaN and unhealthy. May be called from anywhere.
-  void stop();
+  long simulations() const;               ///< trials simulated so far
+  const std::atomic<bool>* stop() const;  ///< the caller's, for others that work for it
 
  private:
   struct Impl;

@@ -32,7 +32,7 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
   std::vector<Hypothesis> models{base.hypothesis};
   for (const Cause& cause : causes)
     for (const Hypothesis& start : cause.starts) {
-      directions.push_back({cause.name, start.shrunk(0.1), {}});
+      directions.push_back({cause.name, start.shrunk(0.1), {}, {}});
       models.push_back(with(base.hypothesis, directions.back().start));
     }
   // Twice: the first pass says how large a start is in units of the noise.
@@ -50,8 +50,10 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
       }
     }
   }
-  for (Direction& direction : directions)
-    direction.change = left_over(base.jacobian, direction.change);
+  for (Direction& direction : directions) {
+    direction.absorbed = absorbed(base.jacobian, direction.change);
+    direction.change -= base.jacobian * direction.absorbed;
+  }
   return directions;
 }
 

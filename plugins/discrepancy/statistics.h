@@ -13,10 +13,11 @@ namespace pedicel::discrepancy {
 /// share: what a directed test looks for.
 struct Direction {
   std::string cause;
-  Hypothesis start;         ///< the cause at the size that `change` stands for
-  Eigen::VectorXd change;   ///< whitened, what the parameters cannot absorb
-  double statistic = 0.0;   ///< standard normal where nothing is wrong
-  double systematic = 0.0;  ///< how far our own numerical error could move it
+  Hypothesis start;          ///< the cause at the size that `change` stands for
+  Eigen::VectorXd change;    ///< whitened, what the parameters cannot absorb
+  Eigen::VectorXd absorbed;  ///< steps of the parameters' unknowns that stand for the rest
+  double statistic = 0.0;    ///< standard normal where nothing is wrong
+  double systematic = 0.0;   ///< how far our own numerical error could move it
 };
 
 /// Directions of every start of every cause, at sizes at which the response is about linear.

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "discrepancy/causes.h"
+#include "discrepancy/cause_names.h"
 
 namespace pedicel::discrepancy {
 

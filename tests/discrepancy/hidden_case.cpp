@@ -64,8 +64,8 @@ class Maker {
                         factor("damping_time", random_.uniform(0.6, 1.6))};
     subject_ = {case_.setting.plant, case_.refitted, {}};
     plain_ = subject_;
-    coarse_ = {2.0 * case_.setting.plant.distance, 0.01};
-    fine_ = {0.25 * case_.setting.plant.distance, 0.0041};
+    coarse_ = {2.0 * case_.setting.plant.distance, 0.005};
+    fine_ = {0.25 * case_.setting.plant.distance, 0.0017};
     make_trials();
   }
 

@@ -43,16 +43,17 @@ Sight::Sight(const reference::Subject& subject, Predict predict, std::vector<std
     changed.effects.push_back(factor(absorbing_[k], std::exp(step)));
     columns_.col(k) = (predict_(changed) - plain_) / step;
   }
-  // Directions that the others nearly contain stay out: they could not be refitted either.
+  // A direction that the others contain but for rounding stays out; one that they nearly contain is
+  // what a refit follows far.
   if (columns_.cols() == 0) return;
-  qr_.setThreshold(1e-3);
+  qr_.setThreshold(1e-6);
   qr_.compute(columns_);
 }
 
 Sight::Change Sight::change(const reference::Subject& with, const Eigen::VectorXd& start) const {
   Change out;
   out.refit = start.size() ? start : Eigen::VectorXd::Zero(columns_.cols());
-  for (int k = 0; k < 7; ++k) {
+  for (int k = 0; k < 10; ++k) {
     reference::Subject changed = with;
     for (std::size_t i = 0; i < absorbing_.size(); ++i)
       changed.effects.push_back(factor(absorbing_[i], std::exp(out.refit[static_cast<int>(i)])));

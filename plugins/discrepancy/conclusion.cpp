@@ -1,0 +1,221 @@
+#include "discrepancy/conclusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/cause_names.h"
+#include "discrepancy/sentence.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// Of the noise variance, an excess that is no sign of a missing effect.
+constexpr double small_excess = 0.01;
+constexpr double most_missed = 0.1;    // of the gain of all causes found, by what is left
+constexpr double clear_margin = 5.0;   // nats by which a rival must lose
+constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
+constexpr double most_margin = 20.0;   // nats, of that
+// Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
+constexpr double least_parameter_change = 0.002;
+constexpr int least_outliers = 12;  // wild samples that are worth a name
+
+// Modulus, density or damping, where nothing else is wrong and their interval leaves out 1.
+void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  const FitSummary& base = diagnosis.base;
+  for (int p = 0; p < base.hypothesis.size(); ++p) {
+    const FreeParameter& free = base.hypothesis.free[p];
+    if (free.name != "factor") continue;
+    const double u = free.to_unknown(base.hypothesis.value(p));
+    const double error = base.standard_error[p];
+    const double shift = p < findings.parameter_shift.size()
+                             ? left_uncorrected * std::abs(findings.parameter_shift[p])
+                             : 0.0;
+    // Three parameters share the few false alarms that are allowed.
+    if (std::abs(u) < 3.5 * error + shift + least_parameter_change) continue;
+    NamedCause cause;
+    cause.name = base.hypothesis.effects[free.effect].name;
+    cause.parameters["factor"] = {findings.estimate(base, p)};
+    cause.evidence = 0.5 * std::pow(u / error, 2);
+    cause.because =
+        "The refitted value is " +
+        text("%.4g times the nominal one, and nothing else is needed.", free.to_value(u));
+    verdict.causes.push_back(cause);
+  }
+  verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
+}
+
+// A rival that has the best one as a special case, and needs more parameters to do no better, is
+// no other explanation: a wind of no speed is drag.
+bool contains(const Candidate& rival, const Candidate& best) {
+  static const std::vector<std::pair<std::string, std::string>> special{
+      {"leaf_drag", "wind"}, {"leaf_drag", "gust"}, {"wind", "gust"}};
+  return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
+         rival.evidence < best.evidence;
+}
+
+// Whether leaving out one of the trials would turn the order round.
+bool wins_without_a_trial(const Findings& findings, const Candidate& rival, const Candidate& best) {
+  if (findings.fit_trials.size() < 3) return false;
+  const double all = rival.fit.cost - best.fit.cost;
+  Eigen::Index row = 0;
+  for (const int t : findings.fit_trials) {
+    const Eigen::Index size = findings.data->size(std::span(&t, 1));
+    const double here = 0.5 * (rival.fit.residual.segment(row, size).squaredNorm() -
+                               best.fit.residual.segment(row, size).squaredNorm());
+    if (all - here < -clear_margin) return true;
+    row += size;
+  }
+  return false;
+}
+
+// Whether something is left that what was found should have explained.
+void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  if (!diagnosis.after.raised) return;
+  const double excess_before = diagnosis.base.cost - 0.5 * findings.samples();
+  const double excess_after = diagnosis.best.cost - 0.5 * findings.samples();
+  const double left = excess_after / std::max(excess_before, 1.0);
+  verdict.remainder =
+      text("%.2g %% of what the refitted model left above the noise", 100.0 * std::max(left, 0.0));
+  double gain = 0.0;
+  for (const Candidate& found : findings.chain) gain += found.gain;
+  // What the loudest direction would still gain.
+  const double missed = 0.5 * std::pow(diagnosis.after.statistic, 2);
+  const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
+  if (much || missed > most_missed * gain) verdict.outcome = Outcome::unknown;
+}
+
+// Those that the data cannot tell from the best are causes, too; the others are rivals.
+void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
+  Verdict& verdict = diagnosis.verdict;
+  const Candidate& best = diagnosis.ranking.front();
+  const double margin = clear_margin + std::min(margin_share * best.gain, most_margin);
+  for (std::size_t i = 1; i < diagnosis.ranking.size(); ++i) {
+    const Candidate& rival = diagnosis.ranking[i];
+    const double behind = best.evidence - rival.evidence;
+    if (!rival.whole || rival.evidence < 0.0) break;
+    const bool beaten = behind > margin && !wins_without_a_trial(findings, rival, best);
+    if (beaten || findings.chain.size() > 1 || contains(rival, best)) {
+      verdict.rivals.push_back({rival.cause, behind});
+      continue;
+    }
+    verdict.causes.push_back(findings.named(rival, rival.fit, base_effects, verdict.fit));
+    verdict.outcome = Outcome::ambiguous;
+  }
+}
+
+void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  const int base_effects = static_cast<int>(diagnosis.base.hypothesis.effects.size());
+  for (std::size_t c = 0; c < findings.chain.size(); ++c)
+    verdict.causes.push_back(findings.named(findings.chain[c], diagnosis.best,
+                                            base_effects + static_cast<int>(c), verdict.fit));
+  verdict.outcome = Outcome::named;
+  weigh_rivals(findings, diagnosis, base_effects);
+  judge_remainder(findings, diagnosis);
+  // A cause that does nothing for trials that it was not fitted to is none.
+  if (verdict.outcome == Outcome::named && !findings.chain.front().held_out.carries_over()) {
+    verdict.outcome = Outcome::unknown;
+    verdict.remainder = "what was fitted does not carry over to the trials kept back";
+  }
+}
+
+}  // namespace
+
+void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
+  const auto measure = [&](const std::vector<int>& trials, Errors& errors) {
+    if (trials.empty()) return;
+    const auto over = [&](Model model) {
+      return findings.data->rms(trials, diagnosis.predictions[model]);
+    };
+    errors = {over(nominal), over(refitted), over(extended)};
+  };
+  measure(diagnosis.fit_trials, diagnosis.verdict.fit);
+  measure(diagnosis.check_trials, diagnosis.verdict.check);
+  const Errors& check = diagnosis.verdict.check;
+  if (!findings.chain.empty() && check.refitted && *check.refitted > 1.0)
+    diagnosis.verdict.gain = (*check.refitted - *check.extended) / (*check.refitted - 1.0);
+}
+
+void conclude(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  if (!diagnosis.before.raised) {
+    conclude_parameters(findings, diagnosis);
+  } else if (findings.chain.empty() && findings.excess(diagnosis.base) < small_excess) {
+    conclude_parameters(findings, diagnosis);
+    verdict.remainder = text(
+        "a steady difference of %.3g noise units in all, which no cause explains and no single "
+        "sample shows",
+        diagnosis.before.statistic);
+  } else if (findings.chain.empty()) {
+    verdict.outcome = Outcome::unknown;
+  } else {
+    conclude_causes(findings, diagnosis);
+  }
+}
+
+void name_nothing(Verdict& verdict) {
+  std::string nearest;
+  for (const NamedCause& cause : verdict.causes)
+    nearest += (nearest.empty() ? "" : " with ") + cause.name;
+  verdict.causes.clear();
+  if (!nearest.empty()) verdict.remainder += "; the nearest known cause is " + nearest;
+}
+
+void conclude_outliers(Diagnosis& diagnosis) {
+  const Admission& admission = diagnosis.admission;
+  if (admission.outliers < least_outliers) return;
+  Verdict& verdict = diagnosis.verdict;
+  // Among rivals, or where nothing is known, they would read as one more explanation.
+  if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) return;
+  NamedCause cause;
+  cause.name = "outliers";
+  const double count = admission.outliers, fraction = admission.outlier_fraction();
+  const double error = interval95 * std::sqrt(count) / admission.samples;
+  cause.parameters["fraction"] = {
+      {fraction, std::max(0.0, fraction - error), fraction + error, "1"}};
+  cause.because = std::to_string(admission.outliers) +
+                  " samples stand far from their neighbours, each by itself; they were left out.";
+  // Each lies 10 deviations out: as Gaussian noise it would cost 50 nats.
+  cause.evidence = 50.0 * count;
+  verdict.causes.push_back(cause);
+  verdict.outcome = Outcome::named;
+}
+
+void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
+  const FitSummary& fit = diagnosis.best;
+  const plant::MaterialValues& material = diagnosis.admission.experiment.plant.material;
+  for (int p = 0; p < fit.hypothesis.size(); ++p) {
+    const FreeParameter& free = fit.hypothesis.free[p];
+    const std::string& effect = fit.hypothesis.effects[free.effect].name;
+    const std::optional<double> value = effect == "youngs_modulus" ? material.youngs_modulus
+                                        : effect == "density"      ? material.density
+                                        : effect == "damping_time" ? material.damping_time
+                                                                   : std::nullopt;
+    if (!value) continue;
+    Estimate estimate = findings.estimate(fit, p);
+    for (double* x : {&estimate.value, &estimate.low, &estimate.high}) *x *= *value;
+    estimate.unit = effect == "youngs_modulus" ? "Pa" : effect == "density" ? "kg/m3" : "s";
+    diagnosis.verdict.parameters[effect] = estimate;
+  }
+}
+
+void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis) {
+  for (const Cause& cause : causes) {
+    CouldHide least;
+    least.name = cause.name;
+    double best = 0.0;
+    for (const Direction& direction : diagnosis.directions) {
+      if (direction.cause != cause.name || direction.change.norm() < best) continue;
+      best = direction.change.norm();
+      least.smallest_seen = smallest_seen(
+          direction, diagnosis.before.level + std::abs(direction.systematic), least.parameter);
+    }
+    least.unit = unit_of(cause.name, least.parameter);
+    diagnosis.verdict.could_hide.push_back(least);
+  }
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "discrepancy/diagnosis.h"
+#include "discrepancy/findings.h"
+
+namespace pedicel::discrepancy {
+
+/// The verdict's parts, in the order in which they are drawn. All read the fits, alarms and ranking
+/// of the diagnosis and fill in its verdict.
+
+/// RMS residuals of the three models and the gain, from the diagnosis's predictions.
+void measure_errors(const Findings& findings, Diagnosis& diagnosis);
+
+/// Outcome, causes, rivals and remainder.
+void conclude(const Findings& findings, Diagnosis& diagnosis);
+
+/// Where the outcome is `unknown`: what was fitted but does not explain the data is told in words,
+/// not as a cause.
+void name_nothing(Verdict& verdict);
+
+/// Wild samples were left out before the fit; they are named beside what else was found.
+void conclude_outliers(Diagnosis& diagnosis);
+
+/// Modulus, density and damping of the best model, in their own units.
+void report_parameters(const Findings& findings, Diagnosis& diagnosis);
+
+/// The size from which each cause would have been seen, from the diagnosis's directions.
+void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,75 @@
+#include "discrepancy/fit_setup.h"
+
+#include <numeric>
+
+#include "discrepancy/trial_split.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double allowed_error = 0.15;  // of the noise, RMS, before it is corrected for
+constexpr int most_refinements = 3;
+constexpr double first_dt = 1.0 / 480.0;  // s
+
+}  // namespace
+
+FitSetup::FitSetup(const Experiment& experiment, int threads, const NoiseRule& rule,
+                   const std::atomic<bool>* stop)
+    : experiment_(&experiment),
+      data_(experiment),
+      rule_(rule),
+      numerics_{experiment.plant.distance, first_dt},
+      threads_(threads),
+      stop_(stop) {
+  std::vector<Series> position, force;
+  measured_series(experiment, position, force);
+  data_.choose_noise(position, force, rule_);
+  const TrialSplit split = split_trials(experiment);
+  options_.trials = split.fit;
+  check_ = split.check;
+  renew();
+}
+
+Evaluator FitSetup::evaluator() {
+  return Evaluator(*simulator_, data_, corrections());
+}
+
+std::vector<std::vector<Prediction>> FitSetup::predictions(std::span<const Hypothesis> hypotheses) {
+  FitOptions all = options_;
+  all.trials.resize(experiment_->trials.size());
+  std::iota(all.trials.begin(), all.trials.end(), 0);
+  return evaluator().predictions(hypotheses, all);
+}
+
+void FitSetup::renew() {
+  if (simulator_) simulations_ += simulator_->simulations();
+  simulator_ = std::make_unique<Simulator>(*experiment_, numerics_, threads_, stop_);
+}
+
+void FitSetup::renew_noise(const Hypothesis& model) {
+  const auto predicted = predictions(std::span(&model, 1)).front();
+  std::vector<Series> position, force;
+  for (std::size_t t = 0; t < predicted.size(); ++t)
+    data_.raw_residuals(static_cast<int>(t), predicted[t], position, force);
+  data_.choose_noise(position, force, rule_);
+}
+
+NumericsCheck FitSetup::refine(FitSummary& model, const Watch& watch) {
+  for (int round = 0;; ++round) {
+    watch.begin(round);
+    NumericsCheck check = check_numerics(*experiment_, data_, model, numerics_, options_, threads_,
+                                         simulations_, stop_);
+    if (check.largest <= allowed_error || round == most_refinements || stopped()) {
+      corrections_ = check.corrections;
+      return check;
+    }
+    if (watch.too_coarse) watch.too_coarse(check);
+    numerics_ = refined(check);
+    renew();
+    Evaluator with = evaluator();
+    model = fit(with, model.hypothesis, options_);
+  }
+}
+
+}  // namespace pedicel::discrepancy

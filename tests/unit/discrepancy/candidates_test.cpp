@@ -1,0 +1,112 @@
+// Refits of a handful of causes on a beam whose data were simulated with one of them: it must be
+// first, with its size, and the alarm must be about it. Without it there must be no alarm.
+#include "discrepancy/candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "unit/discrepancy/beam_experiment.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+constexpr double noise = 2.0e-4;  // m
+constexpr Numerics numerics{0.05, 1.0 / 240.0};
+
+/// Pulled aside along x and along y and let go; measured with white noise.
+struct Hidden {
+  Experiment experiment;
+  DataSet data;
+  std::vector<std::unique_ptr<Simulator>> simulators;
+  std::vector<Evaluator> workers;
+  FitOptions options;
+  FitSummary base;
+  std::vector<Cause> causes;
+
+  explicit Hidden(const std::vector<plant::Effect>& effects)
+      : experiment(made(effects)), data(experiment) {
+    data.set_noise(white_noise(noise), white_noise(1.0));
+    options.trials = {0, 1};
+    for (int i = 0; i < 2; ++i) {
+      simulators.push_back(std::make_unique<Simulator>(experiment, numerics, 1));
+      workers.emplace_back(*simulators.back(), data);
+    }
+    base = fit(workers[0], baseline(), options);
+    for (Cause& cause : candidate_causes(experiment, scales_of(experiment)))
+      for (const char* chosen : {"base_compliance", "latency", "marker_scale", "anisotropy"})
+        if (cause.name == chosen) causes.push_back(std::move(cause));
+  }
+
+  static Experiment made(const std::vector<plant::Effect>& effects) {
+    testing::Beam beam;
+    beam.damping_time = 0.01;
+    Experiment e = testing::experiment_of(beam, 1.0, 0.02);
+    e.plant.distance = 0.05;
+    Trial& trial = e.trials[0];
+    trial.force = {};
+    trial.gravity = Vec3(0, 0, -9.81);
+    trial.holds.push_back(
+        {testing::on_stem(0.8), testing::resting_at(Vec3(0.03, 0, 0.8 * beam.length)), 0.2, 20.0});
+    e.trials.push_back(trial);
+    e.trials[1].name = "two";
+    e.trials[1].holds[0].path = testing::resting_at(Vec3(0, 0.03, 0.8 * beam.length));
+    Variant variant;
+    variant.effects = effects;
+    Simulator simulator(e, numerics, 1);
+    Random random(21);
+    for (int t = 0; t < 2; ++t) {
+      const Simulator::Request request{&variant, t};
+      Eigen::MatrixXd seen = simulator.run(std::span(&request, 1)).front().markers;
+      for (double& x : seen.reshaped()) x += noise * random.normal();
+      e.trials[t].markers.value = seen;
+    }
+    return e;
+  }
+};
+
+TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
+  const double stiffness = 15.0 * scales_of(Hidden::made({})).root_stiffness;
+  Hidden hidden({testing::effect("base_compliance", "stiffness", {stiffness})});
+  std::vector<Direction> directions =
+      directions_of(hidden.workers[0], hidden.base, hidden.causes, hidden.options);
+  const Alarm alarm = judge(directions, hidden.base, {}, 1);
+  EXPECT_TRUE(alarm.raised);
+  // Directions hold nothing that the baseline can absorb.
+  for (const Direction& direction : directions)
+    EXPECT_LT((hidden.base.jacobian.transpose() * direction.change).norm(),
+              1e-6 * hidden.base.jacobian.norm() * (1.0 + direction.change.norm()));
+  const std::vector<Candidate> ranking = refit_all(hidden.workers, hidden.base, hidden.causes,
+                                                   directions, {hidden.options, {}, nullptr});
+  ASSERT_EQ(ranking.size(), hidden.causes.size());
+  const Candidate& best = ranking.front();
+  EXPECT_EQ(best.cause, "base_compliance");
+  EXPECT_TRUE(best.whole);
+  const int last = best.fit.hypothesis.size() - 1;
+  EXPECT_NEAR(std::log(best.fit.hypothesis.value(last) / stiffness), 0.0,
+              5.0 * best.fit.standard_error[last]);
+  EXPECT_GT(best.evidence, 25.0);
+  EXPECT_TRUE(std::ranges::is_sorted(
+      ranking, [](const Candidate& a, const Candidate& b) { return a.evidence > b.evidence; }));
+  // Nothing but noise is left: the cost is half of chi-square with as many numbers, sqrt(n / 2).
+  const int samples = hidden.data.samples(hidden.options.trials);
+  EXPECT_NEAR(best.fit.cost, 0.5 * samples, 5.0 * std::sqrt(0.5 * samples));
+}
+
+TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
+  Hidden nothing({});
+  std::vector<Direction> directions =
+      directions_of(nothing.workers[0], nothing.base, nothing.causes, nothing.options);
+  EXPECT_FALSE(judge(directions, nothing.base, {}, 1).raised);
+  EXPECT_LT(std::ranges::max(promise_of(nothing.causes, directions)), 5.0);
+}
+
+// ln(1000) / 2 a number, and the choice between 20.
+TEST(Candidates, CostHalfALogarithmANumber) {
+  EXPECT_NEAR(cost_of(3, 1000, 20), 1.5 * std::log(1000.0) + std::log(20.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,308 @@
+// What is concluded from fits and alarms that are written down: which causes are named, which are
+// rivals, and what is said of the rest.
+#include "discrepancy/conclusion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "unit/discrepancy/made_diagnosis.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+Hypothesis with(const Hypothesis& base, const Hypothesis& added) {
+  Hypothesis both = base;
+  both.add(added);
+  return both;
+}
+
+/// The first two of three trials are fitted. The baseline's modulus stands at 1.2 +- 0.01 (of its
+/// logarithm) and leaves four times the noise variance; `best` and its rival leave the noise alone.
+struct Case {
+  MadeData made;
+  DataSet data{made.experiment};
+  Diagnosis diagnosis;
+  Findings findings;
+
+  Case() {
+    diagnosis.admission.experiment = made.experiment;
+    diagnosis.admission.samples = 5000;
+    diagnosis.fit_trials = findings.fit_trials = {0, 1};
+    diagnosis.check_trials = {2};
+    findings.data = &data;
+    diagnosis.before = {50.0, 5.0, 0, true};
+    diagnosis.base.hypothesis = hypothesis_of("youngs_modulus", "factor", 1.2, "1");
+    diagnosis.base.standard_error = Eigen::VectorXd::Constant(1, 0.01);
+    diagnosis.base.cost = 2.0 * findings.samples();
+    diagnosis.ranking = {candidate("base_compliance", "stiffness", 640.0, 631.0)};
+  }
+  Candidate candidate(const std::string& cause, const std::string& parameter, double gain,
+                      double evidence) const {
+    Candidate made_one;
+    made_one.cause = cause;
+    made_one.fit.hypothesis =
+        with(diagnosis.base.hypothesis, hypothesis_of(cause, parameter, 0.8, "1"));
+    made_one.fit.hypothesis.free[1].unit = "N m/rad";
+    made_one.fit.standard_error = Eigen::Vector2d(0.01, 0.02);
+    made_one.fit.cost = 0.5 * findings.samples();
+    made_one.gain = gain;
+    made_one.evidence = evidence;
+    made_one.whole = true;
+    return made_one;
+  }
+  Verdict concluded() {
+    if (!diagnosis.ranking.empty()) {
+      if (findings.chain.empty()) findings.chain = {diagnosis.ranking.front()};
+      diagnosis.best = diagnosis.ranking.front().fit;
+    }
+    conclude(findings, diagnosis);
+    return diagnosis.verdict;
+  }
+};
+
+std::vector<std::string> names(const Verdict& verdict) {
+  std::vector<std::string> all;
+  for (const NamedCause& cause : verdict.causes) all.push_back(cause.name);
+  return all;
+}
+
+TEST(Conclusion, NamesTheBestWithItsNumbers) {
+  Case c;
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::named);
+  ASSERT_THAT(names(v), ElementsAre("base_compliance"));
+  const NamedCause& cause = v.causes.front();
+  EXPECT_EQ(cause.evidence, 631.0);
+  ASSERT_TRUE(cause.where);  // the end of the stem that is clamped, which no fit says
+  EXPECT_EQ(cause.where->curve, "stem");
+  EXPECT_EQ(cause.where->at, 0.0);
+  // Of a logarithm: 0.8 exp(+- 1.96 x 0.02).
+  const Estimate& stiffness = cause.parameters.at("stiffness").front();
+  EXPECT_NEAR(stiffness.value, 0.8, 1e-12);
+  EXPECT_NEAR(stiffness.low, 0.8 * std::exp(-0.0392), 1e-12);
+  EXPECT_NEAR(stiffness.high, 0.8 * std::exp(0.0392), 1e-12);
+  EXPECT_EQ(stiffness.unit, "N m/rad");
+}
+
+// The margin is 5 nats and 1 % of the gain of 640.
+TEST(Conclusion, IsAmbiguousWithinTheMargin) {
+  Case c;
+  c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 631.0 - 11.3));
+  c.diagnosis.ranking.push_back(c.candidate("creep", "fraction", 630.0, 631.0 - 11.5));
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::ambiguous);
+  EXPECT_THAT(names(v), ElementsAre("base_compliance", "weak_segment"));
+  ASSERT_EQ(v.rivals.size(), 1u);
+  EXPECT_EQ(v.rivals[0].name, "creep");
+  EXPECT_NEAR(v.rivals[0].behind, 11.5, 1e-9);
+}
+
+TEST(Conclusion, OfALargeGainHasAMarginOf25Nats) {
+  Case c;
+  c.diagnosis.ranking[0].gain = 1e5;
+  c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 0.0, 631.0 - 25.5));
+  EXPECT_EQ(c.concluded().outcome, Outcome::named);
+}
+
+TEST(Conclusion, PassesOverWhatWasNotFittedOrExplainsNothing) {
+  Case c;
+  c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 630.0));
+  c.diagnosis.ranking.back().whole = false;
+  EXPECT_TRUE(c.concluded().rivals.empty());
+  Case d;
+  d.diagnosis.ranking.push_back(d.candidate("weak_segment", "factor", 1.0, -1.0));
+  EXPECT_TRUE(d.concluded().rivals.empty());
+}
+
+TEST(Conclusion, DoesNotCallAWindOfNoSpeedARivalOfDrag) {
+  Case c;
+  c.diagnosis.ranking = {c.candidate("leaf_drag", "drag_area", 640.0, 631.0),
+                         c.candidate("wind", "drag_area", 640.0, 628.0)};
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::named);
+  ASSERT_EQ(v.rivals.size(), 1u);
+  Case other;
+  other.diagnosis.ranking = {other.candidate("wind", "drag_area", 640.0, 631.0),
+                             other.candidate("leaf_drag", "drag_area", 640.0, 628.0)};
+  EXPECT_EQ(other.concluded().outcome, Outcome::ambiguous);
+}
+
+// 20 nats behind in all, because of the last trial alone: without it, ahead.
+TEST(Conclusion, IsAmbiguousWhereOneTrialAloneDecides) {
+  Case c;
+  c.findings.fit_trials = {0, 1, 2};
+  const int size = c.data.size(c.findings.fit_trials);
+  const std::array last{2};
+  const int rest = size - c.data.size(last);
+  Candidate& best = c.diagnosis.ranking.front();
+  best.fit.residual = Eigen::VectorXd::Zero(size);
+  Candidate rival = c.candidate("weak_segment", "factor", 620.0, 611.0);
+  rival.fit.residual = best.fit.residual;
+  best.fit.residual[0] = std::sqrt(2.0 * 10.0);      // 10 nats worse there
+  rival.fit.residual[rest] = std::sqrt(2.0 * 30.0);  // 30 worse here
+  best.fit.cost = 10.0, rival.fit.cost = 30.0;
+  c.diagnosis.ranking.push_back(rival);
+  EXPECT_EQ(c.concluded().outcome, Outcome::ambiguous);
+  Case even = c;
+  even.findings.data = &even.data;
+  even.findings.chain.clear();
+  even.diagnosis.verdict = {};
+  even.diagnosis.ranking[0].fit.residual[0] = 0.0;
+  even.diagnosis.ranking[0].fit.cost = 0.0;
+  even.diagnosis.ranking[1].fit.residual[rest] = std::sqrt(2.0 * 15.0);
+  even.diagnosis.ranking[1].fit.residual[0] = std::sqrt(2.0 * 15.0);
+  EXPECT_EQ(even.concluded().outcome, Outcome::named);
+}
+
+TEST(Conclusion, OfSeveralCausesHasNoRivalsAmongThem) {
+  Case c;
+  c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 640.0, 630.0));
+  Candidate both = c.diagnosis.ranking.front();
+  c.findings.chain = {both, both};
+  c.findings.chain[1].cause = "latency";
+  c.diagnosis.ranking[0].fit.hypothesis.add(hypothesis_of("latency", "delay", 0.01, "s"));
+  c.diagnosis.ranking[0].fit.standard_error = Eigen::Vector3d(0.01, 0.02, 0.1);
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::named);
+  EXPECT_THAT(names(v), ElementsAre("base_compliance", "latency"));
+  EXPECT_EQ(v.causes[1].parameters.count("delay"), 1u);
+  EXPECT_EQ(v.rivals.size(), 1u);
+}
+
+TEST(Conclusion, IsUnknownWhereTooMuchIsLeft) {
+  Case c;
+  c.diagnosis.after = {40.0, 5.0, 0, true};
+  EXPECT_EQ(c.concluded().outcome, Outcome::named);  // loud, but nothing above the noise
+  Case d;
+  d.diagnosis.after = {40.0, 5.0, 0, true};
+  d.diagnosis.ranking[0].fit.cost = (0.5 + 0.3) * d.findings.samples();
+  const Verdict v = d.concluded();
+  EXPECT_EQ(v.outcome, Outcome::unknown);
+  EXPECT_EQ(v.remainder, "20 % of what the refitted model left above the noise");
+  Verdict told = v;
+  name_nothing(told);
+  EXPECT_TRUE(told.causes.empty());
+  EXPECT_EQ(told.remainder, v.remainder + "; the nearest known cause is base_compliance");
+}
+
+TEST(Conclusion, IsUnknownWhereACauseDoesNotCarryOver) {
+  Case c;
+  c.diagnosis.verdict.gain = 0.1;
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::unknown);
+  EXPECT_EQ(v.remainder, "what was fitted does not carry over to the trials kept back");
+}
+
+TEST(Conclusion, IsUnknownWhereNothingExplainsTheAlarm) {
+  Case c;
+  c.diagnosis.ranking.clear();
+  EXPECT_EQ(c.concluded().outcome, Outcome::unknown);
+}
+
+TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
+  Case c;
+  c.diagnosis.before.raised = false;
+  c.diagnosis.ranking.clear();
+  c.diagnosis.base.cost = 0.5 * c.findings.samples();
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::named);
+  ASSERT_THAT(names(v), ElementsAre("youngs_modulus"));
+  EXPECT_EQ(v.causes[0].because,
+            "The refitted value is 1.2 times the nominal one, and nothing else is needed.");
+  // (ln 1.2 / 0.01)^2 / 2 nats
+  EXPECT_NEAR(v.causes[0].evidence, 0.5 * std::pow(std::log(1.2) / 0.01, 2), 1e-6);
+  // 3.5 deviations, what our own error moves it by, and what solvers differ by.
+  Case d;
+  d.diagnosis.before.raised = false;
+  d.diagnosis.ranking.clear();
+  d.findings.parameter_shift = Eigen::VectorXd::Constant(1, -0.15);
+  EXPECT_EQ(d.concluded().outcome, Outcome::adequate);
+}
+
+TEST(Conclusion, OfASteadyDifferenceWithoutExcessIsAdequate) {
+  Case c;
+  c.diagnosis.ranking.clear();
+  c.diagnosis.base.cost = 0.5 * 1.005 * c.findings.samples();
+  c.diagnosis.base.standard_error[0] = 1.0;
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::adequate);
+  EXPECT_THAT(v.remainder, HasSubstr("a steady difference of 50 noise units in all"));
+}
+
+TEST(Conclusion, SaysWhichSymptomIsGone) {
+  Case c;
+  c.diagnosis.verdict.fit = {4.0, 2.0, 1.01};
+  Symptom other, turn;
+  other.value = turn.value = 1.0, other.standard_error = turn.standard_error = 0.01;
+  other.sentence = "The loop is wide.";
+  other.speaks_for = {"internal_friction"};
+  turn.sentence = "At rest the plant is turned about its root.";
+  turn.speaks_for = {"frame_rotation", "base_compliance"};
+  c.findings.symptoms = {other, turn};
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.causes[0].because,
+            "At rest the plant is turned about its root. With a root that turns elastically the "
+            "residual falls from 2 to 1.01 times the noise in the fitted trials.");
+}
+
+TEST(Conclusion, NamesOutliersBesideWhatIsKnown) {
+  for (const Outcome outcome : {Outcome::adequate, Outcome::named, Outcome::unknown}) {
+    Case c;
+    c.diagnosis.verdict.outcome = outcome;
+    c.diagnosis.admission.outliers = 50;
+    conclude_outliers(c.diagnosis);
+    const Verdict& v = c.diagnosis.verdict;
+    if (outcome == Outcome::unknown) {
+      EXPECT_TRUE(v.causes.empty());
+      continue;
+    }
+    EXPECT_EQ(v.outcome, Outcome::named);
+    ASSERT_EQ(names(v).back(), "outliers");
+    // 50 of 5000, Poisson: 0.01 +- 1.96 sqrt(50) / 5000
+    EXPECT_NEAR(v.causes.back().parameters.at("fraction")[0].value, 0.01, 1e-12);
+    EXPECT_NEAR(v.causes.back().parameters.at("fraction")[0].high, 0.01277, 1e-5);
+  }
+  Case few;
+  few.diagnosis.admission.outliers = 11;
+  conclude_outliers(few.diagnosis);
+  EXPECT_TRUE(few.diagnosis.verdict.causes.empty());
+}
+
+TEST(Conclusion, MeasuresErrorsAndTheGainOnTrialsKeptBack) {
+  Case c;
+  c.data.set_noise(white_noise(1e-3), white_noise(1.0));
+  c.findings.chain = {c.diagnosis.ranking.front()};
+  for (const int model : {nominal, refitted, extended}) {
+    const double off = model == nominal ? 4e-3 : model == refitted ? 3e-3 : 1.5e-3;
+    c.diagnosis.predictions[model] = c.made.predictions;
+    for (Prediction& p : c.diagnosis.predictions[model]) p.markers.array() += off;
+  }
+  measure_errors(c.findings, c.diagnosis);
+  const Verdict& v = c.diagnosis.verdict;
+  EXPECT_NEAR(*v.fit.nominal, 4.0, 1e-9);
+  EXPECT_NEAR(*v.fit.extended, 1.5, 1e-9);
+  // The third trial has a force, too, which is predicted exactly.
+  const double share = std::sqrt(18.0 / 21.0);
+  EXPECT_NEAR(*v.check.refitted, 3.0 * share, 1e-9);
+  EXPECT_NEAR(*v.gain, 1.5 * share / (3.0 * share - 1.0), 1e-9);
+}
+
+TEST(Conclusion, ReportsTheMaterialInItsOwnUnits) {
+  Case c;
+  c.diagnosis.admission.experiment.plant.material.youngs_modulus = 2.0e8;
+  c.diagnosis.best = c.diagnosis.base;
+  c.diagnosis.best.cost = 0.5 * c.findings.samples();
+  report_parameters(c.findings, c.diagnosis);
+  const Estimate& modulus = c.diagnosis.verdict.parameters.at("youngs_modulus");
+  EXPECT_NEAR(modulus.value, 2.4e8, 1.0);
+  EXPECT_NEAR(modulus.high, 2.4e8 * std::exp(0.0196), 1.0);
+  EXPECT_EQ(modulus.unit, "Pa");
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,132 @@
+// verdict.json against section 3 of the formats: its fields, null where there is no value, and the
+// exit codes.
+#include "discrepancy/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace pedicel::discrepancy {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+Verdict full() {
+  Verdict v;
+  v.outcome = Outcome::ambiguous;
+  NamedCause spring;
+  spring.name = "base_compliance";
+  spring.parameters["stiffness"] = {{0.81, 0.77, INFINITY, "N m/rad"}};
+  spring.where = plant::CurvePlace{"stem", 0.0, {}};
+  spring.because = "It turns about its root.";
+  spring.evidence = 143.2;
+  NamedCause offset;
+  offset.name = "marker_offset";
+  offset.parameters["offset"] = {
+      {0.001, 0.0, 0.002, "m"}, {0.0, -0.001, 0.001, "m"}, {0.003, 0.002, NAN, "m"}};
+  offset.words["marker"] = "m2";
+  v.causes = {spring, offset};
+  v.rivals = {{"weak_segment", 88.1}};
+  v.parameters["youngs_modulus"] = {3.1e8, 3.0e8, 3.2e8, "Pa"};
+  v.fit = {4.1, 2.2, 1.03};
+  v.check = {4.4, 2.6, 1.08};
+  v.gain = 0.96;
+  v.could_hide = {{"extra_mass", "mass", 0.004, "kg"}, {"gust", "", INFINITY, "1"}};
+  v.next_experiment = "Pull \"stem\".";
+  v.extended_plant = "extended.plant.yaml";
+  v.simulations = 412;
+  v.seconds = 38.5;
+  return v;
+}
+
+std::vector<std::string> keys(const Json& json) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : json.items()) names.push_back(key);
+  return names;
+}
+
+TEST(Verdict, HasTheFieldsOfTheFormat) {
+  const Json json = Json::parse(to_json(full()));
+  EXPECT_THAT(keys(json),
+              ElementsAre("format", "version", "verdict", "causes", "rivals", "parameters", "error",
+                          "gain", "remainder", "could_hide", "next_experiment", "extended_plant",
+                          "simulations", "seconds"));
+  EXPECT_EQ(json["format"], "pedicel-verdict");
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["verdict"], "ambiguous");
+  const Json& cause = json["causes"][0];
+  EXPECT_EQ(cause["name"], "base_compliance");
+  EXPECT_EQ(cause["parameters"]["stiffness"]["value"], 0.81);
+  EXPECT_EQ(cause["parameters"]["stiffness"]["low"], 0.77);
+  EXPECT_EQ(cause["parameters"]["stiffness"]["unit"], "N m/rad");
+  EXPECT_EQ(cause["where"], Json({{"curve", "stem"}, {"at", 0.0}}));
+  EXPECT_EQ(cause["because"], "It turns about its root.");
+  EXPECT_EQ(cause["evidence"], 143.2);
+  EXPECT_EQ(json["rivals"], Json::parse(R"([{"name": "weak_segment", "behind": 88.1}])"));
+  EXPECT_EQ(json["parameters"]["youngs_modulus"]["high"], 3.2e8);
+  EXPECT_EQ(json["error"]["fit"],
+            Json::parse(R"({"nominal": 4.1, "refitted": 2.2, "extended": 1.03})"));
+  EXPECT_EQ(json["error"]["check"]["extended"], 1.08);
+  EXPECT_EQ(json["error"]["unit"], "rms residual over the noise floor");
+  EXPECT_EQ(json["gain"], 0.96);
+  EXPECT_EQ(json["remainder"], "");
+  EXPECT_EQ(json["could_hide"][0]["smallest_seen"], 0.004);
+  EXPECT_EQ(json["could_hide"][0]["unit"], "kg");
+  EXPECT_EQ(json["next_experiment"], "Pull \"stem\".");
+  EXPECT_EQ(json["extended_plant"], "extended.plant.yaml");
+  EXPECT_EQ(json["simulations"], 412);
+  EXPECT_EQ(json["seconds"], 38.5);
+}
+
+TEST(Verdict, PutsComponentsIntoLists) {
+  const Json offset = Json::parse(to_json(full()))["causes"][1];
+  EXPECT_EQ(offset["parameters"]["offset"]["value"], Json({0.001, 0.0, 0.003}));
+  EXPECT_EQ(offset["parameters"]["offset"]["high"], Json({0.002, 0.001, nullptr}));
+  EXPECT_EQ(offset["parameters"]["offset"]["unit"], "m");
+  EXPECT_EQ(offset["marker"], "m2");
+}
+
+TEST(Verdict, IsNullWhereThereIsNoValue) {
+  const Json json = Json::parse(to_json(full()));
+  EXPECT_TRUE(json["causes"][0]["parameters"]["stiffness"]["high"].is_null());
+  EXPECT_TRUE(json["causes"][1]["where"].is_null());
+  EXPECT_TRUE(json["could_hide"][1]["smallest_seen"].is_null());
+  const Json bare = Json::parse(to_json(Verdict{}));
+  EXPECT_EQ(keys(bare), keys(json));
+  for (const char* model : {"nominal", "refitted", "extended"}) {
+    EXPECT_TRUE(bare["error"]["fit"][model].is_null()) << model;
+    EXPECT_TRUE(bare["error"]["check"][model].is_null()) << model;
+  }
+  EXPECT_TRUE(bare["gain"].is_null());
+  EXPECT_TRUE(bare["extended_plant"].is_null());
+  EXPECT_EQ(bare["causes"], Json::array());
+  EXPECT_EQ(bare["parameters"], Json::object());
+}
+
+TEST(Verdict, HasAnExitCodeForEveryOutcome) {
+  EXPECT_EQ(exit_code(Outcome::adequate), 0);
+  EXPECT_EQ(exit_code(Outcome::named), 10);
+  EXPECT_EQ(exit_code(Outcome::ambiguous), 11);
+  EXPECT_EQ(exit_code(Outcome::unknown), 12);
+  EXPECT_EQ(exit_code(Outcome::bad_data), 13);
+  EXPECT_EQ(exit_code(Outcome::numerical), 14);
+  EXPECT_EQ(to_string(Outcome::bad_data), "bad_data");
+}
+
+TEST(Headline, SaysHowSureItIs) {
+  Verdict v = full();
+  EXPECT_THAT(headline(v), HasSubstr("cannot tell which: a root that turns elastically "
+                                     "(base_compliance) or a marker that sits elsewhere"));
+  v.outcome = Outcome::named;
+  EXPECT_THAT(headline(v), HasSubstr("(base_compliance) and a marker"));
+  EXPECT_THAT(headline(v), HasSubstr("it removes 96 % of the error above the noise"));
+  v.outcome = Outcome::unknown;
+  EXPECT_THAT(headline(v), HasSubstr("Do not extrapolate."));
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
