@@ -6,11 +6,11 @@
 #include "app/panels/view_state.h"
 #include "render/draw_list.h"
 #include "session/measured_moment.h"
+#include "session/snapshot.h"
 
 namespace pedicel::app {
 
 class Session;
-struct Snapshot;
 
 /// The colour that stands for a model wherever it is shown.
 render::Colour model_colour(int model);
