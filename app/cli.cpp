@@ -73,6 +73,10 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
   app.add_flag("--with-ui", window.with_interface, "the picture shows the window with its panels");
   app.add_option("--at", window.time, "simulated time of the picture, s")
       ->check(CLI::Range(0.0, 1e4));
+  app.add_option("--show", window.show, "a panel to bring to the front (Plots); may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--colours", window.colours, "of stems in the window")
+      ->check(CLI::IsMember({"strain", "margin", "contact"}));
   app.add_option("--theme", window.theme, "of the window")->check(CLI::IsMember({"dark", "light"}));
   app.add_option("--scale", window.scale, "of the window's texts (default: as the monitor says)")
       ->check(CLI::Range(0.5, 4.0));
@@ -85,7 +89,7 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
 int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
                 const OpenDesktop& open_desktop) {
   const bool picture = !window.screenshot.empty();
-  const bool run = a.headless || a.json || a.quiet || !a.out.empty();
+  const bool run = a.headless || a.json || a.quiet || !a.out.empty() || !a.script.empty();
   if (!open_desktop || (run && !picture)) return run_verb(a);
   window.file = a.scene;
   window.set = a.set;
@@ -192,7 +196,8 @@ WorldsResult bench_scene(const BenchArguments& a) {
   run.dt = a.dt;
   run.duration = a.duration;
   const world::Scene scene = load_scene(run);
-  return run_worlds(scene_worlds(scene, {a.packages, {}, {}}), worlds_options(a, scene.dt, scene.duration));
+  return run_worlds(scene_worlds(scene, {a.packages, {}, {}}),
+                    worlds_options(a, scene.dt, scene.duration));
 }
 
 int bench_verb(const BenchArguments& a) {

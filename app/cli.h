@@ -18,9 +18,11 @@ struct DesktopRequest {
   std::string theme;                   ///< dark | light; empty: as remembered
   double scale = 0.0;                  ///< 1, of texts; 0: as the monitor says
   bool playing = false;                ///< plays at once
-  std::string screenshot;       ///< a picture is written there, and the program ends; empty: none
-  bool with_interface = false;  ///< the picture shows the panels, too
-  double time = 0.0;            ///< s, simulated before the picture
+  std::string screenshot;         ///< a picture is written there, and the program ends; empty: none
+  bool with_interface = false;    ///< the picture shows the panels, too
+  double time = 0.0;              ///< s, simulated before the picture
+  std::vector<std::string> show;  ///< panels that are in front: "Plots"
+  std::string colours;            ///< of stems: strain | margin | contact; empty: their own
 };
 /// Opens the window and stays until it is closed: the exit code. Nothing where there is no window
 /// to open (it has said why, in one line).

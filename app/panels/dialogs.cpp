@@ -141,6 +141,30 @@ void problem(Ui& ui) {
   ImGui::End();
 }
 
+void recover(Ui& ui) {
+  if (begin_dialog(ui, "Edits that were not saved", 560, 300)) {
+    note("The program ended before these were saved.");
+    const std::vector<Session::Lost> all = ui.session.lost_documents();
+    if (all.empty()) ui.dialog = Dialog::none;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));
+      const std::string name =
+          all[i].document.empty() ? "new scene" : all[i].document.filename().string();
+      row(name.c_str(), std::to_string(all[i].commands) + " edits, " + all[i].when);
+      const bool taken = ImGui::Button("Recover");
+      if (taken) ui.session.recover(all[i]);
+      ImGui::SameLine();
+      if (ImGui::Button("Forget")) ui.session.forget(all[i]);
+      ImGui::PopID();
+      if (taken) {
+        ui.dialog = Dialog::none;
+        break;
+      }
+    }
+  }
+  ImGui::End();
+}
+
 }  // namespace
 
 void draw_dialogs(Ui& ui) {
@@ -156,6 +180,8 @@ void draw_dialogs(Ui& ui) {
       return info(ui);
     case Dialog::problem:
       return problem(ui);
+    case Dialog::recover:
+      return recover(ui);
   }
 }
 

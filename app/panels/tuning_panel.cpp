@@ -129,14 +129,14 @@ class TuningPanel : public Panel {
                 : ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &p.minimum,
                                       &p.maximum, "", flags);
     if (p.whole) value = whole;
-    const bool started = ImGui::IsItemActivated(), ended = ImGui::IsItemDeactivated();
+    const bool started = ImGui::IsItemActivated(), held = ImGui::IsItemActive();
     tip(tip_of(p) + "\nCtrl+click: type a value.");
     if (started) {
       ui.session.begin_gesture();
       dragged_ = p.key, dragged_value_ = p.value;
     }
     if (moved && value != p.value) dragged_value_ = value, set(ui, p, value);
-    if (ended && dragged_ == p.key) {
+    if (!held && dragged_ == p.key) {
       ui.session.end_gesture();
       dragged_.clear();
     }

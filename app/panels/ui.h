@@ -18,7 +18,7 @@ struct ImFont;
 namespace pedicel::app {
 
 /// A window over the others; one at a time.
-enum class Dialog { none, open, save_as, help, info, problem };
+enum class Dialog { none, open, save_as, help, info, problem, recover };
 
 /// How fast things go, for the profiler.
 struct FrameTimes {

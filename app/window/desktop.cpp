@@ -65,9 +65,11 @@ Desktop::Desktop(Platform& platform, Session& session, const DesktopOptions& opt
   ui_.times.platform = platform.name();
   ui_.times.renderer = platform.renderer_name();
   ui_.now = platform.now();
-  if (!platform.gl()) return;
-  painter_ = std::make_unique<GuiPainter>(*platform.gl());
-  canvas_ = std::make_unique<SceneCanvas>(*platform.gl());
+  if (platform.gl()) {
+    painter_ = std::make_unique<GuiPainter>(*platform.gl());
+    canvas_ = std::make_unique<SceneCanvas>(*platform.gl());
+  }
+  follow_fonts();
 }
 
 Desktop::~Desktop() {

@@ -45,6 +45,8 @@ class Desktop {
   const Layout& layout() const { return layout_; }
   /// Where the scene is in the window, and how it is seen.
   const SceneFrame& scene() const { return scene_; }
+  /// The file that the letters come from; empty: ImGui's own.
+  const std::string& letters() const { return fonts_.file; }
   bool input_waits() const { return input_.has_more(); }
 
   /// The last picture with the interface; a still one of the scene alone, in any size. Nothing on

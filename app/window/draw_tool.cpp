@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "app/panels/stem_editor.h"
-#include "app/window/stroke_fit.h"
 
 namespace pedicel::app {
 
 namespace {
 
 constexpr double shortest_stem = 0.004;  // m
-constexpr float point_reach = 9.0f;      // px
+constexpr float point_reach = 7.0f;      // px
 
 std::string unused_name(const Session& session, const std::string& plant, const std::string& stem) {
   const plant::PlantFile* file = plant_file(session, plant);
@@ -117,8 +116,8 @@ void DrawTool::begin_stroke(Ui& ui, const SceneFrame&) {
 
 Vec3 DrawTool::plane_normal(const Ui& ui, const SceneFrame& frame) const {
   const Vec3 back = (frame.camera.eye - frame.camera.target).normalized();
-  if (ui.draw.plane == DrawPlane::ground) return Vec3::UnitZ();
-  if (ui.draw.plane == DrawPlane::view || !foot_) return back;
+  if (ui.draw.plane == PlaneChoice::ground) return Vec3::UnitZ();
+  if (ui.draw.plane == PlaneChoice::view || !foot_) return back;
   const auto curve = drawn_curve(ui.session, foot_->plant, foot_->stem);
   if (!curve) return back;
   const Vec3 along =
@@ -148,8 +147,9 @@ void DrawTool::end_stroke(Ui& ui) {
     return;
   }
   const DrawMode& d = ui.draw;
-  std::vector<Vec3> points = fit_stroke(stroke, {d.tolerance, d.detect_corners, 0.9, 40});
-  if (points.size() < 2) return;
+  const auto shape = shape_of(stroke, d);
+  if (!shape) return;
+  std::vector<Vec3> points = shape->points;
   ui.session.begin_gesture();
   bool taken = true;
   std::string plant = foot_ ? foot_->plant : d.plant;
@@ -167,14 +167,15 @@ void DrawTool::end_stroke(Ui& ui) {
   const Pose to_plant = plant_pose(ui.session, plant).inverse();
   for (Vec3& point : points) point = to_plant * Vec3(point + offset);
   const std::string stem = unused_name(ui.session, plant, foot_ ? "branch" : "stem");
-  const auto radii = taper_radii(points, d.radius_max, d.radius_min, d.taper_start, d.taper_end);
-  taken = taken && ui.run(Command(
-                       "draw stem",
-                       {{"plant", plant}, {"stem", stem}, {"points", points}, {"radius", radii}}));
+  taken = taken &&
+          ui.run(Command(
+              "draw stem",
+              {{"plant", plant}, {"stem", stem}, {"points", points}, {"radius", shape->radius}}));
   if (!taken) return ui.session.cancel_gesture();
   ui.session.end_gesture();
   ui.draw.plant = plant;
-  choose_curve(ui, plant, stem);
+  // Not chosen: its points would be in the way of the next branch.
+  ui.selection = {};
 }
 
 void DrawTool::put_organ(Ui& ui, const StemPlace& place) {
@@ -224,7 +225,7 @@ void DrawTool::move_point(Ui& ui, const SceneFrame& frame) {
       pose * file->curves[static_cast<std::size_t>(c)].points[static_cast<std::size_t>(point_)];
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   if (moved.x == 0.0f && moved.y == 0.0f) return;
-  const Vec3 normal = ui.draw.plane == DrawPlane::ground
+  const Vec3 normal = ui.draw.plane == PlaneChoice::ground
                           ? Vec3(Vec3::UnitZ())
                           : Vec3((frame.camera.eye - frame.camera.target).normalized());
   const auto to = hit_plane(frame.ray(ImGui::GetIO().MousePos), now, normal);

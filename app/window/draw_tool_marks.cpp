@@ -3,7 +3,6 @@
 
 #include "app/panels/stem_editor.h"
 #include "app/window/draw_tool.h"
-#include "app/window/stroke_fit.h"
 
 namespace pedicel::app {
 
@@ -71,10 +70,9 @@ void DrawTool::add_to(render::DrawList& list, const Ui& ui, const SceneFrame& fr
     list.spheres.push_back({foot_->now_W, size_of(frame, foot_->now_W, 6.0), snap});
   if (hand_ != Hand::stroke || stroke_W_.size() < 2) return;
   list.spheres.push_back({start_W_, size_of(frame, start_W_, 5.0), snap});
-  const std::vector<Vec3> points = fit_stroke(stroke_W_, {d.tolerance, d.detect_corners, 0.9, 40});
-  if (points.size() < 2) return;
-  const auto radii = taper_radii(points, d.radius_max, d.radius_min, d.taper_start, d.taper_end);
-  const geometry::Curve curve = geometry::Curve::smooth(points, radii);
+  const auto shape = shape_of(stroke_W_, d);
+  if (!shape) return;
+  const geometry::Curve curve = geometry::Curve::smooth(shape->points, shape->radius);
   std::vector<render::TubePoint> tube;
   for (const double arc : curve.sample_arcs(std::max(curve.length() / 80.0, 1e-3)))
     tube.push_back({curve.point(arc), curve.radius(arc), Colour::hex(0x8fc25a)});

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/check.h"
 #include "plant/plant_graph.h"
+#include "plant/stroke_fit.h"
 
 namespace pedicel::app {
 
@@ -22,6 +24,37 @@ std::optional<geometry::Curve> drawn_curve(const Session& session, const std::st
   const int c = file ? file->curve_index(stem) : -1;
   if (c < 0 || file->curves[static_cast<std::size_t>(c)].points.size() < 2) return {};
   return plant::make_curves(*file)[static_cast<std::size_t>(c)];
+}
+
+std::vector<double> taper_radii(const std::vector<Vec3>& points, double largest, double smallest,
+                                double start, double end) {
+  std::vector<double> arcs = {0.0};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    arcs.push_back(arcs.back() + (points[i] - points[i - 1]).norm());
+  std::vector<double> radii;
+  for (const double arc : arcs) {
+    const double at = arcs.back() > 0.0 ? arc / arcs.back() : 0.0;
+    const double share = std::clamp((at - start) / std::max(end - start, 1e-6), 0.0, 1.0);
+    radii.push_back(largest + share * (smallest - largest));
+  }
+  return radii;
+}
+
+std::optional<StemShape> shape_of(const std::vector<Vec3>& stroke_W, const DrawMode& options) {
+  std::vector<plant::StrokeSample> samples;
+  for (const Vec3& point : stroke_W) samples.push_back({point, 1.0});
+  plant::StrokeOptions fit;
+  fit.tolerance = options.tolerance;
+  fit.corners = options.detect_corners;
+  try {
+    std::vector<Vec3> points = plant::fit_stroke(samples, fit).points;
+    if (points.size() < 2) return {};
+    std::vector<double> radii = taper_radii(points, options.radius_max, options.radius_min,
+                                            options.taper_start, options.taper_end);
+    return StemShape{std::move(points), std::move(radii)};
+  } catch (const UsageError&) {
+    return {};  // a stroke without extent
+  }
 }
 
 std::optional<StemPlace> stem_place(const Ui& ui, const Selection& hit) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/panels/ui.h"
 #include "geometry/curve.h"
@@ -23,6 +24,18 @@ std::optional<StemPlace> stem_place(const Ui& ui, const Selection& hit);
 /// The drawn curve of a stem, in its plant's frame; nothing for an unknown one.
 std::optional<geometry::Curve> drawn_curve(const Session& session, const std::string& plant,
                                            const std::string& stem);
+/// A stroke (m, W) as the draw tool's options say: control points of a smooth curve within the
+/// tolerance, and their radii. Nothing of a stroke without extent.
+struct StemShape {
+  std::vector<Vec3> points;    ///< m, W
+  std::vector<double> radius;  ///< m
+};
+std::optional<StemShape> shape_of(const std::vector<Vec3>& stroke_W, const DrawMode& options);
+/// Radii along control points: from `largest` at the foot to `smallest` at the tip, changing
+/// between the fractions `start` and `end` of the length.
+std::vector<double> taper_radii(const std::vector<Vec3>& points, double largest, double smallest,
+                                double start, double end);
+
 /// X_WP of a plant of the document; the identity for an unknown one.
 Pose plant_pose(const Session& session, const std::string& plant);
 /// The plant's file; null where there is none.

@@ -1,8 +1,10 @@
 #include "app/window/open_desktop.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "app/headless.h"
+#include "app/version.h"
 #include "app/window/desktop.h"
 #include "core/check.h"
 #include "world/settings.h"
@@ -12,15 +14,6 @@ namespace pedicel::app {
 namespace {
 
 constexpr int no_opengl = 77, invalid_file = 3;
-
-/// Where documents are kept while they are edited: $XDG_STATE_HOME/pedicel, or ~/.local/state/...
-std::filesystem::path autosave_folder() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state)
-    return std::filesystem::path(state) / "pedicel";
-  if (const char* home = std::getenv("HOME"); home && *home)
-    return std::filesystem::path(home) / ".local" / "state" / "pedicel";
-  return {};
-}
 
 /// False, with the faults on standard error, where it cannot be opened.
 bool open_file(Session& session, const DesktopRequest& request) {
@@ -37,10 +30,44 @@ bool open_file(Session& session, const DesktopRequest& request) {
   return opened;
 }
 
+void show_parts(Desktop& desktop, const DesktopRequest& request) {
+  if (request.colours == "strain") desktop.ui().view.colours = ColourMap::strain;
+  if (request.colours == "margin") desktop.ui().view.colours = ColourMap::margin;
+  if (request.colours == "contact") desktop.ui().view.colours = ColourMap::contact;
+  for (const std::string& panel : request.show) {
+    const auto& all = desktop.layout().panels();
+    if (std::ranges::none_of(all, [&](const auto& one) { return one->name() == panel; }))
+      throw UsageError("--show " + panel + ": there is no such panel");
+    desktop.ui().show_panel = panel;
+    desktop.frame();
+  }
+}
+
+/// What happened while the window was open, over all documents and resets.
+struct Tally {
+  long steps = 0, breaks = 0;
+  double time = 0.0, strain = 0.0;  // s, 1
+
+  void add(const Snapshot& s) {
+    const std::size_t events = s.events ? s.events->size() : 0;
+    if (s.step > last_step) steps += s.step - last_step, time += s.time - last_time;
+    if (events > last_events) breaks += static_cast<long>(events - last_events);
+    last_step = s.step, last_time = s.time, last_events = events;
+    strain = std::max(strain, s.largest_strain);
+  }
+
+ private:
+  long last_step = 0;
+  double last_time = 0.0;
+  std::size_t last_events = 0;
+};
+
 int take_picture(Platform& platform, Session& session, const DesktopRequest& request,
                  const DesktopOptions& options) {
   Desktop desktop(platform, session, options);
   session.control().wait();
+  show_parts(desktop, request);
+  desktop.ui().preferences.seen_hint = !request.file.empty();
   desktop.ui().view.automatic_quality = false;
   desktop.ui().view.quality = CanvasQuality::best;
   if (request.time > 0.0) session.control().run_for(request.time);
@@ -78,8 +105,15 @@ std::optional<int> open_desktop(const DesktopRequest& request) {
   if (picture) return opened ? take_picture(*platform, session, request, options) : invalid_file;
   if (request.playing) session.control().play();
   Desktop desktop(*platform, session, options);
-  while (desktop.frame() && !stop_requested) {
-  }
+  std::fprintf(stderr, "pedicel %s (%s), OpenGL by %s, letters from %s\n", version().c_str(),
+               git_hash().c_str(), desktop.ui().times.renderer.c_str(),
+               desktop.letters().empty() ? "ImGui" : desktop.letters().c_str());
+  if (!session.lost_documents().empty()) desktop.ui().dialog = Dialog::recover;
+  show_parts(desktop, request);
+  Tally tally;
+  while (desktop.frame() && !stop_requested) tally.add(*desktop.ui().snapshot);
+  std::fprintf(stderr, "%ld steps, %.3f s simulated, largest strain %.3f, %ld breaks\n",
+               tally.steps, tally.time, tally.strain, tally.breaks);
   return 0;
 }
 

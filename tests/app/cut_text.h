@@ -17,8 +17,8 @@ struct CutLetter {
 };
 
 /// Letters of the last picture that are cut at the left or right of what they stand in: by the
-/// clipping of the picture, or by ImGui itself, which shortens a letter's rectangle. Above and below
-/// they may be cut, that is what scrolling does.
+/// clipping of the picture, or by ImGui itself, which shortens a letter's rectangle. Above and
+/// below they may be cut, that is what scrolling does.
 inline std::vector<CutLetter> cut_letters() {
   const ImDrawData& data = *ImGui::GetDrawData();
   // The letters' places in the atlas, to see whether a rectangle has the whole of one.
@@ -61,7 +61,8 @@ inline std::vector<std::pair<std::string, float>> overflowing() {
   std::vector<std::pair<std::string, float>> found;
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (!window->WasActive || (window->Flags & ImGuiWindowFlags_Tooltip)) continue;
-    const float room = window->InnerRect.GetWidth() - 2 * window->WindowPadding.x;
+    const float room =
+        window->InnerRect.GetWidth() + window->ScrollbarSizes.x - 2 * window->WindowPadding.x;
     if (window->ContentSize.x > room + 1.0f && window->ScrollMax.x == 0.0f)
       found.emplace_back(window->Name, window->ContentSize.x - room);
     else if (window->ScrollMax.x > 0.0f)

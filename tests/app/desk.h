@@ -24,8 +24,10 @@ class Desk {
     where.size = {width, height};
     where.scale = scale;
     std::string why;
-    if (platform == "null") platform_ = open_null(where);
-    else platform_ = open_offscreen(where, why);
+    if (platform == "null")
+      platform_ = open_null(where);
+    else
+      platform_ = open_offscreen(where, why);
     if (!platform_) {
       why_ = why;
       return;
@@ -89,12 +91,10 @@ class Desk {
   void drop(const std::string& path) { platform_->send(InputEvent::drop(path)), drain(); }
 
   /// Where a point of the world is in the window.
-  ImVec2 at(const Vec3& p_W) {
-    return desktop_->scene().project(p_W).value_or(ImVec2(-1, -1));
-  }
+  ImVec2 at(const Vec3& p_W) { return desktop_->scene().project(p_W).value_or(ImVec2(-1, -1)); }
   void show(const std::string& panel) {
     ui().show_panel = panel;
-    frames(3);
+    frames(6);  // a scroll bar comes after the first, and then all gets narrower
   }
   std::shared_ptr<const Snapshot> snapshot() { return session_->snapshot(); }
   render::Image picture() { return desktop_->window_picture().value(); }

@@ -129,8 +129,10 @@ TEST_F(Gui, ASliderChangesTheRunningPlantAndUndoTakesItBack) {
     for (const SessionParameter& p : desk_.session().parameters())
       if (p.changed) changed = p.key;
   }
+  desk_.frames(5);
   ASSERT_FALSE(changed.empty()) << "no slider was found";
-  EXPECT_EQ(desk_.session().history().size(), 1u) << "one drag is one step of the history " << changed << " " << desk_.ui().notice;
+  EXPECT_EQ(desk_.session().history().size(), 1u)
+      << "one drag is one step of the history " << changed << " " << desk_.ui().notice;
   desk_.key(Key::z, true);
   const auto after = desk_.session().parameters();
   for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].value, before[i].value);

@@ -2,8 +2,8 @@
 #include <map>
 
 #include "app/panels/theme.h"
-#include "desk.h"
 #include "cut_text.h"
+#include "desk.h"
 
 namespace pedicel::app {
 namespace {
@@ -39,8 +39,8 @@ class Panels : public ::testing::TestWithParam<Look> {
     for (const auto& [name, px] : overflowing())
       ADD_FAILURE() << what << ": " << name << " is too narrow by " << px << " px\n" << keep(what);
     ASSERT_NE(window, nullptr) << what << " is not there";
-    EXPECT_GT(drawn_share(desk_->picture(), window->InnerRect), 0.01)
-        << what << " is empty\n" << keep(what);
+    EXPECT_GT(drawn_share(desk_->picture(), window->InnerRect), 0.01) << what << " is empty\n"
+                                                                      << keep(what);
   }
   std::string keep(const std::string& what) {
     const std::string path = ::testing::TempDir() + "/panel_" + what + ".png";

@@ -41,6 +41,7 @@ TEST(Story, DrawPullUndoSaveReload) {
 
   // A fruit near the branch's tip.
   desk.ui().draw.thing = DrawThing::fruit;
+  desk.ui().draw.fruit_stretch = 0.03;
   desk.click(from.x + 84, from.y - 19);
   desk.settle();
   ASSERT_EQ(only_plant(desk)->fruits.size(), 1u);

@@ -24,8 +24,8 @@ TEST(ViewCamera, TurningKeepsTargetAndDistance) {
   ViewCamera view(start());
   view.orbit(120, -45, height);
   EXPECT_EQ(view.target(), start().target);
-  EXPECT_NEAR((view.camera().eye - view.target()).norm(),
-              (start().eye - start().target).norm(), 1e-12);
+  EXPECT_NEAR((view.camera().eye - view.target()).norm(), (start().eye - start().target).norm(),
+              1e-12);
   EXPECT_GT((view.camera().eye - start().eye).norm(), 0.3);
 }
 
