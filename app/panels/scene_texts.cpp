@@ -41,6 +41,10 @@ void legend(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
   if (view.colours == ColourMap::margin) title = "used of the threshold, %", top = "100";
   if (view.colours == ColourMap::contact)
     title = "contact force, N", top = number_text(view.contact_scale, 3);
+  if (view.colours == ColourMap::residual) {
+    if (!(view.measured.residual_scale > 0.0)) return;
+    title = "residual of markers, mm", top = number_text(1e3 * view.measured.residual_scale, 3);
+  }
   const float s = ui.scale, line = ImGui::GetTextLineHeight();
   const float width = std::max(ImGui::CalcTextSize(title.c_str()).x, 130.0f * s) + 20.0f * s;
   const ImVec2 low(areas.scene_max.x - width - 12.0f * s, areas.scene_max.y - 2 * line - 46.0f * s);

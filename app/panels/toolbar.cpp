@@ -103,7 +103,7 @@ void draw_toolbar(Ui& ui) {
   ImGui::SameLine();
   part_toggle(labels[1], ui.preferences.show_bottom, "Plots, events, messages, profiler");
   ImGui::SameLine();
-  part_toggle(labels[2], ui.preferences.show_right, "Tuning, robot, view");
+  part_toggle(labels[2], ui.preferences.show_right, "Tuning, robot, view, measured data");
 }
 
 }  // namespace pedicel::app

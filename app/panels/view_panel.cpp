@@ -46,7 +46,8 @@ class ViewPanel : public Panel {
   static void colours(Ui& ui) {
     heading(ui, "Colours of stems");
     choose("##colours", ui.view.colours,
-           std::array<const char*, 4>{"as they are", "strain", "margin to break", "contact force"});
+           std::array<const char*, 5>{"as they are", "strain", "margin to break", "contact force",
+                                      "residual of measured data"});
     if (ui.view.colours == ColourMap::strain)
       slider("Upper end, strain", ui.view.strain_scale, 0.005, 0.5, "%.3f");
     if (ui.view.colours == ColourMap::contact)

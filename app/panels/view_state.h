@@ -8,7 +8,23 @@
 namespace pedicel::app {
 
 /// What gives stems their colour.
-enum class ColourMap { none, strain, margin, contact };
+enum class ColourMap { none, strain, margin, contact, residual };
+
+/// What is shown of a measured experiment.
+struct MeasuredView {
+  int number = 0;  ///< MeasuredData::number() that this was chosen for
+  int trial = 0;
+  int model = 0;  ///< discrepancy::Model
+  int marker = 0;
+  double time = 0.0;  ///< s, within the trial
+  bool playing = false;
+  bool markers = true;          ///< measured and simulated places
+  bool errors = true;           ///< from the simulated to the measured ones
+  double error_scale = 5.0;     ///< 1, their length over the error's
+  bool shape = true;            ///< the plant as the model has it, in place of the running one
+  bool side_by_side = false;    ///< all models beside each other
+  double residual_scale = 0.0;  ///< m, upper end of the residual colours; follows the model
+};
 
 /// What the picture of the scene shows.
 struct ViewState {
@@ -24,6 +40,10 @@ struct ViewState {
   bool automatic_quality = true;
   int quality = 1;
   int camera = -1;  ///< of the scene's; -1: led by hand
+  MeasuredView measured;
+  int hidden_plant = -1;         ///< of the snapshot, shown otherwise; -1: none
+  int residual_plant = -1;       ///< of the snapshot, that `residual` is about
+  std::vector<double> residual;  ///< m, one an element; NaN: not known
 };
 
 /// What a person points at or has chosen.

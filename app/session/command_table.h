@@ -49,6 +49,7 @@ std::vector<CommandDescription> stem_commands();
 std::vector<CommandDescription> organ_commands();
 std::vector<CommandDescription> document_commands();
 std::vector<CommandDescription> run_commands();
+std::vector<CommandDescription> measured_commands();
 
 /// Applies a document command: all of it or, with a UsageError, nothing.
 void apply_command(Document& document, const Command& command);

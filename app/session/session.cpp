@@ -6,10 +6,12 @@
 #include "io/atomic_file.h"
 #include "session/command_table.h"
 #include "session/journal.h"
+#include "session/measured_data.h"
 
 namespace pedicel::app {
 
-Session::Session(const SessionOptions& options) : options_(options) {
+Session::Session(const SessionOptions& options)
+    : options_(options), measured_(std::make_unique<MeasuredData>()) {
   if (!options.autosave.empty()) journal_ = std::make_unique<Journal>(options.autosave);
   set_document(empty_document());
 }
@@ -189,6 +191,7 @@ void Session::update() {
     if (!news.restarted) continue;
     for (const std::string& one : news.notes) say(Severity::warning, one);
   }
+  tell_faults(measured_->update());
 }
 
 void Session::say(Severity severity, std::string text, bool can_retry) {

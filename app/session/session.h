@@ -16,6 +16,7 @@
 namespace pedicel::app {
 
 class Journal;
+class MeasuredData;
 
 /// Something to tell the user.
 struct Message {
@@ -130,6 +131,18 @@ class Session {
   /// Of a table time_s,joint,... ; its time 0 is now.
   Result play_trajectory(const std::filesystem::path& file);
 
+  // Measured data.
+  /// Opens an experiment folder. Where no plant of the document has its curves, the document
+  /// becomes its nominal plant alone, without a file, so that saving leaves the experiment as it
+  /// is; refused where that would lose changes.
+  Result open_experiment(const std::filesystem::path& path);
+  MeasuredData& measured() { return *measured_; }
+  const MeasuredData& measured() const { return *measured_; }
+  /// The plant of the document that was measured; -1: none.
+  int measured_plant() const;
+  /// Gives the measured plant the effects of the extended one, as one step of the history.
+  Result accept_diagnosis();
+
   // Recovery.
   /// Documents that a killed program left, the newest first. Empty without autosave.
   struct Lost {
@@ -161,6 +174,8 @@ class Session {
   Result robot_command(const Command& command);
   Result pull_command(const Command& command);
   Result expect_command(const Command& command) const;
+  Result measured_command(const Command& command);
+  void tell_faults(const std::vector<std::string>& faults);
   Result move_joints(const Eigen::VectorXd& q);
   Result finish(Result result);
   void say(Severity severity, std::string text, bool can_retry = false);
@@ -174,6 +189,7 @@ class Session {
   std::vector<Message> messages_;
   std::unique_ptr<Journal> journal_;
   std::filesystem::path failed_path_;  // what could not be opened, for reload()
+  std::unique_ptr<MeasuredData> measured_;
   RunControl control_;
 };
 

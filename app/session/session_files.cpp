@@ -1,6 +1,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "session/journal.h"
+#include "session/measured_commands.h"
 #include "session/plant_export.h"
 #include "session/plant_import.h"
 #include "session/session.h"
@@ -36,6 +37,7 @@ void write_with_backup(const std::filesystem::path& path, const std::string& tex
 }  // namespace
 
 bool Session::open(const std::filesystem::path& path) {
+  if (is_experiment(path)) return open_experiment(path).ok;
   try {
     set_document(open_document(path));
     failed_path_.clear();

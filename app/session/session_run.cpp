@@ -3,6 +3,7 @@
 #include "core/check.h"
 #include "io/csv.h"
 #include "session/command_table.h"
+#include "session/measured_commands.h"
 #include "session/organ_place.h"
 #include "session/session.h"
 
@@ -69,6 +70,7 @@ Result Session::session_command(const Command& c) {
   if (verb == "redo") return redo();
   if (verb == "keep") return keep_parameters();
   if (verb == "discard") return discard_parameters();
+  if (is_measured_command(verb)) return measured_command(c);
   if (verb == "expect") return expect_command(c);
   if (verb == "help") return {true, help_text(c.word_or("verb", ""))};
   return {};

@@ -179,7 +179,9 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
 
   const auto start = std::chrono::steady_clock::now();
   list_.clear();
+  measured_.update(ui_.view, ui_.session, *ui_.snapshot);
   view_.fill(list_, *ui_.snapshot, ui_.view, ui_.selection, ui_.hover);
+  measured_.add_to(list_);
   draw_tool_->add_to(list_, ui_, scene_);
   ui_.times.list = seconds_since(start);
   if (canvas_) {

@@ -10,6 +10,7 @@
 #include "app/window/fonts.h"
 #include "app/window/gui_input.h"
 #include "app/window/gui_painter.h"
+#include "app/window/measured_marks.h"
 #include "app/window/scene_canvas.h"
 #include "app/window/scene_mouse.h"
 #include "app/window/snapshot_view.h"
@@ -86,6 +87,7 @@ class Desktop {
   std::unique_ptr<render::RenderTarget> target_;
   Layout layout_;
   SnapshotView view_;
+  MeasuredMarks measured_;
   render::DrawList list_;
   ViewCamera camera_;
   SceneMouse mouse_;

@@ -75,6 +75,11 @@ std::vector<Colour> SnapshotView::colours(const Snapshot& snapshot, int plant,
     for (int e = 0; e < model.size(); ++e)
       values.push_back(shown.state.alive[e] ? surface_strain(model, shown.state, e) : 0.0);
   }
+  if (view.colours == ColourMap::residual && plant == view.residual_plant &&
+      static_cast<int>(view.residual.size()) == model.size()) {
+    values = view.residual;
+    scale = view.measured.residual_scale;
+  }
   for (std::size_t e = 0; e < values.size(); ++e)
     result[e] = render::strain_colour(values[e] / scale);
   return result;
@@ -93,6 +98,7 @@ void SnapshotView::fill(render::DrawList& list, const Snapshot& snapshot, const 
     list.ground->height = ground->height;
   }
   for (int p = 0; p < static_cast<int>(plants_.size()); ++p) {
+    if (p == view.hidden_plant) continue;
     const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
     std::vector<Colour> tints = colours(snapshot, p, view);
     for (int e = 0; e < plant.model->size(); ++e) {

@@ -1,0 +1,269 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/panels/diagnosis_part.h"
+#include "app/panels/panel.h"
+#include "app/panels/plot.h"
+#include "app/panels/theme.h"
+#include "app/panels/ui.h"
+#include "app/panels/widgets.h"
+#include "app/window/measured_marks.h"
+#include "session/measured_moment.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using discrepancy::Model;
+
+ImU32 ink(const render::Colour& colour) {
+  return ImGui::ColorConvertFloat4ToU32(ImVec4(colour.r, colour.g, colour.b, 1.0f));
+}
+
+void begin_ink(const render::Colour& colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ink(colour));
+}
+
+/// Measured data of the plant: through time, against the models, and what a diagnosis makes of it.
+class DataPanel : public Panel {
+ public:
+  std::string_view name() const override { return "Data"; }
+  Dock dock() const override { return Dock::right; }
+
+  void draw(Ui& ui) override {
+    follow(ui);
+    open_row(ui);
+    const discrepancy::Experiment* experiment = ui.session.measured().experiment();
+    if (!experiment) {
+      note("Measured markers over the plant: open an experiment, the folder with experiment.yaml.");
+      return;
+    }
+    title(ui, *experiment);
+    trial_and_time(ui, *experiment);
+    models(ui);
+    markers(ui, *experiment);
+    plot(ui, *experiment);
+    shown(ui);
+    diagnosis_.draw(ui);
+  }
+
+  void idle(Ui& ui) override { follow(ui); }
+
+ private:
+  /// Another experiment: its first trial from the beginning. Time goes on while it plays.
+  void follow(Ui& ui) {
+    MeasuredView& view = ui.view.measured;
+    const MeasuredData& data = ui.session.measured();
+    if (view.number != data.number()) {
+      const MeasuredView fresh;
+      view.number = data.number();
+      view.trial = view.marker = view.model = fresh.model;
+      view.time = 0.0, view.playing = false;
+      if (data.experiment()) ui.ask(Action::frame_all);
+      plot_ = {};
+    }
+    const double passed = std::clamp(ui.now - last_, 0.0, 0.1);
+    last_ = ui.now;
+    if (!view.playing || !data.experiment()) return;
+    view.time += passed;
+    const double end = end_of(ui);
+    if (view.time > end) view.time = end > 0.0 ? std::fmod(view.time, end) : 0.0;
+  }
+
+  static double end_of(const Ui& ui) {
+    const auto& trials = ui.session.measured().experiment()->trials;
+    const auto& time = trials[static_cast<std::size_t>(ui.view.measured.trial)].markers.time;
+    return time.empty() ? 0.0 : time.back();
+  }
+
+  void open_row(Ui& ui) {
+    const float button = ImGui::CalcTextSize("Open").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(rest_width(button + ImGui::GetStyle().ItemSpacing.x));
+    bool asked = text_field("##path", path_, "experiment folder");
+    ImGui::SameLine();
+    asked |= ImGui::Button("Open");
+    if (asked && !path_.empty() && (path_ != opened_ || !ui.session.measured().experiment())) {
+      const Result result = ui.session.run(Command("open experiment", {{"folder", path_}}));
+      fault_ = result.ok ? "" : result.text;
+      opened_ = result.ok ? path_ : "";
+    }
+    if (fault_.empty()) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
+    ImGui::TextWrapped("%s", fault_.c_str());
+    ImGui::PopStyleColor();
+  }
+
+  void title(Ui& ui, const discrepancy::Experiment& experiment) {
+    heading(ui, "Trial");
+    if (!experiment.title.empty()) note(experiment.title);
+    const int left = ui.session.measured().still_simulated();
+    if (left > 0) note("simulating: " + std::to_string(left) + " trials to go");
+    if (ui.session.measured_plant() < 0)
+      note("The document's plant is not as it was measured (any more).");
+  }
+
+  void trial_and_time(Ui& ui, const discrepancy::Experiment& experiment) {
+    MeasuredView& view = ui.view.measured;
+    const auto& trials = experiment.trials;
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::BeginCombo("##trial", trials[static_cast<std::size_t>(view.trial)].name.c_str())) {
+      for (int t = 0; t < static_cast<int>(trials.size()); ++t) {
+        ImGui::PushID(t);
+        if (ImGui::Selectable(trials[static_cast<std::size_t>(t)].name.c_str(), t == view.trial)) {
+          view.trial = t;
+          view.time = std::min(view.time, end_of(ui));
+          plot_.follows = true;
+        }
+        ImGui::PopID();
+      }
+      ImGui::EndCombo();
+    }
+    if (icon_button("play data", view.playing ? Icon::pause : Icon::play,
+                    view.playing ? "Stop here" : "Play the trial as it was measured"))
+      view.playing = !view.playing;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    float time = static_cast<float>(view.time);
+    if (ImGui::SliderFloat("##time", &time, 0.0f, static_cast<float>(end_of(ui)), "%.3f s"))
+      view.time = time, view.playing = false;
+  }
+
+  void models(Ui& ui) {
+    MeasuredView& view = ui.view.measured;
+    const MeasuredData& data = ui.session.measured();
+    heading(ui, "Model");
+    for (int m = 0; m < discrepancy::model_count; ++m) {
+      if (m > 0 && !data.has(static_cast<Model>(m))) continue;
+      begin_ink(model_colour(m));
+      ImGui::RadioButton(model_name(static_cast<Model>(m)), &view.model, m);
+      ImGui::PopStyleColor();
+      const TrialPath* path = data.path(static_cast<Model>(m), view.trial);
+      if (!path) continue;
+      ImGui::SameLine();
+      const std::string rms =
+          path->healthy ? quantity_text(path->rms, "m") + " rms" : std::string("failed");
+      ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(rms.c_str()).x);
+      ImGui::TextUnformatted(rms.c_str());
+    }
+    if (!data.has(discrepancy::extended))
+      note("Refitted and extended models come with a diagnosis.");
+    else
+      ImGui::Checkbox("Side by side", &view.side_by_side);
+  }
+
+  void markers(Ui& ui, const discrepancy::Experiment& experiment) {
+    MeasuredView& view = ui.view.measured;
+    const MeasuredData& data = ui.session.measured();
+    const auto now = moment_of(data, view.trial, static_cast<Model>(view.model), view.time);
+    heading(ui, "Error of markers, mm");
+    if (!now) return note("No markers were measured in this trial.");
+    const int rows = std::min<int>(static_cast<int>(experiment.markers.size()), 8) + 1;
+    std::vector<int> columns;
+    for (int m = 0; m < discrepancy::model_count; ++m)
+      if (data.path(static_cast<Model>(m), view.trial)) columns.push_back(m);
+    if (!ImGui::BeginTable(
+            "markers", 2 + static_cast<int>(columns.size()),
+            ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchSame,
+            ImVec2(0, (static_cast<float>(rows) + 0.4f) *
+                          (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y))))
+      return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    header(columns);
+    for (int i = 0; i < static_cast<int>(now->markers.size()); ++i)
+      marker_row(ui, experiment, *now, columns, i);
+    ImGui::EndTable();
+  }
+
+  static void header(const std::vector<int>& columns) {
+    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn();
+    elided("now", rest_width());
+    for (const int m : columns) {
+      ImGui::TableNextColumn();
+      begin_ink(model_colour(m));
+      elided(model_name(static_cast<Model>(m)), rest_width());
+      ImGui::PopStyleColor();
+    }
+  }
+
+  void marker_row(Ui& ui, const discrepancy::Experiment& experiment, const MeasuredMoment& now,
+                  const std::vector<int>& columns, int marker) {
+    MeasuredView& view = ui.view.measured;
+    const auto i = static_cast<std::size_t>(marker);
+    const auto cell = [](double metres) {
+      elided(std::isfinite(metres) ? number_text(1e3 * metres, 3) : "-", rest_width());
+    };
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushID(marker);
+    if (ImGui::Selectable(elide(experiment.markers[i].name, rest_width()).c_str(),
+                          view.marker == marker, ImGuiSelectableFlags_SpanAllColumns)) {
+      view.marker = marker;
+      plot_.follows = true;
+    }
+    ImGui::PopID();
+    ImGui::TableNextColumn();
+    cell(now.markers[i].error().norm());
+    for (const int m : columns) {
+      ImGui::TableNextColumn();
+      cell(ui.session.measured().path(static_cast<Model>(m), view.trial)->marker_rms[i]);
+    }
+  }
+
+  void plot(Ui& ui, const discrepancy::Experiment& experiment) {
+    const MeasuredView& view = ui.view.measured;
+    if (experiment.markers.empty()) return;
+    constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+    heading(ui, ("Marker " + experiment.markers[static_cast<std::size_t>(view.marker)].name + ", m")
+                    .c_str());
+    for (int a = 0; a < 3; ++a) {
+      if (a > 0) ImGui::SameLine();
+      if (ImGui::RadioButton(axes[static_cast<std::size_t>(a)], &axis_, a)) plot_.follows = true;
+    }
+    const MarkerSeries series = series_of(ui.session.measured(), view.trial, view.marker, axis_);
+    std::vector<PlotLine> lines{{"measured", ink(measured_colour), series.time, series.measured}};
+    for (int m = 0; m < discrepancy::model_count; ++m) {
+      const auto& values = series.models[static_cast<std::size_t>(m)];
+      if (values.empty()) continue;
+      lines.push_back(
+          {model_name(static_cast<Model>(m)), ink(model_colour(m)), series.time, values});
+    }
+    draw_plot("coordinate", lines, plot_, ImVec2(rest_width(), 150.0f * ui.scale), "s");
+  }
+
+  static void shown(Ui& ui) {
+    MeasuredView& view = ui.view.measured;
+    heading(ui, "Shown");
+    ImGui::Checkbox("Markers", &view.markers);
+    ImGui::Checkbox("The plant as the model has it", &view.shape);
+    bool residual = ui.view.colours == ColourMap::residual;
+    if (ImGui::Checkbox("Residual as colours", &residual))
+      ui.view.colours = residual ? ColourMap::residual : ColourMap::none;
+    ImGui::Checkbox("Errors as arrows", &view.errors);
+    ImGui::BeginDisabled(!view.errors);
+    float scale = static_cast<float>(view.error_scale);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##scale", &scale, 1.0f, 100.0f, "drawn %.0f times as long",
+                           ImGuiSliderFlags_Logarithmic))
+      view.error_scale = scale;
+    ImGui::EndDisabled();
+  }
+
+  std::string path_, opened_, fault_;
+  PlotView plot_;
+  int axis_ = 0;
+  double last_ = 0.0;
+  DiagnosisPart diagnosis_;
+};
+
+}  // namespace
+
+std::unique_ptr<Panel> make_data_panel() {
+  return std::make_unique<DataPanel>();
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,121 @@
+#include "core/check.h"
+#include "discrepancy/report.h"
+#include "io/atomic_file.h"
+#include "session/diagnosis_card.h"
+#include "session/journal.h"
+#include "session/measured_commands.h"
+#include "session/measured_data.h"
+#include "session/session.h"
+
+/// A session and the data that were measured on its plant.
+namespace pedicel::app {
+
+namespace {
+
+/// The experiment's plant alone, to be looked at and changed; the experiment keeps its own.
+Document document_of(const discrepancy::Experiment& experiment) {
+  Document document = empty_document();
+  DocumentPlant one;
+  one.entry.name = experiment.plant.name;
+  one.file = std::make_shared<const plant::PlantFile>(experiment.plant);
+  document.plants.push_back(std::move(one));
+  return document;
+}
+
+/// The plant that is drawn like another one; -1: none.
+int find_plant(const Document& document, const plant::PlantFile& like) {
+  for (std::size_t i = 0; i < document.plants.size(); ++i) {
+    const auto& file = document.plants[i].file;
+    if (file && file->curves == like.curves && file->root == like.root) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+void write_diagnosis(const std::filesystem::path& folder, const discrepancy::Experiment& experiment,
+                     const std::optional<plant::PlantFile>& extended,
+                     discrepancy::Diagnosis diagnosis) {
+  if (extended) {
+    diagnosis.verdict.extended_plant = "extended.plant.yaml";
+    plant::write_plant_file(folder / diagnosis.verdict.extended_plant, *extended);
+  }
+  io::write_file_atomically(folder / "verdict.json", to_json(diagnosis.verdict) + "\n");
+  discrepancy::write_report(folder, experiment, diagnosis);
+}
+
+}  // namespace
+
+int Session::measured_plant() const {
+  const discrepancy::Experiment* experiment = measured_->experiment();
+  return experiment ? find_plant(document_, experiment->plant) : -1;
+}
+
+Result Session::open_experiment(const std::filesystem::path& path) {
+  Diagnostics diagnostics;
+  const auto fault = [&](const std::string& text) {
+    say(Severity::error, text);
+    return Result{false, text};
+  };
+  if (measured_->is_diagnosing())
+    return fault(path.string() + ": a diagnosis runs, expected it to end or be cancelled");
+  auto read = discrepancy::read_experiment(path, diagnostics);
+  if (!read) return fault(diagnostics.text());
+  const bool replaces = find_plant(document_, read->plant) < 0;
+  if (dirty() && replaces)
+    return fault(path.string() +
+                 ": its plant would take the place of changes that are not saved, expected them "
+                 "to be saved or taken back");
+  for (const Diagnostic& one : diagnostics.all()) say(one.severity, to_string(one));
+  measured_->open(*std::move(read));
+  if (replaces) set_document(document_of(*measured_->experiment()));
+  if (options_.waits) tell_faults(measured_->wait());
+  const discrepancy::Experiment& e = *measured_->experiment();
+  return {true, "opened " + path.string() + ": " + counted(e.trials.size(), "trial") + ", " +
+                    counted(e.markers.size(), "marker")};
+}
+
+Result Session::accept_diagnosis() {
+  const auto extended = measured_->extended_plant();
+  if (!measured_->diagnosis())
+    return {false, "there is no diagnosis to accept, expected one (diagnose)"};
+  if (!extended)
+    return {false, "nothing to accept: the diagnosis found no effect that belongs to the plant"};
+  const int index = measured_plant();
+  if (index < 0)
+    return {false,
+            "the plant that was measured is not in the document (any more), expected its curves as "
+            "they were measured"};
+  return run(Command("set effects",
+                     {{"plant", document_.plants[static_cast<std::size_t>(index)].entry.name},
+                      {"text", effects_text(extended->effects)}}));
+}
+
+void Session::tell_faults(const std::vector<std::string>& faults) {
+  for (const std::string& fault : faults) say(Severity::error, "measured data: " + fault);
+}
+
+Result Session::measured_command(const Command& c) {
+  const std::string& verb = c.verb();
+  if (verb == "open experiment") return open_experiment(c.word("folder"));
+  if (verb == "accept diagnosis") return accept_diagnosis();
+  if (verb == "close experiment") measured_->close();
+  if (verb == "cancel diagnosis") measured_->cancel_diagnosis();
+  if (verb == "diagnose") {
+    measured_->start_diagnosis(c.whole_or("threads", 0),
+                               static_cast<std::uint64_t>(c.whole_or("seed", 1)));
+    if (!options_.waits) return {};
+    tell_faults(measured_->wait());
+    if (measured_->diagnosis()) return {true, headline(measured_->diagnosis()->verdict)};
+  }
+  if (verb == "write report") {
+    if (!measured_->diagnosis()) return {false, "there is no diagnosis to write, expected one"};
+    write_diagnosis(c.word("folder"), *measured_->experiment(), measured_->extended_plant(),
+                    *measured_->diagnosis());
+  }
+  return {};
+}
+
+}  // namespace pedicel::app

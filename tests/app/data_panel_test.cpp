@@ -1,0 +1,148 @@
+// The panel of measured data: an experiment opened, looked through, diagnosed, accepted.
+#include "app/window/measured_marks.h"
+#include "cut_text.h"
+#include "desk.h"
+#include "session/measured_data.h"
+#include "support/measured_stem.h"
+#include "support/temporary_folder.h"
+
+namespace pedicel::app {
+namespace {
+
+class DataPanelTest : public ::testing::Test {
+ protected:
+  DataPanelTest() : desk_(1280, 900) {
+    pedicel::testing::MeasuredStem stem;
+    stem.effects = {pedicel::testing::soft_root(0.1)};
+    stem.write(folder_ / "stem");
+  }
+  void SetUp() override {
+    if (!desk_.available()) GTEST_SKIP() << desk_.why();
+    desk_.ui().view.automatic_quality = false;
+    desk_.ui().view.quality = 2;
+    desk_.ui().preferences.right_width = 330;
+    desk_.show("Data");
+  }
+  void open() {
+    desk_.open(folder_ / "stem");
+    desk_.session().measured().wait();
+    desk_.settle();
+  }
+  std::string keep(const std::string& name) {
+    const std::string path = ::testing::TempDir() + "/data_panel_" + name + ".png";
+    render::write_png(path, desk_.picture());
+    return "picture: " + path;
+  }
+  /// Fails where words are cut or the panel is empty.
+  void check(const std::string& name) {
+    const std::string where = keep(name);
+    const auto cut = cut_letters();
+    EXPECT_TRUE(cut.empty()) << name << ": " << describe(cut) << where;
+    for (const auto& [window, px] : overflowing())
+      ADD_FAILURE() << window << " is too narrow by " << px << " px\n" << where;
+    const ImGuiWindow* window = panel_window("right", "Data");
+    ASSERT_NE(window, nullptr);
+    EXPECT_GT(drawn_share(desk_.picture(), window->InnerRect), 0.02) << where;
+  }
+  void must_run(const std::string& line) {
+    const Result result = desk_.session().run_text(line);
+    EXPECT_TRUE(result.ok) << result.text;
+  }
+  /// To the end of the panel.
+  void scroll_down() {
+    const ImGuiWindow* window = panel_window("right", "Data");
+    ASSERT_NE(window, nullptr);
+    desk_.move(window->InnerRect.GetCenter().x, window->InnerRect.Min.y + 60);
+    for (int i = 0; i < 60; ++i) desk_.wheel(-1);
+  }
+  /// Pixels of the scene that are near to a hue, as a share.
+  double share_of(const render::Colour& colour) {
+    const render::Image image = desk_.picture();
+    const SceneFrame& scene = desk_.desktop().scene();
+    long found = 0, all = 0;
+    for (int y = static_cast<int>(scene.low.y); y < scene.low.y + scene.size.y; ++y)
+      for (int x = static_cast<int>(scene.low.x); x < scene.low.x + scene.size.x; ++x, ++all) {
+        const std::uint8_t* p = image.at(x, y);
+        const double length = std::hypot(p[0], p[1], p[2]) + 1.0;
+        const double own = std::hypot(colour.r, colour.g, colour.b);
+        const double same = (p[0] * colour.r + p[1] * colour.g + p[2] * colour.b) / length / own;
+        found += same > 0.985 && length > 120.0;
+      }
+    return static_cast<double>(found) / static_cast<double>(all);
+  }
+
+  TemporaryFolder folder_;
+  Desk desk_;
+};
+
+TEST_F(DataPanelTest, ShowsTheMarkersOverThePlant) {
+  const double before = share_of(measured_colour);
+  open();
+  desk_.ui().view.measured.time = 0.3;
+  desk_.frames(4);
+  check("opened");
+  EXPECT_GT(share_of(measured_colour), before + 1e-4) << keep("opened");
+  EXPECT_EQ(desk_.ui().view.hidden_plant, 0) << "the model's shape stands for the plant";
+
+  // Without marks nothing orange is left.
+  desk_.ui().view.measured.markers = desk_.ui().view.measured.errors = false;
+  desk_.frames(3);
+  EXPECT_LT(share_of(measured_colour), before + 1e-4);
+}
+
+TEST_F(DataPanelTest, PlaysThroughTheTrial) {
+  open();
+  desk_.ui().view.measured.playing = true;
+  desk_.frames(4);
+  EXPECT_GT(desk_.ui().view.measured.time, 0.0);
+  desk_.ui().view.measured.playing = false;
+  const double time = desk_.ui().view.measured.time;
+  desk_.frames(4);
+  EXPECT_EQ(desk_.ui().view.measured.time, time);
+}
+
+TEST_F(DataPanelTest, ResidualColoursTheStem) {
+  open();
+  desk_.ui().view.measured.time = 0.3;
+  desk_.ui().view.measured.errors = desk_.ui().view.measured.markers = false;
+  desk_.frames(3);
+  const render::Image plain = desk_.picture();
+  desk_.ui().view.colours = ColourMap::residual;
+  desk_.frames(3);
+  check("residual");
+  const render::Image mapped = desk_.picture();
+  long changed = 0;
+  for (std::size_t i = 0; i < plain.rgb.size(); ++i)
+    changed += std::abs(plain.rgb[i] - mapped.rgb[i]) > 30;
+  EXPECT_GT(changed, 200);
+  // The running plant has its elements' residuals, too: more at its tip than at its foot.
+  const std::vector<double>& residual = desk_.ui().view.residual;
+  ASSERT_EQ(residual.size(), desk_.snapshot()->plants[0].model->elements.size());
+  EXPECT_GT(residual.back(), residual.front());
+}
+
+TEST_F(DataPanelTest, DiagnosisIsStartedCancelledShownAndAccepted) {
+  open();
+  must_run("diagnose threads=1");
+  desk_.frames(4);
+  check("running");
+  must_run("cancel diagnosis");
+  desk_.session().measured().wait();
+
+  must_run("diagnose threads=2");
+  desk_.session().measured().wait();
+  ASSERT_NE(desk_.session().measured().diagnosis(), nullptr);
+  desk_.ui().view.measured.side_by_side = true;
+  desk_.ui().view.measured.model = discrepancy::extended;
+  desk_.ui().view.measured.time = 0.3;
+  desk_.ui().ask(Action::frame_all);
+  desk_.frames(6);
+  check("diagnosed");
+  must_run("accept diagnosis");
+  desk_.settle();
+  scroll_down();
+  check("accepted");
+}
+
+}  // namespace
+}  // namespace pedicel::app
