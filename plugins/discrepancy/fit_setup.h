@@ -24,9 +24,7 @@ class FitSetup {
   const FitOptions& options() const { return options_; }  ///< of the trials to be fitted
   const std::vector<int>& check_trials() const { return check_; }
   const Numerics& numerics() const { return numerics_; }
-  const Corrections* corrections() const {
-    return corrections_.empty() ? nullptr : &corrections_;
-  }
+  const Corrections* corrections() const { return corrections_.empty() ? nullptr : &corrections_; }
   const std::atomic<bool>* stop() const { return stop_; }
   bool stopped() const { return stop_ && *stop_; }
   int threads() const { return threads_; }

@@ -117,9 +117,9 @@ struct PlantFile {
   std::string name;
   Shape shape = Shape::drawn;
   MaterialValues material;
-  double connect = 0.0;         ///< m, a curve end nearer than this to another curve is joined to it
-  double distance = 0.0;        ///< m, spacing of the nodes that are kept
-  Vec3 root = Vec3::Zero();     ///< m, P: the curve end nearest to it is clamped
+  double connect = 0.0;      ///< m, a curve end nearer than this to another curve is joined to it
+  double distance = 0.0;     ///< m, spacing of the nodes that are kept
+  Vec3 root = Vec3::Zero();  ///< m, P: the curve end nearest to it is clamped
   std::vector<CurvePlace> supports;
   std::vector<PlantCurve> curves;
   std::vector<PlantFruit> fruits;
@@ -133,8 +133,8 @@ struct PlantFile {
   int curve_index(const std::string& curve) const;
 };
 
-/// Reads a plant file. Every fault goes to `diagnostics` with its line and column; nothing comes back
-/// where there is one. A file that cannot be read or is no YAML is such a fault, too.
+/// Reads a plant file. Every fault goes to `diagnostics` with its line and column; nothing comes
+/// back where there is one. A file that cannot be read or is no YAML is such a fault, too.
 std::optional<PlantFile> read_plant_file(const std::filesystem::path& path,
                                          Diagnostics& diagnostics);
 

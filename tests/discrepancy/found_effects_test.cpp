@@ -6,6 +6,7 @@
 // trials.
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <set>
 #include <string>
 
@@ -13,6 +14,12 @@
 #include "support/temporary_folder.h"
 
 namespace pedicel::hidden {
+
+// Named here, or the names of the tests would hold a case's bytes.
+void PrintTo(const CaseOrder& order, std::ostream* out) {
+  *out << "case " << order.number;
+}
+
 namespace {
 
 using Kind = CaseOrder::Kind;

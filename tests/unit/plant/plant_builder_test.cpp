@@ -15,10 +15,11 @@ const std::string head =
     "material: {youngs_modulus: 1e8, poisson_ratio: 0.3, density: 700, "
     "damping_time: 0}\n"
     "sampling: {connect: 0.01, distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n";
-const std::string stem = "  - {name: stem, interpolation: linear, points: [[0, "
-                         "0, 0], [0, 0, 0.113]], radius: 0.004}\n";
+const std::string stem =
+    "  - {name: stem, interpolation: linear, points: [[0, "
+    "0, 0], [0, 0, 0.113]], radius: 0.004}\n";
 
-BuiltPlant built(const std::string &text) {
+BuiltPlant built(const std::string& text) {
   Diagnostics diagnostics;
   const auto plant = parse_plant(text, "p.plant.yaml", diagnostics);
   EXPECT_TRUE(plant) << diagnostics.text();
@@ -27,20 +28,17 @@ BuiltPlant built(const std::string &text) {
   return result.value_or(BuiltPlant{});
 }
 
-Vec3 drawn_place(const BuiltPlant &plant, int curve, double at) {
+Vec3 drawn_place(const BuiltPlant& plant, int curve, double at) {
   const PlacedPoint place = plant.locate(curve, at);
-  const auto &element = plant.model.elements[place.element];
+  const auto& element = plant.model.elements[place.element];
   const double share = place.back / element.length;
-  return (1.0 - share) * element.drawn_position +
-         share * plant.model.drawn_start(place.element);
+  return (1.0 - share) * element.drawn_position + share * plant.model.drawn_start(place.element);
 }
 
 TEST(PlantBuilder, FindsPlacesBetweenNodes) {
   const BuiltPlant plant = built(head + stem);
   for (const double at : {0.0, 0.1234, 0.5, 0.777, 1.0})
-    EXPECT_LT((drawn_place(plant, 0, at) - Vec3(0, 0, 0.113 * at)).norm(),
-              1e-12)
-        << at;
+    EXPECT_LT((drawn_place(plant, 0, at) - Vec3(0, 0, 0.113 * at)).norm(), 1e-12) << at;
 }
 
 // A curve that goes on from another's end starts at that end: each element has
@@ -48,14 +46,13 @@ TEST(PlantBuilder, FindsPlacesBetweenNodes) {
 // the joint no key node, the tip of the stem was found up to `distance` too
 // low.)
 TEST(PlantBuilder, KeepsTheJointOfCurvesEndToEnd) {
-  const BuiltPlant plant =
-      built(head + stem +
-            "  - {name: upper, interpolation: linear, points: [[0, 0, 0.113], "
-            "[0.05, 0, 0.15]], radius: "
-            "0.001}\n");
+  const BuiltPlant plant = built(head + stem +
+                                 "  - {name: upper, interpolation: linear, points: [[0, 0, 0.113], "
+                                 "[0.05, 0, 0.15]], radius: "
+                                 "0.001}\n");
   EXPECT_LT((drawn_place(plant, 0, 1.0) - Vec3(0, 0, 0.113)).norm(), 1e-12);
   EXPECT_LT((drawn_place(plant, 1, 0.0) - Vec3(0, 0, 0.113)).norm(), 1e-12);
-  for (const auto &element : plant.model.elements)
+  for (const auto& element : plant.model.elements)
     EXPECT_EQ(element.radius_far, element.organ == 0 ? 0.004 : 0.001);
   EXPECT_NEAR(plant.length_kept, plant.length_drawn, 1e-12);
 }
@@ -67,8 +64,7 @@ TEST(PlantBuilder, TakesACurveDrawnFromTipToBase) {
             "[0, 0, 0.113]], radius: "
             "0.001}\n");
   EXPECT_LT((drawn_place(plant, 1, 0.0) - Vec3(0.1, 0, 0.113)).norm(), 1e-12);
-  EXPECT_LT((drawn_place(plant, 1, 0.25) - Vec3(0.075, 0, 0.113)).norm(),
-            1e-12);
+  EXPECT_LT((drawn_place(plant, 1, 0.25) - Vec3(0.075, 0, 0.113)).norm(), 1e-12);
 }
 
 // The counts of peers.md.
@@ -82,5 +78,5 @@ TEST(ReferencePlants, HaveTheElementsOfThePeers) {
   EXPECT_NEAR(plant.elements[18].radius_far, 0.004, 1e-12);
 }
 
-} // namespace
-} // namespace pedicel::plant
+}  // namespace
+}  // namespace pedicel::plant
