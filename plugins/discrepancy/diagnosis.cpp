@@ -182,9 +182,11 @@ class Procedure {
     make_workers();
     result_.ranking = refit_all(workers_, result_.base, causes_, result_.directions,
                                 refit_options(0.2, 0.6, "refitting candidates"));
+    if (stopped()) return;
     for (std::size_t i = 0; i < std::min<std::size_t>(6, result_.ranking.size()); ++i)
-      log_.fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit,
-               setup_->samples());
+      if (result_.ranking[i].whole)
+        log_.fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit,
+                 setup_->samples());
     if (result_.ranking.empty() || result_.ranking.front().evidence < enough_evidence) return;
     result_.best = result_.ranking.front().fit;
     findings_.chain = {result_.ranking.front()};
@@ -209,7 +211,7 @@ class Procedure {
       const std::vector<Candidate> next =
           refit_all(workers_, result_.best, likely, directions,
                     refit_options(from, from + 0.15, "looking for another cause"));
-      if (next.empty() || !is_another_cause(next.front())) return;
+      if (stopped() || next.empty() || !is_another_cause(next.front())) return;
       findings_.chain.push_back(next.front());
       result_.best = next.front().fit;
     }
