@@ -1,9 +1,9 @@
 // Whole diagnoses of hidden cases, one a ctest case: what is hidden must be named, and null data
 // must stay quiet. Chosen by a rule (README): of each name the first case of the list with seed 1
-// that hides it at 8 to 16 times the smallest identifiable size in a pack of three trials, the
-// first sixteen names but for two known misses; of the packs `push` and `weights` the first null
-// case with white and with coloured noise; the first look-alike and the first stranger with three
-// trials.
+// that hides it at 8 to 16 times the smallest identifiable size in a pack of three trials, or,
+// where there is none, at 4 to 8 times, the first twenty names but for the known misses; of the
+// packs `push` and `weights` the first null case with white and with coloured noise; the first
+// look-alike and the first stranger with three trials.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -25,11 +25,14 @@ namespace {
 using Kind = CaseOrder::Kind;
 
 constexpr std::uint64_t seed = 1;
-constexpr std::size_t most_names = 16;
-// Known misses at this size. The two simulators' ladders of springs for damping that does not
+constexpr std::size_t most_names = 20;
+// What comes out otherwise there. The two simulators' ladders of springs for damping that does not
 // depend on the rate differ by more than the noise, and a relaxation follows the other one's
-// better. Creep is a relaxation that is longer than the records, and they leave open whether it is.
-const std::set<std::string> known_misses{"structural_damping", "creep"};
+// better. The records leave open whether a relaxation is longer than they are (creep), whether
+// damping goes with the mass or relaxes, and where a mass sits along its curve; of a junction at 4
+// times the smallest size another mesh could be the cause.
+const std::set<std::string> known_misses{"structural_damping", "creep", "mass_damping",
+                                         "extra_mass", "attachment_compliance"};
 
 bool three_trials(const CaseOrder& order) {
   return order.pack != PackKind::release && order.pack != PackKind::mix;
@@ -47,11 +50,15 @@ void add_first(std::vector<CaseOrder>& chosen, const Wanted& wanted) {
 std::vector<CaseOrder> chosen_cases() {
   std::vector<CaseOrder> chosen;
   std::set<std::string> names;
-  for (const CaseOrder& order : case_orders())
-    if (order.kind == Kind::effect && order.size >= 8 && order.size <= 16 && three_trials(order) &&
-        names.size() < most_names && !known_misses.contains(order.hidden.front()) &&
-        names.insert(order.hidden.front()).second)
-      chosen.push_back(order);
+  const auto add_names = [&](double least, double most) {
+    for (const CaseOrder& order : case_orders())
+      if (order.kind == Kind::effect && order.size >= least && order.size <= most &&
+          three_trials(order) && names.size() < most_names &&
+          !known_misses.contains(order.hidden.front()) && names.insert(order.hidden.front()).second)
+        chosen.push_back(order);
+  };
+  add_names(8.0, 16.0);
+  add_names(4.0, 8.0);
   for (const PackKind pack : {PackKind::push, PackKind::weights})
     for (const bool coloured : {false, true})
       add_first(chosen, [&](const CaseOrder& order) {
