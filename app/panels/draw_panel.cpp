@@ -20,34 +20,29 @@ void radio_row(const Ui& ui, Choice& value, const std::array<const char*, count>
   }
 }
 
-/// A slider of millimetres for a length in metres.
-void millimetres(const Ui& ui, const char* name, double& metres, float low, float high,
-                 const char* what, const char* format = "%.1f mm") {
+/// A name with a slider beside it that shows `factor` times the value.
+void named_slider(const char* name, double& value, double factor, float low, float high,
+                  const char* format, ImGuiSliderFlags flags, const char* what) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name);
   tip(what);
   ImGui::SameLine(0.46f * ImGui::GetContentRegionMax().x);
   ImGui::SetNextItemWidth(-1);
   ImGui::PushID(name);
-  float shown = static_cast<float>(1e3 * metres);
-  if (ImGui::SliderFloat("##mm", &shown, low, high, format, ImGuiSliderFlags_Logarithmic))
-    metres = 1e-3 * shown;
+  float shown = static_cast<float>(factor * value);
+  if (ImGui::SliderFloat("##value", &shown, low, high, format, flags)) value = shown / factor;
   ImGui::PopID();
   tip(what);
-  (void)ui;
+}
+
+/// Millimetres for a length in metres.
+void millimetres(const char* name, double& metres, float low, float high, const char* what,
+                 const char* format = "%.1f mm") {
+  named_slider(name, metres, 1e3, low, high, format, ImGuiSliderFlags_Logarithmic, what);
 }
 
 void share(const char* name, double& value, const char* what) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name);
-  tip(what);
-  ImGui::SameLine(0.46f * ImGui::GetContentRegionMax().x);
-  ImGui::SetNextItemWidth(-1);
-  ImGui::PushID(name);
-  float shown = static_cast<float>(value);
-  if (ImGui::SliderFloat("##share", &shown, 0.0f, 1.0f, "%.2f")) value = shown;
-  ImGui::PopID();
-  tip(what);
+  named_slider(name, value, 1.0, 0.0f, 1.0f, "%.2f", 0, what);
 }
 
 /// The draw mode and its options, with Blender's names.
@@ -67,7 +62,7 @@ class DrawPanel : public Panel {
     if (d.thing == DrawThing::stem) stem_options(ui, d);
     if (d.thing == DrawThing::fruit) fruit_options(ui, d);
     if (d.thing == DrawThing::leaf)
-      millimetres(ui, "Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
+      millimetres("Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
     heading(ui, "How");
     note(
         d.thing == DrawThing::stem
@@ -80,12 +75,12 @@ class DrawPanel : public Panel {
  private:
   static void stem_options(Ui& ui, DrawMode& d) {
     heading(ui, "Stroke");
-    millimetres(ui, "Tolerance", d.tolerance, 0.2f, 30.0f,
+    millimetres("Tolerance", d.tolerance, 0.2f, 30.0f,
                 "How far the stem may be from the stroke: less gives more points");
     ImGui::Checkbox("Detect corners", &d.detect_corners);
     heading(ui, "Radius");
-    millimetres(ui, "Max", d.radius_max, 0.2f, 40.0f, "At the foot", "%.2f mm");
-    millimetres(ui, "Min", d.radius_min, 0.2f, 40.0f, "At the tip", "%.2f mm");
+    millimetres("Max", d.radius_max, 0.2f, 40.0f, "At the foot", "%.2f mm");
+    millimetres("Min", d.radius_min, 0.2f, 40.0f, "At the tip", "%.2f mm");
     share("Taper start", d.taper_start, "Where along the stem it begins to get thinner");
     share("Taper end", d.taper_end, "Where along the stem it has its smallest radius");
     heading(ui, "Projection plane");
@@ -97,12 +92,12 @@ class DrawPanel : public Panel {
     ImGui::Checkbox("Only first", &d.only_first);
     tip("The depth is taken where the stroke begins; else the stroke creeps over what it crosses");
     if (!d.only_first)
-      millimetres(ui, "Offset", d.offset, 0.1f, 50.0f, "From the surface towards the eye");
+      millimetres("Offset", d.offset, 0.1f, 50.0f, "From the surface towards the eye");
   }
 
   static void fruit_options(Ui& ui, DrawMode& d) {
     heading(ui, "Fruit");
-    millimetres(ui, "Radius", d.fruit_radius, 2.0f, 60.0f, "Of the fruit");
+    millimetres("Radius", d.fruit_radius, 2.0f, 60.0f, "Of the fruit");
     float density = static_cast<float>(d.fruit_density),
           stretch = static_cast<float>(d.fruit_stretch);
     ImGui::TextUnformatted("Density");

@@ -18,7 +18,6 @@ constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
 constexpr std::size_t most_whole = 8;     // of each of the two lists
 constexpr std::size_t linear_starts = 2;  // looked at, of a cause and either sign
-constexpr double near_the_best = 60.0;    // nats
 constexpr double small_residual = 2.0;    // mean square in noise units, see refit_all()
 constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
 // What is known of an unknown beforehand, as standard deviations: a factor of 4.5 either way, or
@@ -310,19 +309,18 @@ class Refits {
     if (options_.check_trials.empty() || candidates_.empty()) return;
     FitOptions check = options_.fit;
     check.trials = options_.check_trials;
-    const double best = candidates_.front().evidence;
     std::vector<Hypothesis> models{base_.hypothesis};
-    std::vector<Candidate*> near;
+    std::vector<Candidate*> whole;
     for (Candidate& candidate : candidates_)
-      if (candidate.whole && candidate.evidence > best - near_the_best) {
+      if (candidate.whole) {
         models.push_back(candidate.fit.hypothesis);
-        near.push_back(&candidate);
+        whole.push_back(&candidate);
       }
     const Eigen::MatrixXd residuals = workers_.front().residuals(models, check);
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      near[i]->held_out =
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      whole[i]->held_out =
           held_out(residuals.col(0), residuals.col(static_cast<Eigen::Index>(i) + 1), dispersion);
-      near[i]->evidence += near[i]->held_out.gain;
+      whole[i]->evidence += whole[i]->held_out.gain;
     }
     sort_by_evidence(candidates_);
   }

@@ -17,10 +17,10 @@ struct Candidate {
   std::string cause;  ///< the one that was added last
   FitSummary fit;
   double gain = 0.0;  ///< log-likelihood above the model that it extends
-  /// Gain less what its parameters and the number of candidates cost, and for those that come near
-  /// the best what it gains on the trials kept back.
+  /// Gain less what its parameters and the number of candidates cost, and of a whole fit what it
+  /// gains on the trials kept back.
   double evidence = 0.0;
-  HeldOut held_out;  ///< on the trials kept back, for those that come near the best
+  HeldOut held_out;  ///< on the trials kept back, of a whole fit
   /// False: it fell so far behind over the first part of the records, and its direction shows so
   /// little, that it was not refitted over the whole; its gain is that of the first part, or what
   /// its direction promises.

@@ -62,6 +62,12 @@ class Start {
     made_.free.back().prior_centre = centre;
     return *this;
   }
+  /// With this value of the last parameter the effect does nothing.
+  Start& vanishing_at(double value) {
+    made_.free.back().vanishes = Vanishes::at_nominal;
+    made_.free.back().nominal = value;
+    return *this;
+  }
   operator Hypothesis() const { return made_; }
 
  private:

@@ -174,9 +174,13 @@ class Candidates {
     const double soft = scales_.root_stiffness / (scales_.length * scales_.length);
     const double from = stiffness > 0.0 ? stiffness : 300.0 * soft;
     std::vector<Hypothesis> compliance, slip;
-    for (const double part : {0.6, 0.1})
-      compliance.push_back(
-          Start("grip_compliance").positive("stiffness", part * from, 0.1 * soft, 1e5 * soft));
+    for (const double part : {0.6, 0.1}) {
+      Start start("grip_compliance");
+      start.positive("stiffness", part * from, 0.1 * soft, 1e5 * soft);
+      // It replaces a stated stiffness; without one the grip is rigid.
+      if (stiffness > 0.0) start.vanishing_at(stiffness);
+      compliance.push_back(start);
+    }
     add("grip_compliance", compliance);
     // In every trial, or in one.
     double first_end = 1e300;

@@ -214,10 +214,14 @@ void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis) {
     least.name = cause.name;
     double best = 0.0;
     for (const Direction& direction : diagnosis.directions) {
-      if (direction.cause != cause.name || direction.change.norm() < best) continue;
-      best = direction.change.norm();
-      least.smallest_seen = smallest_seen(
-          direction, diagnosis.before.level + std::abs(direction.systematic), least.parameter);
+      if (direction.cause != cause.name) continue;
+      // The start that says most: the loudest, and of thresholds the highest that is seen.
+      const double length = direction.change.norm();
+      const double seen = diagnosis.before.level + std::abs(direction.systematic);
+      const double worth = !direction.has_threshold ? length : length < seen ? 0.0 : 1.0 / length;
+      if (worth < best) continue;
+      best = worth;
+      least.smallest_seen = smallest_seen(direction, seen, least.parameter);
     }
     least.unit = unit_of(cause.name, least.parameter);
     diagnosis.verdict.could_hide.push_back(least);

@@ -99,6 +99,9 @@ Hypothesis Hypothesis::shrunk(double share) const {
       case Vanishes::at_one:
         result.set_value(i, 1.0 + share * (v - 1.0));
         break;
+      case Vanishes::at_nominal:
+        result.set_value(i, free[i].nominal * std::pow(v / free[i].nominal, share));
+        break;
       case Vanishes::at_infinity:
         result.set_value(i, v / share);
         break;

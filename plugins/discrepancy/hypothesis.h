@@ -15,7 +15,7 @@ inline constexpr const char* mesh_error = "mesh_error";
 
 /// The value at which an effect vanishes, for the parameters that are its size; `never` for the
 /// others.
-enum class Vanishes { never, at_zero, at_one, at_infinity };
+enum class Vanishes { never, at_zero, at_one, at_infinity, at_nominal };
 
 /// A number of an effect that a fit may change. Fits work on a scaled unknown u: value = scale u,
 /// or value = exp(u) for positive quantities whose size is not known (`logarithmic`).
@@ -31,6 +31,7 @@ struct FreeParameter {
   /// none.
   double prior = 0.0, prior_centre = 0.0;
   Vanishes vanishes = Vanishes::never;
+  double nominal = 0.0;  ///< the value with which it vanishes `at_nominal`, > 0
 
   double to_unknown(double value) const;
   double to_value(double unknown) const;

@@ -103,16 +103,21 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
 }
 
 double smallest_seen(const Direction& direction, double sigma, std::string& parameter) {
-  const double size = direction.change.norm();
-  for (int i = 0; i < direction.start.size(); ++i) {
-    const FreeParameter& free = direction.start.free[i];
-    if (free.vanishes == Vanishes::never) continue;
-    parameter = free.name;
-    if (size < 1.0e-3) break;
-    const Hypothesis seen = direction.start.shrunk(sigma / size);
-    return free.name == "factor" || free.name == "ratio" ? seen.value(i) : std::abs(seen.value(i));
-  }
-  return std::numeric_limits<double>::infinity();
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const std::vector<FreeParameter>& free = direction.start.free;
+  const auto sized = std::ranges::find_if(
+      free, [](const FreeParameter& p) { return p.vanishes != Vanishes::never; });
+  if (sized == free.end()) return never;
+  parameter = sized->name;
+  const double length = direction.change.norm();
+  if (length < no_change || (direction.has_threshold && length < sigma)) return never;
+  const Hypothesis seen =
+      direction.has_threshold ? direction.start : direction.start.shrunk(sigma / length);
+  double squares = 0.0;  // of a vector's components
+  for (int i = 0; i < seen.size(); ++i)
+    if (free[i].effect == sized->effect && free[i].name == parameter)
+      squares += seen.value(i) * seen.value(i);
+  return std::sqrt(squares);
 }
 
 }  // namespace pedicel::discrepancy

@@ -39,8 +39,9 @@ struct Alarm {
 Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
             const Eigen::VectorXd& numerical, std::uint64_t seed);
 
-/// The smallest size of a cause that these data would show: its sizes where the directed statistic
-/// is expected to be `sigma`. Infinite where nothing would ever be seen.
+/// The smallest size of a cause that these data would show: where the directed statistic is
+/// expected to be `sigma`; of a vector its length. Of a law with a threshold the start's own, where
+/// it would be seen. Infinite where nothing would ever be seen.
 double smallest_seen(const Direction& direction, double sigma, std::string& parameter);
 
 }  // namespace pedicel::discrepancy

@@ -101,8 +101,35 @@ TEST(SmallestSeen, GoesWithTheSizeOfTheDirection) {
   EXPECT_EQ(parameter, "mass");
   direction.start.free[0].vanishes = Vanishes::at_infinity;  // a spring: the softer the louder
   EXPECT_NEAR(smallest_seen(direction, 5.0, parameter), 0.016, 1e-12);
+  direction.start.free[0].vanishes = Vanishes::at_nominal;  // a grip of 80 that is softer
+  direction.start.free[0].nominal = 0.08;
+  EXPECT_NEAR(smallest_seen(direction, 8.0, parameter), 0.08 * std::pow(0.25, 2.0), 1e-12);
   direction.change.setZero();
   EXPECT_TRUE(std::isinf(smallest_seen(direction, 5.0, parameter)));
+}
+
+// A wind along y alone: its component along x says nothing of its size.
+TEST(SmallestSeen, OfAVectorIsALength) {
+  Direction direction{"wind", hypothesis_of("wind", "velocity", 0.0, "m/s"), {}, {}};
+  plant::Effect& wind = direction.start.effects[0];
+  wind.numbers["velocity"] = {0.0, 0.6, 0.0};
+  direction.start.free.push_back(direction.start.free[0]);
+  direction.start.free[1].component = 1;
+  for (FreeParameter& free : direction.start.free) free.vanishes = Vanishes::at_zero;
+  direction.change = Eigen::VectorXd::Constant(4, 1.5);
+  std::string parameter;
+  EXPECT_NEAR(smallest_seen(direction, 1.0, parameter), 0.2, 1e-12);
+}
+
+// Beyond its threshold a law is seen or not; nothing is known of other thresholds.
+TEST(SmallestSeen, OfALawWithAThresholdIsTheStart) {
+  Direction direction{"yield", hypothesis_of("yield", "curvature", 0.7, "1/m"), {}, {}};
+  direction.start.free[0].vanishes = Vanishes::at_infinity;
+  direction.has_threshold = true;
+  direction.change = Eigen::VectorXd::Constant(4, 3.0);
+  std::string parameter;
+  EXPECT_NEAR(smallest_seen(direction, 5.0, parameter), 0.7, 1e-12);
+  EXPECT_TRUE(std::isinf(smallest_seen(direction, 7.0, parameter)));
 }
 
 }  // namespace
