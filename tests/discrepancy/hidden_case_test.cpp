@@ -105,6 +105,35 @@ TEST(HiddenCases, WhiteningUndoesTheColour) {
   EXPECT_NEAR(w.head(w.size() - 1).dot(w.tail(w.size() - 1)) / size, 0.0, 4 / std::sqrt(size));
 }
 
+// A swing whose frequency tells modulus over density and whose sag tells density over modulus with
+// a hundredth of the weight: factors of all three are refitted away wholly, out of phase as they
+// start.
+TEST(HiddenCases, RefitFollowsFar) {
+  const auto predict = [](const reference::Subject& subject) {
+    double modulus = 1, density = 1, damping = 1;
+    for (const plant::Effect& e : subject.effects) {
+      if (e.name == "youngs_modulus") modulus *= e.number("factor");
+      if (e.name == "density") density *= e.number("factor");
+      if (e.name == "damping_time") damping *= e.number("factor");
+    }
+    Eigen::VectorXd samples(500);
+    for (int i = 0; i < samples.size(); ++i) {
+      const double t = 0.01 * i, w = 20 * std::sqrt(modulus / density);
+      samples[i] = 100 * std::exp(-0.002 * damping * w * w * t) * std::cos(w * t) + density;
+    }
+    return samples;
+  };
+  const Sight sight({}, predict, {"youngs_modulus", "density", "damping_time"});
+  reference::Subject changed;
+  changed.effects = {factor("youngs_modulus", 1.27), factor("density", 1.25),
+                     factor("damping_time", 0.7)};
+  const Sight::Change change = sight.change(changed);
+  EXPECT_LT(change.rest.norm(), 0.1);
+  EXPECT_NEAR(change.refit[0], -std::log(1.27), 0.01);
+  EXPECT_NEAR(change.refit[1], -std::log(1.25), 0.01);
+  EXPECT_NEAR(change.refit[2], -std::log(0.7), 0.01);
+}
+
 // size_for() on norms in closed form: proportional, with a threshold, and never reached.
 TEST(HiddenCases, FindsTheSizeForALevel) {
   EXPECT_NEAR(size_for([](double u) { return 1000 * u; }, 5, 0.3, 10), 0.005, 0.05 * 0.005);

@@ -8,12 +8,30 @@ namespace pedicel::hidden {
 
 namespace {
 
+constexpr int most_steps = 30;
+constexpr double longest_step = 0.3;  // of a factor's logarithm
+
 void append(const Eigen::MatrixXd& samples, double std, double rho, std::vector<double>& out) {
   const double innovation = std * std::sqrt(1.0 - rho * rho);
   for (int c = 0; c < samples.cols(); ++c)
     for (int i = 0; i < samples.rows(); ++i)
       out.push_back(i == 0 ? samples(0, c) / std
                            : (samples(i, c) - rho * samples(i - 1, c)) / innovation);
+}
+
+/// The least squares step on residual + columns step, its columns weighed down by `damping`, none
+/// of its entries above longest_step.
+Eigen::VectorXd damped_step(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
+                            double damping) {
+  Eigen::MatrixXd normal = columns.transpose() * columns;
+  normal.diagonal() *= 1.0 + damping;
+  // A direction that the others contain but for rounding stays out; one that they nearly contain is
+  // what a refit follows far.
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-10);
+  qr.compute(normal);
+  const Eigen::VectorXd step = qr.solve(-columns.transpose() * residual);
+  return step * std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
 }
 
 }  // namespace
@@ -36,35 +54,63 @@ plant::Effect factor(const std::string& parameter, double value) {
 
 Sight::Sight(const reference::Subject& subject, Predict predict, std::vector<std::string> absorbing)
     : predict_(std::move(predict)), absorbing_(std::move(absorbing)), plain_(predict_(subject)) {
+  columns_ = changes_by_factors(subject, Eigen::VectorXd::Zero(factors()), plain_);
+}
+
+reference::Subject Sight::refitted(reference::Subject subject, const Eigen::VectorXd& refit) const {
+  for (int i = 0; i < factors(); ++i)
+    subject.effects.push_back(factor(absorbing_[i], std::exp(refit[i])));
+  return subject;
+}
+
+Eigen::MatrixXd Sight::changes_by_factors(const reference::Subject& subject,
+                                          const Eigen::VectorXd& refit,
+                                          const Eigen::VectorXd& here) const {
   const double step = 0.003;
-  columns_.resize(plain_.size(), static_cast<Eigen::Index>(absorbing_.size()));
-  for (int k = 0; k < columns_.cols(); ++k) {
-    reference::Subject changed = subject;
-    changed.effects.push_back(factor(absorbing_[k], std::exp(step)));
-    columns_.col(k) = (predict_(changed) - plain_) / step;
-  }
-  // A direction that the others contain but for rounding stays out; one that they nearly contain is
-  // what a refit follows far.
-  if (columns_.cols() == 0) return;
-  qr_.setThreshold(1e-6);
-  qr_.compute(columns_);
+  Eigen::MatrixXd columns(plain_.size(), factors());
+  for (int i = 0; i < factors(); ++i)
+    columns.col(i) =
+        (predict_(refitted(subject, refit + step * Eigen::VectorXd::Unit(factors(), i))) - here) /
+        step;
+  return columns;
 }
 
 Sight::Change Sight::change(const reference::Subject& with, const Eigen::VectorXd& start) const {
   Change out;
-  out.refit = start.size() ? start : Eigen::VectorXd::Zero(columns_.cols());
-  for (int k = 0; k < 10; ++k) {
-    reference::Subject changed = with;
-    for (std::size_t i = 0; i < absorbing_.size(); ++i)
-      changed.effects.push_back(factor(absorbing_[i], std::exp(out.refit[static_cast<int>(i)])));
-    out.rest = predict_(changed) - plain_;
-    if (columns_.cols() == 0) break;
-    const Eigen::VectorXd step = qr_.solve(out.rest);
-    out.rest -= columns_ * step;
-    // Where what the line promises is small against what is left it may be believed.
-    if ((columns_ * step).norm() < 0.3 * out.rest.norm() || step.cwiseAbs().maxCoeff() < 1e-4)
+  out.refit = start.size() ? start : Eigen::VectorXd::Zero(factors());
+  Eigen::VectorXd here = predict_(refitted(with, out.refit));
+  if (!here.allFinite()) {
+    out.refit.setZero();
+    here = predict_(with);
+  }
+  out.rest = here - plain_;
+  if (factors() == 0) return out;
+  Eigen::MatrixXd columns = columns_;
+  bool fresh = false;    // whether the columns were taken here
+  double damping = 0.0;  // Levenberg's
+  for (int k = 0; k < most_steps; ++k) {
+    const Eigen::VectorXd step = damped_step(columns, out.rest, damping);
+    const Eigen::VectorXd promised = columns * step;
+    // What the line promises may be believed where it is small against what is left.
+    if (promised.norm() < 0.1 * (out.rest + promised).norm()) {
+      out.rest += columns * damped_step(columns, out.rest, 0.0);
       break;
-    out.refit -= step.cwiseMax(-0.3).cwiseMin(0.3);
+    }
+    const Eigen::VectorXd there = predict_(refitted(with, out.refit + step));
+    if (there.allFinite() && (there - plain_).squaredNorm() < out.rest.squaredNorm()) {
+      // Broyden's update: the columns that would have told this change.
+      columns += (there - here - promised) * step.transpose() / step.squaredNorm();
+      out.refit += step;
+      here = there;
+      out.rest = here - plain_;
+      fresh = false;
+      damping *= 0.1;
+    } else if (!fresh) {
+      columns = changes_by_factors(with, out.refit, here);
+      fresh = true;
+    } else {
+      damping = std::max(10.0 * damping, 1e-4);
+    }
   }
   return out;
 }

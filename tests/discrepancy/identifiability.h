@@ -30,8 +30,9 @@ class Sight {
 
   /// The whitened change with `with` in place of the subject that is left when the factors are
   /// refitted to take as much of it away as they can: orthogonal to the changes by `absorbing`.
-  /// Large changes need the refit itself, by chord steps: a frequency that is a little off fills a
-  /// long record with the second order of its phase, which is no part of a linear projection.
+  /// Large changes need the refit itself: a frequency that is a little off fills a long record with
+  /// the second order of its phase, which is no part of a linear projection, and modulus and
+  /// density together go far where either alone hardly moves.
   struct Change {
     Eigen::VectorXd rest;   ///< noise units
     Eigen::VectorXd refit;  ///< logarithms of the factors that took the most away
@@ -41,11 +42,17 @@ class Sight {
   Change change(const reference::Subject& with, const Eigen::VectorXd& start = {}) const;
 
  private:
+  int factors() const { return static_cast<int>(absorbing_.size()); }
+  reference::Subject refitted(reference::Subject subject, const Eigen::VectorXd& refit) const;
+  /// Differences by the factors' logarithms about `refit`, where the prediction is `here`.
+  Eigen::MatrixXd changes_by_factors(const reference::Subject& subject,
+                                     const Eigen::VectorXd& refit,
+                                     const Eigen::VectorXd& here) const;
+
   Predict predict_;
   std::vector<std::string> absorbing_;
   Eigen::VectorXd plain_;
-  Eigen::MatrixXd columns_;  // per unit of the factors' logarithms
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::MatrixXd columns_;  // changes_by_factors() of the subject itself
 };
 
 /// A factor on a legitimate parameter as an effect.
