@@ -7,54 +7,17 @@
 #include <optional>
 
 #include "core/thread_pool.h"
+#include "discrepancy/candidate_starts.h"
 #include "discrepancy/promise.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double first_horizon = 0.35;
 constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
-constexpr std::size_t most_whole = 8;     // of each of the two lists
-constexpr std::size_t linear_starts = 2;  // looked at, of a cause and either sign
-constexpr double small_residual = 2.0;    // mean square in noise units, see refit_all()
-constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
-// What is known of an unknown beforehand, as standard deviations: a factor of 4.5 either way, or
-// three times the scale of its steps.
-constexpr double wide_factor = 1.5, wide_number = 3.0;
-constexpr double no_change = 1.0e-12;  // a direction without length
-
-Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nominal) {
-  Hypothesis both = base;
-  // A baseline that was pulled away by what it lacks may be a bad place to start from.
-  if (from_nominal)
-    for (int i = 0; i < both.size(); ++i)
-      if (both.free[i].name == "factor" && both.free[i].prior_centre == 1.0) both.set_value(i, 1.0);
-  both.add(start);
-  both.name = start.name;
-  return both;
-}
-
-// The best `keep` starts, by a look at the first part of the records.
-std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base,
-                                    const Cause& cause, FitOptions options, std::size_t keep) {
-  std::vector<Hypothesis> starts;
-  for (const Hypothesis& start : cause.starts)
-    for (const double share : {1.0, 0.2})
-      starts.push_back(joined(base.hypothesis, start.shrunk(share), false));
-  for (const Hypothesis& start : cause.starts)
-    starts.push_back(joined(base.hypothesis, start, true));
-  options.horizon = first_horizon;
-  const Scan found = scan(evaluator, starts, options);
-  std::vector<std::size_t> order(starts.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(
-      order, [&](std::size_t a, std::size_t b) { return found.cost[a] < found.cost[b]; });
-  std::vector<Hypothesis> best;
-  for (std::size_t i = 0; i < std::min(keep, order.size()); ++i) best.push_back(starts[order[i]]);
-  return best;
-}
+constexpr std::size_t most_whole = 8;   // of each of the two lists
+constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
 
 FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
                           FitOptions options, std::size_t count) {
@@ -69,68 +32,12 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   return best;
 }
 
-// Where the linear model about the baseline puts a cause, the baseline's numbers moved along with
-// it; nothing where the data ask for the sign that the cause cannot have.
-std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
-  const double size = direction.change.norm();
-  if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
-  const double share = direction.has_threshold ? 1.0 : direction.statistic / size;
-  for (const FreeParameter& free : direction.start.free) {
-    const bool one_sided = free.vanishes == Vanishes::at_infinity ||
-                           (free.vanishes == Vanishes::at_zero && free.logarithmic);
-    if (share < 0.0 && one_sided) return {};
-  }
-  Hypothesis both = base.hypothesis;
-  // A change of full size is too large to move along with.
-  if (!direction.has_threshold)
-    both.set_unknowns(base.hypothesis.unknowns() - share * direction.absorbed);
-  both.add(direction.start.shrunk(share));
-  both.name = direction.cause;
-  // The bounds of what was added, too.
-  both.set_unknowns(both.unknowns());
-  return both;
-}
-
-bool has_place(const Hypothesis& hypothesis) {
-  return std::ranges::any_of(hypothesis.free,
-                             [](const FreeParameter& p) { return p.name == "at"; });
-}
-
-// A cause's linear starts that are worth a fit: the best by their cost over the whole records, or,
-// because places are apart by ridges, those of every place.
-std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummary& base,
-                                           const std::string& cause,
-                                           const std::vector<Direction>& directions,
-                                           const FitOptions& options) {
-  std::vector<const Direction*> own;
-  for (const Direction& direction : directions)
-    if (direction.cause == cause) own.push_back(&direction);
-  std::ranges::stable_sort(own, [](const Direction* a, const Direction* b) {
-    return std::abs(a->statistic) > std::abs(b->statistic);
-  });
-  // A place may be softer or stiffer than drawn: the loudest of both.
-  std::vector<Hypothesis> starts;
-  std::array<std::size_t, 2> of_sign{};
-  for (const Direction* direction : own) {
-    auto start = linear_start(base, *direction);
-    if (start &&
-        (direction->has_threshold || of_sign[direction->statistic > 0.0]++ < linear_starts))
-      starts.push_back(std::move(*start));
-  }
-  if (starts.size() < 2 || has_place(starts.front())) return starts;
-  return {starts[scan(evaluator, starts, options).best]};
-}
-
-// The best of all starts of a cause as they are, where it does better than the base: for laws with
-// a threshold, which no linear model sees.
-std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,
-                                           const Cause& cause, const FitOptions& options) {
-  std::vector<Hypothesis> starts;
-  for (const Hypothesis& start : cause.starts)
-    starts.push_back(joined(base.hypothesis, start, false));
-  const Scan found = scan(evaluator, starts, options);
-  if (!(found.cost[found.best] < base.cost)) return {};
-  return starts[found.best];
+// A start that does worse than the base is out of phase: the first part of the records tells it.
+FitSummary fit_in_phase(Evaluator& evaluator, const FitSummary& base, const Hypothesis& start,
+                        const FitOptions& options) {
+  constexpr std::array horizons{0.5 * first_horizon, first_horizon, 1.0};
+  const bool worse = scan(evaluator, std::span(&start, 1), options).cost[0] > base.cost;
+  return worse ? fit_growing(evaluator, start, options, horizons) : fit(evaluator, start, options);
 }
 
 // Calls task(evaluator, i) for i below count, each on one worker.
@@ -167,7 +74,7 @@ double cost_of_numbers(const FitSummary& model, double dispersion) {
   double away = 0.0;
   for (int p = 0; p < n; ++p) {
     const FreeParameter& free = model.hypothesis.free[p];
-    width[p] = free.prior > 0.0 ? free.prior : free.logarithmic ? wide_factor : wide_number;
+    width[p] = free.width();
     if (free.prior > 0.0)
       away += std::pow(
           (free.to_unknown(model.hypothesis.value(p)) - free.to_unknown(free.prior_centre)) /
@@ -298,7 +205,7 @@ class Refits {
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     FitSummary best;
     for (const Hypothesis& start : starts) {
-      FitSummary found = fit(evaluator, start, few);
+      FitSummary found = fit_in_phase(evaluator, base_, start, few);
       if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
     }
     candidate.fit = std::move(best);
@@ -309,18 +216,21 @@ class Refits {
     if (options_.check_trials.empty() || candidates_.empty()) return;
     FitOptions check = options_.fit;
     check.trials = options_.check_trials;
-    std::vector<Hypothesis> models{base_.hypothesis};
     std::vector<Candidate*> whole;
     for (Candidate& candidate : candidates_)
-      if (candidate.whole) {
-        models.push_back(candidate.fit.hypothesis);
-        whole.push_back(&candidate);
-      }
-    const Eigen::MatrixXd residuals = workers_.front().residuals(models, check);
+      if (candidate.whole) whole.push_back(&candidate);
+    const KeptBack base = kept_back(workers_.front(), base_, check, dispersion);
+    std::vector<KeptBack> models(whole.size());
+    share_out(workers_, static_cast<int>(whole.size()), options_, 1.0, 1.0,
+              [&](Evaluator& evaluator, int i) {
+                models[i] = kept_back(evaluator, whole[i]->fit, check, dispersion);
+              });
+    if (options_.stop && *options_.stop) return;
+    const int samples = workers_.front().data().samples(check.trials);
+    const std::vector<HeldOut> found = held_out(base, models, samples, dispersion);
     for (std::size_t i = 0; i < whole.size(); ++i) {
-      whole[i]->held_out =
-          held_out(residuals.col(0), residuals.col(static_cast<Eigen::Index>(i) + 1), dispersion);
-      whole[i]->evidence += whole[i]->held_out.gain;
+      whole[i]->held_out = found[i];
+      whole[i]->evidence += found[i].gain;
     }
     sort_by_evidence(candidates_);
   }

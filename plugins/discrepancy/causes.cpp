@@ -271,7 +271,7 @@ Hypothesis baseline() {
     // sees modulus over density alone).
     all.add(Start(name)
                 .positive("factor", 1.0, 1.0 / reach, reach)
-                .prior(std::string(name) == "density" ? 0.3 : 1.5, 1.0));
+                .prior(std::string(name) == "density" ? 0.1 : 1.5, 1.0));
   }
   all.name.clear();
   return all;

@@ -12,7 +12,7 @@ namespace {
 
 // Of the noise variance, an excess that is no sign of a missing effect.
 constexpr double small_excess = 0.01;
-constexpr double most_missed = 0.1;    // of the gain of all causes found, by what is left
+constexpr double most_missed = 0.1;  // of what all causes found gain on all trials, by what is left
 constexpr double clear_margin = 5.0;   // nats by which a rival must lose
 constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
 constexpr double most_margin = 20.0;   // nats, of that
@@ -84,7 +84,8 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   verdict.remainder =
       text("%.2g %% of what the refitted model left above the noise", 100.0 * std::max(left, 0.0));
   double gain = 0.0;
-  for (const Candidate& found : findings.chain) gain += found.gain;
+  for (const Candidate& found : findings.chain)
+    gain += found.gain + std::max(0.0, found.held_out.gain);
   // What the loudest direction would still gain.
   const double missed = 0.5 * std::pow(diagnosis.after.statistic, 2);
   const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;

@@ -27,6 +27,7 @@ constexpr double enough_evidence = 25.0;
 constexpr double numerical_limit = 0.5;  // of the noise, RMS
 // Of the gain of a cause, what another of its family must bring to be one.
 constexpr double family_share = 0.5;
+constexpr double least_share = 0.01;  // of the gain of the first cause, what another must bring
 constexpr int most_causes = 3;
 
 /// One diagnosis on its way from the data to the verdict.
@@ -222,8 +223,24 @@ class Procedure {
     result_.after = judge(directions, result_.best, numerical_, options_.seed);
   }
 
+  // Whether the data tell how large the effects from `first` on are: to a factor of e, one
+  // deviation.
+  static bool has_a_size(const FitSummary& model, int first) {
+    for (int p = 0; p < model.hypothesis.size(); ++p) {
+      const FreeParameter& free = model.hypothesis.free[p];
+      const bool size = free.effect >= first && free.vanishes != Vanishes::never;
+      if (size && free.logarithmic && model.standard_error[p] > 1.0) return false;
+    }
+    return true;
+  }
+
+  // The trials kept back may ask for what those fitted to hardly show: that is no finding.
   bool is_another_cause(const Candidate& next) const {
-    if (next.evidence < enough_evidence || !next.held_out.carries_over()) return false;
+    const double least = std::max(enough_evidence, least_share * findings_.chain.front().gain);
+    if (next.evidence < enough_evidence || next.gain < least || !next.held_out.carries_over())
+      return false;
+    if (!has_a_size(next.fit, static_cast<int>(result_.best.hypothesis.effects.size())))
+      return false;
     return std::ranges::all_of(findings_.chain, [&](const Candidate& found) {
       return !same_family(found.cause, next.cause) || next.gain > family_share * found.gain;
     });

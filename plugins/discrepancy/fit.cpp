@@ -6,14 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "discrepancy/differences.h"
+
 namespace pedicel::discrepancy {
 
 namespace {
 
-// A difference should change the data by some noise units in all: enough to stand above what the
-// solver's own tolerance leaves, little enough to stay linear.
-constexpr double wanted_change = 5.0;
-constexpr double first_difference = 0.01, least_difference = 1.0e-4, most_difference = 0.05;
 constexpr double open_direction = 1.0e-3;  // noise units an unknown: nothing to be seen
 
 /// Residuals and their derivatives at a point; the last one is kept, because Ceres asks for the
@@ -25,7 +23,7 @@ class Problem : public ceres::CostFunction {
         hypothesis_(start),
         options_(options),
         start_(start.unknowns()),
-        difference_(Eigen::VectorXd::Constant(start.size(), first_difference)),
+        differences_(start),
         samples_(evaluator.data().size(options.trials)) {
     set_num_residuals(samples_ + start.size());
     mutable_parameter_block_sizes()->push_back(start.size());
@@ -48,31 +46,15 @@ class Problem : public ceres::CostFunction {
   }
 
   void compute(const Eigen::VectorXd& u) const {
-    std::vector<Hypothesis> points(start_.size() + 1, hypothesis_);
-    Eigen::VectorXd step = difference_;
-    const Eigen::VectorXd high = hypothesis_.high();
-    points[0].set_unknowns(u);
-    for (int p = 0; p < start_.size(); ++p) {
-      if (u[p] + step[p] > high[p]) step[p] = -step[p];
-      Eigen::VectorXd moved = u;
-      moved[p] += step[p];
-      points[p + 1].set_unknowns(moved);
-    }
-    const Eigen::MatrixXd r = evaluator_.residuals(points, options_);
+    const Eigen::MatrixXd r = evaluator_.residuals(differences_.points(u), options_);
     at_ = u;
     residual_ = r.col(0);
+    jacobian_ = differences_.jacobian(r);
     // Where the model misses the data by many times the noise, the data weigh less against what is
     // known beforehand. Set once, so that the cost stays one function.
     if (spread_ == 0.0) {
       const int seen = evaluator_.data().samples(options_.trials, options_.horizon);
       spread_ = std::sqrt(std::max(1.0, residual_.squaredNorm() / std::max(1, seen)));
-    }
-    jacobian_.resize(samples_, start_.size());
-    for (int p = 0; p < start_.size(); ++p) {
-      jacobian_.col(p) = (r.col(0) - r.col(p + 1)) / step[p];
-      const double size = jacobian_.col(p).norm();
-      difference_[p] =
-          std::clamp(wanted_change / std::max(size, 1.0e-12), least_difference, most_difference);
     }
   }
 
@@ -100,7 +82,7 @@ class Problem : public ceres::CostFunction {
   Hypothesis hypothesis_;
   FitOptions options_;
   Eigen::VectorXd start_;
-  mutable Eigen::VectorXd difference_;
+  mutable Differences differences_;
   mutable double spread_ = 0.0;
   int samples_;
   mutable Eigen::VectorXd at_, residual_;

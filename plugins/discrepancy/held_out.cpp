@@ -1,6 +1,9 @@
 #include "discrepancy/held_out.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "discrepancy/differences.h"
 
 namespace pedicel::discrepancy {
 
@@ -12,6 +15,26 @@ constexpr double least_change = 3.0;  // noise units in all
 constexpr double least_share = 0.2;
 constexpr double deviations = 2.0;
 
+// A model with its unknowns moved as far as the trials kept back ask for and the fit allows.
+struct Moved {
+  Eigen::VectorXd residual;
+  double cost = 0.0;  // minus the log predictive density, but for a constant
+};
+
+Moved moved(const KeptBack& model, double dispersion) {
+  const Eigen::MatrixXd here = model.jacobian.transpose() * model.jacobian / dispersion;
+  const Eigen::LLT<Eigen::MatrixXd> before(model.information), after(model.information + here);
+  const Eigen::VectorXd step =
+      after.solve(model.jacobian.transpose() * model.residual / dispersion);
+  const auto log_det = [](const Eigen::LLT<Eigen::MatrixXd>& root) {
+    return 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  };
+  Moved result{model.residual - model.jacobian * step, 0.0};
+  result.cost = 0.5 * (result.residual.squaredNorm() / dispersion +
+                       step.dot(model.information * step) + log_det(after) - log_det(before));
+  return result;
+}
+
 }  // namespace
 
 bool HeldOut::carries_over() const {
@@ -20,9 +43,37 @@ bool HeldOut::carries_over() const {
   return gain > (least_share - deviations * 2.0 / change) * expected;
 }
 
-HeldOut held_out(const Eigen::VectorXd& base, const Eigen::VectorXd& extended, double dispersion) {
-  return {0.5 * (base.squaredNorm() - extended.squaredNorm()) / dispersion,
-          0.5 * (base - extended).squaredNorm() / dispersion};
+KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check,
+                   double dispersion) {
+  Differences differences(model.hypothesis, model.jacobian);
+  const Eigen::MatrixXd residuals =
+      evaluator.residuals(differences.points(model.hypothesis.unknowns()), check);
+  KeptBack result{residuals.col(0), differences.jacobian(residuals),
+                  model.jacobian.transpose() * model.jacobian / dispersion};
+  for (int p = 0; p < model.hypothesis.size(); ++p)
+    result.information(p, p) += std::pow(model.hypothesis.free[p].width(), -2);
+  return result;
+}
+
+std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,
+                              double dispersion) {
+  double least = base.residual.squaredNorm();
+  // What is left depends on how far the unknowns may move, and the other way round.
+  for (int pass = 0; pass < 3; ++pass) {
+    const double now = std::max(dispersion, least / std::max(1, samples));
+    least = moved(base, now).residual.squaredNorm();
+    for (const KeptBack& model : models)
+      least = std::min(least, moved(model, now).residual.squaredNorm());
+  }
+  dispersion = std::max(dispersion, least / std::max(1, samples));
+  const Moved without = moved(base, dispersion);
+  std::vector<HeldOut> found;
+  for (const KeptBack& model : models) {
+    const Moved with = moved(model, dispersion);
+    found.push_back({without.cost - with.cost,
+                     0.5 * (without.residual - with.residual).squaredNorm() / dispersion});
+  }
+  return found;
 }
 
 }  // namespace pedicel::discrepancy

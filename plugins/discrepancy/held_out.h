@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <span>
+#include <vector>
+
+#include "discrepancy/fit.h"
 
 namespace pedicel::discrepancy {
 
 /// How a model does on trials that it was not fitted to, against the one that it extends.
 struct HeldOut {
-  double gain = 0.0;      ///< log likelihood (nats)
+  double gain = 0.0;      ///< log predictive density (nats)
   double expected = 0.0;  ///< of it, if the extension is right: half the squared change it makes
 
   /// Whether what was found shows there, too: the amplitude that the data give to the change is at
@@ -14,8 +18,23 @@ struct HeldOut {
   bool carries_over() const;
 };
 
-/// From the whitened residuals of both on the trials kept back; `dispersion` is the mean square
-/// that even the best model leaves (1 where that is noise).
-HeldOut held_out(const Eigen::VectorXd& base, const Eigen::VectorXd& extended, double dispersion);
+/// What a fitted model says of trials kept back, and how sure it is of it.
+struct KeptBack {
+  Eigen::VectorXd residual;     ///< whitened
+  Eigen::MatrixXd jacobian;     ///< of the whitened prediction by the unknowns
+  Eigen::MatrixXd information;  ///< about the unknowns, from the fit and from beforehand
+};
+
+/// `dispersion` is the mean square that even the best model leaves of the trials fitted to (1 where
+/// that is noise); `check` names the trials kept back.
+KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check,
+                   double dispersion);
+
+/// Each model's log predictive density less the base's: normal, with the noise's covariance and
+/// what the unknowns' own adds (Bernardo and Smith 1994, section 5.1), so that a valley of the fit
+/// (modulus and density of a free vibration) neither helps nor harms a model. What the best leaves
+/// of these `samples` above noise raises the dispersion.
+std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,
+                              double dispersion);
 
 }  // namespace pedicel::discrepancy

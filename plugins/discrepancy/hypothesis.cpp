@@ -7,6 +7,12 @@
 
 namespace pedicel::discrepancy {
 
+double FreeParameter::width() const {
+  constexpr double wide_factor = 1.5, wide_number = 3.0;
+  if (prior > 0.0) return prior;
+  return logarithmic ? wide_factor : wide_number;
+}
+
 double FreeParameter::to_unknown(double value) const {
   return logarithmic ? std::log(value) : value / scale;
 }
@@ -58,6 +64,12 @@ Eigen::VectorXd Hypothesis::high() const {
   Eigen::VectorXd u(size());
   for (int i = 0; i < size(); ++i) u[i] = free[i].to_unknown(free[i].high);
   return u;
+}
+
+int Hypothesis::factor_on(const std::string& parameter) const {
+  for (int p = 0; p < size(); ++p)
+    if (free[p].name == "factor" && effects[free[p].effect].name == parameter) return p;
+  return -1;
 }
 
 Variant Hypothesis::variant() const {

@@ -33,6 +33,9 @@ struct FreeParameter {
   Vanishes vanishes = Vanishes::never;
   double nominal = 0.0;  ///< the value with which it vanishes `at_nominal`, > 0
 
+  /// What is known of u beforehand, as a standard deviation: the prior's, else a factor of 4.5
+  /// either way, or three times the scale of its steps.
+  double width() const;
   double to_unknown(double value) const;
   double to_value(double unknown) const;
 };
@@ -53,6 +56,8 @@ struct Hypothesis {
   void set_unknowns(const Eigen::VectorXd& unknowns);
   Eigen::VectorXd low() const;
   Eigen::VectorXd high() const;
+  /// Index of the free factor on modulus, density or damping time, -1 where there is none.
+  int factor_on(const std::string& parameter) const;
   /// What the simulator runs of it.
   Variant variant() const;
   /// Of a plain mesh's error; 0 where it is not among the effects.

@@ -101,8 +101,10 @@ class Inference {
     scales_.choices = kinds * std::max<std::size_t>(1, places_.size());
   }
 
-  // Whether markers that move by themselves explain the data better than any force does.
+  // Whether markers that move by themselves explain the data better than any force does. One alone
+  // could always have moved so.
   bool look_at_sensor() {
+    if (experiment_.markers.size() < 2) return false;
     std::vector<std::vector<int>> groups{{}};
     for (int m = 0; m < static_cast<int>(experiment_.markers.size()); ++m) {
       groups.front().push_back(m);

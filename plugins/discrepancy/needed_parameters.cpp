@@ -9,14 +9,6 @@ namespace {
 // Nats: 3.5 standard deviations, because three parameters share the few false alarms allowed.
 constexpr double least_cost = 0.5 * 3.5 * 3.5;
 
-// Index of the factor on a parameter among the free ones, -1 where there is none.
-int factor_on(const Hypothesis& model, const std::string& name) {
-  for (int p = 0; p < model.size(); ++p)
-    if (model.free[p].name == "factor" && model.effects[model.free[p].effect].name == name)
-      return p;
-  return -1;
-}
-
 }  // namespace
 
 std::vector<std::string> needed_parameters(Evaluator& evaluator, const FitSummary& base,
@@ -24,7 +16,7 @@ std::vector<std::string> needed_parameters(Evaluator& evaluator, const FitSummar
   std::vector<std::string> needed;
   FitSummary model = base;
   for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
-    const int p = factor_on(model.hypothesis, name);
+    const int p = model.hypothesis.factor_on(name);
     if (p < 0) continue;
     Hypothesis without = model.hypothesis;
     without.set_value(p, 1.0);

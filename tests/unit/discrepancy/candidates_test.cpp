@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "discrepancy/candidate_starts.h"
 #include "discrepancy/needed_parameters.h"
 #include "discrepancy/promise.h"
 #include "unit/discrepancy/beam_experiment.h"
@@ -103,6 +104,32 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
       directions_of(nothing.workers[0], nothing.base, nothing.causes, nothing.options);
   EXPECT_FALSE(judge(directions, nothing.base, {}, 1).raised);
   EXPECT_LT(std::ranges::max(promise_of(nothing.causes, directions)), 5.0);
+}
+
+// Modulus and damping move the prediction alike, along one shape. Asked for more of the modulus
+// than its bound, damping takes over the rest; asked for within the bounds, both do what they were
+// asked.
+TEST(Candidates, StartsLeaveToOthersWhatABoundForbids) {
+  FitSummary model;
+  model.hypothesis = baseline();
+  const int modulus = model.hypothesis.factor_on("youngs_modulus"),
+            damping = model.hypothesis.factor_on("damping_time");
+  model.jacobian = Eigen::MatrixXd::Zero(2, 3);
+  model.jacobian(0, modulus) = 1e4;
+  model.jacobian(0, damping) = 1e4;
+  model.jacobian(1, damping) = 1e2;
+  const double bound = model.hypothesis.high()[modulus];
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(3);
+  wanted[modulus] = bound + 0.7;
+  Eigen::VectorXd step = allowed_step(model, wanted);
+  EXPECT_NEAR(step[modulus], bound, 1e-9);
+  EXPECT_NEAR(step[damping], 0.7, 1e-3);
+  wanted << 0.0, 0.0, 0.0;
+  wanted[modulus] = 0.3;
+  wanted[damping] = -0.1;
+  step = allowed_step(model, wanted);
+  EXPECT_NEAR(step[modulus] + step[damping], 0.2, 1e-6);
+  EXPECT_NEAR(step[damping], -0.1, 1e-3);
 }
 
 // ln(1000) / 2 a number, and the choice between 20.

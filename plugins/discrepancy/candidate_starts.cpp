@@ -1,0 +1,141 @@
+#include "discrepancy/candidate_starts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr std::size_t linear_starts = 2;  // looked at, of a cause and either sign
+constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
+constexpr double no_change = 1.0e-12;     // a direction without length
+
+// Of matrix step = right, with those that are held where they are.
+Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
+                             const std::vector<bool>& held, const Eigen::VectorXd& step) {
+  for (int p = 0; p < step.size(); ++p) {
+    if (!held[p]) continue;
+    right -= step[p] * matrix.col(p);
+    matrix.row(p).setZero();
+    matrix.col(p).setZero();
+    matrix(p, p) = 1.0;
+  }
+  for (int p = 0; p < step.size(); ++p)
+    if (held[p]) right[p] = step[p];
+  return matrix.ldlt().solve(right);
+}
+
+// Where the linear model about the baseline puts a cause, the baseline's numbers moved along with
+// it; nothing where the data ask for the sign that the cause cannot have.
+std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
+  const double size = direction.change.norm();
+  if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
+  const double share = direction.has_threshold ? 1.0 : direction.statistic / size;
+  for (const FreeParameter& free : direction.start.free) {
+    const bool one_sided = free.vanishes == Vanishes::at_infinity ||
+                           (free.vanishes == Vanishes::at_zero && free.logarithmic);
+    if (share < 0.0 && one_sided) return {};
+  }
+  Hypothesis both = base.hypothesis;
+  // A change of full size is too large to move along with.
+  if (!direction.has_threshold)
+    both.set_unknowns(base.hypothesis.unknowns() + allowed_step(base, -share * direction.absorbed));
+  both.add(direction.start.shrunk(share));
+  both.name = direction.cause;
+  // The bounds of what was added, too.
+  both.set_unknowns(both.unknowns());
+  return both;
+}
+
+}  // namespace
+
+Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nominal) {
+  Hypothesis both = base;
+  // A baseline that was pulled away by what it lacks may be a bad place to start from.
+  if (from_nominal)
+    for (int i = 0; i < both.size(); ++i)
+      if (both.free[i].name == "factor" && both.free[i].prior_centre == 1.0) both.set_value(i, 1.0);
+  both.add(start);
+  both.name = start.name;
+  return both;
+}
+
+std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base,
+                                    const Cause& cause, FitOptions options, std::size_t keep) {
+  std::vector<Hypothesis> starts;
+  for (const Hypothesis& start : cause.starts)
+    for (const double share : {1.0, 0.2})
+      starts.push_back(joined(base.hypothesis, start.shrunk(share), false));
+  for (const Hypothesis& start : cause.starts)
+    starts.push_back(joined(base.hypothesis, start, true));
+  options.horizon = first_horizon;
+  const Scan found = scan(evaluator, starts, options);
+  std::vector<std::size_t> order(starts.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return found.cost[a] < found.cost[b]; });
+  std::vector<Hypothesis> best;
+  for (std::size_t i = 0; i < std::min(keep, order.size()); ++i) best.push_back(starts[order[i]]);
+  return best;
+}
+
+Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wanted) {
+  const int n = model.hypothesis.size();
+  const Eigen::VectorXd u = model.hypothesis.unknowns();
+  const Eigen::VectorXd low = model.hypothesis.low() - u, high = model.hypothesis.high() - u;
+  const Eigen::MatrixXd by_data = model.jacobian.transpose() * model.jacobian;
+  Eigen::MatrixXd information = by_data;
+  for (int p = 0; p < n; ++p) information(p, p) += std::pow(model.hypothesis.free[p].width(), -2);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+  std::vector<bool> held(n, false);
+  // Those that reach a bound stay there, and the others take over what they can.
+  for (int round = 0; round <= n; ++round) {
+    const Eigen::VectorXd free_step = solve_others(information, by_data * wanted, held, step);
+    step = free_step.cwiseMax(low).cwiseMin(high);
+    if (step == free_step) break;
+    for (int p = 0; p < n; ++p) held[p] = held[p] || step[p] != free_step[p];
+  }
+  return step;
+}
+
+bool has_place(const Hypothesis& hypothesis) {
+  return std::ranges::any_of(hypothesis.free,
+                             [](const FreeParameter& p) { return p.name == "at"; });
+}
+
+std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummary& base,
+                                           const std::string& cause,
+                                           const std::vector<Direction>& directions,
+                                           const FitOptions& options) {
+  std::vector<const Direction*> own;
+  for (const Direction& direction : directions)
+    if (direction.cause == cause) own.push_back(&direction);
+  std::ranges::stable_sort(own, [](const Direction* a, const Direction* b) {
+    return std::abs(a->statistic) > std::abs(b->statistic);
+  });
+  // A place may be softer or stiffer than drawn: the loudest of both.
+  std::vector<Hypothesis> starts;
+  std::array<std::size_t, 2> of_sign{};
+  for (const Direction* direction : own) {
+    auto start = linear_start(base, *direction);
+    if (start &&
+        (direction->has_threshold || of_sign[direction->statistic > 0.0]++ < linear_starts))
+      starts.push_back(std::move(*start));
+  }
+  if (starts.size() < 2 || has_place(starts.front())) return starts;
+  return {starts[scan(evaluator, starts, options).best]};
+}
+
+std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,
+                                           const Cause& cause, const FitOptions& options) {
+  std::vector<Hypothesis> starts;
+  for (const Hypothesis& start : cause.starts)
+    starts.push_back(joined(base.hypothesis, start, false));
+  const Scan found = scan(evaluator, starts, options);
+  if (!(found.cost[found.best] < base.cost)) return {};
+  return starts[found.best];
+}
+
+}  // namespace pedicel::discrepancy
