@@ -54,7 +54,7 @@ plant::Effect factor(const std::string& parameter, double value) {
 
 Sight::Sight(const reference::Subject& subject, Predict predict, std::vector<std::string> absorbing)
     : predict_(std::move(predict)), absorbing_(std::move(absorbing)), plain_(predict_(subject)) {
-  columns_ = changes_by_factors(subject, Eigen::VectorXd::Zero(factors()), plain_);
+  columns_ = changes_by_factors(subject, Eigen::VectorXd::Zero(factors()));
 }
 
 reference::Subject Sight::refitted(reference::Subject subject, const Eigen::VectorXd& refit) const {
@@ -64,14 +64,24 @@ reference::Subject Sight::refitted(reference::Subject subject, const Eigen::Vect
 }
 
 Eigen::MatrixXd Sight::changes_by_factors(const reference::Subject& subject,
-                                          const Eigen::VectorXd& refit,
-                                          const Eigen::VectorXd& here) const {
+                                          const Eigen::VectorXd& refit) const {
   const double step = 0.003;
   Eigen::MatrixXd columns(plain_.size(), factors());
-  for (int i = 0; i < factors(); ++i)
+  const auto place = [&](const char* name) {
+    return std::find(absorbing_.begin(), absorbing_.end(), name) - absorbing_.begin();
+  };
+  const auto modulus = place("youngs_modulus"), density = place("density");
+  const bool both = std::max(modulus, density) < factors();
+  for (int i = 0; i < factors(); ++i) {
+    // A swing sees little but modulus over density: what both do together is looked at itself, not
+    // as the sum of two large changes.
+    Eigen::VectorXd along = step * Eigen::VectorXd::Unit(factors(), i);
+    if (both && i == density) along[modulus] = step;
     columns.col(i) =
-        (predict_(refitted(subject, refit + step * Eigen::VectorXd::Unit(factors(), i))) - here) /
-        step;
+        (predict_(refitted(subject, refit + along)) - predict_(refitted(subject, refit - along))) /
+        (2.0 * step);
+  }
+  if (both) columns.col(density) -= columns.col(modulus);
   return columns;
 }
 
@@ -93,8 +103,13 @@ Sight::Change Sight::change(const reference::Subject& with, const Eigen::VectorX
     const Eigen::VectorXd promised = columns * step;
     // What the line promises may be believed where it is small against what is left.
     if (promised.norm() < 0.1 * (out.rest + promised).norm()) {
-      out.rest += columns * damped_step(columns, out.rest, 0.0);
-      break;
+      if (fresh) {
+        out.rest += columns * damped_step(columns, out.rest, 0.0);
+        break;
+      }
+      columns = changes_by_factors(with, out.refit);
+      fresh = true;
+      continue;
     }
     const Eigen::VectorXd there = predict_(refitted(with, out.refit + step));
     if (there.allFinite() && (there - plain_).squaredNorm() < out.rest.squaredNorm()) {
@@ -106,7 +121,7 @@ Sight::Change Sight::change(const reference::Subject& with, const Eigen::VectorX
       fresh = false;
       damping *= 0.1;
     } else if (!fresh) {
-      columns = changes_by_factors(with, out.refit, here);
+      columns = changes_by_factors(with, out.refit);
       fresh = true;
     } else {
       damping = std::max(10.0 * damping, 1e-4);

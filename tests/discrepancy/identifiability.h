@@ -44,10 +44,9 @@ class Sight {
  private:
   int factors() const { return static_cast<int>(absorbing_.size()); }
   reference::Subject refitted(reference::Subject subject, const Eigen::VectorXd& refit) const;
-  /// Differences by the factors' logarithms about `refit`, where the prediction is `here`.
+  /// Differences by the factors' logarithms about `refit`.
   Eigen::MatrixXd changes_by_factors(const reference::Subject& subject,
-                                     const Eigen::VectorXd& refit,
-                                     const Eigen::VectorXd& here) const;
+                                     const Eigen::VectorXd& refit) const;
 
   Predict predict_;
   std::vector<std::string> absorbing_;
