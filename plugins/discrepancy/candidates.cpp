@@ -17,6 +17,7 @@ namespace {
 constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
 constexpr std::size_t most_whole = 8;   // of each of the two lists
+constexpr double far_behind = 0.3;      // of the first one's gain or statistic
 constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
 
 FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
@@ -32,12 +33,32 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   return best;
 }
 
-// A start that does worse than the base is out of phase: the first part of the records tells it.
-FitSummary fit_in_phase(Evaluator& evaluator, const FitSummary& base, const Hypothesis& start,
-                        const FitOptions& options) {
+// Ranks by value, largest first: the first `count` of them.
+std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
+  std::vector<int> order(value.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::ranges::stable_sort(order, [&](int a, int b) { return value[a] > value[b]; });
+  order.resize(std::min(count, order.size()));
+  return order;
+}
+
+// The best fit from any of these starts. Those that do worse than the base are out of phase: they
+// are left alone where others do better, else the first part of the records tells the best two.
+FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
+                    const std::vector<Hypothesis>& starts, const FitOptions& options) {
   constexpr std::array horizons{0.5 * first_horizon, first_horizon, 1.0};
-  const bool worse = scan(evaluator, std::span(&start, 1), options).cost[0] > base.cost;
-  return worse ? fit_growing(evaluator, start, options, horizons) : fit(evaluator, start, options);
+  const Scan found = scan(evaluator, starts, options);
+  std::vector<double> closeness;
+  for (const double cost : found.cost) closeness.push_back(-cost);
+  const bool in_phase = found.cost[found.best] < base.cost;
+  FitSummary best;
+  for (const int i : first_by(closeness, in_phase ? starts.size() : 2)) {
+    if (in_phase && found.cost[i] >= base.cost) break;
+    FitSummary fitted = in_phase ? fit(evaluator, starts[i], options)
+                                 : fit_growing(evaluator, starts[i], options, horizons);
+    if (best.why == "not run" || fitted.cost < best.cost) best = std::move(fitted);
+  }
+  return best;
 }
 
 // Calls task(evaluator, i) for i below count, each on one worker.
@@ -54,15 +75,6 @@ void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& o
         options.progress(from + (to - from) * static_cast<double>(++done) / count);
     }
   });
-}
-
-// Ranks by value, largest first: the first `count` of them.
-std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
-  std::vector<int> order(value.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::ranges::stable_sort(order, [&](int a, int b) { return value[a] > value[b]; });
-  order.resize(std::min(count, order.size()));
-  return order;
 }
 
 // What a model's numbers cost: how much narrower the data make them than what is known beforehand,
@@ -140,7 +152,7 @@ class Refits {
       fit_first_parts();
     else
       promise_gains();
-    for (const int i : first_by(promise_, most_whole)) candidates_[i].whole = true;
+    choose_whole(promise_);
     std::vector<int> whole;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
@@ -177,7 +189,15 @@ class Refits {
               });
     std::vector<double> gain;
     for (const Candidate& candidate : candidates_) gain.push_back(candidate.gain);
-    for (const int i : first_by(gain, most_whole)) candidates_[i].whole = true;
+    choose_whole(gain);
+  }
+
+  // The first few, and others that are not far behind.
+  void choose_whole(const std::vector<double>& worth) {
+    const std::vector<int> order = first_by(worth, most_whole);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      if (i < leaders || worth[order[i]] > far_behind * worth[order[0]])
+        candidates_[order[i]].whole = true;
   }
 
   // Of a linear model the gain is half the squared statistic.
@@ -203,12 +223,7 @@ class Refits {
     if (plain) starts.push_back(std::move(*plain));
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
-    FitSummary best;
-    for (const Hypothesis& start : starts) {
-      FitSummary found = fit_in_phase(evaluator, base_, start, few);
-      if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
-    }
-    candidate.fit = std::move(best);
+    candidate.fit = best_fit(evaluator, base_, starts, few);
   }
 
   // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
