@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/cause_names.h"
+#include "discrepancy/decoys.h"
 #include "discrepancy/sentence.h"
 
 namespace pedicel::discrepancy {
@@ -111,6 +112,24 @@ void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effec
   }
 }
 
+// The first cause must gain more than the same change backwards in time or at other markers.
+void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
+  const Eigen::VectorXd& without = diagnosis.base.residual;
+  const Eigen::VectorXd& with = findings.chain.front().fit.residual;
+  if (without.size() != with.size() || with.size() == 0) return;
+  const Decoys decoys =
+      decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with));
+  Verdict& verdict = diagnosis.verdict;
+  verdict.causes.front().because +=
+      text(" Decoys of it gain less: %.3g nats backwards in time, %.3g at other markers,",
+           decoys.reversed, decoys.exchanged) +
+      text(" of %.3g.", decoys.own);
+  if (decoys.lose()) return;
+  verdict.outcome = Outcome::unknown;
+  verdict.remainder =
+      "the same change backwards in time, or at other markers, explains the data as well";
+}
+
 void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   const int base_effects = static_cast<int>(diagnosis.base.hypothesis.effects.size());
@@ -120,6 +139,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   verdict.outcome = Outcome::named;
   weigh_rivals(findings, diagnosis, base_effects);
   judge_remainder(findings, diagnosis);
+  show_decoys(findings, diagnosis);
   // A cause that does nothing for trials that it was not fitted to is none.
   if (verdict.outcome == Outcome::named && !findings.chain.front().held_out.carries_over()) {
     verdict.outcome = Outcome::unknown;

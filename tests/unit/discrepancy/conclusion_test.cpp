@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "unit/discrepancy/made_diagnosis.h"
@@ -210,6 +211,27 @@ TEST(Conclusion, IsUnknownWhereACauseDoesNotCarryOver) {
   EXPECT_EQ(v.remainder, "what was fitted does not carry over to the trials kept back");
   EXPECT_EQ(d.concluded().outcome, Outcome::named);
 }
+
+// What is in the data grows with time; the cause that was fitted dies out, and gains less than the
+// same run backwards. Where it is the other way round, the decoys are told and lose.
+TEST(Conclusion, IsUnknownWhereADecoyDoesAsWell) {
+  Eigen::VectorXd dying = Eigen::VectorXd::Zero(Case().data.size(std::array{0, 1}));
+  for (int i = 0; i < 301; ++i) dying[i] = 10.0 * std::exp(-0.02 * i);
+  Eigen::VectorXd growing = dying;
+  growing.head(301) = dying.head(301).reverse();
+  const auto concluded = [&](const Eigen::VectorXd& in_the_data) {
+    Case c;
+    c.diagnosis.base.residual = in_the_data;
+    c.diagnosis.ranking[0].fit.residual = in_the_data - dying;
+    return c.concluded();
+  };
+  const Verdict wrong = concluded(growing), right = concluded(dying);
+  EXPECT_EQ(wrong.outcome, Outcome::unknown);
+  EXPECT_THAT(wrong.remainder, HasSubstr("backwards in time"));
+  EXPECT_EQ(right.outcome, Outcome::named);
+  EXPECT_THAT(right.causes[0].because, HasSubstr("Decoys of it gain less"));
+}
+
 TEST(Conclusion, IsUnknownWhereNothingExplainsTheAlarm) {
   Case c;
   c.diagnosis.ranking.clear();
