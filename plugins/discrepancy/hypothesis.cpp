@@ -14,11 +14,18 @@ double FreeParameter::width() const {
 }
 
 double FreeParameter::to_unknown(double value) const {
-  return logarithmic ? std::log(value) : value / scale;
+  if (!logarithmic) return value / scale;
+  if (vanishes == Vanishes::at_zero) return std::asinh(value / scale);
+  if (vanishes == Vanishes::at_infinity) return -std::asinh(scale / value);
+  return std::log(value);
 }
 
 double FreeParameter::to_value(double unknown) const {
-  return logarithmic ? std::exp(unknown) : unknown * scale;
+  if (!logarithmic) return unknown * scale;
+  if (vanishes == Vanishes::at_zero) return scale * std::sinh(std::max(unknown, 0.0));
+  // Softer than not at all is stiffer than anything.
+  if (vanishes == Vanishes::at_infinity) return unknown < 0.0 ? scale / std::sinh(-unknown) : high;
+  return std::exp(unknown);
 }
 
 double Hypothesis::value(int parameter) const {
