@@ -34,7 +34,10 @@ std::optional<Chosen> chosen(const Ui& ui) {
   const plant::PlantCurve* curve = chosen_curve(ui, one.plant);
   if (!curve) return {};
   one.curve = *curve;  // commands replace the document
-  if (ui.selection.kind == Kind::curve_point) one.point = ui.selection.point;
+  const int count = static_cast<int>(curve->points.size());
+  // What was undone may have had more points.
+  if (ui.selection.kind == Kind::curve_point && ui.selection.point < count)
+    one.point = ui.selection.point;
   return one;
 }
 

@@ -128,7 +128,9 @@ bool Desktop::frame() {
   const std::vector<std::string> dropped = input_.begin_frame();
   const double last = ui_.now;
   ui_.now = platform_.now();
-  ui_.times.picture += 0.1 * ((ui_.now - last) - ui_.times.picture);
+  // Pictures that were not painted take as long as nobody does anything.
+  if (!painter_ || painted_at_ == last)
+    ui_.times.picture += 0.1 * ((ui_.now - last) - ui_.times.picture);
   for (const std::string& path : dropped) ui_.session.open(path);
   ui_.session.update();
   ui_.snapshot = ui_.session.snapshot();
