@@ -9,6 +9,8 @@ class InputOrder : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!desk_.available()) GTEST_SKIP() << desk_.why();
+    desk_.ui().view.automatic_quality = false;
+    desk_.ui().view.quality = CanvasQuality::coarsest;
     desk_.session().open_empty();
     desk_.settle();
     for (const char* line : {"new plant p", "draw stem p stem 0,0,0;0,0,0.15;0,0,0.3 0.004",
@@ -32,7 +34,8 @@ TEST_F(InputOrder, AChordWithinOnePicture) {
 }
 
 TEST_F(InputOrder, AChordWhoseCtrlIsLetGoFirst) {
-  at_once({{Key::left_control, down}, {Key::z, down}, {Key::left_control, up}, {Key::z, up}});
+  desk_.hold(Key::left_control, true);
+  at_once({{Key::z, down}, {Key::left_control, up}, {Key::z, up}});
   EXPECT_EQ(stems(), 1u);
 }
 
