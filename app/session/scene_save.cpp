@@ -98,10 +98,11 @@ void write_plant(io::YamlText& text, const std::filesystem::path& folder, const 
   if (was.pose.position != is.pose.position)
     text.set({"plants", number, "position"}, list_of(is.pose.position));
   if (is.source == ScenePlant::Source::file && was.file != is.file && !is.file.empty()) {
-    if (was.source != ScenePlant::Source::file)
-      throw UsageError("plant \"" + is.name +
-                       "\" comes from another kind of file in the scene, expected to be saved "
-                       "under its own name");
+    if (was.source == ScenePlant::Source::built_in)
+      throw UsageError("plant \"" + is.name + "\" is built in, expected it to stay so");
+    // What was imported is a plant file now.
+    for (const char* key : {"mtg", "optional", "fallback"})
+      if (was.source == ScenePlant::Source::mtg) text.remove({"plants", number, key});
     text.set({"plants", number, "file"}, path_from(folder, is.file));
   }
   write_values(text, {"plants", number, "set"}, values_of(was.set), values_of(is.set));

@@ -35,21 +35,39 @@ void write_with_backup(const std::filesystem::path& path, const std::string& tex
   io::write_file_atomically(path, text);
 }
 
-struct Saved {
-  int written = 0;
-  std::string where;    ///< files, comma separated
-  std::string refusal;  ///< why nothing could be done; empty: it was
-};
-
-void note_file(Saved& saved, const std::filesystem::path& file) {
-  saved.where += (saved.where.empty() ? "" : ", ") + file.string();
+/// The file that a plant was read from.
+std::filesystem::path source_of(const world::ScenePlant& entry) {
+  return std::filesystem::exists(entry.file) || !entry.optional ? entry.file : entry.fallback;
 }
+
+/// Whether there is nothing of a plant to be saved: no stems, or still as its file says.
+bool is_as_read(const DocumentPlant& one) {
+  if (!one.file || one.file->curves.empty()) return true;
+  const std::filesystem::path source = source_of(one.entry);
+  if (source.empty() || !std::filesystem::exists(source)) return false;
+  Diagnostics diagnostics;
+  const auto there = read_plant(source, diagnostics);
+  return there && *there == *one.file;
+}
+
+struct Saved {
+  std::vector<std::filesystem::path> written, kept;
+  std::string refusal;  ///< why nothing could be done; empty: it was
+
+  std::string text() const {
+    if (written.empty() && kept.empty()) return "nothing to save";
+    std::string names;
+    for (const std::filesystem::path& file : written.empty() ? kept : written)
+      names += (names.empty() ? "" : ", ") + file.string();
+    return (written.empty() ? "unchanged " : "saved ") + names;
+  }
+};
 
 Saved save_plants(Document& document, const std::filesystem::path& path) {
   Saved saved;
   int without_file = 0;
   for (const DocumentPlant& one : document.plants)
-    if (one.file && !one.file->curves.empty() && file_of(one, {}).empty()) ++without_file;
+    if (file_of(one, {}).empty() && !is_as_read(one)) ++without_file;
   if (without_file > 1)
     saved.refusal = std::to_string(without_file) +
                     " plants have no file yet, expected them to be exported one by one";
@@ -57,18 +75,17 @@ Saved save_plants(Document& document, const std::filesystem::path& path) {
     if (!saved.refusal.empty()) return saved;
     if (!one.file || one.file->curves.empty()) continue;
     const bool alone = document.plants.size() == 1 && !path.empty();
+    if (!alone && file_of(one, {}).empty() && is_as_read(one)) continue;  // an MTG, say
     const std::filesystem::path file = alone ? path : file_of(one, path);
     if (file.empty()) {
       saved.refusal = "plant \"" + one.entry.name + "\" has no file yet, expected a path";
       continue;
     }
-    if (!says_the_same(file, *one.file)) {
-      write_with_backup(file, plant::plant_text(*one.file));
-      ++saved.written;
-    }
+    const bool same = says_the_same(file, *one.file);
+    if (!same) write_with_backup(file, plant::plant_text(*one.file));
+    (same ? saved.kept : saved.written).push_back(file);
     one.entry.file = file;
     one.entry.source = world::ScenePlant::Source::file;
-    note_file(saved, file);
     if (document.path.empty()) document.path = file;
   }
   return saved;
@@ -79,11 +96,8 @@ void save_scene(const Document& document, Saved& saved) {
   if (!document.path.filename().string().ends_with(".scene.yaml")) return;
   const std::string before = io::read_file(document.path);
   const std::string text = changed_scene_text(document, before);
-  if (text != before) {
-    write_with_backup(document.path, text);
-    ++saved.written;
-  }
-  note_file(saved, document.path);
+  if (text != before) write_with_backup(document.path, text);
+  (text == before ? saved.kept : saved.written).push_back(document.path);
 }
 
 }  // namespace
@@ -149,8 +163,7 @@ Result Session::save(const std::filesystem::path& path) {
   }
   saved_hash_ = hash_;
   begin_journal();
-  if (saved.where.empty()) return {true, "nothing to save"};
-  return {true, (saved.written ? "saved " : "unchanged ") + saved.where};
+  return {true, saved.text()};
 }
 
 Result Session::export_plant(const std::string& plant, const std::filesystem::path& path) {

@@ -25,7 +25,7 @@ dt: 0.004          # s
 rods: {newton_iterations: 3}
 plants:
   # the left one
-  - {name: left, file: left.plant.yaml, set: {detach.stretch: 0.1}}
+  - {name: left, file: left.plant.yaml, set: {detach.stretch: 0.1}}  # of the paper
   - name: right    # the other
     file: right.plant.yaml
     position: [0.5, 0, 0]
@@ -129,6 +129,27 @@ TEST_F(SavedScene, PlantsComeAndGo) {
   ASSERT_TRUE(other.open(file));
   EXPECT_EQ(other.document().plants.size(), 2u);
   EXPECT_EQ(other.document().plant("third"), session.document().plant("third"));
+}
+
+TEST_F(SavedScene, AnImportedPlantBecomesAFileOnceItIsEdited) {
+  std::ofstream(folder / "small.mtg") << "CODE :\tFORM-A\nFEATURES:\nXX\tREAL\nMTG:\n"
+                                         "ENTITY-CODE\tXX\tYY\tZZ\tTopDia\n"
+                                         "/P1\n^/U1\t0\t0\t0\t200\n^<E1\t0\t0\t500\t100\n"
+                                         "^<E2\t0\t0\t1000\t80\n";
+  const std::string imported = with(scene_text, "file: left.plant.yaml", "mtg: small.mtg");
+  std::ofstream(file) << imported;
+  ASSERT_TRUE(session.open(file));
+  run("set rods.newton_iterations 4");
+  must(session.save());
+  EXPECT_EQ(text(), with(imported, "newton_iterations: 3", "newton_iterations: 4"));
+  run("set sampling left distance 0.05");
+  EXPECT_THAT(session.save().text, HasSubstr("no file yet"));
+  must(session.save(folder / "edited.plant.yaml"));
+  EXPECT_THAT(text(), HasSubstr("- {name: left, set: {detach.stretch: 0.1}, "
+                                "file: edited.plant.yaml}  # of the paper"));
+  Session other(waiting());
+  ASSERT_TRUE(other.open(file));
+  EXPECT_EQ(other.document().plant("left").distance, 0.05);
 }
 
 TEST_F(SavedScene, WhatCannotBeWrittenIsSaid) {
