@@ -32,9 +32,14 @@ const std::vector<Binding>& bindings() {
       {Action::redo, Key::y, true, false, "Edit", "Redo"},
       {Action::remove, Key::del, false, false, "Edit", "Remove what is selected"},
       {Action::draw_mode, Key::d, false, false, "Edit", "Draw stems, on or off"},
+      {Action::point_kind, Key::v, false, false, "Edit", "Point: smooth, corner, linear"},
+      {Action::insert_point, Key::insert, false, false, "Edit", "Insert a point behind the chosen"},
+      {Action::smooth, Key::s, false, false, "Edit", "Smooth the chosen point or stem"},
       {Action::accept, Key::enter, false, false, "Edit", "Accept"},
-      {Action::select_child, Key::up, false, false, "Edit", "Select the child"},
-      {Action::select_parent, Key::down, false, false, "Edit", "Select the parent"},
+      {Action::select_child, Key::up, false, false, "Edit",
+       "Select the child; in a stroke: thicker"},
+      {Action::select_parent, Key::down, false, false, "Edit",
+       "Select the parent; in a stroke: thinner"},
       {Action::cancel, Key::escape, false, false, "Edit", "Cancel, leave the mode, deselect"},
 
       {Action::frame_selection, Key::f, false, false, "View", "Frame what is selected"},
@@ -70,6 +75,7 @@ std::string key_text(const Binding& binding) {
                                                    {Key::pad_add, "Pad +"},
                                                    {Key::pad_subtract, "Pad -"},
                                                    {Key::del, "Del"},
+                                                   {Key::insert, "Ins"},
                                                    {Key::enter, "Enter"},
                                                    {Key::escape, "Esc"},
                                                    {Key::home, "Home"},
@@ -117,7 +123,8 @@ std::vector<MouseHabit> mouse_habits(bool blender) {
                 {{"Click", "Select"},
                  {"Double click", "Select, and turn about that place; on nothing: deselect"},
                  {"Ctrl+left drag", "Pull a plant with a spring"},
-                 {"Alt+click", "Select from here to the tip"}});
+                 {"Alt+click", "Select from here to the tip; Del cuts it off"},
+                 {"Wheel in a stroke", "Thicker, thinner from here on"}});
   return habits;
 }
 

@@ -67,13 +67,14 @@ void mouse_table(bool blender) {
 }
 
 void help(Ui& ui) {
-  if (begin_dialog(ui, "Help", 900, 620)) {
-    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingStretchSame)) {
+  if (begin_dialog(ui, "Help", 1200, 580)) {
+    if (ImGui::BeginTable("columns", 3, ImGuiTableFlags_SizingStretchSame)) {
       ImGui::TableNextColumn();
-      for (const char* group : {"Simulation", "File", "Edit"})
-        heading(ui, group), keys_table(group);
+      for (const char* group : {"Simulation", "File"}) heading(ui, group), keys_table(group);
       ImGui::TableNextColumn();
-      for (const char* group : {"View", "Windows"}) heading(ui, group), keys_table(group);
+      for (const char* group : {"Edit", "Windows"}) heading(ui, group), keys_table(group);
+      ImGui::TableNextColumn();
+      heading(ui, "View"), keys_table("View");
       heading(ui, "Mouse in the scene");
       mouse_table(ui.preferences.mouse == MousePreset::blender);
       ImGui::EndTable();

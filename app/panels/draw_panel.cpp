@@ -58,21 +58,56 @@ class DrawPanel : public Panel {
     if (wide_button(d.on ? "Drawing (Esc leaves)" : "Draw (D)")) d.on = !d.on;
     if (was) ImGui::PopStyleColor();
     heading(ui, "What");
-    radio_row(ui, d.thing, std::array<const char*, 3>{"Stem", "Fruit", "Leaf"});
+    thing_buttons(ui, d);
     if (d.thing == DrawThing::stem) stem_options(ui, d);
     if (d.thing == DrawThing::fruit) fruit_options(ui, d);
     if (d.thing == DrawThing::leaf)
       millimetres("Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
     heading(ui, "How");
-    note(
-        d.thing == DrawThing::stem
-            ? "Drag: a stem. Begun on a stem (green ball) it becomes its branch, elsewhere a plant "
-              "of its own. Drag a white ball to move a point, Shift+click a stem to add one, Del "
-              "takes it away. Drag a fruit along its stem."
-            : "Click on a stem to put it there. Drag a fruit to move it along.");
+    how(d.thing);
   }
 
  private:
+  static void thing_buttons(const Ui& ui, DrawMode& d) {
+    constexpr std::array<const char*, 4> names = {"Stem", "Fruit", "Leaf", "Cut"};
+    const float gap = 4.0f * ui.scale;
+    const float width = (rest_width() - 3.0f * gap) / 4.0f;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const bool chosen = d.thing == static_cast<DrawThing>(i);
+      if (i) ImGui::SameLine(0, gap);
+      if (chosen)
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_TabActive));
+      if (ImGui::Button(names[i], ImVec2(width, 0))) d.thing = static_cast<DrawThing>(i);
+      if (chosen) ImGui::PopStyleColor();
+    }
+  }
+
+  static void how(DrawThing thing) {
+    switch (thing) {
+      case DrawThing::stem:
+        note(
+            "Drag: a stem. Begun on a stem (green ball) it becomes its branch, elsewhere a plant "
+            "of its own. Wheel, Up or Down meanwhile: thicker or thinner from there on (a pen's "
+            "pressure does not come through).");
+        note(
+            "Click a stem: its points. Drag a white ball to move a point, a blue one beside it to "
+            "change the radius there. Shift+click adds a point. With one chosen: " +
+            keys_of(Action::point_kind) + " corner or smooth, " + keys_of(Action::insert_point) +
+            " another, " + keys_of(Action::smooth) + " smoother, " + keys_of(Action::remove) +
+            " away.");
+        note("Drag a fruit or leaf along its stem.");
+        return;
+      case DrawThing::fruit:
+      case DrawThing::leaf:
+        note("Click on a stem to put it there. Drag a fruit or leaf to move it along.");
+        return;
+      case DrawThing::trim:
+        note(
+            "Draw across stems, or click on one: what lies beyond goes (red), with all that is on "
+            "it.");
+        return;
+    }
+  }
   static void stem_options(Ui& ui, DrawMode& d) {
     heading(ui, "Stroke");
     millimetres("Tolerance", d.tolerance, 0.2f, 30.0f,

@@ -88,7 +88,8 @@ class PlantsPanel : public Panel {
         if (leaf(fruit.name + "  on " + fruit.place.curve, is_fruit(ui, name, fruit.name)))
           choose_fruit(ui, name, fruit.name);
       for (const plant::PlantLeaf& one : plant.file->leaves)
-        leaf(one.name + "  on " + one.place.curve, false);
+        if (leaf(one.name + "  on " + one.place.curve, is_leaf(ui, name, one.name)))
+          choose_leaf(ui, name, one.name);
     } else {
       note("built in, cannot be edited");
     }
@@ -98,6 +99,11 @@ class PlantsPanel : public Panel {
   static bool is_fruit(const Ui& ui, const std::string& plant, const std::string& fruit) {
     return ui.selection.kind == Selection::Kind::fruit &&
            describe(ui.selection, *ui.snapshot) == plant + "/" + fruit;
+  }
+
+  static bool is_leaf(const Ui& ui, const std::string& plant, const std::string& leaf) {
+    return ui.selection.kind == Selection::Kind::element &&
+           describe(ui.selection, *ui.snapshot) == plant + "/" + leaf;
   }
 
   static void robot_node(Ui& ui) {

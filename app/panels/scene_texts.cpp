@@ -105,11 +105,15 @@ void draw_scene_texts(Ui& ui, const LayoutAreas& areas) {
   ImDrawList& over = *ImGui::GetForegroundDrawList();
   (void)list;
   const Snapshot& s = *ui.snapshot;
+  if (ui.dialog != Dialog::none) return;  // they would lie over it
   if (s.mode == RunMode::unstable)
     banner(ui, over, areas,
            "Unstable: " + (s.culprit.empty() ? s.error : s.culprit) + ", last good at " +
                number_text(s.last_good_time, 4) + " s. Step back or reset.",
            IM_COL32(170, 40, 34, 235));
+  else if (ui.draw.on && ui.draw.thing == DrawThing::trim)
+    banner(ui, over, areas, "Cutting: draw across stems or click on one, Esc leaves",
+           IM_COL32(150, 44, 36, 235));
   else if (ui.draw.on)
     banner(ui, over, areas, "Drawing: left draws, Alt+left turns the view, Esc leaves",
            IM_COL32(62, 120, 34, 235));

@@ -2,12 +2,13 @@
 
 #include <imgui.h>
 
-#include <cmath>
-
+#include "app/panels/copy_part.h"
+#include "app/panels/point_editor.h"
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
 #include "app/plant_drawing.h"
 #include "app/plant_step.h"
+#include "plant/plant_edit.h"
 
 namespace pedicel::app {
 
@@ -22,111 +23,26 @@ const PlantSnapshot* plant_of(const Ui& ui) {
              : nullptr;
 }
 
+/// m, along the stem as it is interpolated.
 double length_of(const plant::PlantCurve& curve) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < curve.points.size(); ++i)
-    length += (curve.points[i] - curve.points[i - 1]).norm();
-  return length;
-}
-
-/// A labelled number with its unit; true when a new one was typed.
-bool edit(const Ui& ui, const char* label, const char* unit, double& value) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(palette().dim, "%s", label);
-  const float unit_width = ImGui::CalcTextSize(unit).x + 6.0f * ui.scale;
-  ImGui::SameLine(0.42f * ImGui::GetContentRegionMax().x);
-  ImGui::SetNextItemWidth(rest_width(*unit ? unit_width : 0.0f));
-  ImGui::PushID(label);
-  const bool typed = number_field("##number", value);
-  ImGui::PopID();
-  if (*unit) {
-    ImGui::SameLine(0, 6.0f * ui.scale);
-    ImGui::TextColored(palette().dim, "%s", unit);
-  }
-  return typed;
-}
-
-void stem_buttons(Ui& ui, const std::string& plant, const plant::PlantCurve& curve) {
-  if (ImGui::Button("Smooth"))
-    ui.run(Command("smooth points", {{"plant", plant}, {"stem", curve.name}}));
-  tip("Moves points towards the middle of their neighbours");
-  ImGui::SameLine();
-  if (ImGui::Button("Mirror"))
-    ui.run(Command("mirror stem", {{"plant", plant}, {"stem", curve.name}}));
-  tip("Copies the stem with everything on it to the other side of its parent");
-  ImGui::SameLine();
-  if (ImGui::Button("Repeat"))
-    ui.run(Command(
-        "repeat stem",
-        {{"plant", plant}, {"stem", curve.name}, {"count", 1}, {"spacing", 0.03}, {"angle", 2.4}}));
-  tip("Copies it 30 mm further along its parent, turned by 2.4 rad");
-  ImGui::SameLine();
-  if (ImGui::Button("Delete")) {
-    ui.run(Command("delete stem", {{"plant", plant}, {"stem", curve.name}}));
-    ui.selection = {};
-  }
+  plant::PlantFile alone;
+  alone.curves = {curve};
+  return plant::stem_curve(alone, curve.name).length();
 }
 
 void stem_numbers(Ui& ui, const std::string& plant, const plant::PlantCurve& curve) {
   double length = 1e3 * length_of(curve);
-  if (edit(ui, "Length", "mm", length) && length > 0)
+  if (labelled_number(ui, "Length", "mm", length) && length > 0)
     ui.run(
         Command("set length", {{"plant", plant}, {"stem", curve.name}, {"length", 1e-3 * length}}));
   if (curve.radius.empty()) return;
   double foot = 1e3 * curve.radius.front(), top = 1e3 * curve.radius.back();
-  const bool foot_typed = edit(ui, "Radius at foot", "mm", foot);
-  const bool top_typed = edit(ui, "Radius at tip", "mm", top);
+  const bool foot_typed = labelled_number(ui, "Radius at foot", "mm", foot);
+  const bool top_typed = labelled_number(ui, "Radius at tip", "mm", top);
   if (foot_typed || top_typed)
     ui.run(Command(
         "taper",
         {{"plant", plant}, {"stem", curve.name}, {"from", 1e-3 * foot}, {"to", 1e-3 * top}}));
-}
-
-void point_row(Ui& ui, const std::string& plant, const plant::PlantCurve& curve, int index) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  const bool chosen = ui.selection.kind == Kind::curve_point && ui.selection.point == index;
-  ImGui::PushID(index);
-  if (ImGui::Selectable(std::to_string(index).c_str(), chosen)) {
-    ui.selection.kind = Kind::curve_point;
-    ui.selection.point = index;
-  }
-  const auto place = static_cast<std::size_t>(index);
-  Vec3 point = 1e3 * curve.points[place];
-  for (int axis = 0; axis < 3; ++axis) {
-    ImGui::TableNextColumn();
-    ImGui::SetNextItemWidth(-1);
-    ImGui::PushID(axis);
-    if (number_field("##p", point[axis], "%.1f"))
-      ui.run(Command(
-          "move point",
-          {{"plant", plant}, {"stem", curve.name}, {"point", index}, {"to", Vec3(1e-3 * point)}}));
-    ImGui::PopID();
-  }
-  ImGui::TableNextColumn();
-  if (!curve.radius.empty()) {
-    double radius = 1e3 * (curve.radius.size() == 1 ? curve.radius[0] : curve.radius[place]);
-    ImGui::SetNextItemWidth(-1);
-    if (number_field("##r", radius, "%.2f") && radius > 0)
-      ui.run(Command(
-          "set radius",
-          {{"plant", plant}, {"stem", curve.name}, {"radius", 1e-3 * radius}, {"point", index}}));
-  }
-  ImGui::PopID();
-}
-
-void point_table(Ui& ui, const std::string& plant, const plant::PlantCurve& curve) {
-  heading(ui, "Points, mm");
-  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(2 * ui.scale, 1 * ui.scale));
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(3 * ui.scale, 2 * ui.scale));
-  if (ImGui::BeginTable("points", 5, ImGuiTableFlags_SizingStretchProp)) {
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 16.0f * ui.scale);
-    for (const char* name : {"x", "y", "z", "r"}) ImGui::TableSetupColumn(name);
-    ImGui::TableHeadersRow();
-    for (int i = 0; i < static_cast<int>(curve.points.size()); ++i) point_row(ui, plant, curve, i);
-    ImGui::EndTable();
-  }
-  ImGui::PopStyleVar(2);
 }
 
 void fruit_details(Ui& ui) {
@@ -150,25 +66,52 @@ void fruit_details(Ui& ui) {
     };
     double radius = 1e3 * one.radius, density = one.density, at = one.place.at;
     double stretch = one.detach.stretch.value_or(0.0), force = one.detach.force.value_or(0.0);
-    if (edit(ui, "Radius", "mm", radius)) set("radius", 1e-3 * radius);
-    if (edit(ui, "Density", "kg/m3", density)) set("density", density);
-    if (edit(ui, "Comes off at strain", "", stretch)) set("stretch", stretch);
-    if (edit(ui, "or at a force of", "N", force)) set("force", force);
-    if (edit(ui,
-             "Place on "
-             "stem",
-             "", at))
+    if (labelled_number(ui, "Radius", "mm", radius)) set("radius", 1e-3 * radius);
+    if (labelled_number(ui, "Density", "kg/m3", density)) set("density", density);
+    if (labelled_number(ui, "Comes off at strain", "", stretch)) set("stretch", stretch);
+    if (labelled_number(ui, "or at a force of", "N", force)) set("force", force);
+    if (labelled_number(ui, "Place on stem", "", at))
       ui.run(Command("move organ", {{"plant", plant->model->name},
                                     {"name", one.name},
                                     {"stem", one.place.curve},
                                     {"at", at}}));
-    tip("0 is the foot of " + one.place.curve + ", 1 its tip");
+    tip("0 is the first point of " + one.place.curve + ", 1 its last; or drag it in the scene (D)");
     if (wide_button("Delete fruit")) {
       ui.run(Command("delete organ", {{"plant", plant->model->name}, {"name", one.name}}));
       ui.selection = {};
       return;
     }
   }
+}
+
+/// The chosen leaf of the document; null where the selection is none.
+const plant::PlantLeaf* chosen_leaf(const Ui& ui, std::string& plant) {
+  if (ui.selection.kind != Kind::element) return nullptr;
+  const std::string organ = describe(ui.selection, *ui.snapshot);
+  const std::size_t slash = organ.find('/');
+  if (slash == std::string::npos) return nullptr;
+  plant = organ.substr(0, slash);
+  const int p = ui.session.document().plant_index(plant);
+  const auto* file =
+      p < 0 ? nullptr : ui.session.document().plants[static_cast<std::size_t>(p)].file.get();
+  if (!file) return nullptr;
+  for (const plant::PlantLeaf& leaf : file->leaves)
+    if (leaf.name == organ.substr(slash + 1)) return &leaf;
+  return nullptr;
+}
+
+void leaf_details(Ui& ui, const std::string& plant, const plant::PlantLeaf& leaf) {
+  double size = 1e3 * leaf.size, at = leaf.place.at;
+  if (labelled_number(ui, "Size", "mm", size))
+    ui.run(
+        Command("set organ",
+                {{"plant", plant}, {"name", leaf.name}, {"key", "size"}, {"value", 1e-3 * size}}));
+  if (labelled_number(ui, "Place on stem", "", at))
+    ui.run(
+        Command("move organ",
+                {{"plant", plant}, {"name", leaf.name}, {"stem", leaf.place.curve}, {"at", at}}));
+  tip("0 is the first point of " + leaf.place.curve + ", 1 its last; or drag it in the scene (D)");
+  if (wide_button("Delete leaf")) ui.ask(Action::remove);
 }
 
 void element_details(Ui& ui) {
@@ -215,6 +158,22 @@ void choose_fruit(Ui& ui, const std::string& plant, const std::string& fruit) {
   }
 }
 
+void choose_leaf(Ui& ui, const std::string& plant, const std::string& leaf) {
+  for (std::size_t p = 0; p < ui.snapshot->plants.size(); ++p) {
+    const cosserat::RodModel& model = *ui.snapshot->plants[p].model;
+    for (int e = 0; e < model.size(); ++e) {
+      const auto organ =
+          static_cast<std::size_t>(model.elements[static_cast<std::size_t>(e)].organ);
+      if (model.organs[organ] != plant + "/" + leaf) continue;
+      ui.selection = {};
+      ui.selection.kind = Kind::element;
+      ui.selection.plant = static_cast<int>(p);
+      ui.selection.element = e;
+      return;
+    }
+  }
+}
+
 const plant::PlantCurve* chosen_curve(const Ui& ui, std::string& plant) {
   std::string curve = ui.selection.curve;
   plant = ui.selection.plant_name;
@@ -240,12 +199,27 @@ void draw_details(Ui& ui) {
   if (ui.selection.kind == Kind::link) return link_details(ui);
   if (ui.selection.kind == Kind::element) element_details(ui);
   std::string plant;
+  if (const plant::PlantLeaf* found = chosen_leaf(ui, plant)) {
+    const plant::PlantLeaf leaf = *found;  // commands replace the document
+    return leaf_details(ui, plant, leaf);
+  }
   const plant::PlantCurve* found = chosen_curve(ui, plant);
   if (!found) return;
-  const plant::PlantCurve curve = *found;  // commands replace the document
+  const plant::PlantCurve curve = *found;
+  if (ui.selection.to_tip) {
+    note("From here to the tip, with all that is on it");
+    if (wide_button("Cut it off")) ui.ask(Action::remove);
+    tip("(" + keys_of(Action::remove) + ")");
+  }
   stem_numbers(ui, plant, curve);
-  stem_buttons(ui, plant, curve);
-  point_table(ui, plant, curve);
+  draw_points(ui, plant, curve);
+  draw_copies(ui, plant, curve.name);
+  if (ui.selection.to_tip) return;
+  heading(ui, "Stem");
+  if (wide_button("Delete stem")) {
+    if (ui.run(Command("delete stem", {{"plant", plant}, {"stem", curve.name}}))) ui.selection = {};
+  }
+  tip("With its branches and all that is on them");
 }
 
 }  // namespace pedicel::app

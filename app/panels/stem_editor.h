@@ -10,6 +10,8 @@ namespace pedicel::app {
 void choose_curve(Ui& ui, const std::string& plant, const std::string& curve);
 /// Chooses a fruit that is still on.
 void choose_fruit(Ui& ui, const std::string& plant, const std::string& fruit);
+/// Chooses a leaf.
+void choose_leaf(Ui& ui, const std::string& plant, const std::string& leaf);
 
 /// The stem of the document that the selection is of (a curve, or an element with its name); null
 /// where there is none.

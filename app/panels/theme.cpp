@@ -73,8 +73,9 @@ void set_colours(ImGuiStyle& style, const Palette& p, bool is_light) {
   c[ImGuiCol_ScrollbarGrab] = pressed;
   c[ImGuiCol_ScrollbarGrabHovered] = c[ImGuiCol_ScrollbarGrabActive] = p.dim;
   c[ImGuiCol_CheckMark] = p.accent;
-  c[ImGuiCol_SliderGrab] = p.accent;
-  c[ImGuiCol_SliderGrabActive] = p.good;
+  // The number of a slider is written over its grab: a ground that its letters can be read on.
+  c[ImGuiCol_SliderGrab] = is_light ? rgb(0xa5cc8c) : rgb(0x3f6a28);
+  c[ImGuiCol_SliderGrabActive] = is_light ? rgb(0x94c077) : rgb(0x44712d);
   c[ImGuiCol_Button] = field;
   c[ImGuiCol_ButtonHovered] = hovered;
   c[ImGuiCol_ButtonActive] = pressed;

@@ -53,6 +53,7 @@ struct Selection {
   int plant = -1, element = -1, fruit = -1, link = -1, body = -1;  ///< of the snapshot
   std::string plant_name, curve;  ///< of the document: curve, curve_point
   int point = -1;
+  bool to_tip = false;          ///< element: from the place on to the stem's tip
   double back = 0.0;            ///< m, place on the element
   Vec3 place_W = Vec3::Zero();  ///< m, where it was hit
   double distance = 0.0;        ///< m, from the eye
@@ -61,13 +62,14 @@ struct Selection {
   bool same_thing(const Selection& other) const {
     return kind == other.kind && plant == other.plant && element == other.element &&
            fruit == other.fruit && link == other.link && body == other.body &&
-           plant_name == other.plant_name && curve == other.curve && point == other.point;
+           plant_name == other.plant_name && curve == other.curve && point == other.point &&
+           to_tip == other.to_tip;
   }
 };
 
 enum class PlaneChoice { view, ground, tangent };
 enum class DrawDepth { cursor, surface };
-enum class DrawThing { stem, fruit, leaf };
+enum class DrawThing { stem, fruit, leaf, trim };
 
 /// The draw tool: its options, with Blender's names, and the stroke in hand.
 struct DrawMode {
@@ -86,14 +88,12 @@ struct DrawMode {
   double fruit_stretch = 0.15;    ///< 1, threshold of its stalk
   double leaf_size = 0.08;        ///< m
 
+  int copies = 1;                     ///< of Repeat
+  double copy_spacing = 0.03;         ///< m, along the parent
+  double copy_angle = 2.4;            ///< rad, about the parent
+  Vec3 mirror_normal = Vec3::Zero();  ///< 1; zero: the other side of the parent
+
   std::string plant;  ///< that strokes go to
-  bool stroking = false;
-  std::vector<Vec3> stroke_W;  ///< m
-  bool snapped = false;        ///< the stroke starts, or would start, on a stem
-  Vec3 snap_W = Vec3::Zero();  ///< m
-  std::string snap_curve;
-  double snap_at = 0.0;    ///< 1, place on that curve
-  int dragged_point = -1;  ///< of the selected curve
 };
 
 }  // namespace pedicel::app

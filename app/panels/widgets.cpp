@@ -119,6 +119,22 @@ bool number_field(const char* id, double& value, const char* format) {
   return true;
 }
 
+bool labelled_number(const Ui& ui, const char* label, const char* unit, double& value) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(palette().dim, "%s", label);
+  const float unit_width = ImGui::CalcTextSize(unit).x + 6.0f * ui.scale;
+  ImGui::SameLine(0.42f * ImGui::GetContentRegionMax().x);
+  ImGui::SetNextItemWidth(rest_width(*unit ? unit_width : 0.0f));
+  ImGui::PushID(label);
+  const bool typed = number_field("##number", value);
+  ImGui::PopID();
+  if (*unit) {
+    ImGui::SameLine(0, 6.0f * ui.scale);
+    ImGui::TextColored(palette().dim, "%s", unit);
+  }
+  return typed;
+}
+
 bool text_field(const char* id, std::string& text, const char* hint) {
   ImGui::InputTextWithHint(id, hint, &text);
   return ImGui::IsItemDeactivatedAfterEdit();

@@ -58,6 +58,8 @@ std::string quantity_text(double value, const std::string& unit, int digits = 3)
 
 /// An input of a number that is committed by Enter or by leaving it. True once, when it was.
 bool number_field(const char* id, double& value, const char* format = "%.6g");
+/// The same with a label before it and its unit behind it, in two columns.
+bool labelled_number(const Ui& ui, const char* label, const char* unit, double& value);
 /// An input of a text, as number_field().
 bool text_field(const char* id, std::string& text, const char* hint = "");
 

@@ -88,6 +88,12 @@ class GlfwWindow : public Platform {
     pace();
   }
 
+  /// Until somebody does something, or a twentieth of a second: the simulation may have news.
+  void rest() override {
+    glfwWaitEventsTimeout(0.05);
+    last_picture_ = glfwGetTime();
+  }
+
   bool wants_to_close() const override { return glfwWindowShouldClose(window_); }
   void set_title(const std::string& title) override {
     if (title == title_) return;

@@ -42,6 +42,9 @@ class Platform {
   /// Shows the picture (null: `picture` is null).
   virtual void present(const render::RenderTarget* picture) = 0;
 
+  /// In place of present() where the picture would be the one that is shown.
+  virtual void rest() { present(nullptr); }
+
   virtual bool wants_to_close() const { return false; }
   virtual void set_title(const std::string&) {}
   virtual void set_cursor(Cursor) {}

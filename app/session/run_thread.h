@@ -49,6 +49,9 @@ class RunThread {
   long position() const { return shown_.value_or(run_ ? run_->steps() : 0); }
 
  private:
+  /// Steps that are kept to be shown again.
+  static constexpr long most_kept = 120;
+
   void loop();
   bool take_request();
   void guarded(const Request& request);

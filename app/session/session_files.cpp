@@ -4,6 +4,7 @@
 #include "session/measured_commands.h"
 #include "session/plant_export.h"
 #include "session/plant_import.h"
+#include "session/scene_save.h"
 #include "session/session.h"
 
 /// What a session does with files.
@@ -32,6 +33,71 @@ void write_with_backup(const std::filesystem::path& path, const std::string& tex
     io::write_file_atomically(backup, io::read_file(path));
   }
   io::write_file_atomically(path, text);
+}
+
+/// The file that a plant was read from.
+std::filesystem::path source_of(const world::ScenePlant& entry) {
+  return std::filesystem::exists(entry.file) || !entry.optional ? entry.file : entry.fallback;
+}
+
+/// Whether there is nothing of a plant to be saved: no stems, or still as its file says.
+bool is_as_read(const DocumentPlant& one) {
+  if (!one.file || one.file->curves.empty()) return true;
+  const std::filesystem::path source = source_of(one.entry);
+  if (source.empty() || !std::filesystem::exists(source)) return false;
+  Diagnostics diagnostics;
+  const auto there = read_plant(source, diagnostics);
+  return there && *there == *one.file;
+}
+
+struct Saved {
+  std::vector<std::filesystem::path> written, kept;
+  std::string refusal;  ///< why nothing could be done; empty: it was
+
+  std::string text() const {
+    if (written.empty() && kept.empty()) return "nothing to save";
+    std::string names;
+    for (const std::filesystem::path& file : written.empty() ? kept : written)
+      names += (names.empty() ? "" : ", ") + file.string();
+    return (written.empty() ? "unchanged " : "saved ") + names;
+  }
+};
+
+Saved save_plants(Document& document, const std::filesystem::path& path) {
+  Saved saved;
+  int without_file = 0;
+  for (const DocumentPlant& one : document.plants)
+    if (file_of(one, {}).empty() && !is_as_read(one)) ++without_file;
+  if (without_file > 1)
+    saved.refusal = std::to_string(without_file) +
+                    " plants have no file yet, expected them to be exported one by one";
+  for (DocumentPlant& one : document.plants) {
+    if (!saved.refusal.empty()) return saved;
+    if (!one.file || one.file->curves.empty()) continue;
+    const bool alone = document.plants.size() == 1 && !path.empty();
+    if (!alone && file_of(one, {}).empty() && is_as_read(one)) continue;  // an MTG, say
+    const std::filesystem::path file = alone ? path : file_of(one, path);
+    if (file.empty()) {
+      saved.refusal = "plant \"" + one.entry.name + "\" has no file yet, expected a path";
+      continue;
+    }
+    const bool same = says_the_same(file, *one.file);
+    if (!same) write_with_backup(file, plant::plant_text(*one.file));
+    (same ? saved.kept : saved.written).push_back(file);
+    one.entry.file = file;
+    one.entry.source = world::ScenePlant::Source::file;
+    if (document.path.empty()) document.path = file;
+  }
+  return saved;
+}
+
+/// After the plants, which have files now.
+void save_scene(const Document& document, Saved& saved) {
+  if (!document.path.filename().string().ends_with(".scene.yaml")) return;
+  const std::string before = io::read_file(document.path);
+  const std::string text = changed_scene_text(document, before);
+  if (text != before) write_with_backup(document.path, text);
+  (text == before ? saved.kept : saved.written).push_back(document.path);
 }
 
 }  // namespace
@@ -83,32 +149,21 @@ bool Session::reload() {
 
 Result Session::save(const std::filesystem::path& path) {
   end_gesture();
-  int written = 0, without_file = 0;
-  std::string where;
-  for (const DocumentPlant& one : document_.plants)
-    if (one.file && !one.file->curves.empty() && file_of(one, {}).empty()) ++without_file;
-  if (without_file > 1)
-    return {false, std::to_string(without_file) +
-                       " plants have no file yet, expected them to be exported one by one"};
-  for (std::size_t p = 0; p < document_.plants.size(); ++p) {
-    DocumentPlant& one = document_.plants[p];
-    if (!one.file || one.file->curves.empty()) continue;
-    const bool alone = document_.plants.size() == 1 && !path.empty();
-    const std::filesystem::path file = alone ? path : file_of(one, path);
-    if (file.empty())
-      return {false, "plant \"" + one.entry.name + "\" has no file yet, expected a path"};
-    if (!says_the_same(file, *one.file)) {
-      write_with_backup(file, plant::plant_text(*one.file));
-      ++written;
-    }
-    one.entry.file = file;
-    one.entry.source = world::ScenePlant::Source::file;
-    where += (where.empty() ? "" : ", ") + file.string();
-    if (document_.path.empty()) document_.path = file;
+  Saved saved;
+  try {
+    saved = save_plants(document_, path);
+    if (!saved.refusal.empty()) return {false, saved.refusal};
+    save_scene(document_, saved);
+  } catch (const UsageError& fault) {
+    return {false, fault.what()};
+  } catch (const InvalidFile& fault) {
+    return {false, fault.what()};
+  } catch (const io::WriteError& fault) {
+    return {false, fault.what()};
   }
   saved_hash_ = hash_;
   begin_journal();
-  return {true, where.empty() ? "nothing to save" : (written ? "saved " : "unchanged ") + where};
+  return {true, saved.text()};
 }
 
 Result Session::export_plant(const std::string& plant, const std::filesystem::path& path) {

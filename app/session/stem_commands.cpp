@@ -1,5 +1,6 @@
 #include "core/check.h"
 #include "plant/plant_edit.h"
+#include "plant/point_kind.h"
 #include "session/command_table.h"
 #include "session/document.h"
 
@@ -50,6 +51,22 @@ void move_point(Document& document, const Command& c) {
 
 void insert_point(Document& document, const Command& c) {
   plant::insert_point(edited(document, c), c.word("stem"), c.number("at"));
+}
+
+void set_point_kind(Document& document, const Command& c) {
+  const std::string& word = c.word("kind");
+  plant::PointKind kind = plant::PointKind::smooth;
+  if (word == "corner")
+    kind = plant::PointKind::corner;
+  else if (word == "linear")
+    kind = plant::PointKind::linear;
+  else if (word != "smooth")
+    throw UsageError("kind \"" + word + "\", expected corner, linear or smooth");
+  plant::set_point_kind(edited(document, c), c.word("stem"), c.whole("point"), kind);
+}
+
+void trim_stem(Document& document, const Command& c) {
+  plant::trim_stem(edited(document, c), c.word("stem"), c.number("at"));
 }
 
 void delete_point(Document& document, const Command& c) {
@@ -140,10 +157,23 @@ std::vector<CommandDescription> stem_commands() {
        {plant_name, stem_name, {"at", Kind::number, true, "fraction of the stem's length"}},
        "Adds a control point on the stem.",
        insert_point},
+      {"set point kind",
+       d,
+       {plant_name,
+        stem_name,
+        point_index,
+        {"kind", Kind::word, true, "corner, linear (straight beside it, too) or smooth"}},
+       "Makes a point a corner by two points close to it that hold it, or smooth again without.",
+       set_point_kind},
+      {"trim stem",
+       d,
+       {plant_name, stem_name, {"at", Kind::number, true, "fraction of the stem's length"}},
+       "Cuts a stem: what lies beyond, seen from its foot, goes with all that is on it.",
+       trim_stem},
       {"delete point",
        d,
        {plant_name, stem_name, point_index},
-       "Takes a control point away.",
+       "Takes a control point away, with those that hold it.",
        delete_point},
       {"set points",
        d,

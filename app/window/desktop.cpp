@@ -128,7 +128,9 @@ bool Desktop::frame() {
   const std::vector<std::string> dropped = input_.begin_frame();
   const double last = ui_.now;
   ui_.now = platform_.now();
-  ui_.times.picture += 0.1 * ((ui_.now - last) - ui_.times.picture);
+  // Pictures that were not painted take as long as nobody does anything.
+  if (!painter_ || painted_at_ == last)
+    ui_.times.picture += 0.1 * ((ui_.now - last) - ui_.times.picture);
   for (const std::string& path : dropped) ui_.session.open(path);
   ui_.session.update();
   ui_.snapshot = ui_.session.snapshot();
@@ -154,6 +156,7 @@ bool Desktop::frame() {
 }
 
 void Desktop::draw_scene(const LayoutAreas& areas) {
+  scene_drawn_ = false;
   const ImVec2 size(areas.scene_max.x - areas.scene_min.x, areas.scene_max.y - areas.scene_min.y);
   if (size.x < 8 || size.y < 8) return;
   ImGui::SetNextWindowPos(areas.scene_min);
@@ -169,7 +172,7 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   scene_ = {areas.scene_min, size, camera_.camera()};
-  const bool tool = draw_tool_->update(ui_, scene_, view_.shapes());
+  const bool tool = draw_tool_->update(ui_, scene_);
   mouse_.update(ui_, camera_, scene_, view_.shapes(), tool);
   if (ui_.frame_box) {
     camera_.frame(*ui_.frame_box, size.x / size.y);
@@ -187,8 +190,8 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
   if (canvas_) {
     quality_.automatic = ui_.view.automatic_quality;
     if (!quality_.automatic) quality_.level = ui_.view.quality;
-    canvas_->draw(list_, scene_.camera, scene_.width(), scene_.height(), quality_,
-                  ui_.view.shadows);
+    scene_drawn_ = canvas_->draw(list_, scene_.camera, scene_.width(), scene_.height(), quality_,
+                                 ui_.view.shadows);
     ui_.view.quality = ui_.times.quality = quality_.level;
     ui_.times.triangles = canvas_->triangles();
     ui_.times.scene += 0.2 * (seconds_since(start) - ui_.times.scene);
@@ -201,7 +204,22 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
   ImGui::End();
 }
 
+/// Whether the window would look otherwise than it was painted last. Now and then it is painted
+/// anyway, for window systems that forget what was covered.
+bool Desktop::has_to_paint() {
+  constexpr double at_least_every = 0.5;  // s
+  const std::uint64_t key = interface_key(*ImGui::GetDrawData());
+  const bool same = key == painted_key_ && !scene_drawn_ && !video_ && target_ &&
+                    target_->width() == platform_.size()[0] &&
+                    target_->height() == platform_.size()[1];
+  if (same && ui_.now - painted_at_ < at_least_every) return false;
+  painted_key_ = key;
+  painted_at_ = ui_.now;
+  return true;
+}
+
 void Desktop::paint() {
+  if (painter_ && !has_to_paint()) return platform_.rest();
   if (!painter_) {
     platform_.present(nullptr);
     return;

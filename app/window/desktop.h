@@ -63,6 +63,7 @@ class Desktop {
   void draw_scene(const LayoutAreas& areas);
   void draw_labels();
   void paint();
+  bool has_to_paint();
   void perform_all();
   void perform(Action action);
   void perform_file(Action action);
@@ -98,7 +99,9 @@ class Desktop {
   bool framed_ = false, quits_ = false, full_screen_ = false;
   std::unique_ptr<render::VideoWriter> video_;
   double next_video_picture_ = 0.0;
-  std::uint64_t drawn_key_ = 0;
+  bool scene_drawn_ = false;       // anew, in this picture
+  std::uint64_t painted_key_ = 0;  // of the interface as it was painted last
+  double painted_at_ = -1.0;       // s
 };
 
 }  // namespace pedicel::app

@@ -5,7 +5,6 @@
 
 #include "app/pictures.h"
 #include "app/window/desktop.h"
-#include "app/window/draw_tool.h"
 
 namespace pedicel::app {
 
@@ -31,25 +30,6 @@ std::filesystem::path free_name(const std::string& stem, const std::string& endi
     if (!std::filesystem::exists(path)) return path;
   }
   return stem + ending;
-}
-
-/// Neighbours in the tree of organs: the organ that carries one, or the first that grows from it.
-int parent_element(const cosserat::RodModel& model, int element) {
-  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
-  for (int e = element; e >= 0; e = model.elements[static_cast<std::size_t>(e)].parent)
-    if (model.elements[static_cast<std::size_t>(e)].organ != organ) return e;
-  return element;
-}
-
-int child_element(const cosserat::RodModel& model, int element) {
-  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
-  for (int e = 0; e < model.size(); ++e) {
-    const int parent = model.elements[static_cast<std::size_t>(e)].parent;
-    if (parent >= 0 && model.elements[static_cast<std::size_t>(parent)].organ == organ &&
-        model.elements[static_cast<std::size_t>(e)].organ != organ)
-      return e;
-  }
-  return element;
 }
 
 }  // namespace
@@ -134,120 +114,6 @@ void Desktop::perform_file(Action action) {
     default:
       break;
   }
-}
-
-void Desktop::perform_view(Action action) {
-  Preferences& p = ui_.preferences;
-  const int cameras =
-      ui_.snapshot->assets ? static_cast<int>(ui_.snapshot->assets->scene.cameras.size()) : 0;
-  switch (action) {
-    case Action::frame_all:
-      ui_.frame_box = list_.bounds();
-      break;
-    case Action::frame_selection: {
-      const Eigen::AlignedBox3d box = bounds_of(ui_.selection, *ui_.snapshot, view_.shapes());
-      ui_.frame_box = box.isEmpty() ? list_.bounds() : box;
-      break;
-    }
-    case Action::previous_camera:
-      if (cameras) use_camera((std::max(ui_.view.camera, 0) + cameras - 1) % cameras);
-      break;
-    case Action::next_camera:
-      if (cameras) use_camera((ui_.view.camera + 1) % cameras);
-      break;
-    case Action::panels: {
-      const bool any = p.show_left || p.show_right || p.show_bottom;
-      p.show_left = p.show_right = !any;
-      p.show_bottom = false;
-      break;
-    }
-    case Action::rods:
-      ui_.view.rods = !ui_.view.rods;
-      break;
-    case Action::contacts:
-      ui_.view.contacts = !ui_.view.contacts;
-      break;
-    case Action::frames:
-      ui_.view.frames = !ui_.view.frames;
-      break;
-    case Action::help:
-      ui_.dialog = ui_.dialog == Dialog::help ? Dialog::none : Dialog::help;
-      break;
-    case Action::info:
-      ui_.dialog = ui_.dialog == Dialog::info ? Dialog::none : Dialog::info;
-      break;
-    case Action::profiler:
-      ui_.show_panel = "Profiler";
-      break;
-    case Action::plots:
-      ui_.show_panel = "Plots";
-      break;
-    case Action::full_screen:
-      platform_.set_full_screen(full_screen_ = !full_screen_);
-      break;
-    case Action::larger_text:
-      p.font_scale = std::min(2.0, 1.1 * p.font_scale);
-      break;
-    case Action::smaller_text:
-      p.font_scale = std::max(0.7, p.font_scale / 1.1);
-      break;
-    default:
-      break;
-  }
-}
-
-void Desktop::perform_edit(Action action) {
-  const auto walk = [&](auto neighbour) {
-    if (ui_.selection.kind != Selection::Kind::element) return;
-    const auto& model = *ui_.snapshot->plants[static_cast<std::size_t>(ui_.selection.plant)].model;
-    ui_.selection.element = neighbour(model, ui_.selection.element);
-  };
-  switch (action) {
-    case Action::undo:
-      ui_.report(ui_.session.undo());
-      break;
-    case Action::redo:
-      ui_.report(ui_.session.redo());
-      break;
-    case Action::draw_mode:
-      ui_.draw.on = !ui_.draw.on;
-      if (ui_.draw.on) ui_.show_panel = "Draw";
-      break;
-    case Action::select_child:
-      walk(child_element);
-      break;
-    case Action::select_parent:
-      walk(parent_element);
-      break;
-    case Action::remove:
-      draw_tool_->remove_selected(ui_);
-      break;
-    case Action::accept:
-      break;
-    case Action::cancel:
-      if (ui_.dialog != Dialog::none)
-        ui_.dialog = Dialog::none;
-      else if (draw_tool_->cancel(ui_))
-        break;
-      else if (ui_.draw.on)
-        ui_.draw.on = false;
-      else
-        ui_.selection = {};
-      break;
-    default:
-      break;
-  }
-}
-
-void Desktop::use_camera(int index) {
-  if (!ui_.snapshot->assets) return;
-  const auto& cameras = ui_.snapshot->assets->scene.cameras;
-  if (index < 0 || index >= static_cast<int>(cameras.size())) return;
-  const world::SceneCamera& camera = cameras[static_cast<std::size_t>(index)];
-  // A camera that follows something starts about the middle of the scene.
-  camera_.set(camera_of(
-      camera, list_.bounds().isEmpty() ? Vec3(Vec3::Zero()) : Vec3(list_.bounds().center())));
-  ui_.view.camera = index;
 }
 
 void Desktop::take_screenshot() {

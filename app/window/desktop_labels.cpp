@@ -30,7 +30,7 @@ void Desktop::draw_labels() {
   const Snapshot& s = *ui_.snapshot;
   if (s.pull.active)
     label(scene_, s.pull.target_W, quantity_text(s.pull.force_W.norm(), "N"), ui_.scale);
-  if (const std::string text = draw_tool_->label(); ui_.draw.on && !text.empty())
+  if (const std::string text = draw_tool_->label(ui_); ui_.draw.on && !text.empty())
     label(scene_, draw_tool_->label_place(), text, ui_.scale);
   if (s.culprit_plant >= 0 && s.culprit_element >= 0 &&
       s.culprit_plant < static_cast<int>(s.plants.size())) {

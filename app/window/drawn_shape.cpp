@@ -4,7 +4,6 @@
 
 #include "core/check.h"
 #include "plant/plant_graph.h"
-#include "plant/stroke_fit.h"
 
 namespace pedicel::app {
 
@@ -40,18 +39,24 @@ std::vector<double> taper_radii(const std::vector<Vec3>& points, double largest,
   return radii;
 }
 
-std::optional<StemShape> shape_of(const std::vector<Vec3>& stroke_W, const DrawMode& options) {
-  std::vector<plant::StrokeSample> samples;
-  for (const Vec3& point : stroke_W) samples.push_back({point, 1.0});
+std::optional<StemShape> shape_of(const std::vector<plant::StrokeSample>& stroke_W,
+                                  const DrawMode& options) {
+  double thickest = 1e-3;
+  for (const plant::StrokeSample& one : stroke_W) thickest = std::max(thickest, one.pressure);
+  std::vector<plant::StrokeSample> samples = stroke_W;
+  for (plant::StrokeSample& one : samples) one.pressure /= thickest;
   plant::StrokeOptions fit;
   fit.tolerance = options.tolerance;
   fit.corners = options.detect_corners;
+  fit.use_pressure = true;
+  fit.radius_from = fit.radius_to = thickest;
   try {
-    std::vector<Vec3> points = plant::fit_stroke(samples, fit).points;
-    if (points.size() < 2) return {};
-    std::vector<double> radii = taper_radii(points, options.radius_max, options.radius_min,
+    const plant::FittedStroke fitted = plant::fit_stroke(samples, fit);
+    if (fitted.points.size() < 2) return {};
+    std::vector<double> radii = taper_radii(fitted.points, options.radius_max, options.radius_min,
                                             options.taper_start, options.taper_end);
-    return StemShape{std::move(points), std::move(radii)};
+    for (std::size_t i = 0; i < radii.size(); ++i) radii[i] *= fitted.radius[i];
+    return StemShape{fitted.points, std::move(radii)};
   } catch (const UsageError&) {
     return {};  // a stroke without extent
   }
@@ -67,21 +72,45 @@ std::optional<StemPlace> stem_place(const Ui& ui, const Selection& hit) {
   const std::string name = model.organs[static_cast<std::size_t>(organ)];
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) return {};
-  StemPlace place{name.substr(0, slash), name.substr(slash + 1), 0.0, hit.place_W, hit.place_W};
+  StemPlace place{
+      name.substr(0, slash), name.substr(slash + 1), 0.0, 0.0, hit.place_W, hit.place_W};
   const auto curve = drawn_curve(ui.session, place.plant, place.stem);
   if (!curve) return {};
-  // The organ's rods lie in the order of the stem: what comes before the place, over all of it.
+  // The organ's rods lie from the stem's foot on: what comes before the place, over all of it.
   double before = 0.0, whole = 0.0;
+  int tip = hit.element;
   for (int e = 0; e < model.size(); ++e) {
     const cosserat::Element& element = model.elements[static_cast<std::size_t>(e)];
     if (element.organ != organ) continue;
     whole += element.length;
     if (e <= hit.element) before = whole;
+    tip = e;
   }
   if (whole <= 0.0) return {};
-  place.at = std::clamp((before - hit.back) / whole, 0.0, 1.0);
-  place.drawn_W = plant_pose(ui.session, place.plant) * curve->point(place.at * curve->length());
+  place.from_foot = std::clamp((before - hit.back) / whole, 0.0, 1.0);
+  const Pose pose = plant_pose(ui.session, place.plant);
+  const Vec3 tip_P = pose.inverse() * model.elements[static_cast<std::size_t>(tip)].drawn_position;
+  const bool foot_first =
+      (tip_P - curve->point(curve->length())).norm() <= (tip_P - curve->point(0.0)).norm();
+  place.at = foot_first ? place.from_foot : 1.0 - place.from_foot;
+  place.drawn_W = pose * curve->point(place.at * curve->length());
   return place;
+}
+
+std::optional<OrganPlace> organ_of(const Ui& ui, const Selection& selection) {
+  if (selection.kind != Selection::Kind::fruit && selection.kind != Selection::Kind::element)
+    return {};
+  const std::string organ = describe(selection, *ui.snapshot);
+  const std::size_t slash = organ.find('/');
+  if (slash == std::string::npos) return {};
+  const std::string plant = organ.substr(0, slash), name = organ.substr(slash + 1);
+  const plant::PlantFile* file = plant_file(ui.session, plant);
+  if (!file) return {};
+  for (const plant::PlantFruit& fruit : file->fruits)
+    if (fruit.name == name) return OrganPlace{plant, name, fruit.place, false};
+  for (const plant::PlantLeaf& leaf : file->leaves)
+    if (leaf.name == name) return OrganPlace{plant, name, leaf.place, true};
+  return {};
 }
 
 }  // namespace pedicel::app

@@ -6,13 +6,15 @@
 
 #include "app/panels/ui.h"
 #include "geometry/curve.h"
+#include "plant/stroke_fit.h"
 
 namespace pedicel::app {
 
 /// A place on a stem of the document.
 struct StemPlace {
   std::string plant, stem;
-  double at = 0.0;              ///< 1, fraction of the stem's drawn length
+  double at = 0.0;              ///< 1, fraction of the stem's drawn length, from its first point
+  double from_foot = 0.0;       ///< 1, the same from its foot, as the rods lie
   Vec3 drawn_W = Vec3::Zero();  ///< m, as it is drawn
   Vec3 now_W = Vec3::Zero();    ///< m, where it is in the simulation
 };
@@ -30,11 +32,22 @@ struct StemShape {
   std::vector<Vec3> points;    ///< m, W
   std::vector<double> radius;  ///< m
 };
-std::optional<StemShape> shape_of(const std::vector<Vec3>& stroke_W, const DrawMode& options);
+/// The samples' pressure is how many times as thick it is there as the options say.
+std::optional<StemShape> shape_of(const std::vector<plant::StrokeSample>& stroke_W,
+                                  const DrawMode& options);
 /// Radii along control points: from `largest` at the foot to `smallest` at the tip, changing
 /// between the fractions `start` and `end` of the length.
 std::vector<double> taper_radii(const std::vector<Vec3>& points, double largest, double smallest,
                                 double start, double end);
+
+/// A fruit or leaf of the document.
+struct OrganPlace {
+  std::string plant, name;
+  plant::CurvePlace place;
+  bool is_leaf = false;
+};
+/// The fruit or leaf that a selection is of; nothing where it is of neither.
+std::optional<OrganPlace> organ_of(const Ui& ui, const Selection& selection);
 
 /// X_WP of a plant of the document; the identity for an unknown one.
 Pose plant_pose(const Session& session, const std::string& plant);

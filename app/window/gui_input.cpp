@@ -35,6 +35,10 @@ void name_keys(ImGuiIO& io) {
   for (const auto& [theirs, ours] : names) io.KeyMap[theirs] = static_cast<int>(ours);
 }
 
+bool is_modifier(Key key) {
+  return key >= Key::left_shift && key <= Key::right_super;
+}
+
 bool down(const ImGuiIO& io, Key a, Key b) {
   return io.KeysDown[static_cast<int>(a)] || io.KeysDown[static_cast<int>(b)];
 }
@@ -66,7 +70,7 @@ std::vector<std::string> GuiInput::begin_frame() {
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
 
   for (InputEvent& event : platform_.poll()) waiting_.push_back(std::move(event));
-  button_changed_ = moved_ = false;
+  button_changed_ = moved_ = wheel_moved_ = false;
   keys_changed_.clear();
   std::vector<std::string> dropped;
   while (!waiting_.empty() && hand_on(waiting_.front())) {
@@ -78,6 +82,15 @@ std::vector<std::string> GuiInput::begin_frame() {
   io.KeyShift = down(io, Key::left_shift, Key::right_shift);
   io.KeyAlt = down(io, Key::left_alt, Key::right_alt);
   return dropped;
+}
+
+/// Whether a key that changes now would change what others of this picture meant. Shift, Ctrl and
+/// the like count as they stand when the picture is made: they wait once another key or the wheel
+/// was taken. What is pressed or released after them goes with them.
+bool GuiInput::has_to_wait(Key key) const {
+  const bool again = std::ranges::count(keys_changed_, key) > 0;
+  const bool others = std::ranges::any_of(keys_changed_, [](Key one) { return !is_modifier(one); });
+  return button_changed_ || again || (is_modifier(key) && (others || wheel_moved_));
 }
 
 /// False where the event has to wait for the next picture.
@@ -100,9 +113,10 @@ bool GuiInput::hand_on(const InputEvent& event) {
     case InputEvent::Kind::wheel:
       if (button_changed_) return false;
       io.MouseWheel += static_cast<float>(event.y);
+      wheel_moved_ = true;
       return true;
     case InputEvent::Kind::key:
-      if (button_changed_ || std::ranges::count(keys_changed_, event.key) > 0) return false;
+      if (has_to_wait(event.key)) return false;
       io.KeysDown[static_cast<int>(event.key)] = event.down;
       keys_changed_.push_back(event.key);
       return true;

@@ -8,7 +8,8 @@
 namespace pedicel::app {
 
 /// Hands input to Dear ImGui, which looks once a picture: what would be lost by that (a click that
-/// is shorter than a picture, a move between press and release) waits for the next one.
+/// is shorter than a picture, a move between press and release, a Ctrl that is let go right after
+/// the key it was meant for) waits for the next one, in the order in which it happened.
 class GuiInput {
  public:
   /// For the current ImGui context: names its keys and ties its clipboard to the platform's.
@@ -22,11 +23,12 @@ class GuiInput {
 
  private:
   bool hand_on(const InputEvent& event);
+  bool has_to_wait(Key key) const;
 
   Platform& platform_;
   std::deque<InputEvent> waiting_;
   double last_time_ = 0.0;
-  bool button_changed_ = false, moved_ = false;
+  bool button_changed_ = false, moved_ = false, wheel_moved_ = false;
   std::vector<Key> keys_changed_;
 };
 

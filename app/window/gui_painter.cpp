@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace pedicel::app {
 
@@ -151,6 +153,21 @@ void GuiPainter::paint(const ImDrawCmd& command, float height) const {
   gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
                             sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
                             offset(command.IdxOffset * sizeof(ImDrawIdx)), 1);
+}
+
+std::uint64_t interface_key(const ImDrawData& data) {
+  std::uint64_t key = static_cast<std::uint64_t>(data.TotalVtxCount);
+  const auto add = [&key](const void* from, std::size_t bytes) {
+    const std::string_view part(static_cast<const char*>(from), bytes);
+    key = (key ^ std::hash<std::string_view>{}(part)) * 0x9e3779b97f4a7c15ull;
+  };
+  for (int l = 0; l < data.CmdListsCount; ++l) {
+    const ImDrawList& list = *data.CmdLists[l];
+    add(list.VtxBuffer.Data, static_cast<std::size_t>(list.VtxBuffer.size_in_bytes()));
+    add(list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.size_in_bytes()));
+    for (const ImDrawCmd& command : list.CmdBuffer) add(&command.ClipRect, sizeof(ImVec4));
+  }
+  return key;
 }
 
 }  // namespace pedicel::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/gl_functions.h"
@@ -9,6 +10,9 @@ struct ImDrawCmd;
 struct ImFontAtlas;
 
 namespace pedicel::app {
+
+/// A number that is another where the interface would look otherwise (a hash of all its corners).
+std::uint64_t interface_key(const ImDrawData& data);
 
 /// Paints what Dear ImGui drew, with the project's own table of OpenGL functions: the same code in
 /// a window and off screen. (The packaged back end looks for its functions in a window system.)

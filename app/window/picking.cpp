@@ -1,6 +1,7 @@
 #include "app/window/picking.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pedicel::app {
@@ -46,6 +47,30 @@ void pick_fruits(Selection& best, const Snapshot& snapshot, int p, const render:
     found.kind = Kind::fruit;
     found.plant = p, found.fruit = f, found.element = fruit.element;
     found.back = fruit.back;
+    found.place_W = ray.origin + distance * ray.direction;
+    found.distance = distance;
+    take(best, found);
+  }
+}
+
+/// A leaf's blade stands for the element at its first corner.
+void pick_blades(Selection& best, const Snapshot& snapshot, int p, const render::Ray& ray) {
+  if (static_cast<std::size_t>(p) >= snapshot.assets->plants.size()) return;
+  const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
+  for (const Blade& blade : snapshot.assets->plants[static_cast<std::size_t>(p)].blades) {
+    std::array<Vec3, 3> corner;
+    bool whole = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      whole =
+          whole && blade[k].element < plant.model->size() && plant.state.alive[blade[k].element];
+      if (!whole) break;
+      corner[k] = point_on(*plant.model, plant.state, blade[k].element, blade[k].back);
+    }
+    const double distance = whole ? hit_triangle(ray, corner[0], corner[1], corner[2]) : -1.0;
+    if (distance < 0.0) continue;
+    Selection found;
+    found.kind = Kind::element;
+    found.plant = p, found.element = blade[0].element, found.back = blade[0].back;
     found.place_W = ray.origin + distance * ray.direction;
     found.distance = distance;
     take(best, found);
@@ -157,12 +182,8 @@ double hit_triangle(const render::Ray& ray, const Vec3& a, const Vec3& b, const 
   return ac.dot(q) / det;
 }
 
-std::optional<Vec3> hit_plane(const render::Ray& ray, const Vec3& point, const Vec3& normal) {
-  const double slope = ray.direction.dot(normal);
-  if (std::abs(slope) < 1e-9) return {};
-  const double distance = (point - ray.origin).dot(normal) / slope;
-  if (distance <= 0.0) return {};
-  return Vec3(ray.origin + distance * ray.direction);
+Ray ray_of(const render::Ray& ray) {
+  return {ray.origin, ray.direction};
 }
 
 Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render::Ray& ray,
@@ -171,6 +192,7 @@ Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render
   if (snapshot.assets) {
     for (int p = 0; p < static_cast<int>(snapshot.plants.size()); ++p) {
       pick_fruits(best, snapshot, p, ray);
+      pick_blades(best, snapshot, p, ray);
       pick_stems(best, missed, snapshot, p, ray, slack);
     }
     if (!best) best = missed;
@@ -180,7 +202,7 @@ Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render
   const double ground = snapshot.assets && snapshot.assets->scene.ground
                             ? snapshot.assets->scene.ground->height
                             : 0.0;
-  const auto floor = hit_plane(ray, Vec3(0, 0, ground), Vec3::UnitZ());
+  const auto floor = meet(ray_of(ray), ground_plane(ground));
   best.distance = floor ? (*floor - ray.origin).norm() : 2.0;
   best.place_W = ray.origin + best.distance * ray.direction;
   return best;

@@ -5,14 +5,17 @@
 #include "app/panels/view_state.h"
 #include "app/window/rigid_shapes.h"
 #include "render/camera.h"
+#include "session/draw_surface.h"
 #include "session/snapshot.h"
 
 namespace pedicel::app {
 
-/// What a ray hits first. A stem may be missed by `slack` (rad, as seen from the eye), so that thin
-/// ones can be met; another part of a plant that is hit squarely is preferred to one that is
-/// missed. Nothing hit: kind none, and `place_W` is where the ray meets the ground, or at the
-/// target's depth.
+/// What a ray hits first, as it is drawn now (a stroke's depth on planes and surfaces is the
+/// session's: draw_surface.h; places on stems as they are drawn in the file: plant_pick.h). A stem
+/// may be missed by `slack` (rad, as seen from the eye), so that thin ones can be met; a leaf is
+/// met at its rods and blades. Another part of a plant that is hit squarely is preferred to one
+/// that is missed. Nothing hit: kind none, and `place_W` is where the ray meets the ground, or at
+/// the target's depth.
 Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render::Ray& ray,
                double slack);
 
@@ -26,7 +29,7 @@ struct NearAxis {
 NearAxis near_axis(const render::Ray& ray, const Vec3& a, const Vec3& b);
 /// Moeller and Trumbore 1997; negative where it misses.
 double hit_triangle(const render::Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c);
-/// Where a ray meets the plane through a point with that normal; nothing where it does not.
-std::optional<Vec3> hit_plane(const render::Ray& ray, const Vec3& point, const Vec3& normal);
+/// The same ray for the session's planes and surfaces (draw_surface.h).
+Ray ray_of(const render::Ray& ray);
 
 }  // namespace pedicel::app

@@ -18,6 +18,11 @@ render::RenderSettings settings_of_level(int level);
 /// Share of the pixels' sides that is drawn at a level; the picture is stretched to its place.
 double resolution_of_level(int level);
 
+/// Stems that are thinner than so many pixels in a picture of that height, drawn that thick:
+/// without samples between pixels they would be dotted lines. Zero: as they are.
+double least_width_of_level(int level);
+void widen(render::DrawList& list, const render::Camera& camera, int height, double pixels);
+
 /// The scene as a texture that the interface shows as an image.
 class SceneCanvas {
  public:
@@ -27,7 +32,9 @@ class SceneCanvas {
   SceneCanvas& operator=(const SceneCanvas&) = delete;
 
   /// Draws the scene for a place of that size (px). `quality` goes down or up with the time taken.
-  void draw(const render::DrawList& list, const render::Camera& camera, int width, int height,
+  /// Nothing is drawn where the picture would be the last one again; where that stays so for a
+  /// moment, it is drawn once at the best quality. Whether something was drawn.
+  bool draw(const render::DrawList& list, const render::Camera& camera, int width, int height,
             CanvasQuality& quality, bool shadows);
   /// A still picture of the scene at the best quality.
   render::Image still(const render::DrawList& list, const render::Camera& camera, int width,
@@ -38,6 +45,14 @@ class SceneCanvas {
   long triangles() const { return renderer_.triangles(); }
 
  private:
+  /// What a picture depends on.
+  struct Shown {
+    std::uint64_t key = 0;
+    int width = 0, height = 0, level = -1;
+    bool shadows = false;
+    bool operator==(const Shown&) const = default;
+  };
+  void paint(const render::DrawList& list, const render::Camera& camera, const Shown& what);
   void resize(int width, int height);
   void adapt(double seconds, CanvasQuality& quality);
 
@@ -45,6 +60,9 @@ class SceneCanvas {
   render::Renderer renderer_;
   GLuint texture_ = 0, framebuffer_ = 0;
   std::array<int, 2> size_{0, 0};
+  Shown shown_;
+  int same_ = 0;  // pictures that were not drawn again
+  render::DrawList widened_;
   double seconds_ = 0.0;
   int calm_ = 0, level_ = -1;
 };

@@ -38,6 +38,7 @@ void SceneMouse::press(Ui& ui, const SceneFrame& frame, int button, bool tool_ha
   button_ = button;
   pressed_at_ = ImGui::GetIO().MousePos;
   pressed_on_ = ui.hover;
+  to_tip_ = button == 0 && ImGui::GetIO().KeyAlt;
   meant_ = choose(ui, button, tool_has_left);
   drag_ = Drag::undecided;
   if (meant_ != Drag::pull) return;
@@ -58,8 +59,8 @@ void SceneMouse::press(Ui& ui, const SceneFrame& frame, int button, bool tool_ha
 /// The pulled point goes with the pointer in the plane across the view; with Shift up and down
 /// only.
 void SceneMouse::move_pull(Ui& ui, const SceneFrame& frame) {
-  const Vec3 back = (frame.camera.eye - frame.camera.target).normalized();
-  const auto at = hit_plane(frame.ray(ImGui::GetIO().MousePos), grabbed_W_, back);
+  const DrawPlane across = view_plane(frame.camera.target - frame.camera.eye, grabbed_W_);
+  const auto at = meet(ray_of(frame.ray(ImGui::GetIO().MousePos)), across);
   if (!at) return;
   Vec3 target = *at;
   if (ImGui::GetIO().KeyShift) target.head<2>() = grabbed_W_.head<2>();
@@ -87,6 +88,7 @@ void SceneMouse::move(Ui& ui, ViewCamera& camera, const SceneFrame& frame) {
 void SceneMouse::click(Ui& ui, ViewCamera& camera) {
   if (button_ != 0 && !(button_ == 1 && ImGui::IsMouseDoubleClicked(1))) return;
   ui.selection = pressed_on_;
+  ui.selection.to_tip = to_tip_ && pressed_on_.kind == Selection::Kind::element;
   if (pressed_on_.kind == Selection::Kind::element || pressed_on_.kind == Selection::Kind::fruit)
     ui.session.control().log().watch(describe(pressed_on_, *ui.snapshot));
   (void)camera;
@@ -124,7 +126,8 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
   if (drag_ == Drag::none) return;
   move(ui, camera, frame);
   if (ImGui::IsMouseDown(button_)) return;
-  if (drag_ == Drag::undecided && !(tool_has_left && button_ == 0)) click(ui, camera);
+  // In the draw mode a plain click is the tool's; with Alt it chooses there, too.
+  if (drag_ == Drag::undecided && (to_tip_ || !(tool_has_left && button_ == 0))) click(ui, camera);
   release(ui);
 }
 

@@ -50,6 +50,7 @@ class SceneMouse {
   ImVec2 pressed_at_{0, 0};
   Vec3 grabbed_W_ = Vec3::Zero();  // m, of a pull
   Selection pressed_on_;
+  bool to_tip_ = false;  // Alt was down: from there to the tip
 };
 
 }  // namespace pedicel::app

@@ -39,6 +39,11 @@ std::vector<double> contact_forces(const Snapshot& snapshot, int plant, int elem
 
 bool is_chosen(const Selection& selection, const cosserat::RodModel& model, int plant,
                int element) {
+  if (selection.to_tip && selection.kind == Selection::Kind::element && selection.plant == plant) {
+    int e = element;
+    while (e > selection.element) e = model.elements[static_cast<std::size_t>(e)].parent;
+    return e == selection.element;
+  }
   return selection.kind == Selection::Kind::element && selection.plant == plant &&
          selection.element < model.size() &&
          model.elements[static_cast<std::size_t>(element)].organ ==

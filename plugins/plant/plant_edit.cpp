@@ -7,6 +7,7 @@
 #include "io/csv.h"
 #include "plant/plant_edit_parts.h"
 #include "plant/plant_graph.h"
+#include "plant/point_kind.h"
 
 namespace pedicel::plant {
 
@@ -20,13 +21,6 @@ bool has(const std::vector<Item>& items, const std::string& name) {
 
 bool is_taken(const PlantFile& plant, const std::string& name) {
   return has(plant.curves, name) || has(plant.fruits, name) || has(plant.leaves, name);
-}
-
-void check_point(const PlantCurve& curve, int point) {
-  const int count = static_cast<int>(curve.points.size());
-  if (point < 0 || point >= count)
-    throw UsageError("point " + std::to_string(point) + " of " + curve.name +
-                     ": expected one from 0 to " + std::to_string(count - 1));
 }
 
 void check_curve(const PlantCurve& curve) {
@@ -58,16 +52,6 @@ void spread_radius(PlantCurve& curve) {
 template <typename Items>
 void drop_on(Items& items, const std::string& curve) {
   std::erase_if(items, [&](const auto& item) { return item.place.curve == curve; });
-}
-
-void drop_curve(PlantFile& plant, const std::string& name) {
-  drop_on(plant.fruits, name);
-  drop_on(plant.leaves, name);
-  drop_on(plant.masses, name);
-  std::erase_if(plant.supports, [&](const CurvePlace& place) { return place.curve == name; });
-  std::erase_if(plant.effects,
-                [&](const Effect& effect) { return effect.place && effect.place->curve == name; });
-  std::erase_if(plant.curves, [&](const PlantCurve& curve) { return curve.name == name; });
 }
 
 void rename_curve(PlantFile& plant, const std::string& name, const std::string& new_name) {
@@ -103,6 +87,23 @@ std::string free_name(const PlantFile& plant, const std::string& wanted) {
   std::string name = wanted;
   for (int i = 2; is_taken(plant, name); ++i) name = wanted + "_" + std::to_string(i);
   return name;
+}
+
+void drop_curve(PlantFile& plant, const std::string& name) {
+  drop_on(plant.fruits, name);
+  drop_on(plant.leaves, name);
+  drop_on(plant.masses, name);
+  std::erase_if(plant.supports, [&](const CurvePlace& place) { return place.curve == name; });
+  std::erase_if(plant.effects,
+                [&](const Effect& effect) { return effect.place && effect.place->curve == name; });
+  std::erase_if(plant.curves, [&](const PlantCurve& curve) { return curve.name == name; });
+}
+
+void check_point(const PlantCurve& curve, int point) {
+  const int count = static_cast<int>(curve.points.size());
+  if (point < 0 || point >= count)
+    throw UsageError("point " + std::to_string(point) + " of " + curve.name +
+                     ": expected one from 0 to " + std::to_string(count - 1));
 }
 
 void check_free(const PlantFile& plant, const std::string& name) {
@@ -153,7 +154,7 @@ void move_point(PlantFile& plant, const std::string& stem, int point, const Vec3
   const int index = find_stem(plant, stem);
   PlantCurve curve = plant.curves[index];
   check_point(curve, point);
-  curve.points[point] = to;
+  move_control_point(curve, point, to);
   replace_curve(plant, index, std::move(curve));
 }
 
@@ -176,8 +177,7 @@ void remove_point(PlantFile& plant, const std::string& stem, int point) {
   const int index = find_stem(plant, stem);
   PlantCurve curve = plant.curves[index];
   check_point(curve, point);
-  curve.points.erase(curve.points.begin() + point);
-  if (curve.radius.size() > 1) curve.radius.erase(curve.radius.begin() + point);
+  remove_control_point(curve, point);
   if (curve.radius.size() > 1 && curve.points.size() < 2) curve.radius.resize(1);
   replace_curve(plant, index, std::move(curve));
 }
@@ -240,6 +240,10 @@ void set_radius(PlantFile& plant, const std::string& stem, int point, double rad
     if (curve.radius.empty()) throw UsageError(stem + " has no radius of its own to change");
     spread_radius(curve);
     curve.radius[point] = radius;
+    for (const int beside : {point - 1, point + 1})  // those that hold a corner have its radius
+      if (beside >= 0 && beside < static_cast<int>(curve.points.size()) &&
+          held_point(curve, beside) == point)
+        curve.radius[beside] = radius;
   }
   replace_curve(plant, index, std::move(curve));
 }

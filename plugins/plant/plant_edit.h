@@ -27,12 +27,18 @@ std::string free_name(const PlantFile& plant, const std::string& wanted);
 void add_stem(PlantFile& plant, PlantCurve curve);
 /// Takes a stem off with everything that is on it, and its branches where they are to go, too.
 void remove_stem(PlantFile& plant, const std::string& name, bool with_branches = true);
+/// Cuts a stem at a place: what lies beyond, seen from its foot, goes with everything on it, and
+/// the branches that hang there. What is on the rest stays where it was drawn. Throws where less
+/// than a millimetre would be left, or taken.
+void trim_stem(PlantFile& plant, const std::string& stem, double at);
 /// Of a curve, fruit or leaf; what is on a curve goes with its name.
 void rename(PlantFile& plant, const std::string& name, const std::string& new_name);
 
+/// A corner keeps the points that hold it (point_kind.h).
 void move_point(PlantFile& plant, const std::string& stem, int point, const Vec3& to);
 /// On the curve as it is now, with the radius that it has there. Returns its index.
 int insert_point(PlantFile& plant, const std::string& stem, double at);
+/// With those that hold it.
 void remove_point(PlantFile& plant, const std::string& stem, int point);
 /// All points at once; a list of radii is resampled where the number of points is another.
 void set_points(PlantFile& plant, const std::string& stem, const std::vector<Vec3>& points);

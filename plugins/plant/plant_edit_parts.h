@@ -15,6 +15,9 @@ inline constexpr double smallest_gap = 1.0e-6;  ///< m, between neighbouring poi
 /// Throws UsageError.
 void check_free(const PlantFile& plant, const std::string& name);
 void check_fraction(double at);
+void check_point(const PlantCurve& curve, int point);
+/// Takes a curve off with what is on it; not its branches.
+void drop_curve(PlantFile& plant, const std::string& name);
 
 /// Branches keep their place on a stem that is about to change. They are moved, not turned: a
 /// branch that was drawn upright stays so.

@@ -62,6 +62,8 @@ class Desk {
     frames(2);
   }
 
+  /// Without a picture in between.
+  void send(const InputEvent& event) { platform_->send(event); }
   void move(double x, double y) { platform_->send(InputEvent::move(x, y)), drain(); }
   void button(int which, bool down) { platform_->send(InputEvent::press(which, down)), drain(); }
   void click(double x, double y, int which = 0) {
@@ -97,6 +99,7 @@ class Desk {
     frames(6);  // a scroll bar comes after the first, and then all gets narrower
   }
   std::shared_ptr<const Snapshot> snapshot() { return session_->snapshot(); }
+  const render::GlFunctions* gl() const { return platform_->gl(); }
   render::Image picture() { return desktop_->window_picture().value(); }
 
  private:

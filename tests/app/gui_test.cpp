@@ -1,4 +1,7 @@
 // The window's habits, by real input events off screen.
+#include <chrono>
+#include <thread>
+
 #include "core/check.h"
 #include "desk.h"
 
@@ -29,7 +32,12 @@ class Gui : public ::testing::Test {
 TEST_F(Gui, SpacePlaysAndPauses) {
   EXPECT_EQ(desk_.snapshot()->mode, RunMode::paused);
   desk_.key(Key::space);
+  desk_.settle();  // a window that stands still draws faster than the simulation answers
   EXPECT_EQ(desk_.snapshot()->mode, RunMode::playing);
+  for (int i = 0; i < 400 && desk_.snapshot()->step == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    desk_.frames(1);
+  }
   desk_.key(Key::space);
   desk_.settle();
   EXPECT_EQ(desk_.snapshot()->mode, RunMode::paused);

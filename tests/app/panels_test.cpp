@@ -1,6 +1,7 @@
 // Every panel is drawn off screen in several windows, and must show something, and whole words.
 #include <map>
 
+#include "app/panels/stem_editor.h"
 #include "app/panels/theme.h"
 #include "cut_text.h"
 #include "desk.h"
@@ -79,8 +80,24 @@ TEST_P(Panels, DetailsOfWhatIsChosen) {
   }
 }
 
+TEST_P(Panels, DetailsOfAStemAndItsPoints) {
+  desk_->ui().draw.on = true;
+  Selection& s = desk_->ui().selection;
+  for (const char* part : {"stem", "point", "to_tip", "leaf"}) {
+    s = {};
+    choose_curve(desk_->ui(), "truss", "stem");
+    if (part == std::string("point")) s.kind = Selection::Kind::curve_point, s.point = 1;
+    if (part == std::string("leaf")) choose_leaf(desk_->ui(), "truss", "leaf_1");
+    if (part == std::string("to_tip"))
+      s = {}, s.kind = Selection::Kind::element, s.plant = 0, s.element = 3, s.to_tip = true;
+    desk_->show("Plants");
+    check(std::string("details of ") + part, panel_window("left", "Plants"));
+  }
+}
+
 TEST_P(Panels, DrawOptionsOfEveryThing) {
-  for (const DrawThing thing : {DrawThing::stem, DrawThing::fruit, DrawThing::leaf}) {
+  for (const DrawThing thing :
+       {DrawThing::stem, DrawThing::fruit, DrawThing::leaf, DrawThing::trim}) {
     desk_->ui().draw.thing = thing;
     desk_->ui().draw.on = true;
     desk_->show("Draw");

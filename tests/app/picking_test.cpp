@@ -27,11 +27,5 @@ TEST(Picking, ATriangleInsideAndOutside) {
   EXPECT_LT(hit_triangle({Vec3(-1, 0.9, 0.5), Vec3(1, 0, 0)}, a, b, c), 0.0);
 }
 
-TEST(Picking, APlaneAheadOnly) {
-  EXPECT_TRUE(hit_plane(along_x, Vec3(1, 0, 0), Vec3(1, 0, 0)));
-  EXPECT_FALSE(hit_plane(along_x, Vec3(-2, 0, 0), Vec3(1, 0, 0)));
-  EXPECT_FALSE(hit_plane(along_x, Vec3(0, 1, 0), Vec3(0, 1, 0)));
-}
-
 }  // namespace
 }  // namespace pedicel::app

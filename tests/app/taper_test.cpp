@@ -12,7 +12,18 @@ TEST(Taper, RadiiChangeBetweenTheTwoPlaces) {
 }
 
 TEST(Taper, AStrokeWithoutExtentIsNoStem) {
-  EXPECT_FALSE(shape_of({Vec3::Zero(), Vec3::Zero()}, {}));
+  EXPECT_FALSE(shape_of({{Vec3::Zero(), 1.0}, {Vec3::Zero(), 1.0}}, {}));
+}
+
+TEST(Taper, AStrokeIsAsManyTimesAsThickAsItsSamplesSay) {
+  std::vector<plant::StrokeSample> stroke;
+  for (int i = 0; i <= 60; ++i) stroke.push_back({Vec3(0, 0, 0.01 * i), i < 30 ? 1.0 : 3.0});
+  DrawMode options;
+  options.radius_min = options.radius_max = 0.002;
+  const auto shape = shape_of(stroke, options);
+  ASSERT_TRUE(shape);
+  EXPECT_NEAR(shape->radius.front(), 0.002, 1e-9);
+  EXPECT_NEAR(shape->radius.back(), 0.006, 1e-9);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ Command random_command(Random& random, const Document& document, int number) {
   const std::string stem = some(random, plant.curves), fruit = some(random, plant.fruits);
   const std::string fresh = "x" + std::to_string(number);
   const Value p = "p";
-  switch (random.integer(0, 17)) {
+  switch (random.integer(0, 20)) {
     case 0:
     case 1:
       return {"draw stem",
@@ -85,6 +85,17 @@ Command random_command(Random& random, const Document& document, int number) {
               {{"plant", p}, {"name", fruit}, {"key", "bend"}, {"value", random.uniform()}}};
     case 16:
       return {"set", {{"key", "coupling.friction"}, {"value", std::to_string(random.uniform())}}};
+    case 17:
+      return {"trim stem", {{"plant", p}, {"stem", stem}, {"at", random.uniform(0.5, 1.0)}}};
+    case 18:
+    case 19: {
+      const char* const kinds[] = {"corner", "linear", "smooth"};
+      return {"set point kind",
+              {{"plant", p},
+               {"stem", stem},
+               {"point", random.integer(0, 3)},
+               {"kind", kinds[random.integer(0, 2)]}}};
+    }
     default:
       return {"set length", {{"plant", p}, {"stem", stem}, {"length", random.uniform(0.05, 0.5)}}};
   }
@@ -117,7 +128,7 @@ TEST_P(RandomCommands, UndoneOneByOneRestoreEveryState) {
     verbs.insert(command.verb());
     hashes.push_back(document.state_hash());
   }
-  EXPECT_GT(verbs.size(), 12u);
+  EXPECT_GT(verbs.size(), 14u);
   EXPECT_GT(std::set<std::uint64_t>(hashes.begin(), hashes.end()).size(), 180u);
 
   for (std::size_t i = 200; i > 0; --i) {

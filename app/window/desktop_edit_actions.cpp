@@ -1,0 +1,84 @@
+#include "app/panels/point_editor.h"
+#include "app/window/desktop.h"
+#include "app/window/draw_tool.h"
+
+/// Actions that change the plants, or what is chosen of them.
+namespace pedicel::app {
+
+namespace {
+
+/// Neighbours in the tree of organs: the organ that carries one, or the first that grows from it.
+int parent_element(const cosserat::RodModel& model, int element) {
+  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
+  for (int e = element; e >= 0; e = model.elements[static_cast<std::size_t>(e)].parent)
+    if (model.elements[static_cast<std::size_t>(e)].organ != organ) return e;
+  return element;
+}
+
+int child_element(const cosserat::RodModel& model, int element) {
+  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
+  for (int e = 0; e < model.size(); ++e) {
+    const int parent = model.elements[static_cast<std::size_t>(e)].parent;
+    if (parent >= 0 && model.elements[static_cast<std::size_t>(parent)].organ == organ &&
+        model.elements[static_cast<std::size_t>(e)].organ != organ)
+      return e;
+  }
+  return element;
+}
+
+}  // namespace
+
+void Desktop::perform_edit(Action action) {
+  const auto walk = [&](auto neighbour) {
+    if (ui_.selection.kind != Selection::Kind::element) return;
+    const auto& model = *ui_.snapshot->plants[static_cast<std::size_t>(ui_.selection.plant)].model;
+    ui_.selection.element = neighbour(model, ui_.selection.element);
+    ui_.selection.to_tip = false;
+  };
+  switch (action) {
+    case Action::undo:
+      ui_.report(ui_.session.undo());
+      break;
+    case Action::redo:
+      ui_.report(ui_.session.redo());
+      break;
+    case Action::draw_mode:
+      ui_.draw.on = !ui_.draw.on;
+      if (ui_.draw.on) ui_.show_panel = "Draw";
+      break;
+    case Action::point_kind:
+      change_point_kind(ui_);
+      break;
+    case Action::insert_point:
+      insert_point(ui_);
+      break;
+    case Action::smooth:
+      smooth_points(ui_);
+      break;
+    case Action::select_child:
+      if (!draw_tool_->thicken(1.0)) walk(child_element);
+      break;
+    case Action::select_parent:
+      if (!draw_tool_->thicken(-1.0)) walk(parent_element);
+      break;
+    case Action::remove:
+      draw_tool_->remove_selected(ui_);
+      break;
+    case Action::accept:
+      break;
+    case Action::cancel:
+      if (ui_.dialog != Dialog::none)
+        ui_.dialog = Dialog::none;
+      else if (draw_tool_->cancel(ui_))
+        break;
+      else if (ui_.draw.on)
+        ui_.draw.on = false;
+      else
+        ui_.selection = {};
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace pedicel::app

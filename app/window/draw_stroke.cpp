@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/panels/stem_editor.h"
+#include "app/window/draw_tool.h"
+#include "app/window/picking.h"
+#include "plant/plant_edit.h"
+
+/// Strokes that become stems, and fruits and leaves that are put on.
+namespace pedicel::app {
+
+namespace {
+
+constexpr double shortest_stem = 0.004;  // m
+constexpr double farthest = 5.0;         // m, of a stroke from its start
+constexpr double nearest = 2e-4;         // m, of two places of a stroke
+
+std::string unused_name(const Session& session, const std::string& plant,
+                        const std::string& wanted) {
+  const plant::PlantFile* file = plant_file(session, plant);
+  return file ? plant::free_name(*file, wanted) : wanted;
+}
+
+std::string unused_plant(const Session& session) {
+  std::string name = "plant";
+  for (int i = 2; session.document().plant_index(name) >= 0; ++i)
+    name = "plant_" + std::to_string(i);
+  return name;
+}
+
+double length_of(const std::vector<plant::StrokeSample>& stroke) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    length += (stroke[i].position - stroke[i - 1].position).norm();
+  return length;
+}
+
+ProjectorOptions projector_options(const DrawMode& d, double height) {
+  ProjectorOptions options;
+  const bool creeps = d.depth == DrawDepth::surface && !d.only_first;
+  if (creeps)
+    options.plane = StrokePlane::surface;
+  else if (d.plane == PlaneChoice::ground)
+    options.plane = StrokePlane::ground;
+  else if (d.plane == PlaneChoice::tangent)
+    options.plane = StrokePlane::tangent;
+  options.only_first = d.only_first;
+  options.offset = creeps ? d.offset : 0.0;
+  options.ground = height;
+  return options;
+}
+
+}  // namespace
+
+/// Its depth is that of the stem it begins on, of what lies under the pointer, or of the orbit's
+/// centre.
+void DrawTool::begin_stroke(Ui& ui, const SceneFrame& frame) {
+  hand_ = Hand::stroke;
+  thickness_ = 1.0;
+  const Vec3 view = (frame.camera.target - frame.camera.eye).normalized();
+  const Vec3 start = foot_                                 ? foot_->now_W
+                     : ui.draw.depth == DrawDepth::surface ? ui.hover.place_W
+                                                           : Vec3(frame.camera.target);
+  const ProjectorOptions options = projector_options(ui.draw, start.z());
+  surfaces_.reset();
+  if (options.plane == StrokePlane::surface) surfaces_ = std::make_unique<Surfaces>(*ui.snapshot);
+  projector_.emplace(options, view, surfaces_.get());
+  projector_->set_fallback(start);
+  if (foot_) {
+    Vec3 along = Vec3::UnitZ();
+    if (const auto curve = drawn_curve(ui.session, foot_->plant, foot_->stem))
+      along = plant_pose(ui.session, foot_->plant).rotation *
+              curve->tangent(foot_->at * curve->length());
+    projector_->start_on_stem(foot_->now_W, along);
+  }
+  const auto first = projector_->place(ray_of(frame.ray(ImGui::GetIO().MousePos)));
+  stroke_ = {{first.value_or(start), 1.0}};
+}
+
+void DrawTool::extend_stroke(const Ui&, const SceneFrame& frame) {
+  const auto at = projector_->place(ray_of(frame.ray(ImGui::GetIO().MousePos)));
+  if (!at || (*at - stroke_.front().position).norm() > farthest) return;
+  if ((*at - stroke_.back().position).norm() > nearest) stroke_.push_back({*at, thickness_});
+}
+
+/// A stroke that starts on a stem becomes its branch; any other one the first stem of a plant of
+/// its own. Points are moved by what the simulation has moved the foot from its drawing.
+void DrawTool::end_stroke(Ui& ui) {
+  const std::vector<plant::StrokeSample> stroke = std::move(stroke_);
+  stroke_.clear();
+  if (length_of(stroke) < shortest_stem) {
+    if (foot_) choose_curve(ui, foot_->plant, foot_->stem);  // a click
+    return;
+  }
+  const DrawMode& d = ui.draw;
+  const auto shape = shape_of(stroke, d);
+  if (!shape) return;
+  std::vector<Vec3> points = shape->points;
+  ui.session.begin_gesture();
+  bool taken = true;
+  std::string plant = foot_ ? foot_->plant : d.plant;
+  const plant::PlantFile* file = plant_file(ui.session, plant);
+  const Vec3 start = points.front();
+  if (!foot_) {
+    if (!file || !file->curves.empty()) {
+      plant = unused_plant(ui.session);
+      taken = ui.run(Command("new plant", {{"plant", plant}, {"position", start}}));
+    } else {
+      taken = ui.run(Command("move plant", {{"plant", plant}, {"to", start}}));
+    }
+  }
+  const Vec3 offset = foot_ ? Vec3(foot_->drawn_W - foot_->now_W) : Vec3(Vec3::Zero());
+  const Pose to_plant = plant_pose(ui.session, plant).inverse();
+  for (Vec3& point : points) point = to_plant * Vec3(point + offset);
+  const std::string stem = unused_name(ui.session, plant, foot_ ? "branch" : "stem");
+  taken = taken &&
+          ui.run(Command(
+              "draw stem",
+              {{"plant", plant}, {"stem", stem}, {"points", points}, {"radius", shape->radius}}));
+  if (!taken) return ui.session.cancel_gesture();
+  ui.session.end_gesture();
+  ui.draw.plant = plant;
+  // Not chosen: its points would be in the way of the next branch.
+  ui.selection = {};
+}
+
+void DrawTool::put_organ(Ui& ui, const StemPlace& place) {
+  const DrawMode& d = ui.draw;
+  const bool fruit = d.thing == DrawThing::fruit;
+  const std::string name = unused_name(ui.session, place.plant, fruit ? "fruit" : "leaf");
+  if (fruit)
+    ui.run(Command("add fruit", {{"plant", place.plant},
+                                 {"name", name},
+                                 {"stem", place.stem},
+                                 {"at", place.at},
+                                 {"radius", d.fruit_radius},
+                                 {"density", d.fruit_density},
+                                 {"stretch", d.fruit_stretch}}));
+  else
+    ui.run(Command("add leaf", {{"plant", place.plant},
+                                {"name", name},
+                                {"stem", place.stem},
+                                {"at", place.at},
+                                {"size", d.leaf_size}}));
+}
+
+}  // namespace pedicel::app

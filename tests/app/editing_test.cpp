@@ -1,0 +1,222 @@
+// Editing a drawn plant in the scene, by real input events off screen.
+#include "app/panels/stem_editor.h"
+#include "app/window/radius_handles.h"
+#include "desk.h"
+#include "plant/plant_edit.h"
+#include "plant/point_kind.h"
+
+namespace pedicel::app {
+namespace {
+
+class Editing : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!desk_.available()) GTEST_SKIP() << desk_.why();
+    desk_.ui().view.automatic_quality = false;
+    desk_.ui().view.quality = CanvasQuality::coarsest;
+    desk_.session().open_empty();
+    for (const char* line :
+         {"new plant p", "draw stem p stem 0,0,0;0,0,0.15;0,0,0.3;0,0,0.45 0.006",
+          "draw stem p branch 0,0,0.3;0.08,0.05,0.34;0.16,0.1,0.36 0.003",
+          "add leaf p leaf stem 0.75 0.08 direction=-0.7,-0.7,0"})
+      ASSERT_TRUE(desk_.session().run_text(line).ok);
+    desk_.settle();
+    desk_.key(Key::home);
+    desk_.key(Key::d);
+    steps_ = desk_.session().history().size();
+  }
+  const plant::PlantFile& plant() { return desk_.session().document().plant("p"); }
+  const plant::PlantCurve& curve(const std::string& name) {
+    return plant().curves[static_cast<std::size_t>(plant::find_stem(plant(), name))];
+  }
+  /// One step of the history was made since the last call.
+  void expect_one_step() {
+    EXPECT_EQ(desk_.session().history().size(), ++steps_) << desk_.ui().notice;
+  }
+  void choose(const std::string& stem, int point) {
+    choose_curve(desk_.ui(), "p", stem);
+    if (point < 0) return;
+    desk_.ui().selection.kind = Selection::Kind::curve_point;
+    desk_.ui().selection.point = point;
+  }
+  Desk desk_;
+  std::size_t steps_ = 0;
+};
+
+TEST_F(Editing, ARadiusHandleIsDraggedAcrossTheStem) {
+  choose("stem", -1);
+  desk_.frames(2);
+  std::optional<RadiusHandle> handle;
+  for (const RadiusHandle& one :
+       radius_handles(curve("stem"), Pose{}, desk_.desktop().scene(), 1.0))
+    if (one.point == 1 && one.away.x > 0.5f) handle = one;
+  ASSERT_TRUE(handle);
+  const float px = static_cast<float>(0.004 / handle->metres);
+  desk_.move(handle->at.x, handle->at.y);
+  desk_.button(0, true);
+  desk_.move(handle->at.x + 0.5f * px, handle->at.y);
+  EXPECT_NEAR(curve("stem").radius[1], 0.008, 4e-4) << "while it is dragged";
+  desk_.move(handle->at.x + px, handle->at.y);
+  desk_.button(0, false);
+  desk_.settle();
+  ASSERT_EQ(curve("stem").radius.size(), 4u);
+  EXPECT_NEAR(curve("stem").radius[1], 0.010, 4e-4);
+  EXPECT_EQ(curve("stem").radius[0], 0.006) << "the others keep theirs";
+  expect_one_step();
+  double thickest = 0.0;
+  const auto snapshot = desk_.snapshot();
+  for (const auto& element : snapshot->plants[0].model->elements)
+    thickest = std::max(thickest, element.radius_near);
+  EXPECT_GT(thickest, 0.0085) << "it is simulated so";
+  desk_.key(Key::z, true);
+  EXPECT_EQ(curve("stem").radius, std::vector<double>{0.006});
+}
+
+TEST_F(Editing, KeysChangeTheKindOfTheChosenPoint) {
+  ASSERT_TRUE(desk_.session()
+                  .run_text("draw stem p bow 0,0,0.1;0.06,0,0.14;0.12,0,0.1;0.18,0,0.16;0.24,0,0.1 "
+                            "0.003")
+                  .ok);
+  desk_.settle();
+  steps_ = desk_.session().history().size();
+  choose("bow", -1);
+  const ImVec2 middle = desk_.at(Vec3(0.12, 0, 0.1));
+  desk_.click(middle.x, middle.y);
+  ASSERT_EQ(desk_.ui().selection.kind, Selection::Kind::curve_point);
+  for (const plant::PointKind kind :
+       {plant::PointKind::corner, plant::PointKind::linear, plant::PointKind::smooth}) {
+    desk_.key(Key::v);
+    EXPECT_EQ(plant::point_kind(curve("bow"), desk_.ui().selection.point), kind);
+    expect_one_step();
+  }
+  EXPECT_EQ(curve("bow").points.size(), 5u) << "smooth again";
+  desk_.click(desk_.at(Vec3(0, 0, 0.1)).x, desk_.at(Vec3(0, 0, 0.1)).y);
+  desk_.key(Key::v);
+  EXPECT_EQ(plant::point_kind(curve("bow"), 0), plant::PointKind::linear) << "an end has no corner";
+}
+
+TEST_F(Editing, PointsAreInsertedSmoothedAndDeletedByKeys) {
+  choose("branch", 1);
+  desk_.key(Key::insert);
+  ASSERT_EQ(curve("branch").points.size(), 4u);
+  EXPECT_EQ(desk_.ui().selection.point, 2) << "the new one is chosen";
+  expect_one_step();
+  const Vec3 before = curve("branch").points[2];
+  desk_.session().run(Command(
+      "move point",
+      {{"plant", "p"}, {"stem", "branch"}, {"point", 2}, {"to", Vec3(before + Vec3(0, 0, 0.05))}}));
+  expect_one_step();
+  desk_.key(Key::s);
+  EXPECT_LT(curve("branch").points[2].z(), before.z() + 0.04);
+  expect_one_step();
+  desk_.key(Key::del);
+  EXPECT_EQ(curve("branch").points.size(), 3u);
+  expect_one_step();
+}
+
+TEST_F(Editing, ALeafIsDraggedAlongItsStem) {
+  const auto snapshot = desk_.snapshot();
+  const PlantSnapshot& plant_now = snapshot->plants[0];
+  const auto& blades = snapshot->assets->plants[0].blades;
+  ASSERT_FALSE(blades.empty());
+  Vec3 on_leaf = Vec3::Zero();
+  for (const BladeCorner& corner : blades[blades.size() / 2])
+    on_leaf += point_on(*plant_now.model, plant_now.state, corner.element, corner.back) / 3.0;
+  const ImVec2 from = desk_.at(on_leaf);
+  const ImVec2 low = desk_.at(Vec3(0, 0, 0.1)), high = desk_.at(Vec3(0, 0, 0.45 * 0.75));
+  desk_.move(from.x, from.y);
+  ASSERT_EQ(describe(desk_.ui().hover, *desk_.snapshot()), "p/leaf");
+  desk_.button(0, true);
+  desk_.move(from.x + 0.5f * (low.x - high.x), from.y + 0.5f * (low.y - high.y));
+  EXPECT_LT(plant().leaves[0].place.at, 0.6) << "while it is dragged";
+  desk_.move(from.x + low.x - high.x, from.y + low.y - high.y);
+  desk_.button(0, false);
+  desk_.settle();
+  EXPECT_EQ(plant().leaves[0].place.curve, "stem");
+  EXPECT_NEAR(plant().leaves[0].place.at, 0.1 / 0.45, 0.04);
+  expect_one_step();
+  desk_.key(Key::z, true);
+  EXPECT_EQ(plant().leaves[0].place.at, 0.75);
+}
+
+TEST_F(Editing, AltClickChoosesToTheTipAndDelCutsIt) {
+  for (const bool drawing : {true, false}) {
+    desk_.ui().draw.on = drawing;
+    desk_.ui().selection = {};
+    const ImVec2 at = desk_.at(Vec3(0, 0, 0.2));
+    desk_.hold(Key::left_alt, true);
+    desk_.click(at.x, at.y);
+    desk_.hold(Key::left_alt, false);
+    EXPECT_TRUE(desk_.ui().selection.to_tip) << drawing;
+    EXPECT_EQ(describe(desk_.ui().selection, *desk_.snapshot()), "p/stem");
+  }
+  desk_.key(Key::del);
+  desk_.settle();
+  EXPECT_NEAR(plant::stem_curve(plant(), "stem").length(), 0.2, 0.02);
+  EXPECT_EQ(plant().curves.size(), 1u) << "the branch was beyond";
+  EXPECT_TRUE(plant().leaves.empty());
+  expect_one_step();
+}
+
+TEST_F(Editing, TheTrimBrushCutsWhatItCrosses) {
+  desk_.ui().draw.thing = DrawThing::trim;
+  const ImVec2 trunk = desk_.at(Vec3(0, 0, 0.4)), twig = desk_.at(Vec3(0.12, 0.075, 0.352));
+  desk_.drag({ImVec2(trunk.x - 30, trunk.y), trunk, twig, ImVec2(twig.x + 10, twig.y + 30)});
+  desk_.settle();
+  EXPECT_NEAR(plant::stem_curve(plant(), "stem").length(), 0.4, 0.02);
+  EXPECT_LT(plant::stem_curve(plant(), "branch").length(), 0.19);
+  expect_one_step();
+  const ImVec2 low = desk_.at(Vec3(0, 0, 0.1));
+  desk_.click(low.x, low.y);
+  desk_.settle();
+  EXPECT_NEAR(plant::stem_curve(plant(), "stem").length(), 0.1, 0.02);
+  expect_one_step();
+}
+
+TEST_F(Editing, TheWheelMakesAStrokeThicker) {
+  const ImVec2 from = desk_.at(Vec3(0, 0, 0.2));
+  const ViewCamera camera = desk_.desktop().camera();
+  desk_.ui().draw.radius_min = desk_.ui().draw.radius_max = 0.002;
+  desk_.move(from.x, from.y);
+  desk_.button(0, true);
+  for (int i = 1; i < 6; ++i) desk_.move(from.x + 8 * i, from.y);
+  desk_.wheel(5);
+  desk_.key(Key::up);
+  for (int i = 6; i < 12; ++i) desk_.move(from.x + 8 * i, from.y);
+  desk_.button(0, false);
+  desk_.settle();
+  ASSERT_EQ(plant().curves.size(), 3u) << desk_.ui().notice;
+  EXPECT_NEAR(plant().curves[2].radius.front(), 0.002, 1e-6);
+  EXPECT_NEAR(plant().curves[2].radius.back(), 0.002 * std::pow(1.1, 6), 1e-5);
+  EXPECT_TRUE(desk_.desktop().camera() == camera) << "the wheel is the stroke's";
+  expect_one_step();
+}
+
+TEST_F(Editing, RepeatTakesTypedNumbers) {
+  desk_.key(Key::d);
+  choose("branch", -1);
+  DrawMode& d = desk_.ui().draw;
+  d.copies = 2, d.copy_spacing = 0.05, d.copy_angle = 1.0;
+  desk_.show("Plants");
+  ImGuiWindow* details = nullptr;
+  for (ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+    if (window->WasActive && std::string(window->Name).find("details") != std::string::npos)
+      details = window;
+  ASSERT_NE(details, nullptr);
+  // The button is below the fields, near the end of the part that scrolls.
+  for (float off = 0; plant().curves.size() == 2 && off < details->ScrollMax.y + 40; off += 40) {
+    ImGui::SetScrollY(details, off);
+    desk_.frames(3);
+    for (float y = details->InnerRect.Min.y + 6;
+         plant().curves.size() == 2 && y < details->InnerRect.Max.y - 6; y += 12) {
+      desk_.move(details->InnerRect.GetCenter().x, y);
+      if (ImGui::GetCurrentContext()->HoveredId != details->GetID("Repeat")) continue;
+      desk_.click(details->InnerRect.GetCenter().x, y);
+    }
+  }
+  EXPECT_EQ(plant().curves.size(), 4u);
+  expect_one_step();
+}
+
+}  // namespace
+}  // namespace pedicel::app

@@ -1,0 +1,165 @@
+// What was changed of a scene is written into its file, which stays otherwise as it was.
+#include "session/scene_save.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "io/atomic_file.h"
+#include "session_cases.h"
+#include "support/temporary_folder.h"
+
+namespace pedicel::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+const char* const scene_text = R"(format: pedicel-scene
+version: 1
+name: two          # of a kind
+purpose: a test
+see: two stems
+duration: 1
+dt: 0.004          # s
+# how exactly it is solved
+rods: {newton_iterations: 3}
+plants:
+  # the left one
+  - {name: left, file: left.plant.yaml, set: {detach.stretch: 0.1}}  # of the paper
+  - name: right    # the other
+    file: right.plant.yaml
+    position: [0.5, 0, 0]
+ground: {height: 0}
+)";
+
+class SavedScene : public ::testing::Test {
+ protected:
+  SavedScene() : session(waiting()) {
+    Session drawing(waiting());
+    draw_plant(drawing);
+    for (const char* name : {"left", "right"})
+      must(drawing.export_plant("p", folder / (std::string(name) + ".plant.yaml")));
+    std::ofstream(file) << scene_text;
+    EXPECT_TRUE(session.open(file));
+  }
+  void run(const std::string& line) { must(session.run_text(line)); }
+  std::string text() const { return io::read_file(file); }
+  static std::string with(std::string text, const std::string& from, const std::string& to) {
+    EXPECT_NE(text.find(from), std::string::npos) << from;
+    return text.replace(text.find(from), from.size(), to);
+  }
+  /// A value of the document by its key.
+  static double parameter(const Session& of, const std::string& key) {
+    for (const SessionParameter& one : of.parameters())
+      if (one.key == key) return one.value;
+    ADD_FAILURE() << "no parameter " << key;
+    return 0.0;
+  }
+
+  TemporaryFolder folder;
+  const std::filesystem::path file = folder / "two.scene.yaml";
+  Session session;
+};
+
+TEST_F(SavedScene, NothingChangedIsNothingWritten) {
+  const Result saved = session.save();
+  must(saved);
+  EXPECT_THAT(saved.text, HasSubstr("unchanged"));
+  EXPECT_EQ(text(), scene_text);
+  EXPECT_FALSE(std::filesystem::exists(file.string() + "~"));
+}
+
+TEST_F(SavedScene, SettingsAreWrittenWhereTheyStand) {
+  run("set dt 0.002");
+  run("set rods.newton_iterations 5");
+  run("set plants.left.detach.stretch 0.25");
+  run("set plants.right.material.density 650");
+  run("set coupling.friction 0.7");
+  EXPECT_TRUE(session.dirty());
+  must(session.save());
+  EXPECT_FALSE(session.dirty());
+  std::string expected = with(scene_text, "dt: 0.004  ", "dt: 0.002  ");
+  expected = with(expected, "newton_iterations: 3", "newton_iterations: 5");
+  expected = with(expected, "detach.stretch: 0.1", "detach.stretch: 0.25");
+  expected = with(expected, "[0.5, 0, 0]\n", "[0.5, 0, 0]\n    set: {material.density: 650}\n");
+  EXPECT_EQ(text(), expected + "coupling: {friction: 0.7}\n");
+  EXPECT_EQ(io::read_file(file.string() + "~"), scene_text) << "the one before stays";
+}
+
+TEST_F(SavedScene, ReadAnewItIsTheSame) {
+  run("set plants.left.detach.bend 0.3");
+  run("set rods.newton_iterations 4");
+  run("move plant right 0.1,0.2,0.30000000000000004");
+  must(session.save());
+  Session other(waiting());
+  ASSERT_TRUE(other.open(file));
+  EXPECT_EQ(parameter(other, "plants.left.detach.bend"), 0.3);
+  EXPECT_EQ(parameter(other, "rods.newton_iterations"), 4.0);
+  EXPECT_EQ(other.document().plants[1].entry.pose.position, Vec3(0.1, 0.2, 0.1 + 0.2));
+  EXPECT_EQ(other.snapshot()->plants.size(), 2u);
+}
+
+TEST_F(SavedScene, UndoneAndSavedAgainItIsTheOldOne) {
+  run("set plants.right.material.density 650");
+  run("set plants.left.material.density 650");
+  must(session.save());
+  EXPECT_NE(text(), scene_text);
+  must(session.undo());
+  must(session.undo());
+  EXPECT_TRUE(session.dirty());
+  must(session.save());
+  EXPECT_EQ(text(), with(scene_text, "[0.5, 0, 0]\n", "[0.5, 0, 0]\n    set: {}\n"));
+  ASSERT_TRUE(session.reload());
+}
+
+TEST_F(SavedScene, PlantsComeAndGo) {
+  run("new plant third");
+  run("draw stem third s 0,0,0;0,0,0.2 0.003");
+  run("move plant third -0.5,0,0");
+  run("delete plant right");
+  EXPECT_THAT(session.save().text, HasSubstr("no file yet"));
+  EXPECT_EQ(text(), scene_text) << "half of it is not written";
+  std::filesystem::create_directory(folder / "plants");
+  must(session.save(folder / "plants" / "third.plant.yaml"));
+  EXPECT_THAT(text(), HasSubstr("- {name: third, file: plants/third.plant.yaml, "
+                                "position: [-0.5, 0, 0]}\n"));
+  EXPECT_THAT(text(), ::testing::Not(HasSubstr("right")));
+  EXPECT_THAT(text(), HasSubstr("# the left one\n"));
+  Session other(waiting());
+  ASSERT_TRUE(other.open(file));
+  EXPECT_EQ(other.document().plants.size(), 2u);
+  EXPECT_EQ(other.document().plant("third"), session.document().plant("third"));
+}
+
+TEST_F(SavedScene, AnImportedPlantBecomesAFileOnceItIsEdited) {
+  std::ofstream(folder / "small.mtg") << "CODE :\tFORM-A\nFEATURES:\nXX\tREAL\nMTG:\n"
+                                         "ENTITY-CODE\tXX\tYY\tZZ\tTopDia\n"
+                                         "/P1\n^/U1\t0\t0\t0\t200\n^<E1\t0\t0\t500\t100\n"
+                                         "^<E2\t0\t0\t1000\t80\n";
+  const std::string imported = with(scene_text, "file: left.plant.yaml", "mtg: small.mtg");
+  std::ofstream(file) << imported;
+  ASSERT_TRUE(session.open(file));
+  run("set rods.newton_iterations 4");
+  must(session.save());
+  EXPECT_EQ(text(), with(imported, "newton_iterations: 3", "newton_iterations: 4"));
+  run("set sampling left distance 0.05");
+  EXPECT_THAT(session.save().text, HasSubstr("no file yet"));
+  must(session.save(folder / "edited.plant.yaml"));
+  EXPECT_THAT(text(), HasSubstr("- {name: left, set: {detach.stretch: 0.1}, "
+                                "file: edited.plant.yaml}  # of the paper"));
+  Session other(waiting());
+  ASSERT_TRUE(other.open(file));
+  EXPECT_EQ(other.document().plant("left").distance, 0.05);
+}
+
+TEST_F(SavedScene, WhatCannotBeWrittenIsSaid) {
+  run("set rods.newton_iterations 4");
+  std::ofstream(file) << "format: [";
+  const Result saved = session.save();
+  EXPECT_FALSE(saved.ok);
+  EXPECT_THAT(saved.text, HasSubstr("two.scene.yaml:1:"));
+  EXPECT_TRUE(session.dirty());
+}
+
+}  // namespace
+}  // namespace pedicel::app
