@@ -47,6 +47,7 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
 void DirectSolver::reset(int plant) {
   plants_[plant].contacts.forget();
   plants_[plant].has_history = false;
+  plants_[plant].smooth = false;
   plants_[plant].gain = 1.0;
 }
 
@@ -83,7 +84,8 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
                              !plant.has_history ||
                              std::max(dt, before) > largest_ratio * std::min(dt, before);
-    rows_.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root);
+    rows_.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root, plant.smooth);
+    plant.smooth = false;
     rows_.set_extensions(p, *step.model, step.state->time, dt, settling_);
     begin_memory(p, *step.model, *step.state);
     plant.touched = !step.loads.empty() || !step.contacts.empty() ||
@@ -296,6 +298,7 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   const bool small = change <= settings_.tolerance ||
                      (gain < 1.0 && gain / (1.0 - gain) * change <= settings_.tolerance);
   if (small && first) plant.gain = std::pow(plant.gain, 0.8);
+  plant.smooth = small;
   return last || small;
 }
 

@@ -145,7 +145,8 @@ void RodRows::read_model(int plant, const RodModel& model) {
 }
 
 // Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
-void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& root) {
+void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& root,
+                         bool accelerate) {
   roots_[plant] = root;
   const bool first_order = previous_dt == 0.0;
   const double ratio = first_order ? 0.0 : dt / previous_dt;
@@ -156,6 +157,7 @@ void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& r
     pack.past_now[chain.lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
     pack.past_before[chain.lane] = ratio * ratio / divisor;
     pack.effective_step[chain.lane] = dt * ((1.0 + ratio) / divisor);
+    pack.accelerate[chain.lane] = accelerate ? dt : 0.0;
   }
 }
 
