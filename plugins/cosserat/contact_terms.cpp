@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cosserat/self_contact.h"
+
 namespace pedicel::cosserat {
 
 namespace {
@@ -24,11 +26,13 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
                         double dt, std::span<ContactSource* const> sources) {
   found_.clear();
   active_.clear();
+  only_with_itself_ = true;
   for (ContactSource* source : sources) source->find(model, iterate, dt, found_);
   for (const ContactPoint& point : found_) {
     Active contact;
     contact.point = point;
     contact.element = model.shapes[point.shape].element;
+    only_with_itself_ = only_with_itself_ && is_self_contact(point.collider);
     const Quat& q = iterate.orientation[contact.element];
     contact.arm_E = Vec3(0, 0, -point.back) - point.radius * (q.conjugate() * point.normal_W);
     contact.place_W = place(iterate, contact.element, contact.arm_E);
@@ -94,11 +98,17 @@ ContactTerms::Push ContactTerms::push(const Active& contact, const RodState& sta
   return push;
 }
 
+// Neither pushes at the iterate nor rubs.
+bool ContactTerms::is_idle(const Active& contact) {
+  return contact.point.gap >= contact.point.margin && contact.limit == 0.0;
+}
+
 double ContactTerms::linearise(const RodModel&, const RodState& iterate,
                                DiagonalBlocks& blocks) const {
   double energy = 0.0;
   for (const Active& contact : active_) {
     const ContactPoint& point = contact.point;
+    if (is_idle(contact)) continue;
     const Push push_now = push(contact, iterate);
     energy += push_now.energy;
     const Mat3 normal = point.normal_W * point.normal_W.transpose();
