@@ -137,9 +137,27 @@ double ContactTerms::potential(const RodModel&, const RodState& state) const {
   return energy;
 }
 
+// The two sides of a self-contact, which follow each other, meet in the middle of where both went
+// in the last iteration: so they carry the same force.
 void ContactTerms::finish(const RodModel&, const RodState& end) {
   memory_.clear();
   forces_.clear();
+  const auto moved = [&](const Active& contact) -> Vec3 {
+    return place(end, contact.element, contact.arm_E) - contact.place_W;
+  };
+  const auto are_sides = [](const ContactPoint& a, const ContactPoint& b) {
+    return a.collider == self_contact_base + b.shape && b.collider == self_contact_base + a.shape;
+  };
+  for (std::size_t i = 0; i + 1 < active_.size(); ++i) {
+    Active &a = active_[i], &b = active_[i + 1];
+    if (!are_sides(a.point, b.point)) continue;
+    const Vec3 middle = 0.5 * (moved(a) + moved(b));
+    for (Active* side : {&a, &b}) {
+      side->place_W += middle;
+      side->start_W += middle;
+    }
+    ++i;
+  }
   for (const Active& contact : active_) {
     const Push now = push(contact, end);
     const double normal = now.normal_force.norm();
