@@ -17,7 +17,8 @@
 #define PEDICEL_COSSERAT_CAPSULES_MIDWAY
 namespace pedicel::cosserat {
 constexpr double midway = 1.0e-4;  // pull towards the middles, relative to the longer axis squared
-}
+constexpr std::size_t worth_waking = 256;  // pairs
+}  // namespace pedicel::cosserat
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -81,9 +82,9 @@ HWY_INLINE V radius(const Capsules& capsules, IndexVector of, V fraction) {
   return hn::MulAdd(fraction, far - near, near);
 }
 
-void Measure(const Capsules& capsules, CapsulePairs& pairs) {
+void Measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end) {
   const D d;
-  for (std::size_t i = 0; i < pairs.size(); i += hn::MaxLanes(d)) {
+  for (std::size_t i = first; i < end; i += hn::MaxLanes(d)) {
     const IndexVector a = load_indices(&pairs.a[i]), b = load_indices(&pairs.b[i]);
     const V3 near_a = gather(capsules.near, a), along_a = gather(capsules.far, a) - near_a;
     const V3 near_b = gather(capsules.near, b), along_b = gather(capsules.far, b) - near_b;
@@ -107,7 +108,7 @@ namespace pedicel::cosserat {
 HWY_EXPORT(Measure);
 
 // Pairs of the first capsule with itself fill the last vector up.
-void measure(const Capsules& capsules, CapsulePairs& pairs) {
+void measure(const Capsules& capsules, CapsulePairs& pairs, const PartedLoop& loop) {
   const std::size_t count = pairs.size();
   const auto resize = [&](std::size_t size) {
     pairs.a.resize(size);
@@ -117,7 +118,9 @@ void measure(const Capsules& capsules, CapsulePairs& pairs) {
     pairs.gap.resize(size);
   };
   resize((count + lane_count - 1) / lane_count * lane_count);
-  HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs);
+  loop.run(count, loop.parts(count, worth_waking), [&](int, std::size_t first, std::size_t end) {
+    HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs, first, end);
+  });
   resize(count);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "cosserat/parted_loop.h"
 
 namespace pedicel::cosserat {
 
@@ -43,6 +44,6 @@ struct CapsulePairs {
 };
 
 /// Sets at_a, at_b and gap of all pairs, several at a time: nearest_fractions() up to rounding.
-void measure(const Capsules& capsules, CapsulePairs& pairs);
+void measure(const Capsules& capsules, CapsulePairs& pairs, const PartedLoop& loop = {});
 
 }  // namespace pedicel::cosserat

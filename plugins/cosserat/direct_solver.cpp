@@ -149,7 +149,7 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
   std::vector<char>& continued = working_;  // all of these packs, and then what is to be held
   for (int p = 0; p < size(); ++p) continued[p] = fast[p] != 0;
   rows_.set_active(continued);
-  root_outward(pool, [&](int group) { rows_.prepare(group, states_); });
+  root_outward(pool, [&](int group) { rows_.prepare(group, {}); });
   for (int p = 0; p < size(); ++p) {
     if (fast[p] == 2) rows_.hold(p);
     fast[p] = 0;
@@ -195,17 +195,25 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
   int count = 0;
   for (int p = 0; p < size(); ++p) count += wanted(p) ? 1 : 0;
   if (count == 0) return;
-  pool.for_each(size(), [&](int p) {
+  // Where there is but one plant, its sources may use the threads.
+  ThreadPool* const inner = count == 1 ? &pool : nullptr;
+  const auto linearise = [&](int p) {
     if (!wanted(p)) return;
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
     rows_.write_iterate(p, plant.iterate);
+    for (ContactSource* source : steps[p].contacts) source->use(inner);
     plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
+    for (ContactSource* source : steps[p].contacts) source->use(nullptr);
     plant.extras.clear();
     const double pressed = plant.contacts.linearise(model, plant.iterate, plant.extras);
     plant.presses = pressed > 0.0;
     plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
-  });
+  };
+  if (inner)
+    for (int p = 0; p < size(); ++p) linearise(p);
+  else
+    pool.for_each(size(), linearise);
   for (int p = 0; p < size(); ++p)
     if (wanted(p) && !plants_[p].loops) rows_.add_extras(p, plants_[p].extras);
 }
@@ -305,7 +313,7 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   // what can be seen, and would cost most of the time.
   if (with_itself) {
     plant.smooth = moved <= settled_contact;
-    return last || plant.smooth;
+    return last || (plant.smooth && !first);
   }
   // Contacts are found anew in every iteration: there a small change is not yet the end.
   if (plant.presses) return last || change <= 1.0e-4 * settings_.tolerance;

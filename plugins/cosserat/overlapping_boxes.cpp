@@ -28,10 +28,11 @@ namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
 
 // Compares each box with those that begin before it ends, several at a time.
-void Sweep(const Order& order, const Sides& low, const Sides& high, Pairs& pairs) {
+void Sweep(const Order& order, const Sides& low, const Sides& high, std::size_t first,
+           std::size_t last, Pairs& pairs) {
   const D d;
   const std::size_t width = hn::MaxLanes(d);
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     const V end = set(high[0][i]);
     const V low1 = set(low[1][i]), high1 = set(high[1][i]);
     const V low2 = set(low[2][i]), high2 = set(high[2][i]);
@@ -60,7 +61,8 @@ namespace pedicel::cosserat {
 
 HWY_EXPORT(Sweep);
 
-void OverlappingBoxes::find(std::span<const Eigen::AlignedBox3d> boxes, Pairs& pairs) {
+void OverlappingBoxes::find(std::span<const Eigen::AlignedBox3d> boxes, Pairs& pairs,
+                            const PartedLoop& loop) {
   pairs.clear();
   Eigen::AlignedBox3d all;
   for (const Eigen::AlignedBox3d& box : boxes)
@@ -69,7 +71,13 @@ void OverlappingBoxes::find(std::span<const Eigen::AlignedBox3d> boxes, Pairs& p
   int axis = 0;
   all.sizes().maxCoeff(&axis);
   sort_along(axis, boxes);
-  HWY_DYNAMIC_DISPATCH(Sweep)(order_, low_, high_, pairs);
+  const int parts = loop.parts(order_.size(), 128);
+  loop.run(order_.size(), parts, [&](int part, std::size_t first, std::size_t end) {
+    found_[part].clear();
+    HWY_DYNAMIC_DISPATCH(Sweep)(order_, low_, high_, first, end, found_[part]);
+  });
+  for (int part = 0; part < parts; ++part)
+    pairs.insert(pairs.end(), found_[part].begin(), found_[part].end());
 }
 
 void OverlappingBoxes::sort_along(int axis, std::span<const Eigen::AlignedBox3d> boxes) {

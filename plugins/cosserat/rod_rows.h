@@ -66,7 +66,7 @@ class RodRows {
   void set_active(std::span<const char> plants);
 
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
-  /// then says how far that turns an element.
+  /// then says how far that turns an element. Without states: again, from those read last.
   void prepare(int group, std::span<const RodState* const> states);
   /// Makes the step's start the iterate of a plant.
   void hold(int plant);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,7 @@ class SelfContact : public ContactSource {
   /// is out of its bounds.
   SelfContact(const RodModel& model, const SelfContactSettings& settings);
 
+  void use(ThreadPool* pool) override { loop_.pool = pool; }
   void begin_step(const RodModel& model, const RodState& start, double dt) override;
   void find(const RodModel& model, const RodState& state, double dt,
             std::vector<ContactPoint>& found) override;
@@ -80,12 +82,19 @@ class SelfContact : public ContactSource {
   bool far_list_holds();
   void collect_far(const RodModel& model);
   double moved_apart(int a, int b) const;
+  void touch_some(const RodModel& model, const RodState& state, double dt, std::size_t first,
+                  std::size_t end, std::vector<ContactPoint>& found) const;
   void touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
              std::vector<ContactPoint>& found) const;
   Vec3 start_place(int element, const Vec3& arm_E) const;
   Vec3 motion(const RodState& state, int element, double back, const Vec3& outward_W) const;
 
+  static constexpr std::size_t worth_waking = 256;  // shapes or pairs, a thread
+
   SelfContactSettings settings_;
+  PartedLoop loop_;
+  std::array<std::vector<ContactPoint>, PartedLoop::most_parts> found_;  // scratch
+  std::vector<int> parent_;                                              // of the elements
   double extent_ = 0.0;                        // m, mean length of a shape
   std::vector<std::pair<int, int>> excluded_;  // shapes, ascending
   Capsules start_, now_;                       // the shapes, at the step's start and at the iterate
