@@ -4,6 +4,10 @@
 
 #include "cosserat/rod_state.h"
 
+namespace pedicel {
+class ThreadPool;
+}
+
 namespace pedicel::cosserat {
 
 /// One place where a plant touches (or nearly touches) something that is not part of it.
@@ -40,6 +44,9 @@ struct ContactForce {
 class ContactSource {
  public:
   virtual ~ContactSource() = default;
+  /// The threads that find() may use until told otherwise; null: the caller's alone. What it finds
+  /// must not depend on them.
+  virtual void use(ThreadPool* /*pool*/) {}
   /// A step begins at `start` (same time as the iterates that find() gets).
   virtual void begin_step(const RodModel& /*model*/, const RodState& /*start*/, double /*dt*/) {}
   virtual void find(const RodModel& model, const RodState& state, double dt,

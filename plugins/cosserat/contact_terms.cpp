@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cosserat/self_contact.h"
+
 namespace pedicel::cosserat {
 
 namespace {
@@ -24,11 +26,13 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
                         double dt, std::span<ContactSource* const> sources) {
   found_.clear();
   active_.clear();
+  only_with_itself_ = true;
   for (ContactSource* source : sources) source->find(model, iterate, dt, found_);
   for (const ContactPoint& point : found_) {
     Active contact;
     contact.point = point;
     contact.element = model.shapes[point.shape].element;
+    only_with_itself_ = only_with_itself_ && is_self_contact(point.collider);
     const Quat& q = iterate.orientation[contact.element];
     contact.arm_E = Vec3(0, 0, -point.back) - point.radius * (q.conjugate() * point.normal_W);
     contact.place_W = place(iterate, contact.element, contact.arm_E);
@@ -94,11 +98,17 @@ ContactTerms::Push ContactTerms::push(const Active& contact, const RodState& sta
   return push;
 }
 
+// Neither pushes at the iterate nor rubs.
+bool ContactTerms::is_idle(const Active& contact) {
+  return contact.point.gap >= contact.point.margin && contact.limit == 0.0;
+}
+
 double ContactTerms::linearise(const RodModel&, const RodState& iterate,
                                DiagonalBlocks& blocks) const {
   double energy = 0.0;
   for (const Active& contact : active_) {
     const ContactPoint& point = contact.point;
+    if (is_idle(contact)) continue;
     const Push push_now = push(contact, iterate);
     energy += push_now.energy;
     const Mat3 normal = point.normal_W * point.normal_W.transpose();
@@ -127,9 +137,27 @@ double ContactTerms::potential(const RodModel&, const RodState& state) const {
   return energy;
 }
 
+// The two sides of a self-contact, which follow each other, meet in the middle of where both went
+// in the last iteration: so they carry the same force.
 void ContactTerms::finish(const RodModel&, const RodState& end) {
   memory_.clear();
   forces_.clear();
+  const auto moved = [&](const Active& contact) -> Vec3 {
+    return place(end, contact.element, contact.arm_E) - contact.place_W;
+  };
+  const auto are_sides = [](const ContactPoint& a, const ContactPoint& b) {
+    return a.collider == self_contact_base + b.shape && b.collider == self_contact_base + a.shape;
+  };
+  for (std::size_t i = 0; i + 1 < active_.size(); ++i) {
+    Active &a = active_[i], &b = active_[i + 1];
+    if (!are_sides(a.point, b.point)) continue;
+    const Vec3 middle = 0.5 * (moved(a) + moved(b));
+    for (Active* side : {&a, &b}) {
+      side->place_W += middle;
+      side->start_W += middle;
+    }
+    ++i;
+  }
   for (const Active& contact : active_) {
     const Push now = push(contact, end);
     const double normal = now.normal_force.norm();

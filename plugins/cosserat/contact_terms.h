@@ -41,6 +41,8 @@ class ContactTerms {
   const std::vector<ContactForce>& forces() const { return forces_; }
   int size() const { return static_cast<int>(active_.size()); }
   double deepest() const;
+  /// Whether all that was found is the plant's contact with itself.
+  bool only_with_itself() const { return only_with_itself_; }
   void forget() { memory_.clear(); }
 
  private:
@@ -67,9 +69,11 @@ class ContactTerms {
     bool slipping;
   };
   void share_gives();
+  static bool is_idle(const Active& contact);
   Push push(const Active& contact, const RodState& state) const;
   const Memory* remembered(int shape, int collider) const;
 
+  bool only_with_itself_ = true;
   std::vector<ContactPoint> found_;
   std::vector<Active> active_;
   std::vector<Memory> memory_;

@@ -17,6 +17,10 @@ constexpr double straight_turn = 0.03;       // rad
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
+// Of a plant's contact with itself, rad or element lengths:
+constexpr double settled_contact = 5.0e-3;  // the next step may do the rest
+constexpr double rough_self_contact = 0.05;
+constexpr double stalled_gain = 0.9;  // more iterations do not help
 
 bool any(const std::vector<char>& flags) {
   return std::find(flags.begin(), flags.end(), 1) != flags.end();
@@ -47,6 +51,7 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
 void DirectSolver::reset(int plant) {
   plants_[plant].contacts.forget();
   plants_[plant].has_history = false;
+  plants_[plant].smooth = false;
   plants_[plant].gain = 1.0;
 }
 
@@ -83,7 +88,8 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
                              !plant.has_history ||
                              std::max(dt, before) > largest_ratio * std::min(dt, before);
-    rows_.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root);
+    rows_.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root, plant.smooth);
+    plant.smooth = false;
     rows_.set_extensions(p, *step.model, step.state->time, dt, settling_);
     begin_memory(p, *step.model, *step.state);
     plant.touched = !step.loads.empty() || !step.contacts.empty() ||
@@ -143,7 +149,7 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
   std::vector<char>& continued = working_;  // all of these packs, and then what is to be held
   for (int p = 0; p < size(); ++p) continued[p] = fast[p] != 0;
   rows_.set_active(continued);
-  root_outward(pool, [&](int group) { rows_.prepare(group, states_); });
+  root_outward(pool, [&](int group) { rows_.prepare(group, {}); });
   for (int p = 0; p < size(); ++p) {
     if (fast[p] == 2) rows_.hold(p);
     fast[p] = 0;
@@ -189,17 +195,25 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
   int count = 0;
   for (int p = 0; p < size(); ++p) count += wanted(p) ? 1 : 0;
   if (count == 0) return;
-  pool.for_each(size(), [&](int p) {
+  // Where there is but one plant, its sources may use the threads.
+  ThreadPool* const inner = count == 1 ? &pool : nullptr;
+  const auto linearise = [&](int p) {
     if (!wanted(p)) return;
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
     rows_.write_iterate(p, plant.iterate);
+    for (ContactSource* source : steps[p].contacts) source->use(inner);
     plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
+    for (ContactSource* source : steps[p].contacts) source->use(nullptr);
     plant.extras.clear();
     const double pressed = plant.contacts.linearise(model, plant.iterate, plant.extras);
     plant.presses = pressed > 0.0;
     plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
-  });
+  };
+  if (inner)
+    for (int p = 0; p < size(); ++p) linearise(p);
+  else
+    pool.for_each(size(), linearise);
   for (int p = 0; p < size(); ++p)
     if (wanted(p) && !plants_[p].loops) rows_.add_extras(p, plants_[p].extras);
 }
@@ -286,16 +300,27 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   plant.last_change = change;
   // A contact that moves a stem by many of its radii in one step wants more iterations than a
   // smooth motion: cut short, the stem may end inside a thin link.
-  const bool rough_contact = plant.presses && change > converged_change;
+  const bool with_itself = plant.presses && plant.contacts.only_with_itself();
+  const double moved = std::max(plant.change.turn, plant.change.shift);
+  const bool rough_contact =
+      plant.presses &&
+      (with_itself ? moved > rough_self_contact && gain < stalled_gain : change > converged_change);
   const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
   const bool last = report.iterations >= most;
-  if (last && change > converged_change) report.errors |= not_converged;
-  // Contacts are found anew in every iteration, and self-contact leaves its coupling out of the
-  // Hessian: there a small change is not yet the end.
+  if (last && (with_itself ? moved > settled_contact : change > converged_change))
+    report.errors |= not_converged;
+  // Self-contact leaves its coupling out of the Hessian: what the last iterations would do is below
+  // what can be seen, and would cost most of the time.
+  if (with_itself) {
+    plant.smooth = moved <= settled_contact;
+    return last || (plant.smooth && !first);
+  }
+  // Contacts are found anew in every iteration: there a small change is not yet the end.
   if (plant.presses) return last || change <= 1.0e-4 * settings_.tolerance;
   const bool small = change <= settings_.tolerance ||
                      (gain < 1.0 && gain / (1.0 - gain) * change <= settings_.tolerance);
   if (small && first) plant.gain = std::pow(plant.gain, 0.8);
+  plant.smooth = small;
   return last || small;
 }
 

@@ -74,6 +74,7 @@ class DirectSolver : public RodSolver {
     RodState iterate;                    // where touched
     bool presses = false;                // a contact did, in this iteration
     bool has_history = false;
+    bool smooth = false;                      // the last step was solved to the tolerance
     double energy = 0.0, extra_energy = 0.0;  // J, where the line search began; of `touched`
     double share = 0.0;                       // 1, of Newton's change that is tried
     RodRows::Change change;

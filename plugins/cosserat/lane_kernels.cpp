@@ -130,9 +130,15 @@ HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int l
     store3({zero, zero, zero}, term.stretch_target, lane);
     store3({zero, zero, zero}, term.bend_target, lane);
   }
-  const V3 guess = add_scaled(now.position, again, now.position - before.position);
-  const Q turned = normalized(now.orientation * turn);
-  store_pose({guess, select(again > set(0.0), turned, now.orientation)}, rows.iterate[row], lane);
+  // Motion continued, with its acceleration where the plant has a smooth past.
+  const V later = load(pack.accelerate + lane) * again;
+  const V3 gained = load3(rate.velocity, lane) - load3(before_rate.velocity, lane);
+  const V3 com_guess = add_scaled(add_scaled(com, again, com - com_before), later, gained);
+  const Q turned = normalized(now.orientation * turn * exp_map(later * (omega - omega_before)));
+  Pose guess;
+  guess.orientation = select(again > set(0.0), turned, now.orientation);
+  guess.position = add_scaled(com_guess, com_back, matrix(guess.orientation).c);
+  store_pose(guess, rows.iterate[row], lane);
   if constexpr (extended)
     if (pack.windy) prepare_air(rows, pack, row, lane, now, before);
   const V3 vec{turn.x, turn.y, turn.z};

@@ -95,7 +95,8 @@ struct BlockSource {
 struct alignas(64) Pack {
   // How each lane's plant steps. x' = (x - (past_now x_n - past_before x_{n-1})) / effective_step.
   Lanes past_now, past_before, effective_step;
-  Lanes share;  // 1, of Newton's change that is applied; 0: the lane stays as it is
+  Lanes accelerate;  // s: dt where Newton's first guess continues the acceleration too, else 0
+  Lanes share;       // 1, of Newton's change that is applied; 0: the lane stays as it is
   // Extensions at the step's end: stiffness_factor(), sin(2 pi gust_frequency t).
   Lanes modulus, gust_now;  // 1
   // Results.

@@ -145,7 +145,8 @@ void RodRows::read_model(int plant, const RodModel& model) {
 }
 
 // Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
-void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& root) {
+void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& root,
+                         bool accelerate) {
   roots_[plant] = root;
   const bool first_order = previous_dt == 0.0;
   const double ratio = first_order ? 0.0 : dt / previous_dt;
@@ -156,6 +157,7 @@ void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& r
     pack.past_now[chain.lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
     pack.past_before[chain.lane] = ratio * ratio / divisor;
     pack.effective_step[chain.lane] = dt * ((1.0 + ratio) / divisor);
+    pack.accelerate[chain.lane] = accelerate ? dt : 0.0;
   }
 }
 
@@ -212,7 +214,7 @@ void RodRows::prepare(int group, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
   for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
     if (!packs_[p].active) continue;
-    read_states(p, states);
+    if (!states.empty()) read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
     place_anchors(p);
   }
@@ -268,10 +270,14 @@ void RodRows::read_iterate(int plant, const RodState& state) {
 }
 
 void RodRows::write_iterate(int plant, RodState& state) const {
-  for (int e = 0; e < state.size(); ++e) {
-    const Slot slot = layout_.slot(plant, e);
-    state.position[e] = vector_at(scratch_->iterate[slot.row].position, slot.lane);
-    state.orientation[e] = rotation_at(scratch_->iterate[slot.row].orientation, slot.lane);
+  for (const int c : layout_.chains_of_plant(plant)) {
+    const Chain& chain = layout_.chains()[c];
+    const PoseRow* row = &scratch_->iterate[packs_[chain.pack].begin];
+    for (const int e : chain.elements) {
+      ++row;
+      state.position[e] = vector_at(row->position, chain.lane);
+      state.orientation[e] = rotation_at(row->orientation, chain.lane);
+    }
   }
 }
 

@@ -48,8 +48,10 @@ class RodRows {
   /// Reads the constants of a plant (again).
   void read_model(int plant, const RodModel& model);
   /// How a plant steps: backward Euler where `previous_dt` is 0, else BDF2 after a step of that
-  /// length (s). Its clamp stands at `root` at the end.
-  void set_scheme(int plant, double dt, double previous_dt, const Pose& root);
+  /// length (s). Its clamp stands at `root` at the end. Whether prepare() continues the
+  /// acceleration of the last step, too.
+  void set_scheme(int plant, double dt, double previous_dt, const Pose& root,
+                  bool accelerate = false);
   /// What the plant's extensions are in a step that starts at `time` (s). `settled`: in the settled
   /// shape instead, without dashpots, friction sliders and gusts, and at `time` itself. Call it
   /// after read_model() and set_scheme().
@@ -64,7 +66,7 @@ class RodRows {
   void set_active(std::span<const char> plants);
 
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
-  /// then says how far that turns an element.
+  /// then says how far that turns an element. Without states: again, from those read last.
   void prepare(int group, std::span<const RodState* const> states);
   /// Makes the step's start the iterate of a plant.
   void hold(int plant);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/random.h"
+#include "core/state_hash.h"
 #include "cosserat/rod_system.h"
 #include "cosserat/self_contact.h"
 #include "coupling/collider_source.h"
@@ -190,6 +191,23 @@ TEST(BroadPhase, SelfContactMeetsWhatComesFromBeyondTheSkin) {
   ASSERT_NE(under, found.end());
   EXPECT_NEAR(under->normal_W.z(), -1.0, 1e-6);
   EXPECT_NEAR(under->gap, -0.5 * (0.001 + 2 * 0.002), 1e-8);
+}
+
+// Branches and twigs of the hanging tree fall into each other: the threads that share the pairs out
+// must not show.
+TEST(BroadPhase, SelfContactGivesTheSameBitsWithAnyNumberOfThreads) {
+  const auto fall = [](int threads) {
+    cosserat::RodSystem system({}, threads);
+    system.add_plant(plant::hanging_tree());
+    system.add_contact_source(0, std::make_unique<cosserat::SelfContact>(
+                                     system.model(0), cosserat::SelfContactSettings{}));
+    for (int i = 0; i < 100; ++i) system.step(dt, {0, 0, -9.81});
+    EXPECT_GT(system.report(0).contacts, 50);
+    StateHash hash;
+    system.add_to(hash);
+    return hash.value();
+  };
+  EXPECT_EQ(fall(1), fall(2));
 }
 
 }  // namespace

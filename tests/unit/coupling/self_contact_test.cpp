@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "cosserat/lane_kernels.h"
 #include "support/allocation_counter.h"
 
 namespace pedicel::cosserat {
@@ -86,6 +87,47 @@ TEST(NearestFractions, OfParallelAxesAreTheMiddles) {
   EXPECT_NEAR(at.b, 0.5, 1e-9);
 }
 
+// Several at a time, with every instruction set, one pair more than fills vectors: as one by one.
+TEST(Capsules, AreMeasuredAsOneByOne) {
+  Random random(4);
+  Capsules capsules;
+  capsules.resize(40);
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 near = random_point(random, 1);
+    const Vec3 far = i % 10 == 1 ? near : Vec3(near + random_point(random, 1));
+    for (int k = 0; k < 3; ++k) {
+      capsules.near[k][i] = near[k];
+      capsules.far[k][i] = far[k];
+    }
+    capsules.radius_near[i] = random.uniform(0.01, 0.2);
+    capsules.radius_far[i] = random.uniform(0.01, 0.2);
+  }
+  CapsulePairs pairs;
+  for (int a = 0; a < 40; ++a)
+    for (int b = a + 1; b < 40; ++b) pairs.add(a, b);
+  pairs.add(0, 7);
+  for (const std::string& set : available_instruction_sets()) {
+    use_instruction_set(set);
+    measure(capsules, pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const int a = pairs.a[i], b = pairs.b[i];
+      const Vec3 near_a = capsules.near_at(a), along_a = capsules.far_at(a) - near_a;
+      const Vec3 near_b = capsules.near_at(b), along_b = capsules.far_at(b) - near_b;
+      const auto at = nearest_fractions(near_a, along_a, near_b, along_b);
+      ASSERT_NEAR(pairs.at_a[i], at.a, 1e-12) << set << " " << a << " " << b;
+      ASSERT_NEAR(pairs.at_b[i], at.b, 1e-12) << set << " " << a << " " << b;
+      const auto radius = [&](int k, double fraction) {
+        return capsules.radius_near[k] +
+               fraction * (capsules.radius_far[k] - capsules.radius_near[k]);
+      };
+      const double gap = (near_a + at.a * along_a - near_b - at.b * along_b).norm() -
+                         radius(a, at.a) - radius(b, at.b);
+      ASSERT_NEAR(pairs.gap[i], gap, 1e-12) << set << " " << a << " " << b;
+    }
+  }
+  use_instruction_set("");
+}
+
 // Turning one axis through parallel must not make the place jump.
 TEST(NearestFractions, MoveContinuouslyThroughParallel) {
   double last = nearest_fractions({0, 0, 0}, {1, 0, 0}, {0, 0, 0.2}, {1, 0, -0.05}).a;
@@ -114,6 +156,8 @@ TEST(OverlappingBoxes, AreThoseOfAllPairs) {
         if (!boxes[i].isEmpty() && !boxes[j].isEmpty() && boxes[i].intersects(boxes[j]))
           expected.emplace_back(i, j);
     finder.find(boxes, found);
+    EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
+    PairSort()(found, 80);
     EXPECT_EQ(found, expected);
   }
 }

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/thread_pool.h"
+
+namespace pedicel::cosserat {
+
+/// A loop cut into parts that threads take: equal stretches, in order, each a multiple of eight
+/// long but the last. Short loops, and those without threads, are one part.
+struct PartedLoop {
+  ThreadPool* pool = nullptr;
+  static constexpr int most_parts = 16;
+
+  int parts(std::size_t count, std::size_t worth_waking) const {
+    if (!pool || pool->threads() == 1 || count < 2 * worth_waking) return 1;
+    return static_cast<int>(std::min(
+        {count / worth_waking, std::size_t(2 * pool->threads()), std::size_t(most_parts)}));
+  }
+
+  /// task(part, first, end), perhaps at once.
+  template <class Task>
+  void run(std::size_t count, int parts, const Task& task) const {
+    const std::size_t length = (count / parts + 8) / 8 * 8;
+    const auto one = [&](int part) {
+      const std::size_t first = std::min(count, part * length);
+      task(part, first, std::min(count, first + length));
+    };
+    if (parts == 1)
+      one(0);
+    else
+      pool->for_each(parts, one);
+  }
+};
+
+}  // namespace pedicel::cosserat
