@@ -66,6 +66,8 @@ Result Session::session_command(const Command& c) {
   if (verb == "save") return save(c.word_or("file", ""));
   if (verb == "import") return import_plant(c.word("file"), c.word_or("plant", ""));
   if (verb == "export") return export_plant(c.word("plant"), c.word("file"));
+  if (verb == "save waypoints") return save_waypoints(c.word("file"));
+  if (verb == "load waypoints") return load_waypoints(c.word("file"));
   if (verb == "undo") return undo();
   if (verb == "redo") return redo();
   if (verb == "keep") return keep_parameters();

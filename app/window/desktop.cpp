@@ -169,7 +169,8 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   scene_ = {areas.scene_min, size, camera_.camera()};
-  const bool tool = draw_tool_->update(ui_, scene_, view_.shapes());
+  const bool handle = tool_handles_.update(ui_, scene_);
+  const bool tool = draw_tool_->update(ui_, scene_, view_.shapes()) || handle;
   mouse_.update(ui_, camera_, scene_, view_.shapes(), tool);
   if (ui_.frame_box) {
     camera_.frame(*ui_.frame_box, size.x / size.y);
@@ -197,6 +198,7 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
     ImGui::GetWindowDrawList()->AddImage(texture, areas.scene_min, areas.scene_max, ImVec2(0, 1),
                                          ImVec2(1, 0));
   }
+  tool_handles_.draw(*ImGui::GetWindowDrawList(), ui_, scene_);
   draw_labels();
   ImGui::End();
 }

@@ -14,6 +14,7 @@
 #include "app/window/scene_canvas.h"
 #include "app/window/scene_mouse.h"
 #include "app/window/snapshot_view.h"
+#include "app/window/tool_handles.h"
 #include "render/video.h"
 
 struct ImGuiContext;
@@ -45,6 +46,7 @@ class Desktop {
   const Layout& layout() const { return layout_; }
   /// Where the scene is in the window, and how it is seen.
   const SceneFrame& scene() const { return scene_; }
+  const ToolHandles& tool_handles() const { return tool_handles_; }
   /// The file that the letters come from; empty: ImGui's own.
   const std::string& letters() const { return fonts_.file; }
   bool input_waits() const { return input_.has_more(); }
@@ -92,6 +94,7 @@ class Desktop {
   ViewCamera camera_;
   SceneMouse mouse_;
   std::unique_ptr<DrawTool> draw_tool_;
+  ToolHandles tool_handles_;
   SceneFrame scene_;
   CanvasQuality quality_;
   std::filesystem::path shown_path_;

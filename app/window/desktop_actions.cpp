@@ -170,6 +170,9 @@ void Desktop::perform_view(Action action) {
     case Action::frames:
       ui_.view.frames = !ui_.view.frames;
       break;
+    case Action::tool_handles:
+      ui_.view.tool_handles = !ui_.view.tool_handles;
+      break;
     case Action::help:
       ui_.dialog = ui_.dialog == Dialog::help ? Dialog::none : Dialog::help;
       break;
