@@ -196,10 +196,14 @@ std::optional<ImVec2> ToolHandles::grip(const std::string& part, const SceneFram
   if (part == "knob") return frame.project(pose_.position);
   const int axis = part.back() - 'x';
   if (part.size() == 1) return frame.project(pose_.position + 0.95 * length_ * direction(axis));
-  // A place of the ring that no other handle covers.
+  // A place of the ring that no other handle is near.
+  const Part wanted = static_cast<Part>(4 + axis);
   for (const Vec3& point : ring(axis)) {
     const auto at = frame.project(point);
-    if (at && part_under(*at, frame) == static_cast<Part>(4 + axis)) return at;
+    const auto clear = [&](float dx, float dy) {
+      return part_under(ImVec2(at->x + dx, at->y + dy), frame) == wanted;
+    };
+    if (at && clear(0, 0) && clear(4, 0) && clear(-4, 0) && clear(0, 4) && clear(0, -4)) return at;
   }
   return {};
 }
