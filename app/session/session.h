@@ -10,12 +10,14 @@
 #include "robot/inverse_kinematics.h"
 #include "session/command.h"
 #include "session/document.h"
+#include "session/film.h"
 #include "session/history.h"
 #include "session/robot_goal.h"
 #include "session/run_control.h"
 
 namespace pedicel::app {
 
+class ExperimentReading;
 class Journal;
 class MeasuredData;
 
@@ -149,14 +151,32 @@ class Session {
   // Measured data.
   /// Opens an experiment folder. Where no plant of the document has its curves, the document
   /// becomes its nominal plant alone, without a file, so that saving leaves the experiment as it
-  /// is; refused where that would lose changes.
+  /// is; refused where that would lose changes. Read on a thread of its own: update() takes it
+  /// over, and its faults become messages. Where commands wait, it is open on return.
   Result open_experiment(const std::filesystem::path& path);
+  /// The experiment that is being read; null: none is.
+  const ExperimentReading* reading() const { return reading_.get(); }
+  /// Drops what is being read.
+  void cancel_reading();
+  /// Waits until what is being read is open (scripts, tests).
+  Result finish_reading();
+  /// Why the last one could not be opened; empty: it could.
+  const std::string& reading_fault() const { return reading_fault_; }
   MeasuredData& measured() { return *measured_; }
   const MeasuredData& measured() const { return *measured_; }
   /// The plant of the document that was measured; -1: none.
   int measured_plant() const;
   /// Gives the measured plant the effects of the extended one, as one step of the history.
   Result accept_diagnosis();
+
+  // Films.
+  /// Who makes them; null: nobody. Must outlive the session, or be taken back.
+  void set_film_maker(FilmMaker* maker) { film_ = maker; }
+  FilmMaker* film_maker() const { return film_; }
+  /// Throws as FilmMaker::begin(); UsageError while one is made.
+  void begin_film(const FilmRequest& request);
+  /// Steps, with the pictures that are due between them where a film is made and commands wait.
+  void advance(long steps);
 
   // Recovery.
   /// Documents that a killed program left, the newest first. Empty without autosave.
@@ -201,6 +221,11 @@ class Session {
   Result pull_command(const Command& command);
   Result expect_command(const Command& command) const;
   Result measured_command(const Command& command);
+  Result film_command(const Command& command);
+  void film_due();
+  void run_for(double duration);
+  double next_picture() const;
+  Result adopt(ExperimentReading& reading);
   void tell_faults(const std::vector<std::string>& faults);
   Result move_joints(const Eigen::VectorXd& q);
   Result finish(Result result);
@@ -217,6 +242,12 @@ class Session {
   std::filesystem::path failed_path_;  // what could not be opened, for reload()
   std::unique_ptr<MeasuredData> measured_;
   std::optional<Aim> aim_;
+  FilmMaker* film_ = nullptr;
+  double film_fps_ = 30.0, film_start_ = 0.0;  // Hz, s
+  long film_pictures_ = 0;
+  std::unique_ptr<ExperimentReading> reading_;
+  std::vector<std::unique_ptr<ExperimentReading>> dropped_;  // cancelled, not ended yet
+  std::string reading_fault_;
   RunControl control_;
 };
 

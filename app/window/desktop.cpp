@@ -69,11 +69,13 @@ Desktop::Desktop(Platform& platform, Session& session, const DesktopOptions& opt
     painter_ = std::make_unique<GuiPainter>(*platform.gl());
     canvas_ = std::make_unique<SceneCanvas>(*platform.gl());
   }
+  if (!session.film_maker()) session.set_film_maker(this);
   follow_fonts();
 }
 
 Desktop::~Desktop() {
-  if (video_) toggle_video();
+  if (video_) end();
+  if (ui_.session.film_maker() == this) ui_.session.set_film_maker(nullptr);
   if (ui_.preferences != written_) write_preferences(ui_.preferences, preferences_path_);
 }
 
@@ -219,7 +221,7 @@ void Desktop::paint() {
   platform_.gl()->ClearColor(back.x, back.y, back.z, 1.0f);
   platform_.gl()->Clear(GL_COLOR_BUFFER_BIT);
   painter_->paint(*ImGui::GetDrawData());
-  add_to_video();
+  add();
   platform_.present(target_.get());
 }
 

@@ -16,6 +16,7 @@
 #include "app/window/snapshot_view.h"
 #include "app/window/tool_handles.h"
 #include "render/video.h"
+#include "session/film.h"
 
 struct ImGuiContext;
 
@@ -29,13 +30,16 @@ struct DesktopOptions {
   bool theme_given = false;           ///< `theme` goes before what the file says
 };
 
+/// STEM_001ENDING, or the first number that is free.
+std::filesystem::path free_name(const std::string& stem, const std::string& ending);
+
 /// The desktop: a session seen and led by hand. The same on every platform; on the null platform
 /// everything but the pictures.
-class Desktop {
+class Desktop : private FilmMaker {
  public:
   /// Both must outlive it. Throws std::runtime_error where the driver refuses our shaders.
   Desktop(Platform& platform, Session& session, const DesktopOptions& options);
-  ~Desktop();
+  ~Desktop() override;
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;
 
@@ -50,6 +54,9 @@ class Desktop {
   /// The file that the letters come from; empty: ImGui's own.
   const std::string& letters() const { return fonts_.file; }
   bool input_waits() const { return input_.has_more(); }
+
+  /// Sees the scene by one of its cameras; one that follows something stands by that now.
+  void use_camera(int index);
 
   /// The last picture with the interface; a still one of the scene alone, in any size. Nothing on
   /// the null platform.
@@ -70,10 +77,14 @@ class Desktop {
   void perform_file(Action action);
   void perform_view(Action action);
   void perform_edit(Action action);
-  void use_camera(int index);
   void take_screenshot();
   void toggle_video();
-  void add_to_video();
+  // Films: the session's commands begin and end them.
+  void begin(const FilmRequest& request) override;
+  bool running() const override { return video_ != nullptr; }
+  void add() override;
+  std::string end() override;
+  render::Image film_picture();
 
   Platform& platform_;
   std::filesystem::path preferences_path_;
@@ -100,6 +111,7 @@ class Desktop {
   std::filesystem::path shown_path_;
   bool framed_ = false, quits_ = false, full_screen_ = false;
   std::unique_ptr<render::VideoWriter> video_;
+  FilmRequest film_;
   double next_video_picture_ = 0.0;
   std::uint64_t drawn_key_ = 0;
 };

@@ -102,6 +102,9 @@ TEST_F(RobotSession, BeyondItsReachALedArmDoesNotJump) {
     last = now()->robot.goal;
   }
   EXPECT_LT(timer.seconds() / 20, 0.25) << "s, one move of the hand";
+  EXPECT_THAT(session_.log().back(), HasSubstr("tool "));
+  EXPECT_THAT(session_.log()[session_.log().size() - 2], HasSubstr("run "))
+      << "a drag is one line of the log";
   RecordProperty("ms_per_move", static_cast<int>(1e3 * timer.seconds() / 20));
 }
 
