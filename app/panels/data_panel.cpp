@@ -191,6 +191,14 @@ class DataPanel : public Panel {
             ImVec2(0, (static_cast<float>(rows) + 0.4f) *
                           (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y))))
       return;
+    // The models' columns get what the names and the numbers leave.
+    float names = ImGui::CalcTextSize("m10").x;
+    for (const discrepancy::Marker& marker : experiment.markers)
+      names = std::max(names, ImGui::CalcTextSize(marker.name.c_str()).x);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
+                            std::min(names, 5.0f * ImGui::GetFontSize()));
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0.000").x);
+    for (std::size_t m = 0; m < columns.size(); ++m) ImGui::TableSetupColumn("");
     ImGui::TableSetupScrollFreeze(0, 1);
     header(columns);
     for (int i = 0; i < static_cast<int>(now->markers.size()); ++i)
