@@ -16,6 +16,7 @@
 #include "app/version.h"
 #include "core/check.h"
 #include "io/atomic_file.h"
+#include "io/csv.h"
 #include "render/image.h"
 #include "session/script.h"
 #include "world/settings.h"
@@ -24,7 +25,15 @@ namespace pedicel::app {
 
 namespace {
 
-enum Exit { ok = 0, failure = 1, usage = 2, invalid = 3, unstable = 4, unwritable = 6 };
+enum Exit {
+  ok = 0,
+  failure = 1,
+  usage = 2,
+  invalid = 3,
+  unstable = 4,
+  unwritable = 6,
+  no_pictures = 77
+};
 
 constexpr const char* exit_codes =
     "Exit codes: 0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the "
@@ -39,11 +48,14 @@ extern "C" void request_stop(int) {
 }
 
 /// `pedicel --script FILE [SCENE]`: commands in place of a window, see session/script.h.
-int script_verb(const RunArguments& a) {
+int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   SessionOptions options;
   options.packages = a.packages;
   options.waits = true;
   Session session(options);
+  std::unique_ptr<FilmMaker> films;
+  if (make_films) films = make_films(session);
+  session.set_film_maker(films.get());
   if (!a.scene.empty() && !session.open(a.scene)) {
     std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
     return invalid;
@@ -56,8 +68,8 @@ int script_verb(const RunArguments& a) {
   return run_script(a.script, session, std::cout, std::cerr);
 }
 
-int run_verb(const RunArguments& a) {
-  if (!a.script.empty()) return script_verb(a);
+int run_verb(const RunArguments& a, const MakeFilms& make_films) {
+  if (!a.script.empty()) return script_verb(a, make_films);
   if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
   const RunOptions options = run_options(a);
   const world::Scene scene = load_scene(a);
@@ -70,7 +82,11 @@ int run_verb(const RunArguments& a) {
 void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
   app.add_flag("--paused", paused, "the window opens with the simulation held");
   app.add_option("--screenshot", window.screenshot, "writes a picture there (PNG), off screen");
-  app.add_flag("--with-ui", window.with_interface, "the picture shows the window with its panels");
+  app.add_option("--record", window.record,
+                 "writes a film there, off screen: *.mp4, or pictures (frame_%05d.png)");
+  app.add_option("--camera", window.camera, "of the scene's, for the film (default: the first)");
+  app.add_flag("--with-ui", window.with_interface,
+               "the picture or the film shows the window with its panels");
   app.add_option("--at", window.time, "simulated time of the picture, s")
       ->check(CLI::Range(0.0, 1e4));
   app.add_option("--show", window.show, "a panel to bring to the front (Plots); may be repeated")
@@ -87,17 +103,29 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
 /// The window, or a run off screen: with --headless, with what only a run can give, and where no
 /// window can be opened.
 int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
-                const OpenDesktop& open_desktop) {
-  const bool picture = !window.screenshot.empty();
+                const OpenDesktop& open_desktop, const MakeFilms& make_films) {
+  const bool picture = !window.screenshot.empty() || !window.record.empty();
+  if (!window.record.empty() && a.scene.empty())
+    throw UsageError("--record: no scene given, expected one to make a film of");
   const bool run = a.headless || a.json || a.quiet || !a.out.empty() || !a.script.empty();
-  if (!open_desktop || (run && !picture)) return run_verb(a);
+  if (!open_desktop || (run && !picture)) return run_verb(a, make_films);
   window.file = a.scene;
+  window.script = a.script;
   window.set = a.set;
+  const auto set = [&](const char* key, auto value) {
+    if (value)
+      window.set.push_back(std::string(key) + "=" +
+                           io::format_number(static_cast<double>(*value), 17));
+  };
+  set("dt", a.dt), set("seed", a.seed), set("threads", a.threads);
   window.packages = a.packages;
   window.playing = !a.scene.empty() && !paused;
-  if (const auto size = run_options(a).size) window.size = *size;
+  if (const auto size = run_options(a).size) window.size = *size, window.sized = true;
+  window.duration = a.duration;
+  window.fps = a.fps;
+  window.quiet = a.quiet;
   if (const std::optional<int> code = open_desktop(window)) return *code;
-  if (!a.scene.empty()) return run_verb(a);
+  if (!a.scene.empty()) return run_verb(a, make_films);
   throw std::runtime_error("there is no window to open; give a scene to run it off screen");
 }
 
@@ -229,6 +257,9 @@ int guarded(const std::function<int()>& verb) {
   } catch (const render::OutputError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return unwritable;
+  } catch (const NoPictures& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return no_pictures;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return failure;
@@ -237,7 +268,7 @@ int guarded(const std::function<int()>& verb) {
 
 }  // namespace
 
-int run_cli(int argc, char** argv, const OpenDesktop& open_desktop) {
+int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFilms& make_films) {
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   CLI::App app("Pedicel: a sandbox where robots handle plants.");
@@ -290,7 +321,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop) {
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);
   if (*observe) return guarded([&] { return observe_verb(observed); });
-  return guarded([&] { return window_verb(run, window, paused, open_desktop); });
+  return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });
 }
 
 }  // namespace pedicel::app

@@ -2,5 +2,6 @@
 #include "app/window/open_desktop.h"
 
 int main(int argc, char** argv) {
-  return pedicel::app::run_cli(argc, argv, pedicel::app::open_desktop);
+  using namespace pedicel::app;
+  return run_cli(argc, argv, open_desktop, make_films);
 }

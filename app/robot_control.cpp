@@ -1,6 +1,7 @@
 #include "app/robot_control.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pedicel::app {
 
@@ -18,7 +19,8 @@ int tool_of(const world::SceneRobot& scene, const robot::RobotDescription& descr
   return named >= 0 ? named : static_cast<int>(description.links.size()) - 1;
 }
 
-/// How fast a joint goes where it is sent by hand.
+}  // namespace
+
 Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
                              const robot::RobotDescription& description) {
   Eigen::VectorXd speed = model.velocity_limits();
@@ -30,8 +32,6 @@ Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
   }
   return speed;
 }
-
-}  // namespace
 
 RobotControl::RobotControl(const world::SceneRobot& scene,
                            const robot::RobotDescription& description, world::SimWorld& world)
@@ -55,7 +55,7 @@ void RobotControl::act(world::SimWorld& world, world::StepReport&) {
   if (goal_)
     approach_goal(world.dt());
   else if (!trajectory_.empty())
-    trajectory_.sample(world.time() + world.dt() - start_, q_, qd_);
+    part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
   for (int i = 0; i < q_.size(); ++i) {
     if (mode_ == "position") robot_.set_position_target(i, q_[i], qd_[i]);
     if (mode_ == "velocity") robot_.set_velocity_target(i, qd_[i]);
@@ -68,14 +68,27 @@ void RobotControl::go_to(const Eigen::VectorXd& q) {
   // A program may be ahead of a robot that could not keep up.
   if (follows_program()) q_ = robot_.model().clamped(robot_.positions());
   goal_ = robot_.model().clamped(q);
-  trajectory_ = {};
+  trajectory_ = lap_ = {};
+}
+
+// The way to the first lap, or the lap.
+const robot::Trajectory& RobotControl::part_at(double world_time) const {
+  const bool leads = lap_.empty() || world_time - start_ <= trajectory_.duration();
+  return leads ? trajectory_ : lap_;
+}
+
+double RobotControl::program_time(double world_time) const {
+  const double time = world_time - start_;
+  if (&part_at(world_time) == &trajectory_) return time;
+  return std::fmod(time - trajectory_.duration(), lap_.duration());
 }
 
 Eigen::VectorXd RobotControl::goal() const {
   if (goal_) return *goal_;
   if (trajectory_.empty()) return q_;
   Eigen::VectorXd q = q_, qd = qd_;
-  trajectory_.sample(trajectory_.duration(), q, qd);
+  const robot::Trajectory& last = lap_.empty() ? trajectory_ : lap_;
+  last.sample(last.duration(), q, qd);
   return q;
 }
 

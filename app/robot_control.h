@@ -41,9 +41,18 @@ class RobotControl : public world::Participant {
   /// To be followed; its time 0 is at `start` (s) of the world.
   void set_trajectory(robot::Trajectory trajectory, double start = 0.0) {
     trajectory_ = std::move(trajectory);
+    lap_ = {};
     start_ = start;
     goal_.reset();
   }
+  /// The same, and after its end a lap (from its time 0 on) over and over. The lap should end where
+  /// it begins.
+  void set_loop(robot::Trajectory lead, robot::Trajectory lap, double start) {
+    set_trajectory(std::move(lead), start);
+    lap_ = std::move(lap);
+  }
+  /// Gives up the program or the goal: it stays where it is now.
+  void stop() { go_to(robot_.positions()); }
   /// Gives up the program: from where it is, every joint moves evenly to `q` (rad or m,
   /// moved into the limits), at its speed limit at most, at 1 rad/s or 0.25 m/s where that is
   /// lower.
@@ -51,6 +60,11 @@ class RobotControl : public world::Participant {
   /// Where it is told to go in the end (rad or m).
   Eigen::VectorXd goal() const;
   bool follows_program() const { return !trajectory_.empty() && !goal_; }
+  bool loops() const { return follows_program() && !lap_.empty(); }
+  /// s, of the program followed: how long since its start (of a lap: since the lap began), and how
+  /// long it takes.
+  double program_time(double world_time) const;
+  double program_duration(double world_time) const { return part_at(world_time).duration(); }
 
   void add_to(StateHash& hash) const { robot_.add_to(hash); }
 
@@ -69,8 +83,9 @@ class RobotControl : public world::Participant {
   robot::Robot robot_;
   Reader reader_;
   void approach_goal(double dt);
+  const robot::Trajectory& part_at(double world_time) const;
 
-  robot::Trajectory trajectory_;
+  robot::Trajectory trajectory_, lap_;
   double start_ = 0.0;                   // s, of the trajectory
   std::optional<Eigen::VectorXd> goal_;  // of go_to()
   Eigen::VectorXd speed_;                // rad/s or m/s, of go_to()
@@ -78,6 +93,10 @@ class RobotControl : public world::Participant {
   Vec3 tool_offset_;
   Eigen::VectorXd q_, qd_;
 };
+
+/// How fast each joint goes where it is sent by hand, rad/s or m/s.
+Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
+                             const robot::RobotDescription& description);
 
 /// Reads the robot's files. Faults (an unreadable file, a joint of the scene that is not there) go
 /// to `diagnostics`, and then nothing comes back. `packages`: "NAME=PATH" beside the scene's own.

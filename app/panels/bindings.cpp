@@ -50,6 +50,7 @@ const std::vector<Binding>& bindings() {
       {Action::rods, Key::w, false, false, "View", "Rods and their nodes as lines"},
       {Action::contacts, Key::c, false, false, "View", "Contact forces"},
       {Action::frames, Key::j, false, false, "View", "Frames of links and tool"},
+      {Action::tool_handles, Key::g, false, false, "View", "Handles of the robot's tool"},
       {Action::full_screen, Key::f11, false, false, "View", "Full screen"},
       {Action::larger_text, Key::equal, true, false, "View", "Larger text"},
       {Action::smaller_text, Key::minus, true, false, "View", "Smaller text"},
@@ -123,6 +124,7 @@ std::vector<MouseHabit> mouse_habits(bool blender) {
                 {{"Click", "Select"},
                  {"Double click", "Select, and turn about that place; on nothing: deselect"},
                  {"Ctrl+left drag", "Pull a plant with a spring"},
+                 {"Drag of a handle", "Move or turn the robot's tool"},
                  {"Alt+click", "Select from here to the tip; Del cuts it off"},
                  {"Wheel in a stroke", "Thicker, thinner from here on"}});
   return habits;

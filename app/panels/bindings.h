@@ -43,6 +43,7 @@ enum class Action {
   rods,
   contacts,
   frames,
+  tool_handles,
   help,
   info,
   profiler,

@@ -11,6 +11,7 @@
 #include "app/panels/ui.h"
 #include "app/panels/widgets.h"
 #include "app/window/measured_marks.h"
+#include "session/experiment_reading.h"
 #include "session/measured_moment.h"
 
 namespace pedicel::app {
@@ -37,6 +38,7 @@ class DataPanel : public Panel {
     follow(ui);
     open_row(ui);
     const discrepancy::Experiment* experiment = ui.session.measured().experiment();
+    if (reading(ui)) return;
     if (!experiment) {
       note("Measured markers over the plant: open an experiment, the folder with experiment.yaml.");
       return;
@@ -65,6 +67,10 @@ class DataPanel : public Panel {
       if (data.experiment()) ui.ask(Action::frame_all);
       plot_ = {};
     }
+    if (found_ != data.diagnosis()) {
+      found_ = data.diagnosis();
+      if (found_ && data.has(discrepancy::extended)) view.model = discrepancy::extended;
+    }
     const double passed = std::clamp(ui.now - last_, 0.0, 0.1);
     last_ = ui.now;
     if (!view.playing || !data.experiment()) return;
@@ -87,13 +93,28 @@ class DataPanel : public Panel {
     asked |= ImGui::Button("Open");
     if (asked && !path_.empty() && (path_ != opened_ || !ui.session.measured().experiment())) {
       const Result result = ui.session.run(Command("open experiment", {{"folder", path_}}));
-      fault_ = result.ok ? "" : result.text;
       opened_ = result.ok ? path_ : "";
     }
-    if (fault_.empty()) return;
+    const std::string& fault = ui.session.reading_fault();
+    if (fault.empty()) return;
     ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
-    ImGui::TextWrapped("%s", fault_.c_str());
+    ImGui::TextWrapped("%s", fault.c_str());
     ImGui::PopStyleColor();
+  }
+
+  /// How far the one is that is being read; false: none is.
+  static bool reading(Ui& ui) {
+    const ExperimentReading* reading = ui.session.reading();
+    if (!reading) return false;
+    note("reading " + reading->path().filename().string());
+    const int all = reading->trials(), done = std::min(reading->trials_read() + 1, all);
+    const std::string text =
+        all ? "trial " + std::to_string(done) + " of " + std::to_string(all) : std::string("plant");
+    ImGui::ProgressBar(
+        all ? static_cast<float>(reading->trials_read()) / static_cast<float>(all) : 0.0f,
+        ImVec2(-1, 0), text.c_str());
+    if (wide_button("Cancel")) ui.run(Command("cancel reading", {}));
+    return true;
   }
 
   void title(Ui& ui, const discrepancy::Experiment& experiment) {
@@ -170,6 +191,14 @@ class DataPanel : public Panel {
             ImVec2(0, (static_cast<float>(rows) + 0.4f) *
                           (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y))))
       return;
+    // The models' columns get what the names and the numbers leave.
+    float names = ImGui::CalcTextSize("m10").x;
+    for (const discrepancy::Marker& marker : experiment.markers)
+      names = std::max(names, ImGui::CalcTextSize(marker.name.c_str()).x);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
+                            std::min(names, 5.0f * ImGui::GetFontSize()));
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0.000").x);
+    for (std::size_t m = 0; m < columns.size(); ++m) ImGui::TableSetupColumn("");
     ImGui::TableSetupScrollFreeze(0, 1);
     header(columns);
     for (int i = 0; i < static_cast<int>(now->markers.size()); ++i)
@@ -224,7 +253,7 @@ class DataPanel : public Panel {
       if (a > 0) ImGui::SameLine();
       if (ImGui::RadioButton(axes[static_cast<std::size_t>(a)], &axis_, a)) plot_.follows = true;
     }
-    const MarkerSeries series = series_of(ui.session.measured(), view.trial, view.marker, axis_);
+    const MeasuredSeries series = series_of(ui.session.measured(), view.trial, view.marker, axis_);
     std::vector<PlotLine> lines{{"measured", ink(measured_colour), series.time, series.measured}};
     for (int m = 0; m < discrepancy::model_count; ++m) {
       const auto& values = series.models[static_cast<std::size_t>(m)];
@@ -253,10 +282,11 @@ class DataPanel : public Panel {
     ImGui::EndDisabled();
   }
 
-  std::string path_, opened_, fault_;
+  std::string path_, opened_;
   PlotView plot_;
   int axis_ = 0;
   double last_ = 0.0;
+  const discrepancy::Diagnosis* found_ = nullptr;  // whose extended model was brought to the front
   DiagnosisPart diagnosis_;
 };
 

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "app/panels/panel.h"
@@ -8,8 +9,10 @@
 #include "app/panels/theme.h"
 #include "app/panels/ui.h"
 #include "app/panels/widgets.h"
+#include "app/window/measured_marks.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
+#include "session/measured_moment.h"
 
 namespace pedicel::app {
 
@@ -27,10 +30,12 @@ class PlotsPanel : public Panel {
     if (stage_ != ui.snapshot->stage) {
       stage_ = ui.snapshot->stage;
       std::erase_if(picked_, [&](const std::string& one) {
-        return !one.starts_with(organ_prefix) && std::ranges::count(names, one) == 0;
+        return !one.starts_with(organ_prefix) && !one.starts_with(trial_prefix) &&
+               std::ranges::count(names, one) == 0;
       });
       if (picked_.empty()) pick_something(names);
     }
+    follow_experiment(ui);
     const float list_width =
         std::min(15.0f * ImGui::GetFontSize(), 0.36f * ImGui::GetContentRegionAvail().x);
     if (ImGui::BeginChild("list", ImVec2(list_width, 0))) choose(ui, names);
@@ -38,10 +43,58 @@ class PlotsPanel : public Panel {
     ImGui::SameLine();
     const std::vector<PlotLine> lines = make_lines(ui);
     draw_plot("plot", lines, view_, ImGui::GetContentRegionAvail(), "s");
+    name_models(ui, lines);
   }
 
  private:
   static constexpr const char* organ_prefix = "clicked organ: ";
+  static constexpr const char* trial_prefix = "trial: ";
+  static constexpr std::array<const char*, 4> forces = {"force_x_N", "force_y_N", "force_z_N",
+                                                        "force_N"};
+
+  /// The lines of a trial stand for one name in the list: theirs are written in the plot's corner.
+  void name_models(const Ui& ui, const std::vector<PlotLine>& lines) const {
+    std::vector<const PlotLine*> named;
+    float width = 0.0f;
+    for (const PlotLine& line : lines) {
+      if (std::ranges::count(picked_, line.name)) continue;
+      named.push_back(&line);
+      width = std::max(width, ImGui::CalcTextSize(line.name.c_str()).x);
+    }
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float height = ImGui::GetTextLineHeight(), pad = 6.0f * ui.scale;
+    if (named.empty() || 2.5f * width > high.x - low.x) return;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    ImVec2 at(high.x - width - 4 * pad, low.y + 3 * pad);
+    list.AddRectFilled(
+        ImVec2(at.x - pad, at.y - pad),
+        ImVec2(at.x + width + pad, at.y + static_cast<float>(named.size()) * height + pad),
+        colour_u32(palette().window, 0.85f), 4.0f * ui.scale);
+    for (const PlotLine* line : named) {
+      list.AddText(at, line->colour, line->name.c_str());
+      at.y += height;
+    }
+  }
+
+  static ImU32 ink(const render::Colour& c) {
+    return ImGui::ColorConvertFloat4ToU32(ImVec4(c.r, c.g, c.b, 1.0f));
+  }
+
+  /// The measured force is shown at once, where there is one.
+  void follow_experiment(const Ui& ui) {
+    if (experiment_ == ui.session.measured().number()) return;
+    experiment_ = ui.session.measured().number();
+    std::erase_if(picked_, [](const std::string& one) { return one.starts_with(trial_prefix); });
+    if (has_force(ui)) picked_ = {std::string(trial_prefix) + "force_N"};
+    view_.follows = true;
+  }
+
+  static bool has_force(const Ui& ui) {
+    const discrepancy::Experiment* experiment = ui.session.measured().experiment();
+    const auto trial = static_cast<std::size_t>(ui.view.measured.trial);
+    return experiment && trial < experiment->trials.size() &&
+           !experiment->trials[trial].force.time.empty();
+  }
 
   void pick_something(const std::vector<std::string>& names) {
     for (const char* wanted : {"margin", "strain", "force"})
@@ -58,6 +111,8 @@ class PlotsPanel : public Panel {
     if (ImGui::Button("CSV")) export_csv(ui);
     tip("Writes the lines that are shown to plot.csv in the working folder");
     if (ImGui::BeginChild("names", ImVec2(0, 0), true)) {
+      if (has_force(ui))
+        for (const char* part : forces) toggle(std::string(trial_prefix) + part);
       for (const char* part : {"strain_1", "force_N", "moment_Nm"})
         toggle(std::string(organ_prefix) + part);
       for (const std::string& one : names) toggle(one);
@@ -68,9 +123,10 @@ class PlotsPanel : public Panel {
   void toggle(const std::string& one) {
     if (*search_ && one.find(search_) == std::string::npos) return;
     const auto at = std::ranges::find(picked_, one);
-    const bool on = at != picked_.end();
-    ImGui::PushStyleColor(ImGuiCol_Text, on ? line_colour(static_cast<int>(at - picked_.begin()))
-                                            : ImGui::GetColorU32(ImGuiCol_Text));
+    const bool on = at != picked_.end(), measured = one.starts_with(trial_prefix);
+    const ImU32 own =
+        measured ? ink(measured_colour) : line_colour(static_cast<int>(at - picked_.begin()));
+    ImGui::PushStyleColor(ImGuiCol_Text, on ? own : ImGui::GetColorU32(ImGuiCol_Text));
     const std::string shown = elide(one, rest_width());
     ImGui::PushID(one.c_str());
     if (ImGui::Selectable(shown.c_str(), on)) {
@@ -88,8 +144,13 @@ class PlotsPanel : public Panel {
   std::vector<PlotLine> make_lines(const Ui& ui) const {
     std::vector<PlotLine> lines;
     const RunLog& log = ui.session.control().log();
-    for (const std::string& one : picked_) {
-      PlotLine line{one, line_colour(static_cast<int>(lines.size())), {}, {}};
+    for (std::size_t p = 0; p < picked_.size(); ++p) {
+      const std::string& one = picked_[p];
+      if (one.starts_with(trial_prefix)) {
+        add_force(ui, one, lines);
+        continue;
+      }
+      PlotLine line{one, line_colour(static_cast<int>(p)), {}, {}};
       if (one.starts_with(organ_prefix)) {
         const char kind = one[std::string(organ_prefix).size()];
         for (const OrganLoad& load : log.loads()) {
@@ -103,6 +164,23 @@ class PlotsPanel : public Panel {
       lines.push_back(std::move(line));
     }
     return lines;
+  }
+
+  /// The measured force of the trial that the Data panel shows, over the trial's time, and what
+  /// each model says of it.
+  static void add_force(const Ui& ui, const std::string& name, std::vector<PlotLine>& lines) {
+    const std::string part = name.substr(std::string(trial_prefix).size());
+    const auto axis = std::ranges::find(forces, part) - forces.begin();
+    const auto series =
+        force_series_of(ui.session.measured(), ui.view.measured.trial, static_cast<int>(axis));
+    if (!series) return;
+    lines.push_back({"measured " + part, ink(measured_colour), series->time, series->measured});
+    for (int m = 0; m < discrepancy::model_count; ++m) {
+      const auto& values = series->models[static_cast<std::size_t>(m)];
+      if (values.empty()) continue;
+      lines.push_back({std::string(model_name(static_cast<discrepancy::Model>(m))) + " " + part,
+                       ink(model_colour(m)), series->time, values});
+    }
   }
 
   /// One row a time of the first line; the others have a value there where they were sampled, too.
@@ -136,6 +214,7 @@ class PlotsPanel : public Panel {
   PlotView view_;
   char search_[64] = "";
   std::uint64_t stage_ = ~0ull;
+  int experiment_ = -1;
 };
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "app/panels/panel.h"
+#include "app/panels/robot_program_part.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui.h"
 #include "app/panels/widgets.h"
@@ -27,8 +29,10 @@ class RobotPanel : public Panel {
     if (robot.follows_program) note("Follows the scene's program. Moving it by hand takes over.");
     joints(ui);
     tool(ui);
-    waypoints(ui);
+    program_.draw(ui);
+    ui.view.robot_panel = true;
   }
+  void idle(Ui& ui) override { ui.view.robot_panel = false; }
 
  private:
   void joints(Ui& ui) {
@@ -78,8 +82,10 @@ class RobotPanel : public Panel {
   void tool(Ui& ui) {
     heading(ui, "Tool");
     const Vec3 p = 1e3 * ui.snapshot->robot.tool.position;
-    row("Place, mm",
-        number_text(p.x(), 4) + ", " + number_text(p.y(), 4) + ", " + number_text(p.z(), 4));
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.1f, %.1f, %.1f", p.x(), p.y(), p.z());
+    row("Place, mm", text.data());
+    goal(ui);
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Step");
     ImGui::SameLine();
@@ -107,48 +113,56 @@ class RobotPanel : public Panel {
         tip("Turns the tool by 5 degrees about the world's " +
             std::string(axes[static_cast<std::size_t>(axis)]));
       }
-    if (!problem_.empty()) {
-      ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
-      ImGui::TextWrapped("%s", problem_.c_str());
-      ImGui::PopStyleColor();
+    ImGui::Checkbox("Handles", &ui.view.tool_handles);
+    tip("Arrows, rings and a knob in the scene to drag the tool by, key " +
+        keys_of(Action::tool_handles));
+    ImGui::SameLine();
+    ImGui::Checkbox("Tool's axes", &ui.view.tool_axes);
+    tip("The handles turn with the tool; else they are the world's");
+    ImGui::SameLine();
+    ImGui::Checkbox("Ghost", &ui.view.ghost);
+    tip("Shows the robot where it is told to go while it is not there");
+  }
+
+  /// Where the tool is to go, to be typed in; and what is out of reach.
+  void goal(Ui& ui) {
+    const std::optional<ToolGoal> goal = ui.session.tool_goal();
+    if (!goal) return;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Goal, mm");
+    const float spacing = 4.0f * ui.scale;
+    const float width =
+        (ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Goal, mm").x - 3 * spacing) / 3.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+      ImGui::SameLine(0, spacing);
+      ImGui::SetNextItemWidth(width);
+      ImGui::PushID(axis);
+      double value = 1e3 * goal->asked_W.position[axis];
+      if (number_field("##goal", value, "%.1f")) {
+        Vec3 to = goal->asked_W.position;
+        to[axis] = 1e-3 * value;
+        const Result result = ui.session.run(Command("tool", {{"to", to}, {"near", 1}}));
+        if (!result.ok) ui.report(result);
+      }
+      ImGui::PopID();
     }
+    if (goal->asked_W.position != problem_at_) problem_.clear();
+    const std::string& text = goal->reached ? problem_ : goal->sentence;
+    if (text.empty()) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
   }
 
   void jog(Ui& ui, const Vec3& shift, const Vec3& turn) {
     const Result result = ui.session.run(Command("jog", {{"shift", shift}, {"turn", turn}}));
     problem_ = result.ok ? "" : result.text;
+    if (const auto goal = ui.session.tool_goal()) problem_at_ = goal->asked_W.position;
   }
 
-  void waypoints(Ui& ui) {
-    heading(ui, "Waypoints");
-    const std::vector<RobotWaypoint> points = ui.session.document().waypoints;
-    if (ImGui::Button("Record")) {
-      const Eigen::VectorXd& q =
-          ui.snapshot->robot.goal.size() ? ui.snapshot->robot.goal : ui.snapshot->robot.q;
-      const double time = points.empty() ? 1.0 : points.back().time + 1.0;
-      ui.run(Command("add waypoint",
-                     {{"time", time}, {"joints", std::vector<double>(q.begin(), q.end())}}));
-    }
-    tip("Adds where the robot is to be now, a second after the last one");
-    ImGui::SameLine();
-    ImGui::BeginDisabled(points.empty());
-    if (ImGui::Button("Play")) ui.run(Command("play waypoints", {}));
-    ImGui::SameLine();
-    if (ImGui::Button("Clear")) ui.run(Command("clear waypoints", {}));
-    ImGui::EndDisabled();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      ImGui::PushID(static_cast<int>(i));
-      ImGui::AlignTextToFramePadding();
-      ImGui::Text("%d   at %.1f s", static_cast<int>(i) + 1, points[i].time);
-      ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.25f * ImGui::GetFrameHeight());
-      if (icon_button("delete", Icon::cross, "Takes it away"))
-        ui.run(Command("delete waypoint", {{"index", static_cast<int>(i)}}));
-      ImGui::PopID();
-    }
-    if (points.empty()) note("None yet: move the robot and record.");
-  }
-
+  RobotProgramPart program_;
   std::string dragged_, problem_;
+  Vec3 problem_at_ = Vec3::Zero();  // m, the goal when it arose
   double dragged_value_ = 0.0;
   float step_mm_ = 10.0f;
 };

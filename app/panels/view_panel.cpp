@@ -37,6 +37,7 @@ class ViewPanel : public Panel {
     colours(ui);
     shown(ui);
     cameras(ui);
+    pictures(ui);
     quality(ui);
     window(ui);
     mouse(ui);
@@ -75,6 +76,15 @@ class ViewPanel : public Panel {
     tip(keys_of(Action::frame_selection));
     if (!ui.snapshot->assets || ui.snapshot->assets->scene.cameras.empty()) return;
     note("[ and ] go through the scene's cameras.");
+  }
+
+  static void pictures(Ui& ui) {
+    heading(ui, "Pictures and films");
+    if (ImGui::Button("Picture")) ui.ask(Action::screenshot);
+    tip("Of the window, into the working folder: " + keys_of(Action::screenshot));
+    ImGui::SameLine();
+    if (ImGui::Button(ui.recording ? "End the film" : "Record a film")) ui.ask(Action::video);
+    tip("Of the window, by the clock, into the working folder: " + keys_of(Action::video));
   }
 
   static void quality(Ui& ui) {

@@ -36,7 +36,12 @@ struct ViewState {
   bool frames = false;    ///< axes of links and tool
   bool rods = false;      ///< elements and nodes as lines
   bool leaves = true;
-  bool labels = false;  ///< names of fruits
+  bool labels = false;       ///< names of fruits
+  bool ghost = true;         ///< the robot where it is told to go
+  bool tool_handles = true;  ///< to drag the tool by
+  bool tool_axes = false;    ///< the handles turn with the tool; else they are the world's
+  bool robot_panel = false;  ///< the Robot panel is in front
+  bool goal_missed = false;  ///< the tool was asked to go where it cannot
   bool automatic_quality = true;
   int quality = 1;
   int camera = -1;  ///< of the scene's; -1: led by hand

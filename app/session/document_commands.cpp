@@ -114,6 +114,22 @@ void delete_waypoint(Document& document, const Command& c) {
   document.waypoints.erase(document.waypoints.begin() + index);
 }
 
+void set_waypoints(Document& document, const Command& c) {
+  const std::vector<double>&times = c.numbers("times"), &joints = c.numbers("joints");
+  const std::size_t each = times.empty() ? 0 : joints.size() / times.size();
+  if (times.empty() || each == 0 || each * times.size() != joints.size())
+    throw UsageError(std::to_string(joints.size()) + " joint values for " +
+                     std::to_string(times.size()) + " times, expected as many for each of them");
+  std::vector<RobotWaypoint> waypoints;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!(times[i] >= 0.0) || (i > 0 && !(times[i] > times[i - 1])))
+      throw UsageError("times, expected s from 0 on that increase");
+    const auto row = joints.begin() + static_cast<std::ptrdiff_t>(i * each);
+    waypoints.push_back({times[i], {row, row + static_cast<std::ptrdiff_t>(each)}});
+  }
+  document.waypoints = std::move(waypoints);
+}
+
 void clear_waypoints(Document& document, const Command&) {
   document.waypoints.clear();
 }
@@ -164,6 +180,12 @@ std::vector<CommandDescription> document_commands() {
        {{"index", Kind::whole, true, "from 0"}},
        "Takes a waypoint away.",
        delete_waypoint},
+      {"set waypoints",
+       d,
+       {{"times", Kind::numbers, true, "s after the program's start"},
+        {"joints", Kind::numbers, true, "rad or m, one a joint, time after time"}},
+       "Records other waypoints in place of those there are.",
+       set_waypoints},
       {"clear waypoints", d, {}, "Takes all waypoints away.", clear_waypoints},
   };
 }

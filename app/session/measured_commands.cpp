@@ -74,6 +74,7 @@ std::vector<CommandDescription> measured_commands() {
        {{"folder", Kind::text, true, "path of the experiment"}},
        "Opens measured data and simulates them with the nominal plant.",
        nullptr},
+      {"cancel reading", s, {}, "Drops the experiment that is being read.", nullptr},
       {"close experiment", s, {}, "Leaves the measured data.", nullptr},
       {"diagnose",
        s,

@@ -60,8 +60,8 @@ std::optional<MeasuredMoment> moment_of(const MeasuredData& data, int trial,
   return moment;
 }
 
-MarkerSeries series_of(const MeasuredData& data, int trial, int marker, int axis) {
-  MarkerSeries series;
+MeasuredSeries series_of(const MeasuredData& data, int trial, int marker, int axis) {
+  MeasuredSeries series;
   const discrepancy::Experiment* experiment = data.experiment();
   if (!experiment || trial < 0 || trial >= static_cast<int>(experiment->trials.size()) ||
       marker < 0 || marker >= static_cast<int>(experiment->markers.size()))
@@ -77,6 +77,28 @@ MarkerSeries series_of(const MeasuredData& data, int trial, int marker, int axis
   for (int m = 0; m < discrepancy::model_count; ++m)
     if (const TrialPath* path = data.path(static_cast<discrepancy::Model>(m), trial))
       series.models[static_cast<std::size_t>(m)] = column(path->markers);
+  return series;
+}
+
+std::optional<MeasuredSeries> force_series_of(const MeasuredData& data, int trial, int axis) {
+  const discrepancy::Experiment* experiment = data.experiment();
+  if (!experiment || trial < 0 || trial >= static_cast<int>(experiment->trials.size()))
+    return std::nullopt;
+  const discrepancy::Samples& seen = experiment->trials[static_cast<std::size_t>(trial)].force;
+  if (seen.time.empty()) return std::nullopt;
+  const auto part = [&](const Eigen::MatrixXd& table) {
+    const Eigen::VectorXd values =
+        axis < 3 ? Eigen::VectorXd(table.col(axis)) : Eigen::VectorXd(table.rowwise().norm());
+    return std::vector<double>(values.begin(), values.end());
+  };
+  MeasuredSeries series;
+  series.time = seen.time;
+  series.measured = part(seen.value);
+  for (int m = 0; m < discrepancy::model_count; ++m) {
+    const TrialPath* path = data.path(static_cast<discrepancy::Model>(m), trial);
+    if (path && path->force.rows() == seen.value.rows())
+      series.models[static_cast<std::size_t>(m)] = part(path->force);
+  }
   return series;
 }
 

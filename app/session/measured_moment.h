@@ -24,13 +24,16 @@ struct MeasuredMoment {
 std::optional<MeasuredMoment> moment_of(const MeasuredData& data, int trial,
                                         discrepancy::Model model, double time);
 
-/// One coordinate of a marker over a trial, for plots.
-struct MarkerSeries {
-  std::vector<double> time;      ///< s
-  std::vector<double> measured;  ///< m; NaN where it was not seen
-  std::array<std::vector<double>, discrepancy::model_count> models;  ///< m; empty: not known
+/// One coordinate of a marker, or of the force, over a trial, for plots.
+struct MeasuredSeries {
+  std::vector<double> time;      ///< s, within the trial
+  std::vector<double> measured;  ///< m or N; NaN where it was not seen
+  std::array<std::vector<double>, discrepancy::model_count> models;  ///< empty: not known
 };
 /// `axis` 0, 1, 2: x, y, z.
-MarkerSeries series_of(const MeasuredData& data, int trial, int marker, int axis);
+MeasuredSeries series_of(const MeasuredData& data, int trial, int marker, int axis);
+/// The pull on the plant at the first hold (N); `axis` 0, 1, 2: x, y, z, 3: its size. Nothing where
+/// none was measured.
+std::optional<MeasuredSeries> force_series_of(const MeasuredData& data, int trial, int axis);
 
 }  // namespace pedicel::app

@@ -39,6 +39,24 @@ std::optional<PullPlace> find_organ(const Snapshot& snapshot, const std::string&
   return std::nullopt;
 }
 
+std::optional<Vec3> place_of(const Snapshot& snapshot, const world::Anchor& anchor) {
+  using Kind = world::Anchor::Kind;
+  if (anchor.kind == Kind::tool && snapshot.robot.present) return snapshot.robot.tool.position;
+  // A fruit that has come off is a body.
+  if (anchor.kind == Kind::body || anchor.kind == Kind::fruit)
+    for (const BodySnapshot& body : snapshot.bodies)
+      if (body.info->description.name == anchor.name) return body.pose.position;
+  for (const PlantSnapshot& plant : snapshot.plants) {
+    if (anchor.kind == Kind::plant && plant.model->name == anchor.name)
+      return plant.model->root.position;
+    if (anchor.kind != Kind::fruit) continue;
+    for (const cosserat::Fruit& fruit : plant.model->fruits)
+      if (plant.model->name + "/" + fruit.name == anchor.name)
+        return point_on(*plant.model, plant.state, fruit.element, fruit.back);
+  }
+  return std::nullopt;
+}
+
 std::string organ_names(const Snapshot& snapshot) {
   constexpr std::size_t shown = 12;
   std::vector<std::string> names;

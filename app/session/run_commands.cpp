@@ -52,6 +52,7 @@ std::vector<CommandDescription> control_commands() {
 
 std::vector<CommandDescription> robot_commands() {
   const Scope r = Scope::run;
+  const ArgumentDescription loop{"loop", Kind::whole, false, "1: over and over until stopped (0)"};
   return {
       {"joint",
        r,
@@ -72,7 +73,8 @@ std::vector<CommandDescription> robot_commands() {
       {"tool",
        r,
        {{"to", Kind::point, true, "m, in the world"},
-        {"turn", Kind::numbers, false, "x,y,z,w: its orientation (as it is)"}},
+        {"turn", Kind::numbers, false, "x,y,z,w: its orientation (as it is to be now)"},
+        {"near", Kind::whole, false, "1: as near as can be where it is out of reach (0: refused)"}},
        "Moves the tool to a place.",
        nullptr},
       {"gripper",
@@ -82,10 +84,11 @@ std::vector<CommandDescription> robot_commands() {
        nullptr},
       {"play trajectory",
        r,
-       {{"file", Kind::text, true, "table time_s,JOINT,... in rad or m"}},
+       {{"file", Kind::text, true, "table time_s,JOINT,... in rad or m"}, loop},
        "Plays joint positions from a file, from now on.",
        nullptr},
-      {"play waypoints", r, {}, "Plays the recorded waypoints from now on.", nullptr},
+      {"play waypoints", r, {loop}, "Plays the recorded waypoints from now on.", nullptr},
+      {"stop robot", r, {}, "Ends what the robot plays: it stays where it is.", nullptr},
   };
 }
 
@@ -111,8 +114,28 @@ std::vector<CommandDescription> file_commands() {
        {{"plant", Kind::word, true, "name in the scene"}, file},
        "Writes a plant as *.plant.yaml, *.csv, *.obj or *.ply.",
        nullptr},
+      {"save waypoints",
+       s,
+       {file},
+       "Writes the recorded waypoints as a table time_s,JOINT,...",
+       nullptr},
+      {"load waypoints",
+       s,
+       {file},
+       "Takes the rows of such a table as the recorded waypoints.",
+       nullptr},
       {"undo", s, {}, "Takes back the last change.", nullptr},
       {"redo", s, {}, "Does it again.", nullptr},
+      {"record",
+       s,
+       {{"file", Kind::text, true, "*.mp4, or pictures: frame_%05d.png"},
+        {"fps", Kind::number, false, "Hz, pictures a simulated second (30)"},
+        {"size", Kind::word, false, "WxH, px (1280x720)"},
+        {"camera", Kind::word, false, "of the scene's (the first)"},
+        {"ui", Kind::whole, false, "1: the window with its panels (0: the scene alone)"}},
+       "Begins a film of what is done from now on.",
+       nullptr},
+      {"stop recording", s, {}, "Ends the film.", nullptr},
       {"keep", s, {}, "Writes changed plant parameters into the plants.", nullptr},
       {"discard", s, {}, "Sets changed parameters back.", nullptr},
       {"expect",

@@ -73,6 +73,23 @@ void RunControl::play_trajectory(robot::Trajectory trajectory) {
   });
 }
 
+void RunControl::play_loop(robot::Trajectory lead, robot::Trajectory lap) {
+  impl_->thread.ask([lead = std::move(lead), lap = std::move(lap)](RunThread& t) {
+    t.act([lead, lap](LiveRun& run) {
+      if (RobotControl* robot = run.simulation().robot())
+        robot->set_loop(lead, lap, run.simulation().world().time());
+    });
+  });
+}
+
+void RunControl::stop_robot() {
+  impl_->thread.ask([](RunThread& t) {
+    t.act([](LiveRun& run) {
+      if (RobotControl* robot = run.simulation().robot()) robot->stop();
+    });
+  });
+}
+
 std::shared_ptr<const Snapshot> RunControl::snapshot() const {
   return impl_->thread.snapshot();
 }

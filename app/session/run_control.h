@@ -65,6 +65,10 @@ class RunControl {
   void move_robot(const Eigen::VectorXd& q);
   /// Plays joint positions over time, from now on.
   void play_trajectory(robot::Trajectory trajectory);
+  /// The same, and then a lap over and over.
+  void play_loop(robot::Trajectory lead, robot::Trajectory lap);
+  /// The robot stays where it is.
+  void stop_robot();
 
   /// The newest complete step; never null.
   std::shared_ptr<const Snapshot> snapshot() const;

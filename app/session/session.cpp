@@ -5,6 +5,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "session/command_table.h"
+#include "session/experiment_reading.h"
 #include "session/journal.h"
 #include "session/measured_data.h"
 
@@ -82,7 +83,12 @@ Result Session::dispatch(const Command& command) {
   if (description->scope == Scope::document) return change_document(command);
   Result result =
       description->scope == Scope::session ? session_command(command) : run_command(command);
-  if (result.ok && description->scope == Scope::run) log_.push_back(command.text());
+  if (!result.ok || description->scope != Scope::run) return result;
+  // Of a dragged tool the last place counts.
+  if (command.verb() == "tool" && !log_.empty() && log_.back().starts_with("tool "))
+    log_.back() = command.text();
+  else
+    log_.push_back(command.text());
   return result;
 }
 
@@ -191,6 +197,8 @@ void Session::update() {
     if (!news.restarted) continue;
     for (const std::string& one : news.notes) say(Severity::warning, one);
   }
+  std::erase_if(dropped_, [](const auto& one) { return one->has_ended(); });
+  if (reading_ && reading_->has_ended()) finish_reading();
   tell_faults(measured_->update());
 }
 

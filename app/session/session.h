@@ -10,11 +10,14 @@
 #include "robot/inverse_kinematics.h"
 #include "session/command.h"
 #include "session/document.h"
+#include "session/film.h"
 #include "session/history.h"
+#include "session/robot_goal.h"
 #include "session/run_control.h"
 
 namespace pedicel::app {
 
+class ExperimentReading;
 class Journal;
 class MeasuredData;
 
@@ -122,26 +125,58 @@ class Session {
   Result discard_parameters();
 
   // Robot.
-  /// Joint positions with which the tool is at a pose; `reached` false and a sentence where it
-  /// cannot be. Starts from the goal that the robot has.
-  robot::IkResult reach(const Pose& tool_W) const;
+  /// Joint positions with which the tool is at a pose (without `turned`: at its place, turned
+  /// anyhow); `reached` false and a sentence where it cannot be. Starts from the goal that the
+  /// robot has.
+  robot::IkResult reach(const Pose& tool_W, bool turned = true) const;
+  /// Where the tool was asked to go, and whether it can; where the robot was told otherwise since,
+  /// the tool's place at the end of that. Nothing without a robot.
+  std::optional<ToolGoal> tool_goal() const;
+  /// Moves the tool to a pose. `turned`: its turn was asked for, too; else an arm with fewer than
+  /// six joints may turn it. Where the pose is out of reach: refused with the sentence, or as near
+  /// as can be, and the answer has the sentence.
+  Result aim_tool(const Pose& tool_W, bool turned, bool as_near_as_can_be);
   /// Moves the tool by a shift (m, W) and a turn (rad, a rotation vector, W), or says why not.
   Result jog(const Vec3& shift_W, const Vec3& turn_W = Vec3::Zero());
-  Result play_waypoints();
+  /// Plays the recorded waypoints from now on; with `loops` over and over until it is stopped: the
+  /// way back to the first takes the time that the joints need by hand.
+  Result play_waypoints(bool loops = false);
   /// Of a table time_s,joint,... ; its time 0 is now.
-  Result play_trajectory(const std::filesystem::path& file);
+  Result play_trajectory(const std::filesystem::path& file, bool loops = false);
+  /// The waypoints as such a table.
+  Result save_waypoints(const std::filesystem::path& file) const;
+  /// Takes the rows of such a table as the waypoints, as one step of the history.
+  Result load_waypoints(const std::filesystem::path& file);
 
   // Measured data.
   /// Opens an experiment folder. Where no plant of the document has its curves, the document
   /// becomes its nominal plant alone, without a file, so that saving leaves the experiment as it
-  /// is; refused where that would lose changes.
+  /// is; refused where that would lose changes. Read on a thread of its own: update() takes it
+  /// over, and its faults become messages. Where commands wait, it is open on return.
   Result open_experiment(const std::filesystem::path& path);
+  /// The experiment that is being read; null: none is.
+  const ExperimentReading* reading() const { return reading_.get(); }
+  /// Drops what is being read.
+  void cancel_reading();
+  /// Waits until what is being read is open (scripts, tests).
+  Result finish_reading();
+  /// Why the last one could not be opened; empty: it could.
+  const std::string& reading_fault() const { return reading_fault_; }
   MeasuredData& measured() { return *measured_; }
   const MeasuredData& measured() const { return *measured_; }
   /// The plant of the document that was measured; -1: none.
   int measured_plant() const;
   /// Gives the measured plant the effects of the extended one, as one step of the history.
   Result accept_diagnosis();
+
+  // Films.
+  /// Who makes them; null: nobody. Must outlive the session, or be taken back.
+  void set_film_maker(FilmMaker* maker) { film_ = maker; }
+  FilmMaker* film_maker() const { return film_; }
+  /// Throws as FilmMaker::begin(); UsageError while one is made.
+  void begin_film(const FilmRequest& request);
+  /// Steps, with the pictures that are due between them where a film is made and commands wait.
+  void advance(long steps);
 
   // Recovery.
   /// Documents that a killed program left, the newest first. Empty without autosave.
@@ -161,6 +196,13 @@ class Session {
     Document before_last;  // its last command
     std::vector<Command> commands;
   };
+  /// The last pose asked for.
+  struct Aim {
+    ToolGoal goal;
+    Eigen::VectorXd to;                   // rad or m
+    std::uint64_t stage = 0, number = 0;  // of the snapshot it was asked at
+    long step = 0;
+  };
   void set_document(Document document);
   void rebuild(bool restart = false);
   Result dispatch(const Command& command);
@@ -172,9 +214,18 @@ class Session {
   Result session_command(const Command& command);
   Result run_command(const Command& command);
   Result robot_command(const Command& command);
+  Result tool_command(const Command& command);
+  Result program_command(const Command& command);
+  Result play(robot::Trajectory trajectory, bool loops);
+  robot::Trajectory waypoint_trajectory(const robot::KinematicModel& model) const;
   Result pull_command(const Command& command);
   Result expect_command(const Command& command) const;
   Result measured_command(const Command& command);
+  Result film_command(const Command& command);
+  void film_due();
+  void run_for(double duration);
+  double next_picture() const;
+  Result adopt(ExperimentReading& reading);
   void tell_faults(const std::vector<std::string>& faults);
   Result move_joints(const Eigen::VectorXd& q);
   Result finish(Result result);
@@ -190,6 +241,13 @@ class Session {
   std::unique_ptr<Journal> journal_;
   std::filesystem::path failed_path_;  // what could not be opened, for reload()
   std::unique_ptr<MeasuredData> measured_;
+  std::optional<Aim> aim_;
+  FilmMaker* film_ = nullptr;
+  double film_fps_ = 30.0, film_start_ = 0.0;  // Hz, s
+  long film_pictures_ = 0;
+  std::unique_ptr<ExperimentReading> reading_;
+  std::vector<std::unique_ptr<ExperimentReading>> dropped_;  // cancelled, not ended yet
+  std::string reading_fault_;
   RunControl control_;
 };
 

@@ -1,7 +1,11 @@
+#include <chrono>
+#include <thread>
+
 #include "core/check.h"
 #include "discrepancy/report.h"
 #include "io/atomic_file.h"
 #include "session/diagnosis_card.h"
+#include "session/experiment_reading.h"
 #include "session/journal.h"
 #include "session/measured_commands.h"
 #include "session/measured_data.h"
@@ -54,26 +58,50 @@ int Session::measured_plant() const {
 }
 
 Result Session::open_experiment(const std::filesystem::path& path) {
-  Diagnostics diagnostics;
-  const auto fault = [&](const std::string& text) {
-    say(Severity::error, text);
-    return Result{false, text};
-  };
+  if (measured_->is_diagnosing()) {
+    reading_fault_ = path.string() + ": a diagnosis runs, expected it to end or be cancelled";
+    say(Severity::error, reading_fault_);
+    return {false, reading_fault_};
+  }
+  cancel_reading();
+  reading_fault_.clear();
+  reading_ = std::make_unique<ExperimentReading>(path);
+  return options_.waits ? finish_reading() : Result{true, "reading " + path.string()};
+}
+
+void Session::cancel_reading() {
+  if (!reading_) return;
+  reading_->cancel();
+  dropped_.push_back(std::move(reading_));
+}
+
+Result Session::finish_reading() {
+  if (!reading_) return {false, "nothing is being read"};
+  while (!reading_->has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto reading = std::move(reading_);
+  const Result result = adopt(*reading);
+  if (!result.ok) say(Severity::error, result.text);
+  reading_fault_ = result.ok ? "" : result.text;
+  return result;
+}
+
+Result Session::adopt(ExperimentReading& reading) {
+  const std::string path = reading.path().string();
+  if (!reading.fault().empty()) return {false, path + ": " + reading.fault()};
+  if (!reading.experiment()) return {false, reading.diagnostics().text()};
   if (measured_->is_diagnosing())
-    return fault(path.string() + ": a diagnosis runs, expected it to end or be cancelled");
-  auto read = discrepancy::read_experiment(path, diagnostics);
-  if (!read) return fault(diagnostics.text());
-  const bool replaces = find_plant(document_, read->plant) < 0;
+    return {false, path + ": a diagnosis runs, expected it to end or be cancelled"};
+  const bool replaces = find_plant(document_, reading.experiment()->plant) < 0;
   if (dirty() && replaces)
-    return fault(path.string() +
-                 ": its plant would take the place of changes that are not saved, expected them "
-                 "to be saved or taken back");
-  for (const Diagnostic& one : diagnostics.all()) say(one.severity, to_string(one));
-  measured_->open(*std::move(read));
+    return {false, path +
+                       ": its plant would take the place of changes that are not saved, expected "
+                       "them to be saved or taken back"};
+  for (const Diagnostic& one : reading.diagnostics().all()) say(one.severity, to_string(one));
+  measured_->open(*std::move(reading.experiment()));
   if (replaces) set_document(document_of(*measured_->experiment()));
   if (options_.waits) tell_faults(measured_->wait());
   const discrepancy::Experiment& e = *measured_->experiment();
-  return {true, "opened " + path.string() + ": " + counted(e.trials.size(), "trial") + ", " +
+  return {true, "opened " + path + ": " + counted(e.trials.size(), "trial") + ", " +
                     counted(e.markers.size(), "marker")};
 }
 
@@ -102,6 +130,7 @@ Result Session::measured_command(const Command& c) {
   if (verb == "open experiment") return open_experiment(c.word("folder"));
   if (verb == "accept diagnosis") return accept_diagnosis();
   if (verb == "close experiment") measured_->close();
+  if (verb == "cancel reading") cancel_reading();
   if (verb == "cancel diagnosis") measured_->cancel_diagnosis();
   if (verb == "diagnose") {
     measured_->start_diagnosis(c.whole_or("threads", 0),

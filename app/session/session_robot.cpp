@@ -1,23 +1,11 @@
 #include "core/check.h"
-#include "io/csv.h"
+#include "session/robot_goal.h"
 #include "session/session.h"
 
 /// The robot by hand.
 namespace pedicel::app {
 
 namespace {
-
-robot::KinematicModel kinematics_of(const Snapshot& now) {
-  if (!now.robot.present || !now.assets || !now.assets->robot)
-    throw UsageError("the scene has no robot");
-  return robot::KinematicModel(*now.assets->robot, now.assets->scene.robot->base);
-}
-
-/// What a move by hand starts from: where the robot is sent by hand, else where it is; a program
-/// ends with the move.
-const Eigen::VectorXd& start_of(const RobotSnapshot& robot) {
-  return robot.follows_program ? robot.q : robot.goal;
-}
 
 int joint_of(const robot::KinematicModel& model, const std::string& name) {
   const int joint = model.joint_index(name);
@@ -29,16 +17,17 @@ int joint_of(const robot::KinematicModel& model, const std::string& name) {
 
 }  // namespace
 
-robot::IkResult Session::reach(const Pose& tool_W) const {
+robot::IkResult Session::reach(const Pose& tool_W, bool turned) const {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
   const world::SceneRobot& scene = *now->assets->scene.robot;
   robot::IkTarget target;
   target.link = now->robot.tool_link;
   target.position_W = tool_W.position - tool_W.rotation * scene.tool_offset;
-  target.orientation_W = tool_W.rotation;
+  if (turned) target.orientation_W = tool_W.rotation;
   robot::IkSettings settings;
   settings.restarts = 6;
+  settings.loyalty = 0.1;
   if (!scene.gripper.empty()) settings.held = {joint_of(model, scene.gripper)};
   return robot::inverse_kinematics(model, target, start_of(now->robot), settings);
 }
@@ -52,51 +41,60 @@ Result Session::move_joints(const Eigen::VectorXd& q) {
   return {};
 }
 
-Result Session::jog(const Vec3& shift_W, const Vec3& turn_W) {
+// The pose that was asked for is known as long as the robot goes where that has sent it, or is yet
+// to hear of it.
+std::optional<ToolGoal> Session::tool_goal() const {
+  const auto now = snapshot();
+  if (!now->robot.present || !now->assets || !now->assets->robot) return {};
+  if (aim_ && aim_->stage == now->stage && now->step >= aim_->step &&
+      (now->robot.goal == aim_->to || now->number <= aim_->number))
+    return aim_->goal;
+  const robot::KinematicModel model = kinematics_of(*now);
+  const Pose tool = tool_at(*now, model, start_of(now->robot));
+  return ToolGoal{tool, tool, true, {}};
+}
+
+Result Session::aim_tool(const Pose& tool_W, bool turned, bool as_near_as_can_be) {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
-  Pose tool = model.link_pose(start_of(now->robot), now->robot.tool_link);
-  tool.position = tool * now->assets->scene.robot->tool_offset + shift_W;
+  // With fewer than six joints a place alone can be asked for.
+  const bool holds_turn = turned || tool_freedom(*now, model) >= 6;
+  const robot::IkResult found = reach(tool_W, holds_turn);
+  if (!found.reached && !as_near_as_can_be) return {false, found.sentence};
+  Aim aim;
+  aim.to = model.clamped(found.q);
+  aim.goal = {tool_W, tool_at(*now, model, aim.to), found.reached, found.sentence};
+  if (!holds_turn) aim.goal.asked_W.rotation = aim.goal.nearest_W.rotation;
+  if (found.reached) aim.goal.nearest_W = aim.goal.asked_W;
+  aim.stage = now->stage, aim.step = now->step, aim.number = now->number;
+  const Result moved = move_joints(found.q);
+  aim_ = std::move(aim);
+  return moved.ok ? Result{true, found.sentence} : moved;
+}
+
+Result Session::jog(const Vec3& shift_W, const Vec3& turn_W) {
+  const std::optional<ToolGoal> goal = tool_goal();
+  if (!goal) throw UsageError("the scene has no robot");
+  Pose tool = goal->nearest_W;
+  tool.position += shift_W;
   const double angle = turn_W.norm();
   if (angle > 0.0)
     tool.rotation = (Eigen::AngleAxisd(angle, turn_W / angle) * tool.rotation).normalized();
-  const robot::IkResult reached = reach(tool);
-  if (!reached.reached) return {false, reached.sentence};
-  return move_joints(reached.q);
+  return aim_tool(tool, angle > 0.0, false);
 }
 
-Result Session::play_waypoints() {
-  const auto now = snapshot();
-  const robot::KinematicModel model = kinematics_of(*now);
-  if (document_.waypoints.empty()) throw UsageError("no waypoints, expected some to be recorded");
-  std::vector<double> times;
-  std::vector<Eigen::VectorXd> positions;
-  if (document_.waypoints.front().time > 0.0) {
-    times.push_back(0.0);
-    positions.push_back(now->robot.q);
+Result Session::tool_command(const Command& c) {
+  const std::optional<ToolGoal> goal = tool_goal();
+  if (!goal) throw UsageError("the scene has no robot");
+  Pose tool = goal->asked_W;
+  tool.position = c.point("to");
+  if (c.has("turn")) {
+    if (c.numbers("turn").size() != 4) throw UsageError("turn, expected x,y,z,w");
+    const Quat turn(c.numbers("turn").data());
+    if (!(turn.norm() > 1e-9)) throw UsageError("turn, expected x,y,z,w that are not all 0");
+    tool.rotation = turn.normalized();
   }
-  for (const RobotWaypoint& one : document_.waypoints) {
-    if (static_cast<int>(one.joints.size()) != model.dofs())
-      throw UsageError("the waypoint at " + io::format_number(one.time) + " s has " +
-                       std::to_string(one.joints.size()) + " joints, expected " +
-                       std::to_string(model.dofs()));
-    times.push_back(one.time);
-    positions.push_back(model.clamped(Eigen::Map<const Eigen::VectorXd>(
-        one.joints.data(), static_cast<Eigen::Index>(one.joints.size()))));
-  }
-  control_.play_trajectory({std::move(times), std::move(positions)});
-  return {};
-}
-
-Result Session::play_trajectory(const std::filesystem::path& file) {
-  const auto now = snapshot();
-  const robot::KinematicModel model = kinematics_of(*now);
-  Diagnostics diagnostics;
-  robot::Trajectory trajectory =
-      robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
-  if (diagnostics.has_errors()) return {false, diagnostics.text()};
-  control_.play_trajectory(std::move(trajectory));
-  return {};
+  return aim_tool(tool, c.has("turn"), c.whole_or("near", 0) != 0);
 }
 
 Result Session::robot_command(const Command& c) {
@@ -115,19 +113,8 @@ Result Session::robot_command(const Command& c) {
         Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
   }
   if (verb == "jog") return jog(c.point("shift"), c.has("turn") ? c.point("turn") : Vec3::Zero());
-  if (verb == "tool") {
-    kinematics_of(*now);
-    Pose tool = now->robot.tool;
-    tool.position = c.point("to");
-    if (c.has("turn")) {
-      if (c.numbers("turn").size() != 4) throw UsageError("turn, expected x,y,z,w");
-      tool.rotation = Quat(c.numbers("turn").data()).normalized();
-    }
-    const robot::IkResult reached = reach(tool);
-    return reached.reached ? move_joints(reached.q) : Result{false, reached.sentence};
-  }
-  if (verb == "play trajectory") return play_trajectory(c.word("file"));
-  return verb == "play waypoints" ? play_waypoints() : Result{};
+  if (verb == "tool") return tool_command(c);
+  return program_command(c);
 }
 
 }  // namespace pedicel::app

@@ -66,6 +66,9 @@ Result Session::session_command(const Command& c) {
   if (verb == "save") return save(c.word_or("file", ""));
   if (verb == "import") return import_plant(c.word("file"), c.word_or("plant", ""));
   if (verb == "export") return export_plant(c.word("plant"), c.word("file"));
+  if (verb == "record" || verb == "stop recording") return film_command(c);
+  if (verb == "save waypoints") return save_waypoints(c.word("file"));
+  if (verb == "load waypoints") return load_waypoints(c.word("file"));
   if (verb == "undo") return undo();
   if (verb == "redo") return redo();
   if (verb == "keep") return keep_parameters();
@@ -80,9 +83,9 @@ Result Session::run_command(const Command& c) {
   const std::string& verb = c.verb();
   if (verb == "play") control_.play();
   if (verb == "pause") control_.pause();
-  if (verb == "step") control_.step(c.whole_or("count", 1));
+  if (verb == "step") advance(c.whole_or("count", 1));
   if (verb == "step back") control_.step_back(c.whole_or("count", 1));
-  if (verb == "run") control_.run_for(c.number("duration"));
+  if (verb == "run") run_for(c.number("duration"));
   if (verb == "reset") control_.reset();
   if (verb == "speed") control_.set_speed(c.number("value"));
   if (verb == "pull") return pull_command(c);

@@ -49,6 +49,9 @@ struct RobotSnapshot {
   Eigen::VectorXd torques;  ///< N m or N
   Pose tool;                ///< X_W
   bool follows_program = false;
+  bool loops = false;             ///< the program goes on and on
+  double program_time = 0.0;      ///< s, since the program (or its lap) began
+  double program_duration = 0.0;  ///< s
 };
 
 /// The spring of a pull, as it acts.

@@ -127,7 +127,11 @@ void SnapshotMaker::add_robot(const Simulation& simulation, Snapshot& snapshot) 
                     robot->goal(),
                     robot->robot().motor_torques(),
                     robot->tool_pose(),
-                    robot->follows_program()};
+                    robot->follows_program(),
+                    robot->loops()};
+  if (!robot->follows_program()) return;
+  snapshot.robot.program_time = robot->program_time(snapshot.time);
+  snapshot.robot.program_duration = robot->program_duration(snapshot.time);
 }
 
 }  // namespace pedicel::app

@@ -69,11 +69,13 @@ Desktop::Desktop(Platform& platform, Session& session, const DesktopOptions& opt
     painter_ = std::make_unique<GuiPainter>(*platform.gl());
     canvas_ = std::make_unique<SceneCanvas>(*platform.gl());
   }
+  if (!session.film_maker()) session.set_film_maker(this);
   follow_fonts();
 }
 
 Desktop::~Desktop() {
-  if (video_) toggle_video();
+  if (video_) end();
+  if (ui_.session.film_maker() == this) ui_.session.set_film_maker(nullptr);
   if (ui_.preferences != written_) write_preferences(ui_.preferences, preferences_path_);
 }
 
@@ -172,7 +174,8 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   scene_ = {areas.scene_min, size, camera_.camera()};
-  const bool tool = draw_tool_->update(ui_, scene_);
+  const bool handle = tool_handles_.update(ui_, scene_);
+  const bool tool = draw_tool_->update(ui_, scene_) || handle;
   mouse_.update(ui_, camera_, scene_, view_.shapes(), tool);
   if (ui_.frame_box) {
     camera_.frame(*ui_.frame_box, size.x / size.y);
@@ -200,6 +203,7 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
     ImGui::GetWindowDrawList()->AddImage(texture, areas.scene_min, areas.scene_max, ImVec2(0, 1),
                                          ImVec2(1, 0));
   }
+  tool_handles_.draw(*ImGui::GetWindowDrawList(), ui_, scene_);
   draw_labels();
   ImGui::End();
 }
@@ -235,7 +239,7 @@ void Desktop::paint() {
   platform_.gl()->ClearColor(back.x, back.y, back.z, 1.0f);
   platform_.gl()->Clear(GL_COLOR_BUFFER_BIT);
   painter_->paint(*ImGui::GetDrawData());
-  add_to_video();
+  add();
   platform_.present(target_.get());
 }
 

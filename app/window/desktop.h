@@ -14,7 +14,9 @@
 #include "app/window/scene_canvas.h"
 #include "app/window/scene_mouse.h"
 #include "app/window/snapshot_view.h"
+#include "app/window/tool_handles.h"
 #include "render/video.h"
+#include "session/film.h"
 
 struct ImGuiContext;
 
@@ -28,13 +30,16 @@ struct DesktopOptions {
   bool theme_given = false;           ///< `theme` goes before what the file says
 };
 
+/// STEM_001ENDING, or the first number that is free.
+std::filesystem::path free_name(const std::string& stem, const std::string& ending);
+
 /// The desktop: a session seen and led by hand. The same on every platform; on the null platform
 /// everything but the pictures.
-class Desktop {
+class Desktop : private FilmMaker {
  public:
   /// Both must outlive it. Throws std::runtime_error where the driver refuses our shaders.
   Desktop(Platform& platform, Session& session, const DesktopOptions& options);
-  ~Desktop();
+  ~Desktop() override;
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;
 
@@ -45,9 +50,13 @@ class Desktop {
   const Layout& layout() const { return layout_; }
   /// Where the scene is in the window, and how it is seen.
   const SceneFrame& scene() const { return scene_; }
+  const ToolHandles& tool_handles() const { return tool_handles_; }
   /// The file that the letters come from; empty: ImGui's own.
   const std::string& letters() const { return fonts_.file; }
   bool input_waits() const { return input_.has_more(); }
+
+  /// Sees the scene by one of its cameras; one that follows something stands by that now.
+  void use_camera(int index);
 
   /// The last picture with the interface; a still one of the scene alone, in any size. Nothing on
   /// the null platform.
@@ -69,10 +78,14 @@ class Desktop {
   void perform_file(Action action);
   void perform_view(Action action);
   void perform_edit(Action action);
-  void use_camera(int index);
   void take_screenshot();
   void toggle_video();
-  void add_to_video();
+  // Films: the session's commands begin and end them.
+  void begin(const FilmRequest& request) override;
+  bool running() const override { return video_ != nullptr; }
+  void add() override;
+  std::string end() override;
+  render::Image film_picture();
 
   Platform& platform_;
   std::filesystem::path preferences_path_;
@@ -93,11 +106,13 @@ class Desktop {
   ViewCamera camera_;
   SceneMouse mouse_;
   std::unique_ptr<DrawTool> draw_tool_;
+  ToolHandles tool_handles_;
   SceneFrame scene_;
   CanvasQuality quality_;
   std::filesystem::path shown_path_;
   bool framed_ = false, quits_ = false, full_screen_ = false;
   std::unique_ptr<render::VideoWriter> video_;
+  FilmRequest film_;
   double next_video_picture_ = 0.0;
   bool scene_drawn_ = false;       // anew, in this picture
   std::uint64_t painted_key_ = 0;  // of the interface as it was painted last

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "app/pictures.h"
 #include "app/window/desktop.h"
@@ -20,16 +19,6 @@ double next_speed(double now, int direction) {
   else if (at != speeds.begin())
     --at;
   return at == speeds.end() ? 0.0 : *at;
-}
-
-std::filesystem::path free_name(const std::string& stem, const std::string& ending) {
-  for (int number = 1; number < 10000; ++number) {
-    std::array<char, 16> digits{};
-    std::snprintf(digits.data(), digits.size(), "%03d", number);
-    std::filesystem::path path = stem + "_" + digits.data() + ending;
-    if (!std::filesystem::exists(path)) return path;
-  }
-  return stem + ending;
 }
 
 }  // namespace
@@ -124,45 +113,6 @@ void Desktop::take_screenshot() {
     render::write_png(path, *picture);
     ui_.say("picture in " + std::filesystem::absolute(path).string());
   } catch (const render::OutputError& error) {
-    ui_.say(error.what());
-  }
-}
-
-void Desktop::toggle_video() {
-  try {
-    if (video_) {
-      video_->finish();
-      ui_.say("film in " + std::filesystem::absolute(video_->result()).string());
-      video_.reset();
-    } else if (target_) {
-      // H.264 wants even sides.
-      video_ = render::VideoWriter::open(free_name("pedicel", ".mp4"), target_->width() & ~1,
-                                         target_->height() & ~1, 30.0);
-      next_video_picture_ = ui_.now;
-      ui_.say("film begun: " + video_->description());
-    }
-  } catch (const render::OutputError& error) {
-    video_.reset();
-    ui_.say(error.what());
-  }
-  ui_.recording = video_ != nullptr;
-}
-
-void Desktop::add_to_video() {
-  if (!video_ || ui_.now < next_video_picture_) return;
-  const render::Image whole = target_->read();
-  render::Image even(whole.width & ~1, whole.height & ~1);
-  for (int y = 0; y < even.height; ++y)
-    std::copy_n(whole.at(0, y), 3 * static_cast<std::size_t>(even.width), even.at(0, y));
-  try {
-    // A slow machine draws less than 30 a second: pictures are repeated, so that time keeps.
-    for (int copies = 0; ui_.now >= next_video_picture_ && copies < 30; ++copies) {
-      video_->add(even);
-      next_video_picture_ += 1.0 / 30.0;
-    }
-  } catch (const std::exception& error) {
-    video_.reset();
-    ui_.recording = false;
     ui_.say(error.what());
   }
 }

@@ -2,6 +2,7 @@
 
 #include "app/pictures.h"
 #include "app/window/desktop.h"
+#include "session/organ_place.h"
 
 /// Actions that change how the scene is seen.
 namespace pedicel::app {
@@ -40,6 +41,9 @@ void Desktop::perform_view(Action action) {
     case Action::frames:
       ui_.view.frames = !ui_.view.frames;
       break;
+    case Action::tool_handles:
+      ui_.view.tool_handles = !ui_.view.tool_handles;
+      break;
     case Action::help:
       ui_.dialog = ui_.dialog == Dialog::help ? Dialog::none : Dialog::help;
       break;
@@ -71,9 +75,9 @@ void Desktop::use_camera(int index) {
   const auto& cameras = ui_.snapshot->assets->scene.cameras;
   if (index < 0 || index >= static_cast<int>(cameras.size())) return;
   const world::SceneCamera& camera = cameras[static_cast<std::size_t>(index)];
-  // A camera that follows something starts about the middle of the scene.
-  camera_.set(camera_of(
-      camera, list_.bounds().isEmpty() ? Vec3(Vec3::Zero()) : Vec3(list_.bounds().center())));
+  // What follows something that is not there starts about the middle of the scene.
+  const Vec3 middle = list_.bounds().isEmpty() ? Vec3(Vec3::Zero()) : Vec3(list_.bounds().center());
+  camera_.set(camera_of(camera, place_of(*ui_.snapshot, camera.follow).value_or(middle)));
   ui_.view.camera = index;
 }
 

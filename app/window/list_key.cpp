@@ -46,10 +46,7 @@ void add_solids(Key& key, const render::DrawList& list) {
   }
 }
 
-}  // namespace
-
-std::uint64_t list_key(const render::DrawList& list, const render::Camera& camera) {
-  Key key;
+void add_list(Key& key, const render::DrawList& list) {
   for (const std::size_t count :
        {list.capsules.size(), list.tubes.size(), list.spheres.size(), list.boxes.size(),
         list.meshes.size(), list.blades.size(), list.lines.size()})
@@ -61,6 +58,17 @@ std::uint64_t list_key(const render::DrawList& list, const render::Camera& camer
   if (const auto& g = list.ground)
     key.add(g->height), key.add(g->cell), key.add(g->light), key.add(g->dark);
   key.add(static_cast<std::uint64_t>(list.ground.has_value()));
+  key.add(static_cast<std::uint64_t>(list.ghost != nullptr));
+  if (!list.ghost) return;
+  key.add(list.ghost_opacity);
+  add_list(key, *list.ghost);
+}
+
+}  // namespace
+
+std::uint64_t list_key(const render::DrawList& list, const render::Camera& camera) {
+  Key key;
+  add_list(key, list);
   key.add(camera.eye), key.add(camera.target), key.add(camera.up);
   key.add(camera.field_of_view), key.add(camera.near_plane), key.add(camera.far_plane);
   return key.value();

@@ -1,19 +1,26 @@
 #include "app/window/open_desktop.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <iostream>
 
 #include "app/headless.h"
 #include "app/version.h"
 #include "app/window/desktop.h"
+#include "app/window/film.h"
 #include "core/check.h"
+#include "session/measured_data.h"
+#include "session/script.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
 
 namespace {
 
-constexpr int no_opengl = 77, invalid_file = 3;
+constexpr int no_opengl = 77, invalid_file = 3, unstable = 4, stopped = 130;
 
 /// False, with the faults on standard error, where it cannot be opened.
 bool open_file(Session& session, const DesktopRequest& request) {
@@ -70,9 +77,16 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   desktop.ui().preferences.seen_hint = !request.file.empty();
   desktop.ui().view.automatic_quality = false;
   desktop.ui().view.quality = CanvasQuality::best;
-  if (request.time > 0.0) session.control().run_for(request.time);
+  if (!request.camera.empty())
+    desktop.use_camera(camera_index(*session.snapshot(), request.camera));
+  if (!request.script.empty())
+    if (const int code = run_script(request.script, session, std::cout, std::cerr)) return code;
+  if (session.measured().experiment())
+    desktop.frame(), desktop.ui().view.measured.time = request.time;
+  else if (request.time > 0.0)
+    session.control().run_for(request.time);
   session.control().wait();
-  for (int i = 0; i < 4; ++i) desktop.frame();
+  for (int i = 0; i < 6; ++i) desktop.frame();
   const auto picture = request.with_interface
                            ? desktop.window_picture()
                            : desktop.scene_picture(request.size[0], request.size[1]);
@@ -80,9 +94,65 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   return 0;
 }
 
+/// The scene from its beginning to its end.
+void film_scene(Session& session, const DesktopRequest& request) {
+  const world::Scene& scene = session.snapshot()->assets->scene;
+  const long steps = std::lround(request.duration.value_or(scene.duration) / scene.dt);
+  const long some = std::max(1l, std::lround(0.5 / scene.dt));
+  const bool tells = !request.quiet && isatty(2);
+  for (long done = 0; done < steps && !stop_requested; done += some) {
+    session.advance(std::min(some, steps - done));
+    if (session.snapshot()->mode == RunMode::unstable) return;
+    if (tells)
+      std::fprintf(stderr, "\r%5.1f %%",
+                   100.0 * static_cast<double>(done) / static_cast<double>(steps));
+  }
+  if (tells) std::fprintf(stderr, "\r");
+}
+
+/// A film, picture by picture: of the scene as it is, or of what a script does.
+int make_film(const DesktopRequest& request, const DesktopOptions& options) {
+  SessionOptions about;
+  about.packages = request.packages;
+  about.waits = true;
+  Session session(about);
+  OffscreenFilm film(session, options, [&](Desktop& desktop) { show_parts(desktop, request); });
+  session.set_film_maker(&film);
+  if (!open_file(session, request)) return invalid_file;
+  const world::SceneVideo& video = session.snapshot()->assets->scene.video;
+  FilmRequest wanted;
+  wanted.file = request.record;
+  wanted.fps = request.fps.value_or(video.fps);
+  wanted.size = request.sized ? request.size : video.size;
+  wanted.camera = request.camera.empty() ? video.camera : request.camera;
+  wanted.with_interface = request.with_interface;
+  session.begin_film(wanted);
+  int code = 0;
+  if (request.script.empty())
+    film_scene(session, request);
+  else
+    code = run_script(request.script, session, std::cout, std::cerr);
+  if (film.running()) {
+    const std::string made = film.end();
+    if (!request.quiet) std::fprintf(stderr, "%s\n", made.c_str());
+  }
+  if (code) return code;
+  if (session.snapshot()->mode != RunMode::unstable) return stop_requested ? stopped : 0;
+  std::fprintf(stderr, "error: unstable: %s\n", session.snapshot()->error.c_str());
+  return unstable;
+}
+
 }  // namespace
 
+std::unique_ptr<FilmMaker> make_films(Session& session) {
+  return std::make_unique<OffscreenFilm>(session, DesktopOptions{});
+}
+
 std::optional<int> open_desktop(const DesktopRequest& request) {
+  DesktopOptions options;
+  if (request.theme == "light") options.theme = Theme::light;
+  options.theme_given = !request.theme.empty();
+  if (!request.record.empty()) return make_film(request, options);
   PlatformOptions where;
   where.size = request.size;
   where.scale = request.scale;
@@ -95,12 +165,10 @@ std::optional<int> open_desktop(const DesktopRequest& request) {
   }
   SessionOptions about;
   about.packages = request.packages;
+  about.waits = picture;
   if (!picture) about.autosave = autosave_folder();
   Session session(about);
-  DesktopOptions options;
   if (!picture) options.preferences = preferences_path();
-  if (request.theme == "light") options.theme = Theme::light;
-  options.theme_given = !request.theme.empty();
   const bool opened = open_file(session, request);
   if (picture) return opened ? take_picture(*platform, session, request, options) : invalid_file;
   if (request.playing) session.control().play();

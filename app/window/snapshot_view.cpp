@@ -4,6 +4,7 @@
 
 #include "app/window/scene_marks.h"
 #include "render/colormap.h"
+#include "session/robot_goal.h"
 
 namespace pedicel::app {
 
@@ -90,6 +91,23 @@ std::vector<Colour> SnapshotView::colours(const Snapshot& snapshot, int plant,
   return result;
 }
 
+/// Of a program the end is shown only to who looks at the robot.
+void SnapshotView::add_ghost(render::DrawList& list, const Snapshot& snapshot,
+                             const ViewState& view) const {
+  if (snapshot.robot.follows_program && !view.robot_panel) return;
+  const std::optional<RobotGhost> ghost = robot_ghost(snapshot);
+  if (!ghost) return;
+  auto shape = std::make_shared<render::DrawList>();
+  for (std::size_t l = 0; l < shapes_.links().size() && l < ghost->links.size(); ++l)
+    add_at(*shape, shapes_.links()[l].list, ghost->links[l]);
+  const Colour colour = view.goal_missed ? Colour::hex(0xe8622d) : Colour::hex(0x3d9be9);
+  const auto tint = [&](auto& things) {
+    for (auto& thing : things) thing.material.colour = colour;
+  };
+  tint(shape->capsules), tint(shape->spheres), tint(shape->boxes), tint(shape->meshes);
+  list.ghost = std::move(shape);
+}
+
 void SnapshotView::fill(render::DrawList& list, const Snapshot& snapshot, const ViewState& view,
                         const Selection& selection, const Selection& hover) {
   list.ground.reset();
@@ -117,6 +135,7 @@ void SnapshotView::fill(render::DrawList& list, const Snapshot& snapshot, const 
   }
   for (std::size_t l = 0; l < shapes_.links().size() && l < snapshot.robot.links.size(); ++l)
     add_at(list, shapes_.links()[l].list, snapshot.robot.links[l]);
+  if (view.ghost) add_ghost(list, snapshot, view);
   for (std::size_t b = 0; b < snapshot.bodies.size(); ++b)
     add_at(list, shapes_.bodies()[b].list, snapshot.bodies[b].pose);
   add_marks(list, snapshot, view);

@@ -26,6 +26,7 @@ class SnapshotView {
     std::unique_ptr<PlantDrawing> drawing;
   };
   void follow(const Snapshot& snapshot);
+  void add_ghost(render::DrawList& list, const Snapshot& snapshot, const ViewState& view) const;
   std::vector<render::Colour> colours(const Snapshot& snapshot, int plant,
                                       const ViewState& view) const;
 

@@ -85,6 +85,7 @@ void DrawList::clear() {
   meshes.clear();
   blades.clear();
   lines.clear();
+  ghost.reset();
 }
 
 Eigen::AlignedBox3d mesh_bounds(const geometry::TriangleMesh& mesh) {

@@ -122,6 +122,11 @@ class DrawList {
   std::vector<BladeTriangle> blades;
   std::vector<Line> lines;
   std::optional<Ground> ground = Ground{};
+  /// Drawn over the rest, half transparent as one thing (nothing of it shows through itself),
+  /// behind what stands before it, without a shadow. Its own ground and ghost are left out. Null:
+  /// none.
+  std::shared_ptr<const DrawList> ghost;
+  float ghost_opacity = 0.4f;  ///< 1, of the ghost: 0 unseen, 1 solid
 
   /// A stem: a smooth tube through all points (cubic Hermite with the neighbours' mean directions
   /// as tangents), rounded at both ends. Points that coincide are taken as one; a single point is a
@@ -134,7 +139,7 @@ class DrawList {
   /// Empties the list and keeps its memory; the ground stays.
   void clear();
 
-  /// Encloses everything but the ground; empty where nothing is drawn. W, m.
+  /// Encloses everything but the ground and the ghost; empty where nothing is drawn. W, m.
   Eigen::AlignedBox3d bounds() const;
 };
 

@@ -17,6 +17,7 @@ namespace pedicel::render {
   X(BINDRENDERBUFFER, BindRenderbuffer)                             \
   X(BINDTEXTURE, BindTexture)                                       \
   X(BINDVERTEXARRAY, BindVertexArray)                               \
+  X(BLENDCOLOR, BlendColor)                                         \
   X(BLENDFUNC, BlendFunc)                                           \
   X(BLITFRAMEBUFFER, BlitFramebuffer)                               \
   X(BUFFERDATA, BufferData)                                         \

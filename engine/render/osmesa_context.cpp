@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <string>
 
 #ifdef __SANITIZE_ADDRESS__
 /// OSMesa keeps about 100 bytes of every context for the life of the program; that is its own.
@@ -26,6 +27,9 @@ struct Library {
   decltype(&OSMesaGetProcAddress) address = nullptr;
 };
 
+/// What still works.
+const char* const rest = "; runs work without, with --no-pictures";
+
 template <class Function>
 bool find(void* library, const char* name, Function& function) {
   function = reinterpret_cast<Function>(::dlsym(library, name));
@@ -37,7 +41,10 @@ bool open_library(Library& library, std::string& why) {
   void* handle = ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
   if (!handle) handle = ::dlopen("libOSMesa.so", RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
-    why = "no pictures: the library libOSMesa.so.8 is missing (Debian package libosmesa6)";
+    why = std::string(
+              "no pictures: the library libOSMesa.so.8 cannot be opened (Debian package "
+              "libosmesa6)") +
+          rest;
     return false;
   }
   if (find(handle, "OSMesaCreateContextAttribs", library.create) &&
@@ -45,7 +52,7 @@ bool open_library(Library& library, std::string& why) {
       find(handle, "OSMesaMakeCurrent", library.make_current) &&
       find(handle, "OSMesaGetProcAddress", library.address))
     return true;
-  why = "no pictures: libOSMesa.so.8 is too old, expected version 12 or newer";
+  why = std::string("no pictures: libOSMesa.so.8 is too old, expected version 12 or newer") + rest;
   return false;
 }
 
@@ -93,7 +100,7 @@ std::unique_ptr<OsMesaContext> OsMesaContext::create(std::string& why) {
     auto context = std::make_unique<OpenedContext>(library, handle);
     if (context->make_current()) return context;
   }
-  why = "no pictures: OSMesa could not make an OpenGL 3.3 core context";
+  why = std::string("no pictures: OSMesa could not make an OpenGL 3.3 core context") + rest;
   return nullptr;
 }
 
@@ -106,7 +113,7 @@ namespace pedicel::render {
 std::unique_ptr<OsMesaContext> OsMesaContext::create(std::string& why) {
   why =
       "no pictures: this program was built without OSMesa (Debian package libosmesa6-dev), "
-      "build it again with it";
+      "build it again with it; runs work without, with --no-pictures";
   return nullptr;
 }
 

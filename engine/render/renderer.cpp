@@ -61,6 +61,7 @@ class Renderer::Implementation {
         shapes_(gl_),
         cache_(gl_),
         seen_(gl_, shapes_, cache_),
+        ghost_(gl_, shapes_, cache_),
         casting_(gl_, shapes_, cache_),
         shadow_(std::make_unique<DepthMap>(gl_, settings.shadow_size, true)),
         contact_(gl_) {
@@ -71,7 +72,9 @@ class Renderer::Implementation {
   const RenderTarget& draw(const DrawList& list, const Camera& camera, int width, int height) {
     prepare_target(width, height);
     cache_.drop_unused();
-    seen_.prepare(list, Detail(camera, width, height, settings_.detail));
+    const Detail detail(camera, width, height, settings_.detail);
+    seen_.prepare(list, detail);
+    if (list.ghost) ghost_.prepare(*list.ghost, detail);
     Eigen::AlignedBox3d casters = list.bounds();
     if (casters.isEmpty()) casters.extend(camera.target);
     const SunView sun = fit_sun(casters, settings_.to_sun, shadow_->size());
@@ -83,6 +86,7 @@ class Renderer::Implementation {
     draw_shadow(frame, sun);
     look(frame, camera, casters, width, height);
     draw_picture(frame, list.ground.has_value());
+    if (list.ghost) draw_ghost(list.ghost_opacity);
     return *target_;
   }
 
@@ -178,10 +182,7 @@ class Renderer::Implementation {
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     shadow_->bind_texture(shadow_unit);
     contact_.bind_texture(contact_unit);
-    for (int kind = 0; kind < kind_count; ++kind) {
-      programs_.use_lit(static_cast<Kind>(kind));
-      seen_.draw(static_cast<Kind>(kind));
-    }
+    draw_lit(seen_);
     gl_.BindVertexArray(empty_array_);
     if (ground) {
       programs_.use_ground();
@@ -192,12 +193,35 @@ class Renderer::Implementation {
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 
+  /// Its depths first, so that of its own surfaces only the nearest is blended; a little farther
+  /// away than it is, so that it does not flicker through the thing that it is the ghost of.
+  void draw_ghost(float opacity) const {
+    gl_.Enable(GL_POLYGON_OFFSET_FILL);
+    gl_.PolygonOffset(2.0f, 4.0f);
+    gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_lit(ghost_);
+    gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl_.Enable(GL_BLEND);
+    gl_.BlendColor(0.0f, 0.0f, 0.0f, opacity);
+    gl_.BlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    draw_lit(ghost_);
+    gl_.Disable(GL_BLEND);
+    gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  }
+
+  void draw_lit(const FrameGeometry& geometry) const {
+    for (int kind = 0; kind < kind_count; ++kind) {
+      programs_.use_lit(static_cast<Kind>(kind));
+      geometry.draw(static_cast<Kind>(kind));
+    }
+  }
+
   GlFunctions gl_;
   RenderSettings settings_;
   Programs programs_;
   UnitMeshes shapes_;
   MeshCache cache_;
-  FrameGeometry seen_, casting_;
+  FrameGeometry seen_, ghost_, casting_;
   std::unique_ptr<DepthMap> shadow_;
   ContactMap contact_;
   std::unique_ptr<RenderTarget> target_;

@@ -41,6 +41,34 @@ std::vector<std::string> encoder_arguments(const std::filesystem::path& file, in
           "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4", "file:" + file.string()};
 }
 
+/// "frame_%05d.png", taken apart.
+struct NumberedName {
+  std::string before;
+  int digits = 0;
+  std::string after;
+
+  std::string text(int number) const {
+    std::string figures = std::to_string(number);
+    if (static_cast<int>(figures.size()) < digits)
+      figures.insert(0, static_cast<std::size_t>(digits) - figures.size(), '0');
+    return before + figures + after;
+  }
+  std::string pattern() const { return before + "%0" + std::to_string(digits) + "d" + after; }
+};
+
+/// Throws UsageError where the name has no place for a number, or more than one.
+NumberedName numbered_name(const std::string& name) {
+  const std::size_t at = name.find("%0");
+  const bool fits = at != std::string::npos && at + 3 < name.size() && name[at + 2] >= '1' &&
+                    name[at + 2] <= '9' && name[at + 3] == 'd' &&
+                    name.find('%', at + 1) == std::string::npos;
+  if (!fits)
+    throw UsageError("film \"" + name +
+                     "\": expected *.mp4, or pictures with a place for their number "
+                     "(frame_%05d.png)");
+  return {name.substr(0, at), name[at + 2] - '0', name.substr(at + 4)};
+}
+
 class Mp4Writer : public VideoWriter {
  public:
   Mp4Writer(const std::filesystem::path& path, int width, int height, double rate)
@@ -100,27 +128,31 @@ class Mp4Writer : public VideoWriter {
 
 class PictureWriter : public VideoWriter {
  public:
-  PictureWriter(const std::filesystem::path& folder, int width, int height, std::string why)
-      : folder_(folder), width_(width), height_(height), why_(std::move(why)) {
+  PictureWriter(const std::filesystem::path& folder, int width, int height, std::string why,
+                NumberedName name = {"frame_", 5, ".png"})
+      : folder_(folder),
+        name_(std::move(name)),
+        width_(width),
+        height_(height),
+        why_(std::move(why)) {
     make_folder(folder);
   }
 
   void add(const Image& frame) override {
     check_frame(frame, width_, height_);
-    char name[32];
-    std::snprintf(name, sizeof name, "frame_%05d.png", frames_);
-    write_png(folder_ / name, frame);
+    write_png(folder_ / name_.text(frames_), frame);
     ++frames_;
   }
   void finish() override {}
   int frames() const override { return frames_; }
   std::string description() const override {
-    return (folder_ / "frame_%05d.png").string() + (why_.empty() ? "" : " (" + why_ + ")");
+    return (folder_ / name_.pattern()).string() + (why_.empty() ? "" : " (" + why_ + ")");
   }
   std::filesystem::path result() const override { return folder_; }
 
  private:
   std::filesystem::path folder_;
+  NumberedName name_;
   int width_, height_, frames_ = 0;
   std::string why_;
 };
@@ -145,6 +177,12 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::filesystem::path& path
   if (!(frames_per_second > 0.0 && frames_per_second <= 1000.0))
     throw UsageError("frames_per_second = " + number(frames_per_second) +
                      ": must be > 0 and at most 1000");
+  if (path.extension() != ".mp4" && path.extension() != ".png")
+    throw UsageError("film \"" + path.filename().string() +
+                     "\": expected *.mp4, or pictures such as frame_%05d.png");
+  if (path.extension() == ".png")
+    return std::make_unique<PictureWriter>(path.parent_path(), width, height, "",
+                                           numbered_name(path.filename().string()));
   make_folder(path.parent_path());
   if (ffmpeg_encodes()) return std::make_unique<Mp4Writer>(path, width, height, frames_per_second);
   const std::filesystem::path folder = path.parent_path() / (path.stem().string() + "_frames");

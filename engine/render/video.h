@@ -13,8 +13,9 @@ namespace pedicel::render {
 class VideoWriter {
  public:
   /// `path` is the MP4 file wanted ("run.mp4"); without ffmpeg the pictures go to the folder beside
-  /// it ("run_frames/frame_00000.png"). Throws UsageError for a bad size or rate, OutputError where
-  /// the place cannot be written to.
+  /// it ("run_frames/frame_00000.png"). A path such as "frame_%05d.png" asks for numbered pictures,
+  /// from 0. Throws UsageError for another ending, a bad size or rate, OutputError where the place
+  /// cannot be written to.
   static std::unique_ptr<VideoWriter> open(const std::filesystem::path& path, int width, int height,
                                            double frames_per_second);
   /// Numbered pictures in a folder, whatever is installed.

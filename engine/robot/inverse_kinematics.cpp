@@ -171,12 +171,15 @@ double weight(const IkResult& result, const IkSettings& settings) {
 IkResult best_of_restarts(const KinematicModel& model, const IkTarget& target,
                           const VectorXd& q_start, const IkSettings& settings) {
   Random random(settings.seed);
-  IkResult best = descend(model, target, q_start, settings);
+  const IkResult first = descend(model, target, q_start, settings);
+  IkResult best = first;
   for (int i = 0; i < settings.restarts && !best.reached; ++i) {
     IkResult next = descend(model, target,
                             random_start(model, target.link, q_start, settings, random), settings);
     if (weight(next, settings) < weight(best, settings)) best = std::move(next);
   }
+  if (!best.reached && weight(first, settings) <= (1.0 + settings.loyalty) * weight(best, settings))
+    best = first;
   best.q = unwound(model, best.q, q_start);
   return best;
 }

@@ -26,6 +26,9 @@ struct IkSettings {
   std::uint64_t seed = 1;            ///< of the restarts
   double radian_length = 0.1;        ///< m, what an error of one radian weighs
   std::vector<int> held;             ///< joints that keep their value
+  /// 1, >= 0: where nothing reaches, the descent from the given start counts as the nearest unless
+  /// a restart is nearer by more than this share. Keeps an arm that is led by hand from jumping.
+  double loyalty = 0.0;
 };
 
 struct IkResult {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "core/diagnostics.h"
@@ -21,6 +22,8 @@ class Trajectory {
   bool empty() const { return times_.empty(); }
   /// Time of the last row, s.
   double duration() const { return times_.empty() ? 0.0 : times_.back(); }
+  const std::vector<double>& times() const { return times_; }                   ///< s
+  const std::vector<Eigen::VectorXd>& positions() const { return positions_; }  ///< rad or m
   /// Does not allocate where q and qd have their size.
   void sample(double time, Eigen::VectorXd& q, Eigen::VectorXd& qd) const;
 
@@ -35,5 +38,9 @@ class Trajectory {
 Trajectory read_trajectory_csv(const std::filesystem::path& path, const RobotDescription& robot,
                                const KinematicModel& model, const Eigen::VectorXd& q_start,
                                Diagnostics& diagnostics);
+
+/// The text of such a file, with every degree of freedom and every digit: read again it is the same
+/// trajectory.
+std::string trajectory_csv(const Trajectory& trajectory, const KinematicModel& model);
 
 }  // namespace pedicel::robot

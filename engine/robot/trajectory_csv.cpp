@@ -92,4 +92,18 @@ Trajectory read_trajectory_csv(const std::filesystem::path& path, const RobotDes
   return Trajectory(std::move(times), std::move(positions));
 }
 
+std::string trajectory_csv(const Trajectory& trajectory, const KinematicModel& model) {
+  constexpr int every_digit = 17;
+  std::string text = "time_s";
+  for (const std::string& joint : model.joint_names()) text += "," + joint;
+  text += "\n";
+  for (std::size_t row = 0; row < trajectory.times().size(); ++row) {
+    text += io::format_number(trajectory.times()[row], every_digit);
+    for (const double q : trajectory.positions()[row])
+      text += "," + io::format_number(q, every_digit);
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace pedicel::robot

@@ -45,7 +45,7 @@ struct StepInput {
 /// What went wrong in a step; each bit's remedy is in remedy().
 enum StepError : unsigned {
   none = 0,
-  not_converged = 1,  ///< Newton's last change is above 1e-3 (m or rad)
+  not_converged = 1,  ///< Newton's last change is above 1e-3 (m or rad); touching only itself 5e-3
   not_finite = 2,     ///< a position is NaN or infinite: the state was put back to the step before
   line_search_failed = 4,
 };

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <set>
 
-#include "discrepancy/experiment.h"
+#include "discrepancy/experiment_progress.h"
 #include "discrepancy/experiment_tables.h"
 #include "io/yaml.h"
 #include "plant/effects.h"
@@ -15,7 +15,8 @@ using io::YamlNode;
 
 class Reader {
  public:
-  explicit Reader(const YamlNode& node) : node_(node), diagnostics_(node.diagnostics()) {}
+  Reader(const YamlNode& node, const ReadProgress& progress)
+      : node_(node), diagnostics_(node.diagnostics()), progress_(progress) {}
 
   Experiment read(const std::filesystem::path& folder) {
     experiment_.folder = folder;
@@ -30,6 +31,7 @@ class Reader {
     map.finish();
     return std::move(experiment_);
   }
+  bool was_stopped() const { return stopped_; }
 
  private:
   void read_plant(YamlMap& map) {
@@ -107,12 +109,20 @@ class Reader {
 
   void read_trials(const YamlNode& list) {
     std::set<std::string> names;
-    for (const YamlNode& node : list.list("trials")) {
+    const std::vector<YamlNode> all = list.list("trials");
+    const auto told = [&] {
+      const std::size_t done = experiment_.trials.size();
+      stopped_ = progress_ && !progress_(static_cast<int>(done), static_cast<int>(all.size()));
+      return !stopped_;
+    };
+    for (const YamlNode& node : all) {
+      if (!told()) return;
       Trial trial = read_trial(node);
       if (!trial.name.empty() && !names.insert(trial.name).second)
         node.error("trial \"" + trial.name + "\" appears twice, expected each name once");
       experiment_.trials.push_back(std::move(trial));
     }
+    told();
     if (list.is_list() && experiment_.trials.empty())
       list.error("no trials, expected at least one");
   }
@@ -222,21 +232,28 @@ class Reader {
 
   const YamlNode& node_;
   Diagnostics& diagnostics_;
+  const ReadProgress& progress_;
   Experiment experiment_;
-  bool has_plant_ = false;
+  bool has_plant_ = false, stopped_ = false;
 };
 
 }  // namespace
 
 std::optional<Experiment> read_experiment(const std::filesystem::path& path,
                                           Diagnostics& diagnostics) {
+  return read_experiment(path, diagnostics, {});
+}
+
+std::optional<Experiment> read_experiment(const std::filesystem::path& path,
+                                          Diagnostics& diagnostics, const ReadProgress& progress) {
   const int before = diagnostics.error_count();
   const std::filesystem::path file =
       std::filesystem::is_directory(path) ? path / "experiment.yaml" : path;
   try {
     const YamlNode node = io::load_yaml(file, diagnostics);
-    Experiment experiment = Reader(node).read(file.parent_path());
-    if (diagnostics.error_count() == before) return experiment;
+    Reader reader(node, progress);
+    Experiment experiment = reader.read(file.parent_path());
+    if (!reader.was_stopped() && diagnostics.error_count() == before) return experiment;
   } catch (const InvalidFile& fault) {
     diagnostics.add(fault);
   }

@@ -4,7 +4,9 @@
 #include "desk.h"
 #include "session/measured_data.h"
 #include "support/measured_stem.h"
+#include "support/slow_file.h"
 #include "support/temporary_folder.h"
+#include "words.h"
 
 namespace pedicel::app {
 namespace {
@@ -25,6 +27,7 @@ class DataPanelTest : public ::testing::Test {
   }
   void open() {
     desk_.open(folder_ / "stem");
+    if (desk_.session().reading()) desk_.session().finish_reading();
     desk_.session().measured().wait();
     desk_.settle();
   }
@@ -78,7 +81,7 @@ class DataPanelTest : public ::testing::Test {
 TEST_F(DataPanelTest, ShowsTheMarkersOverThePlant) {
   const double before = share_of(measured_colour);
   open();
-  desk_.ui().view.measured.time = 0.3;
+  desk_.ui().view.measured.time = 0.2;
   desk_.frames(4);
   check("opened");
   EXPECT_GT(share_of(measured_colour), before + 1e-4) << keep("opened");
@@ -103,7 +106,7 @@ TEST_F(DataPanelTest, PlaysThroughTheTrial) {
 
 TEST_F(DataPanelTest, ResidualColoursTheStem) {
   open();
-  desk_.ui().view.measured.time = 0.3;
+  desk_.ui().view.measured.time = 0.2;
   desk_.ui().view.measured.errors = desk_.ui().view.measured.markers = false;
   desk_.frames(3);
   const render::Image plain = desk_.picture();
@@ -121,6 +124,37 @@ TEST_F(DataPanelTest, ResidualColoursTheStem) {
   EXPECT_GT(residual.back(), residual.front());
 }
 
+TEST_F(DataPanelTest, TheMeasuredForceIsPlottedBesideTheModels) {
+  discrepancy::Experiment e = pedicel::testing::MeasuredStem().experiment();
+  discrepancy::Samples& force = e.trials[0].force;
+  force.time = e.trials[0].markers.time;
+  force.value = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(force.time.size()), 3, 0.05);
+  discrepancy::write_experiment(folder_ / "stem", e);
+  desk_.show("Plots");
+  EXPECT_FALSE(place_of("bottom", "trial: force_N")) << "no experiment, no force";
+  open();
+  desk_.frames(4);
+  EXPECT_TRUE(place_of("bottom", "trial: force_x_N")) << keep("force");
+  EXPECT_TRUE(place_of("bottom", "measured force_N")) << keep("force");
+  EXPECT_TRUE(place_of("bottom", "nominal force_N")) << keep("force");
+  const auto cut = cut_letters();
+  EXPECT_TRUE(cut.empty()) << describe(cut) << keep("force");
+}
+
+TEST_F(DataPanelTest, AFolderIsReadBesideAndCancelledByAButton) {
+  SlowFile table(folder_ / "stem" / "along_y" / "markers.csv");
+  ASSERT_TRUE(table.made());
+  desk_.session().run(Command("open experiment", {{"folder", (folder_ / "stem").string()}}));
+  for (int i = 0; i < 500 && !place_of("right", "trial 2 of 2"); ++i) desk_.frames(1);
+  EXPECT_TRUE(place_of("right", "trial 2 of 2")) << keep("reading");
+  check("reading");
+  const auto button = place_of("right", "Cancel");
+  ASSERT_TRUE(button) << keep("reading");
+  desk_.click(button->x, button->y);
+  EXPECT_EQ(desk_.session().reading(), nullptr) << keep("reading");
+  EXPECT_EQ(desk_.session().measured().experiment(), nullptr);
+}
+
 TEST_F(DataPanelTest, DiagnosisIsStartedCancelledShownAndAccepted) {
   open();
   must_run("diagnose threads=1");
@@ -134,7 +168,7 @@ TEST_F(DataPanelTest, DiagnosisIsStartedCancelledShownAndAccepted) {
   ASSERT_NE(desk_.session().measured().diagnosis(), nullptr);
   desk_.ui().view.measured.side_by_side = true;
   desk_.ui().view.measured.model = discrepancy::extended;
-  desk_.ui().view.measured.time = 0.3;
+  desk_.ui().view.measured.time = 0.2;
   desk_.ui().ask(Action::frame_all);
   desk_.frames(6);
   check("diagnosed");

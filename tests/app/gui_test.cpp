@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "desk.h"
+#include "words.h"
 
 namespace pedicel::app {
 namespace {
@@ -188,6 +189,29 @@ TEST_F(Gui, RobotSliderMovesTheJoint) {
     desk_.drag({ImVec2(left, y), ImVec2(right, y)});
   desk_.settle();
   EXPECT_GT(std::abs(desk_.snapshot()->robot.goal[0] - before), 0.05);
+}
+
+TEST_F(Gui, AFilmOfTheWindowIsBegunAndEndedByItsButton) {
+  const auto before = std::filesystem::current_path();
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "window_film";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::filesystem::current_path(folder);
+  desk_.show("View");
+  const auto begin = place_of("right", "Record a film");
+  ASSERT_TRUE(begin);
+  desk_.click(begin->x, begin->y);
+  EXPECT_TRUE(desk_.ui().recording);
+  EXPECT_FALSE(desk_.session().run_text("record other.mp4").ok) << "one at a time";
+  desk_.frames(10);
+  const auto end = place_of("right", "End the film");
+  ASSERT_TRUE(end);
+  desk_.click(end->x, end->y);
+  std::filesystem::current_path(before);
+  EXPECT_FALSE(desk_.ui().recording);
+  const bool film = std::filesystem::exists(folder / "pedicel_001.mp4") ||
+                    std::filesystem::exists(folder / "pedicel_001_frames/frame_00000.png");
+  EXPECT_TRUE(film) << desk_.ui().notice;
 }
 
 TEST_F(Gui, TabHidesThePanelsAndTheSceneGrows) {

@@ -12,7 +12,7 @@ namespace pedicel::testing {
 /// How the measured stem is, and how well it was seen.
 struct MeasuredStem {
   std::vector<plant::Effect> effects;  ///< that the nominal plant lacks
-  double duration = 0.4;               ///< s
+  double duration = 0.24;              ///< s
   double noise = 2e-4;                 ///< m, standard deviation
   std::uint64_t seed = 1;
 

@@ -289,5 +289,45 @@ TEST_F(RendererTest, RefusesBadSizesAndSettings) {
   EXPECT_THROW(check(settings), UsageError);
 }
 
+TEST_F(RendererTest, AGhostLetsThroughWhatIsBehindItAndHidesNothingBeforeIt) {
+  const auto ball = [](const Vec3& centre, const Material& material) {
+    DrawList list;
+    list.spheres.push_back({centre, 0.25, material});
+    return list;
+  };
+  const Image empty = picture();
+  list_ = ball(Vec3(-0.4, 0, 0), red);
+  list_.ground.reset();
+  const Image without = picture();
+  // One part before the red ball, one behind it, one beside it that lies twice over itself.
+  DrawList ghost = ball(Vec3(-0.5, -0.6, 0), green);
+  ghost.spheres.push_back({Vec3(-0.4, 0.8, 0), 0.1, green});
+  ghost.spheres.push_back({Vec3(0.5, 0, 0), 0.25, green});
+  const auto once = std::make_shared<DrawList>(ghost);
+  ghost.spheres.push_back({Vec3(0.5, 0.05, 0), 0.2, green});
+  list_.ghost = once;
+  const Image with = picture();
+  const auto at = [&](const Vec3& p) {
+    const PixelPoint pixel = camera_.project(p, width, height);
+    return std::pair{static_cast<int>(pixel.x), static_cast<int>(pixel.y)};
+  };
+  const auto [before_x, before_y] = at(Vec3(-0.4, -0.3, 0));
+  const std::uint8_t *mixed = with.at(before_x, before_y), *plain = without.at(before_x, before_y);
+  EXPECT_LT(mixed[0] + 20, plain[0]) << "less red through the ghost";
+  EXPECT_GT(mixed[0], mixed[2] + 20) << "and still red";
+  EXPECT_GT(mixed[1], plain[1] + 10);
+  const auto [beside_x, beside_y] = at(Vec3(0.5, 0, 0));
+  EXPECT_TRUE(is_green(with.at(beside_x, beside_y)));
+  EXPECT_GT(with.at(beside_x, beside_y)[0], empty.at(beside_x, beside_y)[0] * 0.4)
+      << "the sky through it";
+  list_.ghost = std::make_shared<DrawList>(ghost);
+  EXPECT_EQ(picture().rgb, with.rgb) << "nothing of it shows through itself";
+  list_.ghost.reset();
+  EXPECT_EQ(picture().rgb, without.rgb);
+  list_.ghost = once;
+  list_.clear();
+  EXPECT_FALSE(list_.ghost);
+}
+
 }  // namespace
 }  // namespace pedicel::render

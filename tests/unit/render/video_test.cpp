@@ -137,5 +137,22 @@ TEST(ChildProcess, ProgramThatGoesAwayRaisesNoSignal) {
   EXPECT_EQ(child.finish(), 0);
 }
 
+TEST(NumberedPictures, AreNamedAsAskedAndOtherEndingsRefused) {
+  TemporaryFolder folder;
+  const auto film = VideoWriter::open(folder / "shot_%03d_a.png", 8, 6, 30.0);
+  film->add(frame_of(0, 8, 6));
+  film->add(frame_of(1, 8, 6));
+  film->finish();
+  EXPECT_TRUE(std::filesystem::exists(folder / "shot_000_a.png"));
+  EXPECT_EQ(read_png(folder / "shot_001_a.png").rgb, frame_of(1, 8, 6).rgb);
+  EXPECT_THAT(film->description(), HasSubstr("shot_%03d_a.png"));
+  for (const char* name : {"a.png", "a_%d.png", "a_%03d_%03d.png", "a_%03x.png"})
+    EXPECT_THAT([&] { VideoWriter::open(folder / name, 8, 6, 30.0); },
+                ThrowsMessage<UsageError>(HasSubstr("place for their number")))
+        << name;
+  EXPECT_THAT([&] { VideoWriter::open(folder / "a.avi", 8, 6, 30.0); },
+              ThrowsMessage<UsageError>(HasSubstr("expected *.mp4")));
+}
+
 }  // namespace
 }  // namespace pedicel::render

@@ -98,5 +98,21 @@ TEST_F(InverseKinematics, TheSameSeedGivesTheSameBits) {
   EXPECT_EQ(a.q, b.q);
 }
 
+TEST_F(InverseKinematics, LoyaltyPrefersTheDescentFromTheStart) {
+  const IkTarget target{tool_, Vec3(0.9, 0.6, 0.5), Quat::Identity(), {}};
+  VectorXd start = model_.neutral();
+  start[1] = 0.4;
+  const IkResult own = descend(model_, target, start);
+  ASSERT_FALSE(own.reached);
+  const IkResult best = inverse_kinematics(model_, target, start);
+  IkSettings settings;
+  settings.loyalty = 1e6;
+  const IkResult loyal = inverse_kinematics(model_, target, start, settings);
+  EXPECT_THAT(loyal.sentence, HasSubstr("unreachable"));
+  EXPECT_NEAR(loyal.position_error, own.position_error, 1e-12);
+  EXPECT_LE(std::hypot(best.position_error, 0.1 * best.rotation_error),
+            std::hypot(own.position_error, 0.1 * own.rotation_error) + 1e-12);
+}
+
 }  // namespace
 }  // namespace pedicel::robot

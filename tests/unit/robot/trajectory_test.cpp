@@ -76,5 +76,25 @@ TEST(Trajectory, ReadsACsvAndLeavesOtherJointsAtTheStart) {
   std::filesystem::remove(path);
 }
 
+TEST(Trajectory, WrittenAsATableItIsTheSame) {
+  const RobotDescription robot = load_urdf(testing::asset("stalk6"));
+  const KinematicModel model(robot);
+  Random random(7);
+  std::vector<double> times;
+  std::vector<VectorXd> rows;
+  for (int i = 0; i < 5; ++i) {
+    times.push_back(i + random.uniform());
+    rows.push_back(testing::random_positions(model, random));
+  }
+  const auto path = std::filesystem::path(::testing::TempDir()) / "written.csv";
+  std::ofstream(path) << trajectory_csv(Trajectory(times, rows), model);
+  Diagnostics diagnostics;
+  const Trajectory read = read_trajectory_csv(path, robot, model, model.neutral(), diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.text();
+  EXPECT_EQ(read.times(), times);
+  ASSERT_EQ(read.positions().size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(read.positions()[i], rows[i]);
+}
+
 }  // namespace
 }  // namespace pedicel::robot

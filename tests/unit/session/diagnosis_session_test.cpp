@@ -26,6 +26,7 @@ class DiagnosisInSession : public ::testing::Test {
  protected:
   void open(Session& session, const pedicel::testing::MeasuredStem& stem) {
     must(session.run(Command("open experiment", {{"folder", stem.write(folder_ / "e").string()}})));
+    if (session.reading()) must(session.finish_reading());
   }
   static pedicel::testing::MeasuredStem soft() {
     pedicel::testing::MeasuredStem stem;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace pedicel::app {
+
+struct Ui;
+
+/// The part of the robot's panel that is about programs: recorded waypoints, their file, what is
+/// played.
+class RobotProgramPart {
+ public:
+  void draw(Ui& ui);
+
+ private:
+  void draw_waypoints(Ui& ui);
+  void draw_playing(Ui& ui);
+  void draw_file(Ui& ui);
+  void record(Ui& ui);
+
+  std::string file_ = "waypoints.csv";
+  bool loop_ = false;
+};
+
+}  // namespace pedicel::app

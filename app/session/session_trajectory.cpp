@@ -1,0 +1,120 @@
+#include "core/check.h"
+#include "io/atomic_file.h"
+#include "io/csv.h"
+#include "session/robot_goal.h"
+#include "session/session.h"
+
+/// Programs of the robot: recorded waypoints, trajectory tables.
+namespace pedicel::app {
+
+namespace {
+
+/// s, that the joints need from one place to another by hand; the path between rests at both ends,
+/// so that it is one and a half times as fast in its middle.
+double travel_time(const Snapshot& now, const robot::KinematicModel& model,
+                   const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  const Eigen::VectorXd speed = manual_speed(model, *now.assets->robot);
+  return 1.5 * (to - from).cwiseAbs().cwiseQuotient(speed).maxCoeff();
+}
+
+/// The rows from 0 s on, and back to the first.
+robot::Trajectory lap_of(const Snapshot& now, const robot::KinematicModel& model,
+                         const robot::Trajectory& program) {
+  std::vector<double> times;
+  for (const double time : program.times()) times.push_back(time - program.times().front());
+  std::vector<Eigen::VectorXd> positions = program.positions();
+  const double back = travel_time(now, model, positions.back(), positions.front());
+  if (back > 0.0) {
+    times.push_back(times.back() + back);
+    positions.push_back(Eigen::VectorXd(positions.front()));
+  }
+  return {std::move(times), std::move(positions)};
+}
+
+}  // namespace
+
+robot::Trajectory Session::waypoint_trajectory(const robot::KinematicModel& model) const {
+  if (document_.waypoints.empty()) throw UsageError("no waypoints, expected some to be recorded");
+  std::vector<double> times;
+  std::vector<Eigen::VectorXd> positions;
+  for (const RobotWaypoint& one : document_.waypoints) {
+    if (static_cast<int>(one.joints.size()) != model.dofs())
+      throw UsageError("the waypoint at " + io::format_number(one.time) + " s has " +
+                       std::to_string(one.joints.size()) + " joints, expected " +
+                       std::to_string(model.dofs()));
+    times.push_back(one.time);
+    positions.push_back(model.clamped(Eigen::Map<const Eigen::VectorXd>(
+        one.joints.data(), static_cast<Eigen::Index>(one.joints.size()))));
+  }
+  return {std::move(times), std::move(positions)};
+}
+
+// A program that begins later than now begins with the way there.
+Result Session::play(robot::Trajectory program, bool loops) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  std::vector<double> times = program.times();
+  std::vector<Eigen::VectorXd> positions = program.positions();
+  if (!loops) {
+    if (times.front() > 0.0) {
+      times.insert(times.begin(), 0.0);
+      positions.insert(positions.begin(), now->robot.q);
+    }
+    control_.play_trajectory({std::move(times), std::move(positions)});
+    return {};
+  }
+  if (times.size() < 2) throw UsageError("one place is no loop, expected two or more");
+  const double lead = std::max(times.front(), travel_time(*now, model, now->robot.q, positions[0]));
+  robot::Trajectory way = lead > 0.0 ? robot::Trajectory({0.0, lead}, {now->robot.q, positions[0]})
+                                     : robot::Trajectory({0.0}, {positions[0]});
+  control_.play_loop(std::move(way), lap_of(*now, model, program));
+  return {};
+}
+
+Result Session::play_waypoints(bool loops) {
+  return play(waypoint_trajectory(kinematics_of(*snapshot())), loops);
+}
+
+Result Session::play_trajectory(const std::filesystem::path& file, bool loops) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Diagnostics diagnostics;
+  robot::Trajectory trajectory =
+      robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
+  if (diagnostics.has_errors()) return {false, diagnostics.text()};
+  return play(std::move(trajectory), loops);
+}
+
+Result Session::save_waypoints(const std::filesystem::path& file) const {
+  const robot::KinematicModel model = kinematics_of(*snapshot());
+  io::write_file_atomically(file, robot::trajectory_csv(waypoint_trajectory(model), model));
+  return {};
+}
+
+Result Session::load_waypoints(const std::filesystem::path& file) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Diagnostics diagnostics;
+  const robot::Trajectory read =
+      robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
+  if (diagnostics.has_errors()) return {false, diagnostics.text()};
+  std::vector<double> joints;
+  for (const Eigen::VectorXd& row : read.positions())
+    joints.insert(joints.end(), row.begin(), row.end());
+  return change_document(
+      Command("set waypoints", {{"times", read.times()}, {"joints", std::move(joints)}}));
+}
+
+Result Session::program_command(const Command& c) {
+  const std::string& verb = c.verb();
+  const bool loops = c.has("loop") && c.whole("loop") != 0;
+  if (verb == "play trajectory") return play_trajectory(c.word("file"), loops);
+  if (verb == "play waypoints") return play_waypoints(loops);
+  if (verb == "stop robot") {
+    kinematics_of(*snapshot());
+    control_.stop_robot();
+  }
+  return {};
+}
+
+}  // namespace pedicel::app
