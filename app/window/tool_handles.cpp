@@ -117,7 +117,8 @@ void ToolHandles::press(const SceneFrame& frame, Part part) {
   const render::Ray ray = frame.ray(ImGui::GetIO().MousePos);
   const Vec3 back = (frame.camera.eye - frame.camera.target).normalized();
   grabbed_W_ = pose_.position;
-  if (part == Part::knob) grabbed_W_ = hit_plane(ray, pose_.position, back).value_or(grabbed_W_);
+  if (part == Part::knob)
+    grabbed_W_ = meet(ray_of(ray), {pose_.position, back}).value_or(grabbed_W_);
   if (shifts(part)) {
     const Vec3 along = direction(axis_of(part));
     grabbed_W_ += along_line(ray, pose_.position, along).value_or(0.0) * along;
@@ -151,7 +152,7 @@ void ToolHandles::move(Ui& ui, const SceneFrame& frame) {
   Pose pose = start_;
   if (dragged_ == Part::knob) {
     const Vec3 back = (frame.camera.eye - frame.camera.target).normalized();
-    const auto at = hit_plane(ray, grabbed_W_, back);
+    const auto at = meet(ray_of(ray), {grabbed_W_, back});
     if (!at) return;
     pose.position += *at - grabbed_W_;
     amount_ = (*at - grabbed_W_).norm();
@@ -162,7 +163,7 @@ void ToolHandles::move(Ui& ui, const SceneFrame& frame) {
     pose.position += amount_ * axis;
   } else {
     const Vec3 arm = grabbed_W_ - start_.position;
-    const auto at = hit_plane(ray, start_.position, axis);
+    const auto at = meet(ray_of(ray), {start_.position, axis});
     // Seen from its edge, a ring is turned along its tangent.
     if (std::abs(axis.dot(ray.direction)) < 0.2 || !at) {
       const Vec3 tangent = axis.cross(arm).normalized();
