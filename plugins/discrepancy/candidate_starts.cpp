@@ -27,14 +27,12 @@ Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
   return matrix.ldlt().solve(right);
 }
 
-// Where the linear model about the baseline puts a cause, or a part of the way there, the
-// baseline's numbers moved along with it; nothing where the data ask for the sign that the cause
-// cannot have.
-std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction,
-                                       double part) {
+// Where the linear model about the baseline puts a cause, the baseline's numbers moved along with
+// it; nothing where the data ask for the sign that the cause cannot have.
+std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
   const double size = direction.change.norm();
   if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
-  const double share = direction.has_threshold ? 1.0 : part * direction.statistic / size;
+  const double share = direction.has_threshold ? 1.0 : direction.statistic / size;
   for (const FreeParameter& free : direction.start.free) {
     const bool one_sided = free.vanishes == Vanishes::at_infinity ||
                            (free.vanishes == Vanishes::at_zero && free.logarithmic);
@@ -44,37 +42,11 @@ std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& 
   // A change of full size is too large to move along with.
   if (!direction.has_threshold)
     both.set_unknowns(base.hypothesis.unknowns() + allowed_step(base, -share * direction.absorbed));
-  Hypothesis start = direction.start.shrunk(share);
-  // A fit from a part of the way expects the whole.
-  const Hypothesis whole = direction.start.shrunk(share / part);
-  for (int p = 0; p < start.size(); ++p)
-    if (start.free[p].logarithmic) start.free[p].scale = whole.value(p);
-  both.add(start);
+  both.add(direction.start.shrunk(share));
   both.name = direction.cause;
   // The bounds of what was added, too.
   both.set_unknowns(both.unknowns());
   return both;
-}
-
-// The linear start with its cost: the whole way, or the first part of it that does better than the
-// base, because a long swing that is moved too far along is out of phase; else the whole way.
-std::pair<std::optional<Hypothesis>, double> start_in_phase(Evaluator& evaluator,
-                                                            const FitSummary& base,
-                                                            const Direction& direction,
-                                                            const FitOptions& options) {
-  std::vector<Hypothesis> starts;
-  for (const double part : {1.0, 0.5, 0.25, 0.1}) {
-    auto start = linear_start(base, direction, part);
-    if (!start) return {};
-    starts.push_back(std::move(*start));
-    if (direction.has_threshold) break;
-  }
-  const Scan whole = scan(evaluator, std::span(starts).first(1), options);
-  if (whole.cost[0] < base.cost || starts.size() == 1) return {starts[0], whole.cost[0]};
-  const Scan parts = scan(evaluator, std::span(starts).subspan(1), options);
-  for (std::size_t i = 0; i < parts.cost.size(); ++i)
-    if (parts.cost[i] < base.cost) return {starts[i + 1], parts.cost[i]};
-  return {starts[0], whole.cost[0]};
 }
 
 }  // namespace
@@ -145,18 +117,15 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
   });
   // A place may be softer or stiffer than drawn: the loudest of both.
   std::vector<Hypothesis> starts;
-  std::vector<double> cost;
   std::array<std::size_t, 2> of_sign{};
   for (const Direction* direction : own) {
-    if (!direction->has_threshold && of_sign[direction->statistic > 0.0] == linear_starts) continue;
-    auto [start, its_cost] = start_in_phase(evaluator, base, *direction, options);
-    if (!start) continue;
-    ++of_sign[direction->statistic > 0.0];
-    starts.push_back(std::move(*start));
-    cost.push_back(its_cost);
+    auto start = linear_start(base, *direction);
+    if (start &&
+        (direction->has_threshold || of_sign[direction->statistic > 0.0]++ < linear_starts))
+      starts.push_back(std::move(*start));
   }
   if (starts.size() < 2 || has_place(starts.front())) return starts;
-  return {starts[std::ranges::min_element(cost) - cost.begin()]};
+  return {starts[scan(evaluator, starts, options).best]};
 }
 
 std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,

@@ -31,9 +31,9 @@ Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wan
 std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base,
                                     const Cause& cause, FitOptions options, std::size_t keep);
 
-/// A cause's linear starts that are worth a fit: the size that the data give to its directions, or
-/// a part of it where the whole is out of phase, the base's numbers moved along. The best by cost
-/// over the whole records, or, because places are apart by ridges, those of every place.
+/// A cause's linear starts that are worth a fit: the size that the data give to its directions, the
+/// base's numbers moved along. The best by cost over the whole records, or, because places are
+/// apart by ridges, those of every place.
 std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummary& base,
                                            const std::string& cause,
                                            const std::vector<Direction>& directions,

@@ -34,11 +34,10 @@ class Start {
     made_.effects[0].words[name] = value;
     return *this;
   }
-  /// A positive quantity on a logarithmic scale, or where the effect vanishes one of about this
-  /// size.
+  /// A positive quantity on a logarithmic scale.
   Start& positive(const std::string& name, double value, double low, double high) {
     fixed(name, {std::clamp(value, low, high)});
-    return parameter(name, 0, true, std::clamp(value, low, high), low, high);
+    return parameter(name, 0, true, 1.0, low, high);
   }
   Start& signed_number(const std::string& name, double value, double scale, double low,
                        double high) {

@@ -7,16 +7,6 @@
 
 namespace pedicel::discrepancy {
 
-namespace {
-
-// Of the value, from that of its unknown.
-double deviation(const FreeParameter& free, double value, double error) {
-  const double u = free.to_unknown(value);
-  return 0.5 * (free.to_value(u + error) - free.to_value(u - error));
-}
-
-}  // namespace
-
 void DiagnosisLog::say(const std::string& what, double share) const {
   if (progress_) progress_(what, share);
 }
@@ -38,9 +28,10 @@ void DiagnosisLog::fit(const std::string& what, const FitSummary& fit, int sampl
   std::string sentence = what + text(": %.6g per sample", 2.0 * fit.cost / std::max(1, samples));
   for (int p = 0; p < fit.hypothesis.size(); ++p) {
     const FreeParameter& free = fit.hypothesis.free[p];
-    sentence += ", " + fit.hypothesis.effects[free.effect].name + " " + free.name +
-                text(" %.5g +- %.2g", fit.hypothesis.value(p),
-                     deviation(free, fit.hypothesis.value(p), fit.standard_error[p]));
+    sentence +=
+        ", " + fit.hypothesis.effects[free.effect].name + " " + free.name +
+        text(" %.5g +- %.2g", fit.hypothesis.value(p),
+             fit.standard_error[p] * (free.logarithmic ? fit.hypothesis.value(p) : free.scale));
   }
   note(sentence + ".");
 }

@@ -14,18 +14,11 @@ double FreeParameter::width() const {
 }
 
 double FreeParameter::to_unknown(double value) const {
-  if (!logarithmic) return value / scale;
-  if (vanishes == Vanishes::at_zero) return std::asinh(value / scale);
-  if (vanishes == Vanishes::at_infinity) return -std::asinh(scale / value);
-  return std::log(value);
+  return logarithmic ? std::log(value) : value / scale;
 }
 
 double FreeParameter::to_value(double unknown) const {
-  if (!logarithmic) return unknown * scale;
-  if (vanishes == Vanishes::at_zero) return scale * std::sinh(std::max(unknown, 0.0));
-  // Softer than not at all is stiffer than anything.
-  if (vanishes == Vanishes::at_infinity) return unknown < 0.0 ? scale / std::sinh(-unknown) : high;
-  return std::exp(unknown);
+  return logarithmic ? std::exp(unknown) : unknown * scale;
 }
 
 double Hypothesis::value(int parameter) const {

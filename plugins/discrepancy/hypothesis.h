@@ -18,16 +18,13 @@ inline constexpr const char* mesh_error = "mesh_error";
 enum class Vanishes { never, at_zero, at_one, at_infinity, at_nominal };
 
 /// A number of an effect that a fit may change. Fits work on a scaled unknown u: value = scale u,
-/// or value = exp(u) for positive quantities whose size is not known (`logarithmic`). A positive
-/// size that vanishes at zero is value = scale sinh(u), at infinity value = scale / sinh(-u): up to
-/// `scale` the data change in proportion to u, so that a fit from a small size does not leap, and
-/// beyond it u is a logarithm.
+/// or value = exp(u) for positive quantities whose size is not known (`logarithmic`).
 struct FreeParameter {
   int effect = 0;     ///< index into Hypothesis::effects
   std::string name;   ///< of the effect's parameter; "at": of its place; "heading": see below
   int component = 0;  ///< of a vector
   bool logarithmic = false;
-  double scale = 1.0;            ///< of the value, see above
+  double scale = 1.0;            ///< of the value, where not logarithmic
   double low = 0.0, high = 0.0;  ///< of the value
   std::string unit;
   /// Standard deviation and centre (a value) of a prior on u, where data may leave it open; 0:

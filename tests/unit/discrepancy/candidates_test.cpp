@@ -106,31 +106,6 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
   EXPECT_LT(std::ranges::max(promise_of(nothing.causes, directions)), 5.0);
 }
 
-// Up to its scale a size that vanishes is proportional to its unknown, so that a straight step from
-// a tenth of it ends near the whole; beyond it goes on as a logarithm. Unknowns without a size end
-// at the effect's absence.
-TEST(Candidates, SizesGrowStraightFromNothing) {
-  FreeParameter mass;
-  mass.logarithmic = true;
-  mass.scale = 0.012;
-  mass.high = 1e9;
-  mass.vanishes = Vanishes::at_zero;
-  const double u = mass.to_unknown(0.1 * mass.scale),
-               slope = (mass.to_value(u + 1e-6) - mass.to_value(u)) / 1e-6;
-  EXPECT_NEAR(mass.to_value(u + 0.9 * mass.scale / slope), mass.scale, 0.2 * mass.scale);
-  FreeParameter stiffness = mass;
-  stiffness.vanishes = Vanishes::at_infinity;
-  for (const FreeParameter& free : {mass, stiffness}) {
-    for (const double value : {1e-5, 0.012, 3.0})
-      EXPECT_NEAR(free.to_value(free.to_unknown(value)), value, 1e-9 * value);
-    EXPECT_LT(free.to_unknown(0.1), free.to_unknown(0.2));
-  }
-  EXPECT_EQ(mass.to_value(-0.3), 0.0);
-  EXPECT_EQ(stiffness.to_value(0.3), stiffness.high);
-  // As a logarithm: ten times more is ln 10 away.
-  EXPECT_NEAR(mass.to_unknown(12.0) - mass.to_unknown(1.2), std::log(10.0), 1e-4);
-}
-
 // Modulus and damping move the prediction alike, along one shape. Asked for more of the modulus
 // than its bound, damping takes over the rest; asked for within the bounds, both do what they were
 // asked.
