@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t linear_starts = 2;  // looked at, of a cause and either sign
 constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
 constexpr double no_change = 1.0e-12;     // a direction without length
+constexpr double believed = 2.0;          // of an unknown's width
 
 // Of matrix step = right, with those that are held where they are.
 Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
@@ -97,6 +98,15 @@ Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wan
     if (step == free_step) break;
     for (int p = 0; p < n; ++p) held[p] = held[p] || step[p] != free_step[p];
   }
+  // Along the valley of a free vibration the data hold nothing: there it ends where density is no
+  // longer believed.
+  const int modulus = model.hypothesis.factor_on("youngs_modulus"),
+            density = model.hypothesis.factor_on("density");
+  if (modulus < 0 || density < 0) return step;
+  const double most = believed * model.hypothesis.free[density].width();
+  const double beyond = step[density] - std::clamp(step[density], -most, most);
+  step[density] -= beyond;
+  step[modulus] = std::clamp(step[modulus] - beyond, low[modulus], high[modulus]);
   return step;
 }
 

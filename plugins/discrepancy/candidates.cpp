@@ -8,6 +8,7 @@
 
 #include "core/thread_pool.h"
 #include "discrepancy/candidate_starts.h"
+#include "discrepancy/profile.h"
 #include "discrepancy/promise.h"
 
 namespace pedicel::discrepancy {
@@ -20,16 +21,18 @@ constexpr std::size_t most_whole = 8;   // of each of the two lists
 constexpr double far_behind = 0.3;      // of the first one's gain or statistic
 constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
 
+// The better of two fits, by what fits minimise: what is known beforehand counts.
+void keep_better(FitSummary& best, FitSummary&& found) {
+  if (best.why == "not run" || objective(found) < objective(best)) best = std::move(found);
+}
+
 FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
                           FitOptions options, std::size_t count) {
   FitSummary best;
   const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
   options.horizon = first_horizon;
   options.iterations = std::min(first_iterations, options.iterations);
-  for (const Hypothesis& start : starts) {
-    FitSummary found = fit(evaluator, start, options);
-    if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
-  }
+  for (const Hypothesis& start : starts) keep_better(best, fit(evaluator, start, options));
   return best;
 }
 
@@ -42,22 +45,16 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
   return order;
 }
 
-// The best fit from any of these starts. Those that do worse than the base are out of phase: they
-// are left alone where others do better, else the first part of the records tells the best two.
+// The best fit from any of these starts. Where all do worse than the base they are out of phase:
+// the closest one is also fitted over growing parts of the records.
 FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
                     const std::vector<Hypothesis>& starts, const FitOptions& options) {
   constexpr std::array horizons{0.5 * first_horizon, first_horizon, 1.0};
-  const Scan found = scan(evaluator, starts, options);
-  std::vector<double> closeness;
-  for (const double cost : found.cost) closeness.push_back(-cost);
-  const bool in_phase = found.cost[found.best] < base.cost;
   FitSummary best;
-  for (const int i : first_by(closeness, in_phase ? starts.size() : 2)) {
-    if (in_phase && found.cost[i] >= base.cost) break;
-    FitSummary fitted = in_phase ? fit(evaluator, starts[i], options)
-                                 : fit_growing(evaluator, starts[i], options, horizons);
-    if (best.why == "not run" || fitted.cost < best.cost) best = std::move(fitted);
-  }
+  for (const Hypothesis& start : starts) keep_better(best, fit(evaluator, start, options));
+  const Scan found = scan(evaluator, starts, options);
+  if (found.cost[found.best] >= base.cost)
+    keep_better(best, fit_growing(evaluator, starts[found.best], options, horizons));
   return best;
 }
 
