@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 
+#include "discrepancy/diagnosis.h"
 #include "discrepancy/oscillation.h"
 #include "discrepancy/simulator.h"
 
@@ -120,6 +121,28 @@ TEST(SiliconeData, DampingIsNotProportionalToStiffness) {
   EXPECT_LT(stiffness[2], 0.5 * measured[2]);
   EXPECT_LT(error_with_masses(structural, measured), 0.5 * error_with_masses(stiffness, measured));
   EXPECT_LT(error_with_masses(structural, measured), error_with_masses(mass, measured));
+}
+
+// The whole procedure on the same folder, which fits the own-weight trials alone: damping that does
+// not depend on the rate, and less error with the masses. Its loss factor comes beside what
+// damping_time keeps, so it is a part of twice the ratio of 0.055.
+TEST(SiliconeData, DiagnosisNamesDampingThatDoesNotDependOnTheRate) {
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  Diagnostics diagnostics;
+  const auto experiment = read_experiment(folder, diagnostics);
+  ASSERT_TRUE(experiment) << diagnostics.text();
+  const Verdict verdict = diagnose(*experiment, {}).verdict;
+  EXPECT_EQ(verdict.outcome, Outcome::named);
+  ASSERT_FALSE(verdict.causes.empty());
+  const NamedCause& cause = verdict.causes.front();
+  ASSERT_EQ(cause.name, "structural_damping");
+  const Estimate& loss = cause.parameters.at("loss_factor").front();
+  EXPECT_GT(loss.low, 0.01);
+  EXPECT_LT(loss.high, 2 * 0.055);
+  EXPECT_NE(cause.because.find("damping ratio"), std::string::npos) << cause.because;
+  ASSERT_TRUE(verdict.gain);
+  EXPECT_GT(*verdict.gain, 0.05);
+  EXPECT_LT(*verdict.check.extended, *verdict.check.refitted);
 }
 
 }  // namespace
