@@ -47,6 +47,13 @@ class Desk {
     session_->open(path);
     settle();
   }
+  /// A scene with nothing in it, drawn coarsely, so that a picture costs little.
+  void open_empty() {
+    ui().view.automatic_quality = false;
+    ui().view.quality = CanvasQuality::coarsest;
+    session_->open_empty();
+    settle();
+  }
   /// Lets the simulation do what it was told, and the window show it.
   void settle() {
     session_->control().wait();

@@ -12,9 +12,7 @@ class Editing : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!desk_.available()) GTEST_SKIP() << desk_.why();
-    desk_.ui().view.automatic_quality = false;
-    desk_.ui().view.quality = CanvasQuality::coarsest;
-    desk_.session().open_empty();
+    desk_.open_empty();
     for (const char* line :
          {"new plant p", "draw stem p stem 0,0,0;0,0,0.15;0,0,0.3;0,0,0.45 0.006",
           "draw stem p branch 0,0,0.3;0.08,0.05,0.34;0.16,0.1,0.36 0.003",

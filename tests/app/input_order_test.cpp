@@ -9,10 +9,7 @@ class InputOrder : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!desk_.available()) GTEST_SKIP() << desk_.why();
-    desk_.ui().view.automatic_quality = false;
-    desk_.ui().view.quality = CanvasQuality::coarsest;
-    desk_.session().open_empty();
-    desk_.settle();
+    desk_.open_empty();
     for (const char* line : {"new plant p", "draw stem p stem 0,0,0;0,0,0.15;0,0,0.3 0.004",
                              "draw stem p twig 0,0,0.2;0.1,0,0.25 0.002"})
       ASSERT_TRUE(desk_.session().run_text(line).ok);
