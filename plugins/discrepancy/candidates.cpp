@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "core/thread_pool.h"
@@ -17,9 +18,12 @@ namespace {
 
 constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
-constexpr std::size_t most_whole = 8;   // of each of the two lists
-constexpr double far_behind = 0.3;      // of the first one's gain or statistic
-constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
+constexpr std::size_t most_whole = 8;                // of each of the two lists
+constexpr int look_iterations = 2;                   // of every start, and
+constexpr std::size_t leading_starts = 2;            // go on
+constexpr double far_behind = 0.3;                   // of the first one's gain or statistic
+constexpr double near_by = 50.0, near_share = 0.05;  // nats, of the best one's gain
+constexpr double small_residual = 2.0;               // mean square in noise units, see refit_all()
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.
 void keep_better(FitSummary& best, FitSummary&& found) {
@@ -32,7 +36,8 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
   options.horizon = first_horizon;
   options.iterations = std::min(first_iterations, options.iterations);
-  for (const Hypothesis& start : starts) keep_better(best, fit(evaluator, start, options));
+  for (const Hypothesis& start : starts)
+    keep_better(best, fit(evaluator, start, options, base.jacobian));
   return best;
 }
 
@@ -45,16 +50,27 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
   return order;
 }
 
-// The best fit from any of these starts. Where all do worse than the base they are out of phase:
-// the closest one is also fitted over growing parts of the records.
+// The best fit from any of these starts: a few iterations from each, the rest for those that lead.
+// Where all starts do worse than the base they are out of phase: the closest one is also fitted
+// over growing parts of the records.
 FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
                     const std::vector<Hypothesis>& starts, const FitOptions& options) {
   constexpr std::array horizons{0.5 * first_horizon, first_horizon, 1.0};
+  FitOptions look = options, rest = options;
+  look.iterations = std::min(look_iterations, options.iterations);
+  rest.iterations = options.iterations - look.iterations;
+  std::vector<FitSummary> found;
+  std::vector<double> closeness;
+  for (const Hypothesis& start : starts) {
+    found.push_back(fit(evaluator, start, look, base.jacobian));
+    closeness.push_back(-objective(found.back()));
+  }
   FitSummary best;
-  for (const Hypothesis& start : starts) keep_better(best, fit(evaluator, start, options));
-  const Scan found = scan(evaluator, starts, options);
-  if (found.cost[found.best] >= base.cost)
-    keep_better(best, fit_growing(evaluator, starts[found.best], options, horizons));
+  for (const int i : first_by(closeness, leading_starts))
+    keep_better(best, rest.iterations > 0 ? refit(evaluator, found[i], rest) : std::move(found[i]));
+  const Scan scanned = scan(evaluator, starts, options);
+  if (scanned.cost[scanned.best] >= base.cost)
+    keep_better(best, fit_growing(evaluator, starts[scanned.best], options, horizons));
   return best;
 }
 
@@ -104,43 +120,48 @@ void sort_by_evidence(std::vector<Candidate>& candidates) {
   });
 }
 
-// Gains and evidence of the whole fits, and the order; returns the mean square that even the best
-// one leaves, 1 where that is noise.
-double weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples) {
-  // Where even the best model leaves more than noise, differences count for less.
+// The mean square that even the best of the whole fits leaves, 1 where that is noise: where it is
+// more, differences count for less.
+double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary& base,
+                     int samples) {
   double least = base.cost;
   for (const Candidate& candidate : candidates)
     if (candidate.whole && candidate.fit.why != "not run")
       least = std::min(least, candidate.fit.cost);
-  const double dispersion = std::max(1.0, 2.0 * least / samples);
+  return std::max(1.0, 2.0 * least / samples);
+}
+
+// Gains and evidence of the whole fits, and the order.
+void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples,
+           double dispersion) {
   const double cost = cost_of_numbers(base, dispersion);
   for (Candidate& candidate : candidates) {
     if (candidate.whole) {
       candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
       candidate.evidence = candidate.gain - (cost_of_numbers(candidate.fit, dispersion) - cost) -
-                           std::log(static_cast<double>(candidates.size()));
+                           std::log(static_cast<double>(candidates.size())) +
+                           candidate.held_out.gain;
     } else {
       const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
       candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
     }
   }
-  std::erase_if(candidates, [](const Candidate& c) { return c.fit.why == "not run"; });
   sort_by_evidence(candidates);
-  return dispersion;
 }
 
 // All candidates of one model, on their way from starts to a ranking.
 class Refits {
  public:
-  Refits(std::vector<Evaluator>& workers, const FitSummary& base, const std::vector<Cause>& causes,
+  Refits(const Workers& workers, const FitSummary& base, const std::vector<Cause>& causes,
          const std::vector<Direction>& directions, const RefitOptions& options)
-      : workers_(workers),
+      : coarse_(workers.coarse),
+        fine_(workers.fine),
         base_(base),
         causes_(causes),
         directions_(directions),
         options_(options),
         promise_(promise_of(causes, directions)),
-        samples_(workers.front().data().samples(options.fit.trials)),
+        samples_(workers.fine.front().data().samples(options.fit.trials)),
         candidates_(causes.size()) {}
 
   std::vector<Candidate> run() {
@@ -154,19 +175,23 @@ class Refits {
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
     // A few iterations tell who is behind; only the leaders are worth the rest.
-    share_out(workers_, static_cast<int>(whole.size()), options_, 0.5, 0.8,
+    share_out(coarse_, static_cast<int>(whole.size()), options_, 0.5, 0.7,
               [&](Evaluator& evaluator, int c) { fit_whole(evaluator, whole[c]); });
     std::vector<double> closeness(causes_.size(), -std::numeric_limits<double>::infinity());
     for (const int i : whole)
       if (candidates_[i].fit.why != "not run") closeness[i] = -candidates_[i].fit.cost;
     const std::vector<int> first = first_by(closeness, std::min(leaders, whole.size()));
-    share_out(workers_, static_cast<int>(first.size()), options_, 0.8, 1.0,
+    share_out(coarse_, static_cast<int>(first.size()), options_, 0.7, 0.8,
               [&](Evaluator& evaluator, int c) {
                 FitSummary& found = candidates_[first[c]].fit;
-                found = fit(evaluator, found.hypothesis, options_.fit);
+                found = refit(evaluator, found, options_.fit);
               });
-    const double dispersion = weigh(candidates_, base_, samples_);
-    ask_kept_back(dispersion);
+    std::erase_if(candidates_, [](const Candidate& c) { return c.fit.why == "not run"; });
+    std::vector<Candidate*> all;
+    for (Candidate& candidate : candidates_)
+      if (candidate.whole) all.push_back(&candidate);
+    rank(all, coarse_);
+    end_with_fine();
     return std::move(candidates_);
   }
 
@@ -175,10 +200,10 @@ class Refits {
     FitOptions early = options_.fit;
     early.horizon = first_horizon;
     const double early_cost =
-        0.5 * workers_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
+        0.5 * coarse_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
     std::vector<std::size_t> starts(causes_.size(), 1);
     for (const int i : first_by(promise_, most_whole)) starts[i] = 2;
-    share_out(workers_, static_cast<int>(causes_.size()), options_, 0.0, 0.5,
+    share_out(coarse_, static_cast<int>(causes_.size()), options_, 0.0, 0.5,
               [&](Evaluator& evaluator, int i) {
                 candidates_[i].fit =
                     fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
@@ -223,31 +248,67 @@ class Refits {
     candidate.fit = best_fit(evaluator, base_, starts, few);
   }
 
-  // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
-  void ask_kept_back(double dispersion) {
-    if (options_.check_trials.empty() || candidates_.empty()) return;
-    FitOptions check = options_.fit;
-    check.trials = options_.check_trials;
-    std::vector<Candidate*> whole;
-    for (Candidate& candidate : candidates_)
-      if (candidate.whole) whole.push_back(&candidate);
-    const KeptBack base = kept_back(workers_.front(), base_, check, dispersion);
-    std::vector<KeptBack> models(whole.size());
-    share_out(workers_, static_cast<int>(whole.size()), options_, 1.0, 1.0,
-              [&](Evaluator& evaluator, int i) {
-                models[i] = kept_back(evaluator, whole[i]->fit, check, dispersion);
-              });
-    if (options_.stop && *options_.stop) return;
-    const int samples = workers_.front().data().samples(check.trials);
-    const std::vector<HeldOut> found = held_out(base, models, samples, dispersion);
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-      whole[i]->held_out = found[i];
-      whole[i]->evidence += found[i].gain;
-    }
-    sort_by_evidence(candidates_);
+  // Whether it may be the best or a rival of it, the coarse simulator's errors considered.
+  bool is_near_the_best(const Candidate& candidate) const {
+    const Candidate& best = candidates_.front();
+    return best.evidence - candidate.evidence <= std::max(near_by, near_share * best.gain);
   }
 
-  std::vector<Evaluator>& workers_;
+  // The first few stand in their final order once all of them were refitted.
+  void end_with_fine() {
+    while (!stopped()) {
+      std::vector<Candidate*> open;
+      for (std::size_t i = 0; i < std::min(leaders, candidates_.size()); ++i)
+        if (candidates_[i].whole && !candidates_[i].fine && is_near_the_best(candidates_[i]))
+          open.push_back(&candidates_[i]);
+      if (open.empty()) return;
+      share_out(fine_, static_cast<int>(open.size()), options_, 0.8, 1.0,
+                [&](Evaluator& evaluator, int i) {
+                  open[i]->fit = refit(evaluator, open[i]->fit, options_.fit);
+                  open[i]->fine = true;
+                });
+      rank(open, fine_);
+    }
+  }
+
+  bool stopped() const { return options_.stop && *options_.stop; }
+
+  // Gains, evidence and order of all, after the fits of some have `changed`.
+  void rank(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers) {
+    if (stopped()) return;
+    const double dispersion = dispersion_of(candidates_, base_, samples_);
+    ask_kept_back(changed, workers, dispersion);
+    weigh(candidates_, base_, samples_, dispersion);
+  }
+
+  // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
+  void ask_kept_back(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers,
+                     double dispersion) {
+    if (options_.check_trials.empty()) return;
+    FitOptions check = options_.fit;
+    check.trials = options_.check_trials;
+    if (kept_.empty()) {
+      base_kept_ = kept_back(fine_.front(), base_, check);
+      for (const Candidate* candidate : changed) kept_[candidate->cause] = {};
+    }
+    share_out(workers, static_cast<int>(changed.size()), options_, 1.0, 1.0,
+              [&](Evaluator& evaluator, int i) {
+                kept_.at(changed[i]->cause) = kept_back(evaluator, changed[i]->fit, check);
+              });
+    if (stopped()) return;
+    std::vector<Candidate*> whole;
+    std::vector<KeptBack> models;
+    for (Candidate& candidate : candidates_) {
+      if (!candidate.whole) continue;
+      whole.push_back(&candidate);
+      models.push_back(kept_.at(candidate.cause));
+    }
+    const int samples = fine_.front().data().samples(check.trials);
+    const std::vector<HeldOut> found = held_out(base_kept_, models, samples, dispersion);
+    for (std::size_t i = 0; i < whole.size(); ++i) whole[i]->held_out = found[i];
+  }
+
+  std::vector<Evaluator>&coarse_, &fine_;
   const FitSummary& base_;
   const std::vector<Cause>& causes_;
   const std::vector<Direction>& directions_;
@@ -255,6 +316,8 @@ class Refits {
   const std::vector<double> promise_;
   const int samples_;
   std::vector<Candidate> candidates_;
+  KeptBack base_kept_;  // on the trials kept back, as those of the causes that were fitted whole
+  std::map<std::string, KeptBack> kept_;
 };
 
 }  // namespace
@@ -264,7 +327,7 @@ double cost_of(int parameters, int samples, std::size_t candidates) {
          std::log(static_cast<double>(std::max<std::size_t>(candidates, 1)));
 }
 
-std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,
+std::vector<Candidate> refit_all(const Workers& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,
                                  const std::vector<Direction>& directions,
                                  const RefitOptions& options) {

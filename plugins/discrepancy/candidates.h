@@ -25,6 +25,7 @@ struct Candidate {
   /// little, that it was not refitted over the whole; its gain is that of the first part, or what
   /// its direction promises.
   bool whole = false;
+  bool fine = false;  ///< whether the fit was ended with the fine simulator
 };
 
 struct RefitOptions {
@@ -35,13 +36,21 @@ struct RefitOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// One evaluator for each thread, of either kind; the coarse ones agree with the others at the base
+/// (coarse_model.h).
+struct Workers {
+  std::vector<Evaluator>& coarse;
+  std::vector<Evaluator>& fine;
+};
+
 /// Refits every cause on top of `base`. Where the base leaves little more than noise, the linear
 /// model about it says from where: the sizes that the data give to the cause's loudest directions,
 /// the base's parameters moved along. Where it leaves much, all starts are looked at over the first
 /// third of the records and the best one or two fitted there, too. Over the whole records go the
-/// causes that did best there and those whose directions are loudest. Sorted by evidence, those
-/// that were not fitted over the whole last.
-std::vector<Candidate> refit_all(std::vector<Evaluator>& workers, const FitSummary& base,
+/// causes that did best there and those whose directions are loudest. All that with the coarse
+/// simulators; the first few are refitted with the fine ones. Sorted by evidence, those that were
+/// not fitted over the whole last.
+std::vector<Candidate> refit_all(const Workers& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,
                                  const std::vector<Direction>& directions,
                                  const RefitOptions& options);

@@ -7,6 +7,7 @@
 
 #include "discrepancy/baseline_start.h"
 #include "discrepancy/cause_names.h"
+#include "discrepancy/coarse_model.h"
 #include "discrepancy/conclusion.h"
 #include "discrepancy/diagnosis_log.h"
 #include "discrepancy/fit_setup.h"
@@ -137,8 +138,8 @@ class Procedure {
 
   void look() {
     log_.say("looking for anything that is wrong", 0.15);
-    Evaluator evaluator = setup_->evaluator();
-    result_.directions = directions_of(evaluator, result_.base, causes_, fit_options());
+    coarse_at(result_.base);
+    result_.directions = directions_at(result_.base);
     result_.before = judge(result_.directions, result_.base, numerical_, options_.seed);
     if (could_be_junctions(result_.before) && quiet_with_junctions(result_.base))
       result_.before.raised = false;
@@ -159,7 +160,11 @@ class Procedure {
     with.add(junctions);
     Evaluator evaluator = setup_->evaluator();
     FitSummary found = fit(evaluator, with, fit_options());
-    std::vector<Direction> directions = directions_of(evaluator, found, causes_, fit_options());
+    CoarseModel coarse(*setup_, found);
+    Evaluator there = coarse.evaluator();
+    std::vector<Direction> directions =
+        directions_of(there, found, causes_, fit_options(), result_.directions);
+    coarse_simulations_ += coarse.simulations();
     const Alarm alarm = judge(directions, found, numerical_, options_.seed);
     log_.fit("With junctions that give a little", found, setup_->samples());
     log_.directions(directions, alarm);
@@ -181,8 +186,9 @@ class Procedure {
 
   void search() {
     make_workers();
-    result_.ranking = refit_all(workers_, result_.base, causes_, result_.directions,
-                                refit_options(0.2, 0.6, "refitting candidates"));
+    result_.ranking =
+        refit_all({coarse_workers_, workers_}, result_.base, causes_, result_.directions,
+                  refit_options(0.2, 0.6, "refitting candidates"));
     if (stopped()) return;
     for (std::size_t i = 0; i < std::min<std::size_t>(6, result_.ranking.size()); ++i)
       if (result_.ranking[i].whole)
@@ -197,9 +203,8 @@ class Procedure {
   void extend() {
     while (!findings_.chain.empty() && static_cast<int>(findings_.chain.size()) < most_causes &&
            !stopped()) {
-      Evaluator evaluator = setup_->evaluator();
-      std::vector<Direction> directions =
-          directions_of(evaluator, result_.best, causes_, fit_options());
+      coarse_at(result_.best);
+      std::vector<Direction> directions = directions_at(result_.best);
       result_.after = judge(directions, result_.best, numerical_, options_.seed);
       log_.directions(directions, result_.after);
       if (!result_.after.raised) return;
@@ -210,16 +215,15 @@ class Procedure {
       const double from = 0.5 + 0.15 * static_cast<double>(findings_.chain.size());
       const std::vector<Cause> likely = promising(causes_, directions);
       const std::vector<Candidate> next =
-          refit_all(workers_, result_.best, likely, directions,
+          refit_all({coarse_workers_, workers_}, result_.best, likely, directions,
                     refit_options(from, from + 0.15, "looking for another cause"));
       if (stopped() || next.empty() || !is_another_cause(next.front())) return;
       findings_.chain.push_back(next.front());
       result_.best = next.front().fit;
     }
     if (findings_.chain.empty()) return;
-    Evaluator evaluator = setup_->evaluator();
-    std::vector<Direction> directions =
-        directions_of(evaluator, result_.best, causes_, fit_options());
+    coarse_at(result_.best);
+    std::vector<Direction> directions = directions_at(result_.best);
     result_.after = judge(directions, result_.best, numerical_, options_.seed);
   }
 
@@ -244,6 +248,26 @@ class Procedure {
     return std::ranges::all_of(findings_.chain, [&](const Candidate& found) {
       return !same_family(found.cause, next.cause) || next.gain > family_share * found.gain;
     });
+  }
+
+  // Searches go by a cheaper simulator that agrees with the fine one at the model they extend.
+  void coarse_at(const FitSummary& model) {
+    drop_coarse();
+    coarse_ = std::make_unique<CoarseModel>(*setup_, model);
+    coarse_workers_ = coarse_->workers();
+    log_.note(text("Searching with nodes every %.3g mm and a step of %.3g ms",
+                   1e3 * coarse_->numerics().distance, 1e3 * coarse_->numerics().dt) +
+              text(", carried along as a correction: %.2g of the noise.", coarse_->error()));
+  }
+
+  void drop_coarse() {
+    if (coarse_) coarse_simulations_ += coarse_->simulations();
+    coarse_.reset();
+  }
+
+  std::vector<Direction> directions_at(const FitSummary& model) {
+    Evaluator evaluator = coarse_->evaluator();
+    return directions_of(evaluator, model, causes_, fit_options(), result_.directions);
   }
 
   // One simulator a thread: candidates are refitted side by side.
@@ -281,6 +305,7 @@ class Procedure {
 
   // Several causes that together explain less than one force from outside the list are none.
   void ask_for_one_force() {
+    if (!result_.after.raised) return;  // nothing is left for it to explain
     double evidence = 0.0;
     for (const Candidate& found : findings_.chain) evidence += found.evidence;
     const MissingForce force = missing_force();
@@ -293,7 +318,8 @@ class Procedure {
   // Where, when and of what kind the force is that no cause stands for.
   MissingForce missing_force() {
     log_.say("looking for a force that is missing", 0.96);
-    Evaluator evaluator = setup_->evaluator();
+    coarse_at(result_.base);
+    Evaluator evaluator = coarse_->evaluator();
     MissingForceOptions options;
     options.fit = fit_options();
     options.check = result_.check_trials;
@@ -311,8 +337,8 @@ class Procedure {
     remainder +=
         force.found ? force.sentence() : "No force at a marker explains it. Do not extrapolate.";
     if (force.fit.why == "not run") return;
-    Evaluator evaluator = setup_->evaluator();
-    std::vector<Direction> left = directions_of(evaluator, force.fit, causes_, fit_options());
+    coarse_at(force.fit);
+    std::vector<Direction> left = directions_at(force.fit);
     const Alarm alarm = judge(left, force.fit, numerical_, options_.seed);
     log_.note(text("With that force the largest directed statistic is %.3g, level %.3g.",
                    alarm.statistic, alarm.level));
@@ -353,6 +379,8 @@ class Procedure {
     }
     for (const auto& simulator : simulators_)
       result_.verdict.simulations += simulator->simulations();
+    drop_coarse();
+    result_.verdict.simulations += coarse_simulations_;
     result_.stopped = stopped();
     result_.verdict.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -368,6 +396,9 @@ class Procedure {
   Eigen::VectorXd numerical_;  // what our own error may leave in the residual
   std::vector<std::unique_ptr<Simulator>> simulators_;
   std::vector<Evaluator> workers_;
+  std::unique_ptr<CoarseModel> coarse_;
+  std::vector<Evaluator> coarse_workers_;
+  long coarse_simulations_ = 0;  // of coarse models that are gone
   Findings findings_;
 };
 

@@ -7,6 +7,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double wanted_change = 5.0;  // noise units
+constexpr double most_over = 10.0;     // of the size wanted
 constexpr double first_size = 0.01, least_size = 1.0e-4, most_size = 0.05;
 
 }  // namespace
@@ -24,7 +25,9 @@ Differences::Differences(const Hypothesis& model)
 
 Differences::Differences(const Hypothesis& model, const Eigen::MatrixXd& jacobian)
     : Differences(model) {
-  resize(jacobian * directions_);
+  const Eigen::Index known = jacobian.cols();
+  Eigen::MatrixXd along = jacobian * directions_.topLeftCorner(known, known);
+  resize(along);
 }
 
 std::vector<Hypothesis> Differences::points(const Eigen::VectorXd& unknowns) {
@@ -48,8 +51,14 @@ Eigen::MatrixXd Differences::jacobian(const Eigen::MatrixXd& residuals) {
   return along;
 }
 
+bool Differences::suited() const {
+  const Eigen::ArrayXd over = step_.array().abs() / size_.array();
+  return (over < most_over).all() && (over > 1.0 / most_over).all();
+}
+
+// Those beyond the columns that are known keep their sizes.
 void Differences::resize(const Eigen::MatrixXd& along) {
-  for (int p = 0; p < model_.size(); ++p)
+  for (int p = 0; p < static_cast<int>(along.cols()); ++p)
     size_[p] =
         std::clamp(wanted_change / std::max(along.col(p).norm(), 1.0e-12), least_size, most_size);
 }

@@ -14,7 +14,7 @@ namespace pedicel::discrepancy {
 class Differences {
  public:
   explicit Differences(const Hypothesis& model);
-  /// Sized for a model whose derivatives are known.
+  /// Sized for a model whose derivatives are known, or those by its first unknowns.
   Differences(const Hypothesis& model, const Eigen::MatrixXd& jacobian);
 
   /// The model at these unknowns, then moved along each direction, within its bounds.
@@ -22,6 +22,8 @@ class Differences {
   /// From the residuals at points(), one column each: residual = data - prediction. The next
   /// points() are moved as far as these derivatives ask for.
   Eigen::MatrixXd jacobian(const Eigen::MatrixXd& residuals);
+  /// Whether the last points() were moved about as far as they should be.
+  bool suited() const;
 
  private:
   void resize(const Eigen::MatrixXd& along);
@@ -29,7 +31,7 @@ class Differences {
   Hypothesis model_;
   int modulus_ = -1, density_ = -1;  // unknowns, where both are free
   Eigen::MatrixXd directions_;       // one a column
-  Eigen::VectorXd size_, step_;
+  Eigen::VectorXd size_, step_;      // of the next points(), and of the last
 };
 
 }  // namespace pedicel::discrepancy

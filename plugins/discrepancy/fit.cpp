@@ -18,12 +18,13 @@ constexpr double open_direction = 1.0e-3;  // noise units an unknown: nothing to
 /// derivatives at a point whose residuals it has seen.
 class Problem : public ceres::CostFunction {
  public:
-  Problem(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options)
+  Problem(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
+          const Differences& differences)
       : evaluator_(evaluator),
         hypothesis_(start),
         options_(options),
         start_(start.unknowns()),
-        differences_(start),
+        differences_(differences),
         samples_(evaluator.data().size(options.trials)) {
     set_num_residuals(samples_ + start.size());
     mutable_parameter_block_sizes()->push_back(start.size());
@@ -32,7 +33,7 @@ class Problem : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
     const Eigen::Map<const Eigen::VectorXd> u(parameters[0], start_.size());
-    if (at_.size() == 0 || u != at_) compute(u);
+    compute(u);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
     r.head(samples_) = residual_;
     for (int p = 0; p < start_.size(); ++p) r[samples_ + p] = prior(p) * (u[p] - centre(p));
@@ -46,6 +47,7 @@ class Problem : public ceres::CostFunction {
   }
 
   void compute(const Eigen::VectorXd& u) const {
+    if (at_.size() > 0 && u == at_) return;
     const Eigen::MatrixXd r = evaluator_.residuals(differences_.points(u), options_);
     at_ = u;
     residual_ = r.col(0);
@@ -62,7 +64,7 @@ class Problem : public ceres::CostFunction {
   /// swing by a radian, or moves nothing, and a step from a wrong derivative is refused.
   void find_differences(const Eigen::VectorXd& u) const {
     compute(u);
-    at_.resize(0);
+    if (!differences_.suited()) at_.resize(0);
   }
 
   const Eigen::VectorXd& residual() const { return residual_; }
@@ -88,6 +90,10 @@ class Problem : public ceres::CostFunction {
   mutable Eigen::VectorXd at_, residual_;
   mutable Eigen::MatrixXd jacobian_;
 };
+
+Eigen::VectorXd bounded(const Hypothesis& start) {
+  return start.unknowns().cwiseMax(start.low()).cwiseMin(start.high());
+}
 
 void add(Prediction& to, double share, const Prediction& change) {
   to.markers += share * change.markers;
@@ -194,23 +200,22 @@ Eigen::MatrixXd Evaluator::residuals(std::span<const Hypothesis> hypotheses,
   return result;
 }
 
-FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options) {
+namespace {
+
+FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptions& options) {
   FitSummary result;
   result.hypothesis = start;
-  Problem problem(evaluator, start, options);
-  Eigen::VectorXd u = start.unknowns();
   const Eigen::VectorXd low = start.low(), high = start.high();
-  u = u.cwiseMax(low).cwiseMin(high);
+  Eigen::VectorXd u = bounded(start);
   if (start.size() == 0) {
-    problem.compute(u);
     result.converged = true;
     result.why = "nothing is free";
   } else {
-    problem.find_differences(u);
     ceres::Problem::Options ownership;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem ceres_problem(ownership);
-    ceres_problem.AddResidualBlock(&problem, nullptr, u.data());
+    // Ceres only reads it, but asks for a pointer to something that it may own.
+    ceres_problem.AddResidualBlock(const_cast<Problem*>(&problem), nullptr, u.data());
     for (int p = 0; p < start.size(); ++p) {
       ceres_problem.SetParameterLowerBound(u.data(), p, low[p]);
       ceres_problem.SetParameterUpperBound(u.data(), p, high[p]);
@@ -228,14 +233,29 @@ FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& 
     ceres::Solve(settings, &ceres_problem, &summary);
     result.converged = summary.termination_type == ceres::CONVERGENCE;
     result.why = summary.message;
-    problem.compute(u);
   }
+  problem.compute(u);
   result.hypothesis.set_unknowns(u);
   result.residual = problem.residual();
   result.jacobian = problem.jacobian();
   result.cost = 0.5 * result.residual.squaredNorm();
   judge(result);
   return result;
+}
+
+}  // namespace
+
+FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
+               const Eigen::MatrixXd& known) {
+  const Problem problem(evaluator, start, options, Differences(start, known));
+  if (start.size() > 0) problem.find_differences(bounded(start));
+  return solve(problem, start, options);
+}
+
+FitSummary refit(Evaluator& evaluator, const FitSummary& found, const FitOptions& options) {
+  const Hypothesis& start = found.hypothesis;
+  const Problem problem(evaluator, start, options, Differences(start, found.jacobian));
+  return solve(problem, start, options);
 }
 
 FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions options,

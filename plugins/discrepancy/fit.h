@@ -82,7 +82,13 @@ class Evaluator {
 
 /// Bounded least squares (Ceres, Levenberg-Marquardt) on whitened residuals, with the derivatives
 /// by differences: a point and all its derivatives are simulated side by side.
-FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options);
+/// `known` are derivatives by the first unknowns at a model near by, where there is one: they tell
+/// how large the differences should be.
+FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
+               const Eigen::MatrixXd& known = {});
+
+/// Continues where another fit of the same hypothesis ended.
+FitSummary refit(Evaluator& evaluator, const FitSummary& found, const FitOptions& options);
 
 /// Fits over growing shares of the records, so that oscillations do not slip by a period.
 FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions options,

@@ -34,6 +34,7 @@ class FitSetup {
 
   /// On all threads; valid until the next renew() or refine().
   Evaluator evaluator();
+  Simulator& simulator() { return *simulator_; }  ///< likewise
   /// Of all trials, [hypothesis][trial].
   std::vector<std::vector<Prediction>> predictions(std::span<const Hypothesis> hypotheses);
   /// A fresh simulator, which has kept no motions.

@@ -21,17 +21,19 @@ struct Moved {
   double cost = 0.0;  // minus the log predictive density, but for a constant
 };
 
-Moved moved(const KeptBack& model, double dispersion) {
+Moved moved(const KeptBack& model, double fitted_dispersion, double dispersion) {
   const Eigen::MatrixXd here = model.jacobian.transpose() * model.jacobian / dispersion;
-  const Eigen::LLT<Eigen::MatrixXd> before(model.information), after(model.information + here);
+  Eigen::MatrixXd information = model.by_data / fitted_dispersion;
+  information.diagonal() += model.prior;
+  const Eigen::LLT<Eigen::MatrixXd> before(information), after(information + here);
   const Eigen::VectorXd step =
       after.solve(model.jacobian.transpose() * model.residual / dispersion);
   const auto log_det = [](const Eigen::LLT<Eigen::MatrixXd>& root) {
     return 2.0 * root.matrixLLT().diagonal().array().log().sum();
   };
   Moved result{model.residual - model.jacobian * step, 0.0};
-  result.cost = 0.5 * (result.residual.squaredNorm() / dispersion +
-                       step.dot(model.information * step) + log_det(after) - log_det(before));
+  result.cost = 0.5 * (result.residual.squaredNorm() / dispersion + step.dot(information * step) +
+                       log_det(after) - log_det(before));
   return result;
 }
 
@@ -43,33 +45,34 @@ bool HeldOut::carries_over() const {
   return gain > (least_share - deviations * 2.0 / change) * expected;
 }
 
-KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check,
-                   double dispersion) {
+KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check) {
   Differences differences(model.hypothesis, model.jacobian);
   const Eigen::MatrixXd residuals =
       evaluator.residuals(differences.points(model.hypothesis.unknowns()), check);
   KeptBack result{residuals.col(0), differences.jacobian(residuals),
-                  model.jacobian.transpose() * model.jacobian / dispersion};
+                  model.jacobian.transpose() * model.jacobian,
+                  Eigen::VectorXd(model.hypothesis.size())};
   for (int p = 0; p < model.hypothesis.size(); ++p)
-    result.information(p, p) += std::pow(model.hypothesis.free[p].width(), -2);
+    result.prior[p] = std::pow(model.hypothesis.free[p].width(), -2);
   return result;
 }
 
 std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,
                               double dispersion) {
+  const double fitted = dispersion;
   double least = base.residual.squaredNorm();
   // What is left depends on how far the unknowns may move, and the other way round.
   for (int pass = 0; pass < 3; ++pass) {
     const double now = std::max(dispersion, least / std::max(1, samples));
-    least = moved(base, now).residual.squaredNorm();
+    least = moved(base, fitted, now).residual.squaredNorm();
     for (const KeptBack& model : models)
-      least = std::min(least, moved(model, now).residual.squaredNorm());
+      least = std::min(least, moved(model, fitted, now).residual.squaredNorm());
   }
   dispersion = std::max(dispersion, least / std::max(1, samples));
-  const Moved without = moved(base, dispersion);
+  const Moved without = moved(base, fitted, dispersion);
   std::vector<HeldOut> found;
   for (const KeptBack& model : models) {
-    const Moved with = moved(model, dispersion);
+    const Moved with = moved(model, fitted, dispersion);
     found.push_back({without.cost - with.cost,
                      0.5 * (without.residual - with.residual).squaredNorm() / dispersion});
   }

@@ -20,20 +20,20 @@ struct HeldOut {
 
 /// What a fitted model says of trials kept back, and how sure it is of it.
 struct KeptBack {
-  Eigen::VectorXd residual;     ///< whitened
-  Eigen::MatrixXd jacobian;     ///< of the whitened prediction by the unknowns
-  Eigen::MatrixXd information;  ///< about the unknowns, from the fit and from beforehand
+  Eigen::VectorXd residual;  ///< whitened
+  Eigen::MatrixXd jacobian;  ///< of the whitened prediction by the unknowns
+  Eigen::MatrixXd by_data;   ///< information about the unknowns from the trials fitted to
+  Eigen::VectorXd prior;     ///< and from beforehand, its diagonal
 };
 
-/// `dispersion` is the mean square that even the best model leaves of the trials fitted to (1 where
-/// that is noise); `check` names the trials kept back.
-KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check,
-                   double dispersion);
+/// `check` names the trials kept back.
+KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check);
 
 /// Each model's log predictive density less the base's: normal, with the noise's covariance and
 /// what the unknowns' own adds (Bernardo and Smith 1994, section 5.1), so that a valley of the fit
-/// (modulus and density of a free vibration) neither helps nor harms a model. What the best leaves
-/// of these `samples` above noise raises the dispersion.
+/// (modulus and density of a free vibration) neither helps nor harms a model. `dispersion` is the
+/// mean square that even the best model leaves of the trials fitted to (1 where that is noise);
+/// what the best leaves of these `samples` above it raises it for them.
 std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,
                               double dispersion);
 

@@ -37,8 +37,9 @@ class Inference {
         model_(model),
         options_(options),
         experiment_(evaluator.data().experiment()),
-        responses_(experiment_, evaluator.data(), model, options.fit, experiment_.plant.distance,
-                   options.threads, evaluator.simulator().stop()) {
+        responses_(experiment_, evaluator.data(), model, options.fit,
+                   evaluator.simulator().numerics().distance, options.threads,
+                   evaluator.simulator().stop()) {
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
       scales_.length = std::max(scales_.length, drawn_length(curve));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/random.h"
 
@@ -26,33 +27,51 @@ Hypothesis with(const Hypothesis& base, const Hypothesis& start) {
   return both;
 }
 
+// What the starts of `which` directions change of the base's prediction.
+void measure_changes(Evaluator& evaluator, const FitSummary& base, const FitOptions& options,
+                     const std::vector<std::size_t>& which, std::vector<Direction>& directions) {
+  std::vector<Hypothesis> models{base.hypothesis};
+  for (const std::size_t d : which) models.push_back(with(base.hypothesis, directions[d].start));
+  const Eigen::MatrixXd residuals = evaluator.residuals(models, options);
+  for (std::size_t i = 0; i < which.size(); ++i)
+    directions[which[i]].change =
+        residuals.col(0) - residuals.col(static_cast<Eigen::Index>(i) + 1);
+}
+
+std::vector<std::size_t> all_of(const std::vector<Direction>& directions) {
+  std::vector<std::size_t> all(directions.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
 }  // namespace
 
 std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& base,
-                                     const std::vector<Cause>& causes, const FitOptions& options) {
+                                     const std::vector<Cause>& causes, const FitOptions& options,
+                                     const std::vector<Direction>& known) {
   std::vector<Direction> directions;
-  std::vector<Hypothesis> models{base.hypothesis};
   for (const Cause& cause : causes)
     for (const Hypothesis& start : cause.starts) {
-      directions.push_back({cause.name, start.shrunk(1.0 / full_size), {}, {}, false});
-      models.push_back(with(base.hypothesis, directions.back().start));
+      const std::size_t d = directions.size();
+      const bool sized = d < known.size() && !known[d].has_threshold;
+      directions.push_back(
+          {cause.name, sized ? known[d].start : start.shrunk(1.0 / full_size), {}, {}, false});
     }
-  // Twice: the first pass says how large a start is in units of the noise. What has a threshold and
-  // does nothing when it is small is taken at its full size.
-  for (int pass = 0; pass < 2; ++pass) {
-    const Eigen::MatrixXd residuals = evaluator.residuals(models, options);
-    for (std::size_t d = 0; d < directions.size(); ++d) {
-      Direction& direction = directions[d];
-      direction.change = residuals.col(0) - residuals.col(static_cast<Eigen::Index>(d) + 1);
-      const double size = direction.change.norm();
-      if (pass == 1 || (size >= 0.2 * wanted_change && size <= most_change)) continue;
-      direction.has_threshold = size < no_change;
-      const double share =
-          direction.has_threshold ? full_size : std::clamp(wanted_change / size, 1.0e-4, 20.0);
-      direction.start = direction.start.shrunk(share);
-      models[d + 1] = with(base.hypothesis, direction.start);
-    }
+  measure_changes(evaluator, base, options, all_of(directions), directions);
+  // The first look says how large a start is in units of the noise. What has a threshold and does
+  // nothing when it is small is taken at its full size.
+  std::vector<std::size_t> again;
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    Direction& direction = directions[d];
+    const double size = direction.change.norm();
+    if (size >= 0.2 * wanted_change && size <= most_change) continue;
+    direction.has_threshold = size < no_change;
+    const double share =
+        direction.has_threshold ? full_size : std::clamp(wanted_change / size, 1.0e-4, 20.0);
+    direction.start = direction.start.shrunk(share);
+    again.push_back(d);
   }
+  measure_changes(evaluator, base, options, again, directions);
   for (Direction& direction : directions) {
     direction.absorbed = absorbed(base.jacobian, direction.change);
     direction.change -= base.jacobian * direction.absorbed;

@@ -22,8 +22,10 @@ struct Direction {
 };
 
 /// Directions of every start of every cause, at sizes at which the response is about linear.
+/// `known` are those of the same causes about another model, whose sizes are a good first guess.
 std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& base,
-                                     const std::vector<Cause>& causes, const FitOptions& options);
+                                     const std::vector<Cause>& causes, const FitOptions& options,
+                                     const std::vector<Direction>& known = {});
 
 /// Whether anything is wrong: the largest of the directed statistics against the level that pure
 /// noise reaches through the same projections.

@@ -81,8 +81,9 @@ TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
   for (const Direction& direction : directions)
     EXPECT_LT((hidden.base.jacobian.transpose() * direction.change).norm(),
               1e-6 * hidden.base.jacobian.norm() * (1.0 + direction.change.norm()));
-  const std::vector<Candidate> ranking = refit_all(hidden.workers, hidden.base, hidden.causes,
-                                                   directions, {hidden.options, {}, {}, nullptr});
+  const std::vector<Candidate> ranking =
+      refit_all({hidden.workers, hidden.workers}, hidden.base, hidden.causes, directions,
+                {hidden.options, {}, {}, nullptr});
   ASSERT_EQ(ranking.size(), hidden.causes.size());
   const Candidate& best = ranking.front();
   EXPECT_EQ(best.cause, "base_compliance");

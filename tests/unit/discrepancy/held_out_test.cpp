@@ -26,7 +26,8 @@ Eigen::VectorXd noise() {
 
 // A model that knows its one unknown to `deviation`, and whose prediction moves along shape 1.
 KeptBack model(const Eigen::VectorXd& residual, double deviation) {
-  return {residual, shape(1, 10.0), Eigen::MatrixXd::Constant(1, 1, 1.0 / (deviation * deviation))};
+  return {residual, shape(1, 10.0), Eigen::MatrixXd::Zero(1, 1),
+          Eigen::VectorXd::Constant(1, 1.0 / (deviation * deviation))};
 }
 
 TEST(HeldOut, GainsHalfTheSquareOfWhatItExplains) {
