@@ -1,0 +1,101 @@
+// The coarse model of searches: it must agree with the fine one where it is anchored, follow it
+// near by, and give way to the fine one where it would be wrong by much of the noise.
+#include "discrepancy/coarse_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "discrepancy/causes.h"
+#include "unit/discrepancy/beam_experiment.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+constexpr double dt = 1.0 / 480.0;  // s, of the fine model as FitSetup starts
+
+/// A beam pulled aside and let go, simulated and measured with white noise.
+Experiment released(double noise) {
+  testing::Beam beam;
+  beam.damping_time = 0.01;
+  Experiment e = testing::experiment_of(beam, 1.0, 0.02);
+  e.plant.distance = 0.04;
+  Trial& trial = e.trials[0];
+  trial.force = {};
+  trial.gravity = Vec3(0, 0, -9.81);
+  trial.holds.push_back(
+      {testing::on_stem(0.8), testing::resting_at(Vec3(0.03, 0, 0.8 * beam.length)), 0.2, 20.0});
+  const Variant nominal;
+  Simulator simulator(e, {0.04, dt}, 1);
+  const Simulator::Request request{&nominal, 0};
+  Eigen::MatrixXd seen = simulator.run(std::span(&request, 1)).front().markers;
+  Random random(5);
+  for (double& x : seen.reshaped()) x += noise * random.normal();
+  trial.markers.value = seen;
+  return e;
+}
+
+struct Fitted {
+  Experiment experiment;
+  FitSetup setup;
+  FitSummary model;
+
+  explicit Fitted(double noise) : experiment(released(noise)), setup(experiment, 1, {}, nullptr) {
+    Evaluator evaluator = setup.evaluator();
+    model = fit(evaluator, baseline(), setup.options());
+    setup.refine(model, {[](int) {}, {}});
+    setup.renew();
+    Evaluator corrected = setup.evaluator();
+    model.hypothesis.add(mesh_freedom());
+    model = fit(corrected, model.hypothesis, setup.options());
+  }
+  Eigen::MatrixXd seen(Evaluator evaluator, const Hypothesis& of) const {
+    return evaluator.predictions(std::span(&of, 1), setup.options()).front().front().markers;
+  }
+};
+
+// RMS, m.
+double rms(const Eigen::MatrixXd& difference) {
+  return difference.norm() / std::sqrt(static_cast<double>(difference.size()));
+}
+
+TEST(CoarseModel, AgreesWithTheFineOneAtItsAnchor) {
+  Fitted fitted(3.0e-4);
+  CoarseModel coarse(fitted.setup, fitted.model);
+  EXPECT_EQ(coarse.numerics().distance, 2.0 * fitted.setup.numerics().distance);
+  EXPECT_EQ(coarse.numerics().dt, 2.0 * fitted.setup.numerics().dt);
+  EXPECT_EQ(coarse.workers().size(), 1u);
+  const Hypothesis& anchor = fitted.model.hypothesis;
+  const Eigen::MatrixXd fine = fitted.seen(fitted.setup.evaluator(), anchor);
+  EXPECT_LT(rms(fitted.seen(coarse.evaluator(), anchor) - fine), 1e-9);
+  EXPECT_LT(rms(fitted.seen(coarse.workers().front(), anchor) - fine), 1e-9);
+}
+
+// The error of a coarse prediction is e(p); carried along is e(p0). What is left near by is
+// e'(p0) dp: for a modulus 2 % higher, of errors of second order in the step times the frequency,
+// a part of the order of 2 % times the number of radians swung, here about 30, and the shift of the
+// parameters takes that. Without any correction all of e(p) would be left.
+TEST(CoarseModel, FollowsTheFineOneNearItsAnchor) {
+  Fitted fitted(3.0e-4);
+  CoarseModel coarse(fitted.setup, fitted.model);
+  Hypothesis near_by = fitted.model.hypothesis;
+  const int modulus = near_by.factor_on("youngs_modulus");
+  near_by.set_value(modulus, 1.02 * near_by.value(modulus));
+  const Eigen::MatrixXd fine = fitted.seen(fitted.setup.evaluator(), near_by);
+  Simulator plain(fitted.experiment, coarse.numerics(), 1);
+  const double uncorrected =
+      rms(fitted.seen(Evaluator(plain, fitted.setup.data()), near_by) - fine);
+  EXPECT_LT(rms(fitted.seen(coarse.evaluator(), near_by) - fine), 0.1 * uncorrected);
+}
+
+TEST(CoarseModel, IsNoCoarserThanTheNoiseAllows) {
+  Fitted fitted(2.0e-6);
+  CoarseModel coarse(fitted.setup, fitted.model);
+  EXPECT_LT(coarse.error(), 0.4);
+  const Numerics twice{2.0 * fitted.setup.numerics().distance, 2.0 * fitted.setup.numerics().dt};
+  EXPECT_TRUE(coarse.numerics().distance < twice.distance || coarse.numerics().dt < twice.dt);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
