@@ -8,10 +8,12 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr std::size_t linear_starts = 2;  // looked at, of a cause and either sign
-constexpr double least_statistic = 1.0;   // below it a direction says nothing of the size
-constexpr double no_change = 1.0e-12;     // a direction without length
-constexpr double believed = 2.0;          // of an unknown's width
+constexpr std::size_t linear_starts = 2;    // looked at, of a cause and either sign
+constexpr std::size_t most_thresholds = 4;  // likewise, of laws with one
+constexpr double small_amplitude = 0.2;     // of a gust, of its mean
+constexpr double least_statistic = 1.0;     // below it a direction says nothing of the size
+constexpr double no_change = 1.0e-12;       // a direction without length
+constexpr double believed = 2.0;            // of an unknown's width
 
 // Of matrix step = right, with those that are held where they are.
 Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
@@ -31,7 +33,7 @@ Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
 // Where the linear model about the baseline puts a cause, the baseline's numbers moved along with
 // it; nothing where the data ask for the sign that the cause cannot have.
 std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
-  const double size = direction.change.norm();
+  const double size = length(direction);
   if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
   const double share = direction.has_threshold ? 1.0 : direction.statistic / size;
   for (const FreeParameter& free : direction.start.free) {
@@ -128,14 +130,35 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
   // A place may be softer or stiffer than drawn: the loudest of both.
   std::vector<Hypothesis> starts;
   std::array<std::size_t, 2> of_sign{};
+  std::size_t thresholds = 0;
   for (const Direction* direction : own) {
     auto start = linear_start(base, *direction);
-    if (start &&
-        (direction->has_threshold || of_sign[direction->statistic > 0.0]++ < linear_starts))
+    if (start && (direction->has_threshold ? thresholds++ < most_thresholds
+                                           : of_sign[direction->statistic > 0.0]++ < linear_starts))
       starts.push_back(std::move(*start));
   }
   if (starts.size() < 2 || has_place(starts.front())) return starts;
   return {starts[scan(evaluator, starts, options).best]};
+}
+
+std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitted,
+                                  const Cause& cause) {
+  const plant::Effect& special = fitted.effects.back();
+  std::vector<Hypothesis> starts;
+  for (const Hypothesis& start : cause.starts) {
+    Hypothesis own = start;
+    for (const auto& [name, numbers] : special.numbers)
+      if (own.effects[0].numbers.contains(name)) own.effects[0].numbers[name] = numbers;
+    if (own.effects[0].numbers.contains("amplitude"))
+      own.effects[0].numbers["amplitude"] = {small_amplitude};
+    Hypothesis both = base;
+    both.set_unknowns(fitted.unknowns().head(base.size()));
+    both.add(own);
+    both.name = cause.name;
+    both.set_unknowns(both.unknowns());
+    starts.push_back(std::move(both));
+  }
+  return starts;
 }
 
 std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,

@@ -39,6 +39,11 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
                                            const std::vector<Direction>& directions,
                                            const FitOptions& options);
 
+/// The starts of a cause with the values of one that is a special case of it, as `fitted` on top of
+/// the base; with little of what the cause has more.
+std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitted,
+                                  const Cause& cause);
+
 /// The best of all starts of a cause as they are, where it does better than the base: what is large
 /// no linear model sees.
 std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,

@@ -9,8 +9,10 @@
 
 #include "core/thread_pool.h"
 #include "discrepancy/candidate_starts.h"
+#include "discrepancy/cause_names.h"
 #include "discrepancy/profile.h"
 #include "discrepancy/promise.h"
+#include "discrepancy/way_back.h"
 
 namespace pedicel::discrepancy {
 
@@ -18,7 +20,8 @@ namespace {
 
 constexpr int first_iterations = 6, whole_iterations = 5;
 constexpr std::size_t leaders = 4;
-constexpr std::size_t most_whole = 8;                // of each of the two lists
+constexpr std::size_t most_whole = 8;  // of each of the two lists
+constexpr std::array growing_horizons{0.5 * first_horizon, first_horizon, 1.0};
 constexpr int look_iterations = 2;                   // of every start, and
 constexpr std::size_t leading_starts = 2;            // go on
 constexpr double far_behind = 0.3;                   // of the first one's gain or statistic
@@ -55,7 +58,6 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
 // over growing parts of the records.
 FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
                     const std::vector<Hypothesis>& starts, const FitOptions& options) {
-  constexpr std::array horizons{0.5 * first_horizon, first_horizon, 1.0};
   FitOptions look = options, rest = options;
   look.iterations = std::min(look_iterations, options.iterations);
   rest.iterations = options.iterations - look.iterations;
@@ -70,7 +72,7 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
     keep_better(best, rest.iterations > 0 ? refit(evaluator, found[i], rest) : std::move(found[i]));
   const Scan scanned = scan(evaluator, starts, options);
   if (scanned.cost[scanned.best] >= base.cost)
-    keep_better(best, fit_growing(evaluator, starts[scanned.best], options, horizons));
+    keep_better(best, fit_growing(evaluator, starts[scanned.best], options, growing_horizons));
   return best;
 }
 
@@ -171,12 +173,16 @@ class Refits {
     else
       promise_gains();
     choose_whole(promise_);
+    for (std::size_t i = 0; i < causes_.size(); ++i)
+      if (!likest_way_back(base_, causes_[i].name, directions_).empty())
+        candidates_[i].whole = true;
     std::vector<int> whole;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
     // A few iterations tell who is behind; only the leaders are worth the rest.
     share_out(coarse_, static_cast<int>(whole.size()), options_, 0.5, 0.7,
               [&](Evaluator& evaluator, int c) { fit_whole(evaluator, whole[c]); });
+    extend_special_cases();
     std::vector<double> closeness(causes_.size(), -std::numeric_limits<double>::infinity());
     for (const int i : whole)
       if (candidates_[i].fit.why != "not run") closeness[i] = -candidates_[i].fit.cost;
@@ -246,6 +252,33 @@ class Refits {
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     candidate.fit = best_fit(evaluator, base_, starts, few);
+    for (const Direction& start : likest_way_back(base_, candidate.cause, directions_))
+      if (auto found = walk_back(evaluator, base_, start, few))
+        keep_better(candidate.fit, std::move(*found));
+  }
+
+  // A cause that has another one as a special case does at least as well: it goes on from there.
+  void extend_special_cases() {
+    for (const auto& [special, general] : special_cases()) {
+      Candidate* from = whole_one(special);
+      Candidate* to = whole_one(general);
+      if (!from || !to || stopped()) continue;
+      const Cause& cause = causes_[to - candidates_.data()];
+      const std::vector<Hypothesis> starts =
+          continued(base_.hypothesis, from->fit.hypothesis, cause);
+      Evaluator& evaluator = coarse_.front();
+      const Scan found = scan(evaluator, starts, options_.fit);
+      FitOptions few = options_.fit;
+      few.iterations = 2 * whole_iterations;
+      keep_better(to->fit, fit(evaluator, starts[found.best], few, base_.jacobian));
+    }
+  }
+
+  Candidate* whole_one(const std::string& cause) {
+    for (Candidate& candidate : candidates_)
+      if (candidate.cause == cause && candidate.whole && candidate.fit.why != "not run")
+        return &candidate;
+    return nullptr;
   }
 
   // Whether it may be the best or a rival of it, the coarse simulator's errors considered.

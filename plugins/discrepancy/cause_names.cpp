@@ -10,14 +10,19 @@ Vanishes vanishing(const std::string& cause, const std::string& parameter) {
       {"stiffness", Vanishes::at_infinity}, {"factor", Vanishes::at_one},
       {"coefficient", Vanishes::at_zero},   {"rate", Vanishes::at_zero},
       {"loss_factor", Vanishes::at_zero},   {"fraction", Vanishes::at_zero},
-      {"velocity", Vanishes::at_zero},      {"delay", Vanishes::at_zero},
+      {"drag_area", Vanishes::at_zero},     {"delay", Vanishes::at_zero},
       {"offset", Vanishes::at_zero},        {"rotation", Vanishes::at_zero},
       {"gain", Vanishes::at_one},           {"distance", Vanishes::at_zero}};
   if (parameter == "ratio") return cause == "anisotropy" ? Vanishes::at_one : Vanishes::at_zero;
   if (cause == "yield") return Vanishes::at_infinity;
-  if (cause == "leaf_drag") return Vanishes::at_zero;
   const auto found = by_parameter.find(parameter);
   return found == by_parameter.end() ? Vanishes::never : found->second;
+}
+
+const std::vector<std::pair<std::string, std::string>>& special_cases() {
+  static const std::vector<std::pair<std::string, std::string>> pairs{
+      {"leaf_drag", "wind"}, {"leaf_drag", "gust"}, {"wind", "gust"}};
+  return pairs;
 }
 
 std::string unit_of(const std::string& cause, const std::string& parameter) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "discrepancy/hypothesis.h"
 
@@ -14,6 +16,10 @@ std::string unit_of(const std::string& cause, const std::string& parameter);
 
 /// The value of a cause's parameter at which the cause vanishes.
 Vanishes vanishing(const std::string& cause, const std::string& parameter);
+
+/// Pairs of causes, of which the second has the first as a special case: a wind of no speed is
+/// drag.
+const std::vector<std::pair<std::string, std::string>>& special_cases();
 
 /// Whether two causes are of one kind (memory and damping, masses, softness, air, grip, frame):
 /// where one of them acts, another law of the same kind takes up what two honest implementations of

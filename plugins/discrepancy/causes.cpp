@@ -98,7 +98,8 @@ class Candidates {
                                          -0.9 / long_time, 5.0 / long_time));
     add("stiffness_drift", drift);
     std::vector<Hypothesis> yield;
-    for (const double part : {0.3, 0.6, 1.0, 1.5, 2.2, 3.3})
+    // Near the largest curvature of the trials a threshold soon does nothing, or much.
+    for (double part = 0.3; part < 3.5; part *= 1.2)
       yield.push_back(Start("yield").positive("curvature", part * scales_.curvature,
                                               1e-2 * scales_.curvature, 20 * scales_.curvature));
     add("yield", yield);
@@ -140,7 +141,7 @@ class Candidates {
     for (int i = 0; i < 4; ++i) {
       const double angle = 0.5 * i * std::numbers::pi;
       const Vec3 along(std::cos(angle), std::sin(angle), 0.0);
-      for (const double speed : {0.3, 1.5})
+      for (const double speed : {0.3, 1.5, 5.0})
         wind.push_back(Start("wind")
                            .vector("velocity", speed * along, 0.3, 30.0, 2)
                            .positive("drag_area", 0.02, 1e-4, 1.0)
@@ -208,17 +209,20 @@ class Candidates {
   }
 
   void sensors() {
-    std::vector<Hypothesis> latency, offset;
+    std::vector<Hypothesis> latency, offset, rotation;
     for (const double delay : {0.01, -0.01})
       latency.push_back(Start("latency").signed_number("delay", delay, 0.01, -1.0, 1.0));
     add("latency", latency);
-    for (const Marker& marker : experiment_.markers)
-      offset.push_back(Start("marker_offset")
-                           .word("marker", marker.name)
-                           .vector("offset", Vec3::Constant(1e-4), 1e-3, 0.2));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 little = 1e-4 * Vec3::Unit(axis);
+      for (const Marker& marker : experiment_.markers)
+        offset.push_back(Start("marker_offset")
+                             .word("marker", marker.name)
+                             .vector("offset", little, 1e-3, 0.2));
+      rotation.push_back(Start("frame_rotation").vector("rotation", little, 0.01, 0.7));
+    }
     add("marker_offset", offset);
-    add("frame_rotation",
-        {Start("frame_rotation").vector("rotation", Vec3::Constant(1e-4), 0.01, 0.7)});
+    add("frame_rotation", rotation);
     add("marker_scale", {Start("marker_scale").positive("factor", 1.001, 0.3, 3.0)});
     const bool force = std::ranges::any_of(
         experiment_.trials, [](const Trial& trial) { return trial.force.size() > 0; });

@@ -24,38 +24,55 @@ constexpr double least_parameter_change = 0.002;
 constexpr int least_outliers = 12;
 constexpr double least_outlier_share = 0.0015;
 
-// Modulus, density or damping, where nothing else is wrong and their interval leaves out 1.
+// How far a factor is from 1 in its deviations; 0 where our own errors may have moved it so far.
+double deviations(const Findings& findings, const FitSummary& model, const std::string& name) {
+  const int p = model.hypothesis.factor_on(name);
+  const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
+  const int shifted = findings.needed.model.hypothesis.factor_on(name);
+  const double shift = shifted >= 0 && shifted < findings.parameter_shift.size()
+                           ? left_uncorrected * std::abs(findings.parameter_shift[shifted])
+                           : 0.0;
+  // Three parameters share the few false alarms that are allowed.
+  const bool may_be_nominal = std::abs(u) < 3.5 * error + shift + least_parameter_change;
+  return may_be_nominal ? 0.0 : u / error;
+}
+
+NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
+                           const std::string& name, double evidence) {
+  const int p = model.hypothesis.factor_on(name);
+  NamedCause cause;
+  cause.name = name;
+  cause.parameters["factor"] = {findings.estimate(model, p)};
+  cause.evidence = evidence;
+  cause.because =
+      "The refitted value is " +
+      text("%.4g times the nominal one, and nothing else is needed.", model.hypothesis.value(p));
+  return cause;
+}
+
+// Modulus, density or damping, where nothing else is wrong and 1 is far out; with the intervals of
+// the fit that leaves all of them free.
 void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
-  const FitSummary& base = diagnosis.base;
-  for (int p = 0; p < base.hypothesis.size(); ++p) {
-    const FreeParameter& free = base.hypothesis.free[p];
-    const std::string& name = base.hypothesis.effects[free.effect].name;
-    if (free.name != "factor" || !std::ranges::count(findings.needed_parameters, name)) continue;
-    const double u = free.to_unknown(base.hypothesis.value(p));
-    const double error = base.standard_error[p];
-    const double shift = p < findings.parameter_shift.size()
-                             ? left_uncorrected * std::abs(findings.parameter_shift[p])
-                             : 0.0;
-    // Three parameters share the few false alarms that are allowed.
-    if (std::abs(u) < 3.5 * error + shift + least_parameter_change) continue;
-    NamedCause cause;
-    cause.name = name;
-    cause.parameters["factor"] = {findings.estimate(base, p)};
-    cause.evidence = 0.5 * std::pow(u / error, 2);
-    cause.because =
-        "The refitted value is " +
-        text("%.4g times the nominal one, and nothing else is needed.", free.to_value(u));
-    verdict.causes.push_back(cause);
+  const NeededParameters& needed = findings.needed;
+  for (const std::string& name : needed.names) {
+    const double off = deviations(findings, needed.model, name);
+    if (off != 0.0)
+      verdict.causes.push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
   }
   verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
+  if (verdict.causes.size() != 1 || !needed.exchanged) return;
+  const std::string other = verdict.causes.front().name == "density" ? "youngs_modulus" : "density";
+  if (needed.exchanged->hypothesis.factor_on(other) < 0) return;
+  verdict.causes.push_back(
+      parameter_cause(findings, *needed.exchanged, other, verdict.causes.front().evidence));
+  verdict.outcome = Outcome::ambiguous;
 }
 
 // A rival that has the best one as a special case, and needs more parameters to do no better, is
 // no other explanation: a wind of no speed is drag.
 bool contains(const Candidate& rival, const Candidate& best) {
-  static const std::vector<std::pair<std::string, std::string>> special{
-      {"leaf_drag", "wind"}, {"leaf_drag", "gust"}, {"wind", "gust"}};
+  const auto& special = special_cases();
   return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
          rival.evidence < best.evidence;
 }
@@ -237,9 +254,9 @@ void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis) {
     for (const Direction& direction : diagnosis.directions) {
       if (direction.cause != cause.name) continue;
       // The start that says most: the loudest, and of thresholds the highest that is seen.
-      const double length = direction.change.norm();
+      const double size = length(direction);
       const double seen = diagnosis.before.level + std::abs(direction.systematic);
-      const double worth = !direction.has_threshold ? length : length < seen ? 0.0 : 1.0 / length;
+      const double worth = !direction.has_threshold ? size : size < seen ? 0.0 : 1.0 / size;
       if (worth < best) continue;
       best = worth;
       least.smallest_seen = smallest_seen(direction, seen, least.parameter);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <span>
 
 #include "discrepancy/data_set.h"
@@ -12,7 +13,8 @@ namespace pedicel::discrepancy {
 /// has to do with how the plant was driven, and with where it is seen, loses that way.
 struct Decoys {
   double own = 0.0, reversed = 0.0, exchanged = 0.0;
-  bool lose() const { return reversed < own && exchanged < own; }
+  /// Where a decoy is like the change itself, noise alone may put it ahead by some nats.
+  bool lose() const { return std::max(reversed, exchanged) < own + 5.0; }
 };
 
 /// `residual` is the base's over these trials, whitened; `change` what the cause adds to the

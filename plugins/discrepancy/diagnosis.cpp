@@ -12,9 +12,9 @@
 #include "discrepancy/diagnosis_log.h"
 #include "discrepancy/fit_setup.h"
 #include "discrepancy/missing_force.h"
-#include "discrepancy/needed_parameters.h"
 #include "discrepancy/promise.h"
 #include "discrepancy/sentence.h"
+#include "discrepancy/way_back.h"
 #include "plant/effects.h"
 
 namespace pedicel::discrepancy {
@@ -30,6 +30,8 @@ constexpr double numerical_limit = 0.5;  // of the noise, RMS
 constexpr double family_share = 0.5;
 constexpr double least_share = 0.01;  // of the gain of the first cause, what another must bring
 constexpr int most_causes = 3;
+constexpr double beyond_doubt = 300.0;  // nats
+constexpr double clearly_more = 10.0;   // nats, by which a force must be better than one cause
 
 /// One diagnosis on its way from the data to the verdict.
 class Procedure {
@@ -56,7 +58,7 @@ class Procedure {
  private:
   void decide() {
     look();
-    if (result_.before.raised) {
+    if (result_.before.raised || is_pulled(result_.base.hypothesis)) {
       search();
       extend();
     }
@@ -232,7 +234,8 @@ class Procedure {
   static bool has_a_size(const FitSummary& model, int first) {
     for (int p = 0; p < model.hypothesis.size(); ++p) {
       const FreeParameter& free = model.hypothesis.free[p];
-      const bool size = free.effect >= first && free.vanishes != Vanishes::never;
+      const bool size =
+          free.effect >= first && free.vanishes != Vanishes::never && free.prior <= 0.0;
       if (size && free.logarithmic && model.standard_error[p] > 1.0) return false;
     }
     return true;
@@ -290,12 +293,12 @@ class Procedure {
     findings_.symptoms = symptoms(experiment(), setup_->data(), result_.predictions[refitted]);
     if (findings_.chain.empty()) {
       Evaluator evaluator = setup_->evaluator();
-      findings_.needed_parameters = needed_parameters(evaluator, result_.base, fit_options());
+      findings_.needed = needed_parameters(evaluator, result_.base, fit_options());
     }
     conclude(findings_, result_);
     if (result_.verdict.outcome == Outcome::unknown)
       tell_of_force(missing_force());
-    else if (findings_.chain.size() > 1)
+    else if (result_.verdict.outcome == Outcome::named && !findings_.chain.empty())
       ask_for_one_force();
     conclude_outliers(result_);
     report_parameters(findings_, result_);
@@ -303,15 +306,17 @@ class Procedure {
     choose_next();
   }
 
-  // Several causes that together explain less than one force from outside the list are none.
+  // Causes that explain less of the fitted trials than one force from outside the list are none. A
+  // loud effect that is explained to the last no force explains by chance.
   void ask_for_one_force() {
-    if (!result_.after.raised) return;  // nothing is left for it to explain
     double evidence = 0.0;
-    for (const Candidate& found : findings_.chain) evidence += found.evidence;
+    for (const Candidate& found : findings_.chain) evidence += found.evidence - found.held_out.gain;
+    if (!result_.after.raised && evidence > beyond_doubt) return;
     const MissingForce force = missing_force();
-    if (!force.found || force.fit.why == "not run" || force.evidence < evidence) return;
+    const double margin = findings_.chain.size() > 1 ? 0.0 : clearly_more;
+    if (!force.found || force.fit.why == "not run" || force.evidence < evidence + margin) return;
     result_.verdict.outcome = Outcome::unknown;
-    result_.verdict.remainder = "one force explains more than several known causes together";
+    result_.verdict.remainder = "one force from outside the list explains more than known causes";
     tell_of_force(force);
   }
 

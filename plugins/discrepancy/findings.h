@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "discrepancy/candidates.h"
+#include "discrepancy/needed_parameters.h"
 #include "discrepancy/symptoms.h"
 #include "discrepancy/verdict.h"
 
@@ -19,7 +20,7 @@ struct Findings {
   std::vector<Symptom> symptoms;    ///< of the refitted model
   Eigen::VectorXd parameter_shift;  ///< of the baseline's unknowns, by our own error
   /// Of modulus, density and damping, those that the data do not allow to be nominal.
-  std::vector<std::string> needed_parameters;
+  NeededParameters needed;
 
   int samples() const { return data->samples(fit_trials); }
 

@@ -69,6 +69,7 @@ class Problem : public ceres::CostFunction {
 
   const Eigen::VectorXd& residual() const { return residual_; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+  double spread() const { return spread_; }
 
  private:
   double prior(int p) const {
@@ -131,6 +132,19 @@ void judge(FitSummary& fit) {
 }
 
 }  // namespace
+
+PriorRows prior_rows(const FitSummary& model) {
+  const int n = model.hypothesis.size();
+  const Eigen::VectorXd u = model.hypothesis.unknowns();
+  PriorRows rows{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  for (int p = 0; p < n; ++p) {
+    const FreeParameter& free = model.hypothesis.free[p];
+    if (free.prior <= 0.0) continue;
+    rows.weight[p] = model.spread / free.prior;
+    rows.left[p] = rows.weight[p] * (free.to_unknown(free.prior_centre) - u[p]);
+  }
+  return rows;
+}
 
 void Shift::add(double share, const Shift& other) {
   for (std::size_t i = 0; i < names.size(); ++i) logarithm[i] += share * other.logarithm[i];
@@ -238,6 +252,7 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
   result.hypothesis.set_unknowns(u);
   result.residual = problem.residual();
   result.jacobian = problem.jacobian();
+  result.spread = problem.spread();
   result.cost = 0.5 * result.residual.squaredNorm();
   judge(result);
   return result;
@@ -277,6 +292,16 @@ Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOpt
     if (result.cost.back() < result.cost[result.best]) result.best = static_cast<int>(i);
   }
   return result;
+}
+
+Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& change) {
+  const Eigen::Index rows = model.jacobian.rows(), n = model.jacobian.cols();
+  if (n == 0) return Eigen::VectorXd();
+  Eigen::MatrixXd stacked(rows + n, n);
+  stacked << model.jacobian, Eigen::MatrixXd(prior_rows(model).weight.asDiagonal());
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(rows + n);
+  wanted.head(rows) = change;
+  return stacked.colPivHouseholderQr().solve(wanted);
 }
 
 Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {

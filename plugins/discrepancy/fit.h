@@ -28,9 +28,17 @@ struct FitSummary {
   Eigen::VectorXd standard_error;  ///< of the unknowns, infinite where the data leave one open
   double condition = 0.0;          ///< of the scaled Jacobian
   std::vector<int> at_bound;       ///< parameters that stand at one of their bounds
+  double spread = 1.0;             ///< by which data weighed less against what is known beforehand
   bool converged = false;
   std::string why = "not run";  ///< why it stopped
 };
+
+/// What is known beforehand of a model's unknowns, as more rows of its least squares: residuals
+/// `left`, whose derivatives by the unknowns are -`weight` (0 where nothing is known).
+struct PriorRows {
+  Eigen::VectorXd weight, left;
+};
+PriorRows prior_rows(const FitSummary& model);
 
 /// Logarithms of factors on modulus, density and damping time.
 struct Shift {
@@ -100,6 +108,10 @@ struct Scan {
   std::vector<double> cost;
 };
 Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOptions& options);
+
+/// The step of a model's unknowns that takes most of a change of the prediction, as far as that goes
+/// with what is known of them beforehand.
+Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& change);
 
 /// Least-squares step of the unknowns that a change of the residual would make (pseudo-inverse of
 /// the Jacobian), and what is left of a residual after the parameters have taken their share.

@@ -67,7 +67,7 @@ class Comparison {
     const int samples = data_.samples(options_.trials, options_.horizon);
     check.by_step = rms(left_over(base_.jacobian, by_step), samples);
     check.by_mesh = rms(left_over(base_.jacobian, by_mesh), samples);
-    check.parameter_shift = absorbed(base_.jacobian, by_step + by_mesh);
+    check.parameter_shift = believable_step(base_, by_step + by_mesh);
     for (int p = 0; p < check.parameter_shift.size(); ++p)
       for (std::size_t i = 0; i < Shift::names.size(); ++i) {
         const FreeParameter& free = base_.hypothesis.free[p];

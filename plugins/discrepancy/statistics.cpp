@@ -38,6 +38,30 @@ void measure_changes(Evaluator& evaluator, const FitSummary& base, const FitOpti
         residuals.col(0) - residuals.col(static_cast<Eigen::Index>(i) + 1);
 }
 
+// The parameters take of each change what they can, as far as that goes with what is known of them.
+void absorb(const FitSummary& base, std::vector<Direction>& directions) {
+  const Eigen::Index rows = base.jacobian.rows(), n = base.jacobian.cols();
+  const Eigen::VectorXd weight = prior_rows(base).weight;
+  Eigen::MatrixXd stacked(rows + n, n);
+  stacked << base.jacobian, Eigen::MatrixXd(weight.asDiagonal());
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> all(stacked);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(rows + n);
+  for (Direction& direction : directions) {
+    if (n > 0) {
+      change.head(rows) = direction.change;
+      direction.absorbed = all.solve(change);
+    }
+    direction.change -= base.jacobian * direction.absorbed;
+    direction.against = -weight.cwiseProduct(direction.absorbed);
+  }
+}
+
+Eigen::VectorXd joined(const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+  Eigen::VectorXd both(first.size() + second.size());
+  both << first, second;
+  return both;
+}
+
 std::vector<std::size_t> all_of(const std::vector<Direction>& directions) {
   std::vector<std::size_t> all(directions.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -72,25 +96,28 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
     again.push_back(d);
   }
   measure_changes(evaluator, base, options, again, directions);
-  for (Direction& direction : directions) {
-    direction.absorbed = absorbed(base.jacobian, direction.change);
-    direction.change -= base.jacobian * direction.absorbed;
-  }
+  absorb(base, directions);
   return directions;
+}
+
+double length(const Direction& direction) {
+  return std::sqrt(direction.change.squaredNorm() + direction.against.squaredNorm());
 }
 
 Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
             const Eigen::VectorXd& numerical, std::uint64_t seed) {
   Alarm alarm;
   std::vector<Eigen::VectorXd> unit;
+  const Eigen::VectorXd residual = joined(base.residual, prior_rows(base).left);
   double most = 0.0;
   for (std::size_t d = 0; d < directions.size(); ++d) {
     Direction& direction = directions[d];
-    const double size = direction.change.norm();
-    unit.push_back(size > 1.0e-3 ? Eigen::VectorXd(direction.change / size)
-                                 : Eigen::VectorXd::Zero(direction.change.size()));
-    direction.statistic = unit.back().dot(base.residual);
-    direction.systematic = numerical.size() > 0 ? unit.back().dot(numerical) : 0.0;
+    const double size = length(direction);
+    unit.push_back(joined(direction.change, direction.against));
+    unit.back() *= size > no_change ? 1.0 / size : 0.0;
+    direction.statistic = unit.back().dot(residual);
+    direction.systematic =
+        numerical.size() > 0 ? unit.back().head(numerical.size()).dot(numerical) : 0.0;
     const double beyond = std::abs(direction.statistic) - std::abs(direction.systematic);
     if (beyond <= most) continue;
     most = beyond;
@@ -128,10 +155,10 @@ double smallest_seen(const Direction& direction, double sigma, std::string& para
       free, [](const FreeParameter& p) { return p.vanishes != Vanishes::never; });
   if (sized == free.end()) return never;
   parameter = sized->name;
-  const double length = direction.change.norm();
-  if (length < no_change || (direction.has_threshold && length < sigma)) return never;
+  const double size = length(direction);
+  if (size < no_change || (direction.has_threshold && size < sigma)) return never;
   const Hypothesis seen =
-      direction.has_threshold ? direction.start : direction.start.shrunk(sigma / length);
+      direction.has_threshold ? direction.start : direction.start.shrunk(sigma / size);
   double squares = 0.0;  // of a vector's components
   for (int i = 0; i < seen.size(); ++i)
     if (free[i].effect == sized->effect && free[i].name == parameter)

@@ -19,7 +19,13 @@ struct Direction {
   bool has_threshold = false;  ///< does nothing when small: `start` is of full size
   double statistic = 0.0;      ///< standard normal where nothing is wrong
   double systematic = 0.0;     ///< how far our own numerical error could move it
+  /// What these steps are against what is known of the parameters beforehand, in noise units, with
+  /// its sign turned: the direction's share of the prior's rows (PriorRows).
+  Eigen::VectorXd against = {};
 };
+
+/// Of both parts, noise units.
+double length(const Direction& direction);
 
 /// Directions of every start of every cause, at sizes at which the response is about linear.
 /// `known` are those of the same causes about another model, whose sizes are a good first guess.

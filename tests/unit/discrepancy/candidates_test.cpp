@@ -77,9 +77,12 @@ TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
       directions_of(hidden.workers[0], hidden.base, hidden.causes, hidden.options);
   const Alarm alarm = judge(directions, hidden.base, {}, 1);
   EXPECT_TRUE(alarm.raised);
-  // Directions hold nothing that the baseline can absorb.
+  // Directions hold nothing that the baseline can absorb, what is known beforehand counted.
+  const Eigen::VectorXd weight = prior_rows(hidden.base).weight;
   for (const Direction& direction : directions)
-    EXPECT_LT((hidden.base.jacobian.transpose() * direction.change).norm(),
+    EXPECT_LT((hidden.base.jacobian.transpose() * direction.change +
+               weight.cwiseProduct(direction.against))
+                  .norm(),
               1e-6 * hidden.base.jacobian.norm() * (1.0 + direction.change.norm()));
   const std::vector<Candidate> ranking =
       refit_all({hidden.workers, hidden.workers}, hidden.base, hidden.causes, directions,
@@ -143,7 +146,7 @@ TEST(Candidates, CostHalfALogarithmANumber) {
 TEST(NeededParameters, AreThoseThatWereChanged) {
   const auto needed = [](const std::vector<plant::Effect>& effects) {
     Hidden hidden(effects);
-    return needed_parameters(hidden.workers[0], hidden.base, hidden.options);
+    return needed_parameters(hidden.workers[0], hidden.base, hidden.options).names;
   };
   EXPECT_TRUE(needed({}).empty());
   EXPECT_EQ(needed({testing::effect("youngs_modulus", "factor", {1.1})}),

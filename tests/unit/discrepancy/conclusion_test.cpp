@@ -39,8 +39,8 @@ struct Case {
     diagnosis.before = {50.0, 5.0, 0, true};
     diagnosis.base.hypothesis = hypothesis_of("youngs_modulus", "factor", 1.2, "1");
     diagnosis.base.standard_error = Eigen::VectorXd::Constant(1, 0.01);
-    findings.needed_parameters = {"youngs_modulus"};
     diagnosis.base.cost = 2.0 * findings.samples();
+    findings.needed = {{"youngs_modulus"}, diagnosis.base, {}};
     diagnosis.ranking = {candidate("base_compliance", "stiffness", 640.0, 631.0)};
   }
   Candidate candidate(const std::string& cause, const std::string& parameter, double gain,
@@ -258,9 +258,25 @@ TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
     d.diagnosis.before.raised = false;
     d.diagnosis.ranking.clear();
     d.diagnosis.base.standard_error[0] = 0.04;
+    d.findings.needed.model = d.diagnosis.base;
     d.findings.parameter_shift = Eigen::VectorXd::Constant(1, shift);
     EXPECT_EQ(d.concluded().outcome, shift > 0.0 ? Outcome::named : Outcome::adequate) << shift;
   }
+}
+
+// A modulus that is 1.2 times nominal, or a density that is 1 / 1.2.
+TEST(Conclusion, OfAParameterThatAnotherOneCouldStandForIsAmbiguous) {
+  Case c;
+  c.diagnosis.before.raised = false;
+  c.diagnosis.ranking.clear();
+  c.findings.needed.exchanged = c.diagnosis.base;
+  c.findings.needed.exchanged->hypothesis = hypothesis_of("density", "factor", 1.0 / 1.2, "1");
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::ambiguous);
+  ASSERT_EQ(v.causes.size(), 2u);
+  EXPECT_EQ(v.causes[0].name, "youngs_modulus");
+  EXPECT_EQ(v.causes[1].name, "density");
+  EXPECT_NEAR(v.causes[1].parameters.at("factor")[0].value, 1.0 / 1.2, 1e-12);
 }
 
 // Its error says so, but the others can stand for it.
@@ -268,7 +284,7 @@ TEST(Conclusion, DoesNotBlameAParameterThatMayBeNominal) {
   Case c;
   c.diagnosis.before.raised = false;
   c.diagnosis.ranking.clear();
-  c.findings.needed_parameters.clear();
+  c.findings.needed.names.clear();
   EXPECT_EQ(c.concluded().outcome, Outcome::adequate);
 }
 
@@ -277,6 +293,7 @@ TEST(Conclusion, OfASteadyDifferenceWithoutExcessIsAdequate) {
   c.diagnosis.ranking.clear();
   c.diagnosis.base.cost = 0.5 * 1.005 * c.findings.samples();
   c.diagnosis.base.standard_error[0] = 1.0;
+  c.findings.needed.model = c.diagnosis.base;
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::adequate);
   EXPECT_THAT(v.remainder, HasSubstr("a steady difference of 50 noise units in all"));

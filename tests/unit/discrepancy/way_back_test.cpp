@@ -1,0 +1,97 @@
+// A mass that no model knows raises the density that is fitted; from there it must be found by
+// going back to the density that is believed.
+#include "discrepancy/way_back.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+#include "unit/discrepancy/beam_experiment.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+constexpr double noise = 2.0e-4;       // m
+constexpr double hidden_mass = 0.004;  // kg, of the beam's 9 g
+constexpr Numerics numerics{0.05, 1.0 / 240.0};
+
+/// A beam with a mass at 0.75, pulled aside and let go; the force of the hold is known, so that
+/// modulus is.
+struct Weighted {
+  Experiment experiment = made();
+  DataSet data{experiment};
+  Simulator simulator{experiment, numerics, 1};
+  Evaluator evaluator{simulator, data};
+  FitOptions options;
+  FitSummary base;
+  std::vector<Direction> directions;
+
+  Weighted() {
+    data.set_noise(white_noise(noise), white_noise(1.0e-3));
+    options.trials = {0};
+    base.cost = std::numeric_limits<double>::infinity();
+    for (const double density : {1.2, 1.4, 1.6, 1.8, 2.0, 2.2}) {
+      Hypothesis start = baseline();
+      start.set_value(start.factor_on("density"), density);
+      FitSummary found = fit(evaluator, start, options);
+      if (found.cost < base.cost) base = std::move(found);
+    }
+    std::vector<Cause> causes;
+    for (Cause& cause : candidate_causes(experiment, scales_of(experiment)))
+      for (const char* chosen : {"extra_mass", "latency"})
+        if (cause.name == chosen) causes.push_back(std::move(cause));
+    directions = directions_of(evaluator, base, causes, options);
+  }
+
+  static Experiment made() {
+    testing::Beam beam;
+    beam.damping_time = 0.01;
+    Experiment e = testing::experiment_of(beam, 3.0, 0.02);
+    e.plant.distance = 0.05;
+    Trial& trial = e.trials[0];
+    trial.gravity = Vec3(0, 0, -9.81);
+    trial.holds.push_back(
+        {testing::on_stem(0.8), testing::resting_at(Vec3(0.03, 0, 0.8 * beam.length)), 0.5, 20.0});
+    Variant variant;
+    variant.effects = {testing::effect("extra_mass", "mass", {hidden_mass})};
+    variant.effects[0].place = testing::on_stem(0.75);
+    Simulator simulator(e, numerics, 1);
+    const Simulator::Request request{&variant, 0};
+    const Prediction seen = simulator.run(std::span(&request, 1)).front();
+    trial.markers.value = seen.markers;
+    trial.force.value = seen.force;
+    Random random(3);
+    for (double& x : trial.markers.value.reshaped()) x += noise * random.normal();
+    for (double& x : trial.force.value.reshaped()) x += 1.0e-3 * random.normal();
+    return e;
+  }
+};
+
+TEST(WayBack, FindsTheMassThatPulledDensity) {
+  Weighted weighted;
+  ASSERT_TRUE(is_pulled(weighted.base.hypothesis));
+  EXPECT_TRUE(likest_way_back(weighted.base, "latency", weighted.directions).empty());
+  const auto starts = likest_way_back(weighted.base, "extra_mass", weighted.directions);
+  ASSERT_FALSE(starts.empty());
+  const auto found = walk_back(weighted.evaluator, weighted.base, starts.front(), weighted.options);
+  ASSERT_TRUE(found);
+  const Hypothesis& model = found->hypothesis;
+  // Density and the mass stand for each other: the prior's tenth leaves the mass open to a tenth
+  // of the beam's.
+  EXPECT_NEAR(model.value(model.factor_on("density")), 1.0, 0.2);
+  EXPECT_NEAR(model.value(model.size() - 1), hidden_mass, 0.3 * hidden_mass);
+  EXPECT_NEAR(model.effects.back().place->at, 0.75, 0.1);
+  EXPECT_LT(found->cost, weighted.base.cost + 10.0);
+}
+
+TEST(WayBack, IsNotGoneWhereNothingIsPulled) {
+  Weighted weighted;
+  weighted.base.hypothesis.set_value(weighted.base.hypothesis.factor_on("density"), 1.15);
+  EXPECT_FALSE(is_pulled(weighted.base.hypothesis));
+  EXPECT_TRUE(likest_way_back(weighted.base, "extra_mass", weighted.directions).empty());
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
