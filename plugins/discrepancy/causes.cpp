@@ -216,9 +216,8 @@ class Candidates {
     for (int axis = 0; axis < 3; ++axis) {
       const Vec3 little = 1e-4 * Vec3::Unit(axis);
       for (const Marker& marker : experiment_.markers)
-        offset.push_back(Start("marker_offset")
-                             .word("marker", marker.name)
-                             .vector("offset", little, 1e-3, 0.2));
+        offset.push_back(
+            Start("marker_offset").word("marker", marker.name).vector("offset", little, 1e-3, 0.2));
       rotation.push_back(Start("frame_rotation").vector("rotation", little, 0.01, 0.7));
     }
     add("marker_offset", offset);

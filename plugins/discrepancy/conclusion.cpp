@@ -61,12 +61,21 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
       verdict.causes.push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
   }
   verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
-  if (verdict.causes.size() != 1 || !needed.exchanged) return;
-  const std::string other = verdict.causes.front().name == "density" ? "youngs_modulus" : "density";
-  if (needed.exchanged->hypothesis.factor_on(other) < 0) return;
-  verdict.causes.push_back(
-      parameter_cause(findings, *needed.exchanged, other, verdict.causes.front().evidence));
-  verdict.outcome = Outcome::ambiguous;
+  if (verdict.causes.size() != 1) return;
+  const double evidence = verdict.causes.front().evidence;
+  for (const FitSummary& instead : needed.instead) {
+    const std::string& name = instead.hypothesis.name;
+    if (instead.hypothesis.factor_on(name) >= 0) {
+      verdict.causes.push_back(parameter_cause(findings, instead, name, evidence));
+    } else {
+      Candidate other;
+      other.cause = name;
+      other.evidence = evidence;
+      const int last = static_cast<int>(instead.hypothesis.effects.size()) - 1;
+      verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
+    }
+    verdict.outcome = Outcome::ambiguous;
+  }
 }
 
 // A rival that has the best one as a special case, and needs more parameters to do no better, is

@@ -109,8 +109,8 @@ struct Scan {
 };
 Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOptions& options);
 
-/// The step of a model's unknowns that takes most of a change of the prediction, as far as that goes
-/// with what is known of them beforehand.
+/// The step of a model's unknowns that takes most of a change of the prediction, as far as that
+/// goes with what is known of them beforehand.
 Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& change);
 
 /// Least-squares step of the unknowns that a change of the residual would make (pseudo-inverse of

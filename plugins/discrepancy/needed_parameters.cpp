@@ -10,7 +10,7 @@ namespace {
 
 // Nats: 3.5 standard deviations, because three parameters share the few false alarms allowed.
 constexpr double least_cost = 0.5 * 3.5 * 3.5;
-constexpr double clear_margin = 5.0;  // nats by which the other one must be worse
+constexpr double clear_margin = 5.0;  // nats by which another one must be worse
 
 // At its nominal value for good.
 Hypothesis without(const Hypothesis& model, int parameter) {
@@ -20,9 +20,8 @@ Hypothesis without(const Hypothesis& model, int parameter) {
   return less;
 }
 
-// The one in place of the other, so that a free swing stays as it is.
-std::optional<FitSummary> exchanged(Evaluator& evaluator, const FitSummary& base,
-                                    const FitSummary& model, const FitOptions& options) {
+// Density in place of modulus, or the other way round, so that a free swing stays as it is.
+std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& model) {
   const int modulus = model.hypothesis.factor_on("youngs_modulus"),
             density = model.hypothesis.factor_on("density");
   if ((modulus < 0) == (density < 0)) return {};
@@ -33,15 +32,27 @@ std::optional<FitSummary> exchanged(Evaluator& evaluator, const FitSummary& base
   Hypothesis instead = without(model.hypothesis, needed);
   instead.free.push_back(base.hypothesis.free[from]);
   instead.set_value(instead.size() - 1, 1.0 / model.hypothesis.value(needed));
-  FitSummary found = fit(evaluator, instead, options);
-  if (objective(found) - objective(model) > clear_margin) return {};
-  return found;
+  instead.name = other;
+  return {instead};
+}
+
+// A law of damping in place of more damping time, at sizes of which one is near.
+std::vector<Hypothesis> damped_by(const Cause& law, const FitSummary& model) {
+  const int damping = model.hypothesis.factor_on("damping_time");
+  if (damping < 0 || model.hypothesis.value(damping) < 1.0) return {};
+  std::vector<Hypothesis> starts;
+  for (const double share : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    starts.push_back(without(model.hypothesis, damping));
+    starts.back().add(law.starts.front().shrunk(share));
+    starts.back().name = law.name;
+  }
+  return starts;
 }
 
 }  // namespace
 
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
-                                   const FitOptions& options) {
+                                   const std::vector<Cause>& causes, const FitOptions& options) {
   NeededParameters needed;
   needed.model = base;
   for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
@@ -53,7 +64,17 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
     else
       needed.model = std::move(found);
   }
-  needed.exchanged = exchanged(evaluator, base, needed.model, options);
+  const auto ask = [&](const std::vector<Hypothesis>& starts) {
+    if (starts.empty()) return;
+    FitSummary found = fit(evaluator, starts[scan(evaluator, starts, options).best], options);
+    if (objective(found) - objective(needed.model) < clear_margin)
+      needed.instead.push_back(std::move(found));
+  };
+  if (needed.names.size() != 1) return needed;
+  ask(exchanged(base, needed.model));
+  for (const Cause& cause : causes)
+    if (cause.name == "mass_damping" || cause.name == "structural_damping")
+      ask(damped_by(cause, needed.model));
   return needed;
 }
 

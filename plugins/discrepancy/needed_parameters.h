@@ -1,9 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "discrepancy/causes.h"
 #include "discrepancy/fit.h"
 
 namespace pedicel::discrepancy {
@@ -12,16 +12,17 @@ namespace pedicel::discrepancy {
 struct NeededParameters {
   std::vector<std::string> names;
   FitSummary model;  ///< refitted with the others at their nominal values
-  /// Where modulus is needed and density could differ in its place, or the other way round (of a
-  /// free swing the data see their ratio alone): the fit with that one.
-  std::optional<FitSummary> exchanged;
+  /// What could differ in place of one that is needed: density of modulus, or the other way round
+  /// (of a free swing the data see their ratio alone), another law of damping of the damping time
+  /// (where one mode swings). The fits with these, named.
+  std::vector<FitSummary> instead;
 };
 
 /// Each in turn is put back to its nominal value and everything else refitted; it is needed where
 /// that costs more than noise may. Where two of them say nearly the same (modulus and density of a
 /// free swing), standard errors do not tell; the one that plants differ in less, put back first,
-/// is not blamed alone.
+/// is not blamed alone. `causes` are all that are known.
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
-                                   const FitOptions& options);
+                                   const std::vector<Cause>& causes, const FitOptions& options);
 
 }  // namespace pedicel::discrepancy

@@ -146,7 +146,7 @@ TEST(Candidates, CostHalfALogarithmANumber) {
 TEST(NeededParameters, AreThoseThatWereChanged) {
   const auto needed = [](const std::vector<plant::Effect>& effects) {
     Hidden hidden(effects);
-    return needed_parameters(hidden.workers[0], hidden.base, hidden.options).names;
+    return needed_parameters(hidden.workers[0], hidden.base, hidden.causes, hidden.options).names;
   };
   EXPECT_TRUE(needed({}).empty());
   EXPECT_EQ(needed({testing::effect("youngs_modulus", "factor", {1.1})}),

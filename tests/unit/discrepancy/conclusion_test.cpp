@@ -269,8 +269,10 @@ TEST(Conclusion, OfAParameterThatAnotherOneCouldStandForIsAmbiguous) {
   Case c;
   c.diagnosis.before.raised = false;
   c.diagnosis.ranking.clear();
-  c.findings.needed.exchanged = c.diagnosis.base;
-  c.findings.needed.exchanged->hypothesis = hypothesis_of("density", "factor", 1.0 / 1.2, "1");
+  c.findings.needed.instead = {c.diagnosis.base};
+  Hypothesis& instead = c.findings.needed.instead[0].hypothesis;
+  instead = hypothesis_of("density", "factor", 1.0 / 1.2, "1");
+  instead.name = "density";
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::ambiguous);
   ASSERT_EQ(v.causes.size(), 2u);
