@@ -105,7 +105,7 @@ const Case cases[] = {
      "joints: expected one number a joint"},
     {"recorded_order",
      "robot: {file: s, recorded: [{time: 1, joints: [0]}, {time: 1, joints: [0]}]}\n",
-     "6:47: error: time: expected later than the recorded place before"},
+     "6:53: error: time: expected later than the recorded place before"},
     {"recorded_counts",
      "robot: {file: s, recorded: [{time: 0, joints: [0]}, {time: 1, joints: [0, 1]}]}\n",
      "joints: expected as many as at the first recorded place"},
