@@ -110,7 +110,7 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
       if (ImGui::IsMouseClicked(button)) press(ui, frame, button, tool_has_left);
     // Both habits: the left double click selects and centres, the right one centres.
     if (ImGui::IsMouseDoubleClicked(0) || ImGui::IsMouseDoubleClicked(1)) {
-      if (ui.hover) camera.look_at(ui.hover.place_W);
+      if (ui.hover) camera.look_at(ui.hover.place_W), ui.view.camera = -1;
     }
   }
   if (hovered && io.MouseWheel != 0.0f) {
