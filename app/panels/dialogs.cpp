@@ -67,7 +67,7 @@ void mouse_table(bool blender) {
 }
 
 void help(Ui& ui) {
-  if (begin_dialog(ui, "Help", 1200, 580)) {
+  if (begin_dialog(ui, "Help", 1200, 640)) {
     if (ImGui::BeginTable("columns", 3, ImGuiTableFlags_SizingStretchSame)) {
       ImGui::TableNextColumn();
       for (const char* group : {"Simulation", "File"}) heading(ui, group), keys_table(group);
@@ -183,7 +183,7 @@ void save_and_go_on(Ui& ui) {
 }
 
 void unsaved(Ui& ui) {
-  if (begin_dialog(ui, "Edits that are not saved", 460, 150)) {
+  if (begin_dialog(ui, "Edits that are not saved", 460, 125)) {
     const std::string name = ui.session.path().filename().string();
     note((name.empty() ? "The new scene" : name) + " was changed since it was saved.");
     ImGui::Spacing();

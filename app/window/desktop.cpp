@@ -132,7 +132,8 @@ bool Desktop::frame() {
   ui_.now = platform_.now();
   // Pictures that were not painted take as long as nobody does anything.
   if (!painter_ || painted_at_ == last)
-    ui_.times.picture += 0.1 * ((ui_.now - last) - ui_.times.picture);
+    ui_.times.picture +=
+        (ui_.times.picture > 0.0 ? 0.1 : 1.0) * ((ui_.now - last) - ui_.times.picture);
   for (const std::string& path : dropped) ui_.open(path);
   ui_.session.update();
   lead_film();

@@ -111,6 +111,26 @@ TEST_F(Gui, CtrlDragPullsWithTheForceOfTheSpring) {
   EXPECT_FALSE(desk_.snapshot()->pull.active);
 }
 
+TEST_F(Gui, CtrlRightDragPushesAlongTheView) {
+  const ImVec2 at = desk_.at(fruit_place(4));
+  desk_.move(at.x, at.y);
+  desk_.hold(Key::left_control, true);
+  desk_.button(1, true);
+  desk_.settle();
+  const Vec3 start = desk_.snapshot()->pull.target_W;
+  desk_.move(at.x, at.y - 40);
+  desk_.settle();
+  ASSERT_TRUE(desk_.snapshot()->pull.active);
+  const Vec3 pushed = desk_.snapshot()->pull.target_W - start;
+  EXPECT_GT(pushed.norm(), 0.02);
+  EXPECT_GT(pushed.normalized().dot((start - desk_.desktop().scene().camera.eye).normalized()),
+            0.999);
+  desk_.button(1, false);
+  desk_.hold(Key::left_control, false);
+  desk_.settle();
+  EXPECT_FALSE(desk_.snapshot()->pull.active);
+}
+
 TEST_F(Gui, APlainDragNeverPulls) {
   const ImVec2 at = desk_.at(fruit_place(4));
   desk_.move(at.x, at.y);
