@@ -124,6 +124,7 @@ std::vector<MouseHabit> mouse_habits(bool blender) {
                 {{"Click", "Select"},
                  {"Double click", "Select, and turn about that place; on nothing: deselect"},
                  {"Ctrl+left drag", "Pull a plant with a spring"},
+                 {"Ctrl+right drag", "Push it along the view"},
                  {"Drag of a handle", "Move or turn the robot's tool"},
                  {"Alt+click", "Select from here to the tip; Del cuts it off"},
                  {"Wheel in a stroke", "Thicker, thinner from here on"}});

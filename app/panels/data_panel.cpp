@@ -165,7 +165,7 @@ class DataPanel : public Panel {
       if (!path) continue;
       ImGui::SameLine();
       const std::string rms =
-          path->healthy ? quantity_text(path->rms, "m") + " rms" : std::string("failed");
+          path->healthy ? number_text(1e3 * path->rms, 3) + " mm rms" : std::string("failed");
       ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(rms.c_str()).x);
       ImGui::TextUnformatted(rms.c_str());
     }

@@ -67,7 +67,7 @@ void mouse_table(bool blender) {
 }
 
 void help(Ui& ui) {
-  if (begin_dialog(ui, "Help", 1200, 580)) {
+  if (begin_dialog(ui, "Help", 1200, 640)) {
     if (ImGui::BeginTable("columns", 3, ImGuiTableFlags_SizingStretchSame)) {
       ImGui::TableNextColumn();
       for (const char* group : {"Simulation", "File"}) heading(ui, group), keys_table(group);
@@ -109,15 +109,18 @@ void info(Ui& ui) {
 void files(Ui& ui) {
   static FileList list;
   const bool saves = ui.dialog == Dialog::save_as;
-  if (begin_dialog(ui, saves ? "Save as" : "Open", 640, 480)) {
+  const bool imports = ui.dialog == Dialog::import_plant;
+  if (begin_dialog(ui, saves ? "Save as" : imports ? "Import a plant" : "Open", 640, 480)) {
     const auto chosen = list.draw(ui, saves);
     if (chosen) {
       ui.dialog = Dialog::none;
-      if (saves) {
+      if (imports) {
+        ui.report(ui.session.import_plant(*chosen));
+      } else if (saves) {
         const Result result = ui.session.save(*chosen);
         ui.say(result.ok ? "saved in " + chosen->string() : result.text);
       } else {
-        ui.session.open(*chosen);
+        ui.open(*chosen);
       }
     }
   }
@@ -166,6 +169,37 @@ void recover(Ui& ui) {
   ImGui::End();
 }
 
+/// Saved first, where there is a file to save to; else a name is asked for, and the person goes on
+/// from there.
+void save_and_go_on(Ui& ui) {
+  if (ui.session.path().empty()) {
+    ui.dialog = Dialog::save_as;
+    return;
+  }
+  const Result saved = ui.session.save();
+  if (!ui.report(saved)) return;
+  ui.dialog = Dialog::none;
+  ui.after_leaving();
+}
+
+void unsaved(Ui& ui) {
+  if (begin_dialog(ui, "Edits that are not saved", 460, 125)) {
+    const std::string name = ui.session.path().filename().string();
+    note((name.empty() ? "The new scene" : name) + " was changed since it was saved.");
+    ImGui::Spacing();
+    if (ImGui::Button("Save")) save_and_go_on(ui);
+    ImGui::SameLine();
+    if (ImGui::Button("Do not save")) {
+      ui.dialog = Dialog::none;
+      ui.session.give_up_edits();
+      ui.after_leaving();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel")) ui.dialog = Dialog::none;
+  }
+  ImGui::End();
+}
+
 }  // namespace
 
 void draw_dialogs(Ui& ui) {
@@ -174,6 +208,7 @@ void draw_dialogs(Ui& ui) {
       return;
     case Dialog::open:
     case Dialog::save_as:
+    case Dialog::import_plant:
       return files(ui);
     case Dialog::help:
       return help(ui);
@@ -183,6 +218,8 @@ void draw_dialogs(Ui& ui) {
       return problem(ui);
     case Dialog::recover:
       return recover(ui);
+    case Dialog::unsaved:
+      return unsaved(ui);
   }
 }
 

@@ -23,6 +23,9 @@ class PlantsPanel : public Panel {
     if (ImGui::Button("New plant")) new_plant(ui);
     tip("Adds a plant without stems, to draw");
     ImGui::SameLine();
+    if (ImGui::Button("Import")) ui.dialog = Dialog::import_plant;
+    tip("Adds the plant of a plant file, a skeleton table (CSV) or an MTG");
+    ImGui::SameLine();
     if (ImGui::Button("Export")) ImGui::OpenPopup("export");
     tip("Writes the chosen plant as plant file, skeleton table, OBJ or PLY");
     export_menu(ui);
@@ -82,8 +85,7 @@ class PlantsPanel : public Panel {
     if (!open) return;
     if (plant.file) {
       for (const plant::PlantCurve& curve : plant.file->curves)
-        if (leaf(curve.name, ui.selection.plant_name == name && ui.selection.curve == curve.name))
-          choose_curve(ui, name, curve.name);
+        if (leaf(curve.name, is_stem(ui, name, curve.name))) choose_curve(ui, name, curve.name);
       for (const plant::PlantFruit& fruit : plant.file->fruits)
         if (leaf(fruit.name + "  on " + fruit.place.curve, is_fruit(ui, name, fruit.name)))
           choose_fruit(ui, name, fruit.name);
@@ -94,6 +96,12 @@ class PlantsPanel : public Panel {
       note("built in, cannot be edited");
     }
     ImGui::TreePop();
+  }
+
+  static bool is_stem(const Ui& ui, const std::string& plant, const std::string& stem) {
+    if (ui.selection.kind == Selection::Kind::element)
+      return describe(ui.selection, *ui.snapshot) == plant + "/" + stem;
+    return ui.selection.plant_name == plant && ui.selection.curve == stem;
   }
 
   static bool is_fruit(const Ui& ui, const std::string& plant, const std::string& fruit) {

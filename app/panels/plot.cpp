@@ -54,7 +54,7 @@ void draw_grid(ImDrawList& list, const Frame& frame, const char* x_label) {
     list.AddLine(ImVec2(x, frame.low.y), ImVec2(x, frame.high.y), grid);
     const std::string text = number_text(t, 4);
     const float width = ImGui::CalcTextSize(text.c_str()).x;
-    if (x + 0.5f * width < frame.high.x - ImGui::CalcTextSize(x_label).x - em)
+    if (x + 0.5f * width < frame.high.x - ImGui::CalcTextSize(x_label).x - 0.4f * em)
       list.AddText(ImVec2(x - 0.5f * width, frame.high.y + 3), ink, text.c_str());
   }
   list.AddText(ImVec2(frame.high.x - ImGui::CalcTextSize(x_label).x, frame.high.y + 3), ink,
@@ -75,7 +75,8 @@ void draw_line(ImDrawList& list, const Frame& frame, const PlotLine& line) {
   std::vector<ImVec2> points;
   const auto flush = [&] {
     if (points.size() > 1)
-      list.AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, 1.6f);
+      list.AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0,
+                       0.107f * ImGui::GetFontSize());
     points.clear();
   };
   while (i < line.x.size() && (i == 0 || line.x[i - 1] <= frame.view.x_high)) {

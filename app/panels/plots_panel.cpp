@@ -43,7 +43,7 @@ class PlotsPanel : public Panel {
     ImGui::SameLine();
     const std::vector<PlotLine> lines = make_lines(ui);
     draw_plot("plot", lines, view_, ImGui::GetContentRegionAvail(), "s");
-    name_models(ui, lines);
+    name_lines(ui, lines);
   }
 
  private:
@@ -52,26 +52,22 @@ class PlotsPanel : public Panel {
   static constexpr std::array<const char*, 4> forces = {"force_x_N", "force_y_N", "force_z_N",
                                                         "force_N"};
 
-  /// The lines of a trial stand for one name in the list: theirs are written in the plot's corner.
-  void name_models(const Ui& ui, const std::vector<PlotLine>& lines) const {
-    std::vector<const PlotLine*> named;
+  /// The names of the lines in the plot's corner; in the list they may be scrolled away.
+  static void name_lines(const Ui& ui, const std::vector<PlotLine>& lines) {
     float width = 0.0f;
-    for (const PlotLine& line : lines) {
-      if (std::ranges::count(picked_, line.name)) continue;
-      named.push_back(&line);
+    for (const PlotLine& line : lines)
       width = std::max(width, ImGui::CalcTextSize(line.name.c_str()).x);
-    }
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const float height = ImGui::GetTextLineHeight(), pad = 6.0f * ui.scale;
-    if (named.empty() || 2.5f * width > high.x - low.x) return;
+    const float tall = static_cast<float>(lines.size()) * height;
+    if (lines.empty() || 1.6f * width > high.x - low.x || tall > 0.7f * (high.y - low.y)) return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     ImVec2 at(high.x - width - 4 * pad, low.y + 3 * pad);
-    list.AddRectFilled(
-        ImVec2(at.x - pad, at.y - pad),
-        ImVec2(at.x + width + pad, at.y + static_cast<float>(named.size()) * height + pad),
-        colour_u32(palette().window, 0.85f), 4.0f * ui.scale);
-    for (const PlotLine* line : named) {
-      list.AddText(at, line->colour, line->name.c_str());
+    list.AddRectFilled(ImVec2(at.x - pad, at.y - pad),
+                       ImVec2(at.x + width + pad, at.y + tall + pad),
+                       colour_u32(palette().window, 0.85f), 4.0f * ui.scale);
+    for (const PlotLine& line : lines) {
+      list.AddText(at, line.colour, line.name.c_str());
       at.y += height;
     }
   }

@@ -20,7 +20,8 @@ constexpr std::array<const char*, 3> kind_names = {"smooth", "corner", "linear"}
 constexpr std::array<const char*, 3> kind_labels = {"Smooth", "Corner", "Linear"};
 constexpr std::array<const char*, 3> kind_tips = {
     "The stem passes without a bend",
-    "The stem bends here: two more points close by hold it, since plant files know no corners",
+    "The stem bends here: two more points close by hold it, since plant files know no corners. "
+    "Between ends or other corners that is the same as Linear",
     "The stem bends here and is straight to both neighbours"};
 
 /// The chosen stem and point; -1: none is chosen.
@@ -171,11 +172,16 @@ void set_point_kind(Ui& ui, PointKind kind) {
   const auto one = chosen_point(ui);
   if (!one) return;
   const Vec3 place = one->curve.points[static_cast<std::size_t>(one->point)];
-  if (ui.run(Command("set point kind", {{"plant", one->plant},
-                                        {"stem", one->curve.name},
-                                        {"point", one->point},
-                                        {"kind", kind_names[static_cast<std::size_t>(kind)]}})))
-    choose_place(ui, *one, place);
+  if (!ui.run(Command("set point kind", {{"plant", one->plant},
+                                         {"stem", one->curve.name},
+                                         {"point", one->point},
+                                         {"kind", kind_names[static_cast<std::size_t>(kind)]}})))
+    return;
+  choose_place(ui, *one, place);
+  const auto now = chosen(ui);
+  if (kind == PointKind::corner && now && now->point >= 0 &&
+      plant::point_kind(now->curve, now->point) == PointKind::linear)
+    ui.say("Linear: its neighbours are ends or corners, so the pieces beside it are straight");
 }
 
 void change_point_kind(Ui& ui) {

@@ -10,7 +10,7 @@ namespace pedicel::app {
 namespace {
 
 std::string ms(double seconds) {
-  return number_text(1e3 * seconds, 3) + " ms";
+  return quantity_text(seconds, "s", 3);
 }
 
 /// Where the time goes: of a step, and of a picture.
@@ -20,6 +20,7 @@ class ProfilerPanel : public Panel {
   Dock dock() const override { return Dock::bottom; }
 
   void draw(Ui& ui) override {
+    if (ui.filmed) return note("Nothing is measured while a film is made.");
     if (!ImGui::BeginTable("profiler", 2, ImGuiTableFlags_SizingStretchSame)) return;
     ImGui::TableNextColumn();
     step(ui);
@@ -59,7 +60,7 @@ class ProfilerPanel : public Panel {
   static void bar(const std::string& name, double seconds, double whole) {
     row(name.c_str(), ms(seconds));
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x, tall = 3.0f;
+    const float width = ImGui::GetContentRegionAvail().x, tall = 0.2f * ImGui::GetFontSize();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float share = whole > 0 ? static_cast<float>(std::min(1.0, seconds / whole)) : 0.0f;
     list.AddRectFilled(at, ImVec2(at.x + width, at.y + tall), colour_u32(palette().line));

@@ -75,8 +75,9 @@ class RobotPanel : public Panel {
   static void mark_measured(float now, float low, float high) {
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
     const float x = a.x + (b.x - a.x) * std::clamp((now - low) / (high - low), 0.0f, 1.0f);
-    ImGui::GetWindowDrawList()->AddLine(ImVec2(x, b.y - 4.0f), ImVec2(x, b.y),
-                                        colour_u32(palette().warning), 2.0f);
+    const float tall = 0.27f * ImGui::GetFontSize();
+    ImGui::GetWindowDrawList()->AddLine(ImVec2(x, b.y - tall), ImVec2(x, b.y),
+                                        colour_u32(palette().warning), 0.5f * tall);
   }
 
   void tool(Ui& ui) {

@@ -66,7 +66,7 @@ void legend(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
 }
 
 void hint(Ui& ui, const LayoutAreas& areas) {
-  if (ui.preferences.seen_hint) return;
+  if (ui.preferences.seen_hint || ui.draw.on) return;
   const float s = ui.scale, side = 14.0f * s;
   const float width = std::min(620.0f * s, areas.scene_max.x - areas.scene_min.x - 2 * side);
   const float middle = 0.5f * (areas.scene_min.x + areas.scene_max.x);

@@ -32,6 +32,14 @@ ImVec4 mode_colour(RunMode mode) {
                                                                  : palette().text;
 }
 
+void speeds(const Ui& ui) {
+  const Snapshot& s = *ui.snapshot;
+  field(ui, "RTF", fixed("%.2f", s.real_time_factor),
+        "Real-time factor: simulated over wall time, last half second", palette().text);
+  field(ui, "step", fixed("%.2f ms", s.ms_per_step),
+        "Wall time a step, mean of the last half second", palette().text);
+}
+
 }  // namespace
 
 void draw_status_bar(Ui& ui) {
@@ -43,16 +51,14 @@ void draw_status_bar(Ui& ui) {
   if (ui.draw.on) mode += ", drawing";
   field(ui, "", mode, "What the simulation does", mode_colour(s.mode));
   field(ui, "t", fixed("%.3f s", s.time), "Simulated time", plain);
-  field(ui, "RTF", fixed("%.2f", s.real_time_factor),
-        "Real-time factor: simulated over wall time, last half second", plain);
-  field(ui, "step", fixed("%.2f ms", s.ms_per_step),
-        "Wall time a step, mean of the last half second", plain);
+  if (!ui.filmed) speeds(ui);
   field(ui, "contacts", std::to_string(s.report.contacts), "Between plants and other things",
         plain);
   field(ui, "strain", fixed("%.3f", s.largest_strain),
         "Largest strain at a surface: " + s.largest_strain_organ, plain);
-  field(ui, "picture", fixed("%.0f/s", ui.times.picture > 0 ? 1.0 / ui.times.picture : 0.0),
-        "Pictures a second; the simulation does not wait for them", plain);
+  if (!ui.filmed)
+    field(ui, "picture", fixed("%.0f/s", ui.times.picture > 0 ? 1.0 / ui.times.picture : 0.0),
+          "Pictures a second; the simulation does not wait for them", plain);
   std::string right;
   if (ui.selection)
     right = describe(ui.selection, s);

@@ -90,7 +90,7 @@ void set_colours(ImGuiStyle& style, const Palette& p, bool is_light) {
   c[ImGuiCol_TabActive] = c[ImGuiCol_TabUnfocusedActive] = faded(p.accent, is_light ? 0.3f : 0.35f);
   c[ImGuiCol_PlotLines] = p.accent;
   c[ImGuiCol_PlotHistogram] = p.accent;
-  c[ImGuiCol_TableHeaderBg] = p.raised;
+  c[ImGuiCol_TableHeaderBg] = field;
   c[ImGuiCol_TableBorderStrong] = c[ImGuiCol_TableBorderLight] = p.line;
   c[ImGuiCol_TableRowBg] = ImVec4(0, 0, 0, 0);
   c[ImGuiCol_TableRowBgAlt] = faded(p.text, 0.03f);

@@ -1,6 +1,7 @@
 #include "app/panels/ui.h"
 
 #include "app/plant_step.h"
+#include "session/measured_commands.h"
 
 namespace pedicel::app {
 
@@ -11,6 +12,19 @@ bool Ui::run(const Command& command) {
 bool Ui::report(const Result& result) {
   if (!result.ok) say(result.text);
   return result.ok;
+}
+
+void Ui::leave_document(std::function<void()> next) {
+  if (!session.dirty()) return next();
+  after_leaving = std::move(next);
+  dialog = Dialog::unsaved;
+}
+
+void Ui::open(const std::filesystem::path& path) {
+  if (is_experiment(path))
+    session.open(path);
+  else
+    leave_document([this, path] { session.open(path); });
 }
 
 std::string describe(const Selection& s, const Snapshot& snapshot) {

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -18,7 +19,7 @@ struct ImFont;
 namespace pedicel::app {
 
 /// A window over the others; one at a time.
-enum class Dialog { none, open, save_as, help, info, problem, recover };
+enum class Dialog { none, open, save_as, help, info, problem, recover, unsaved, import_plant };
 
 /// How fast things go, for the profiler.
 struct FrameTimes {
@@ -55,15 +56,23 @@ struct Ui {
   std::string notice;                            ///< one line over the scene that fades
   double notice_time = 0.0;                      ///< s, of the platform's clock
   double now = 0.0;                              ///< s
-  bool recording = false;                        ///< a film is being made
-  std::string command_line;                      ///< typed in the messages panel
-  std::string problem;  ///< of a file that could not be read, for the dialog
+  bool recording = false;                        ///< a film is being made, by hand
+  bool filmed = false;       ///< what goes by the wall clock is left out, so that films are alike
+  std::string command_line;  ///< typed in the messages panel
+  std::string problem;       ///< of a file that could not be read, for the dialog
 
   void ask(Action action) { actions.push_back(action); }
   /// Runs a command and shows the fault, where it is refused. Whether it was taken.
   bool run(const Command& command);
   bool report(const Result& result);
   void say(const std::string& text) { notice = text, notice_time = now; }
+
+  /// Does what leaves the document: at once, or, where edits were not saved, when the person has
+  /// said what is to become of them.
+  void leave_document(std::function<void()> next);
+  /// Opens a file, so. An experiment's data go beside the document, which stays.
+  void open(const std::filesystem::path& path);
+  std::function<void()> after_leaving;  ///< waits for that answer
 };
 
 /// "tomato/fruit_3", "link_4", "stem of tomato, point 2": what the selection is.

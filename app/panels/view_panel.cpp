@@ -81,10 +81,15 @@ class ViewPanel : public Panel {
   static void pictures(Ui& ui) {
     heading(ui, "Pictures and films");
     if (ImGui::Button("Picture")) ui.ask(Action::screenshot);
-    tip("Of the window, into the working folder: " + keys_of(Action::screenshot));
+    tip("Into the working folder: " + keys_of(Action::screenshot));
     ImGui::SameLine();
     if (ImGui::Button(ui.recording ? "End the film" : "Record a film")) ui.ask(Action::video);
-    tip("Of the window, by the clock, into the working folder: " + keys_of(Action::video));
+    tip("Into the working folder: " + keys_of(Action::video) +
+        ". The run goes on from picture to picture, so that the film is smooth on a slow machine");
+    ImGui::BeginDisabled(ui.recording);
+    ImGui::Checkbox("With the panels", &ui.view.panels_in_pictures);
+    ImGui::EndDisabled();
+    tip("Else of the scene alone, 1280 x 720");
   }
 
   static void quality(Ui& ui) {

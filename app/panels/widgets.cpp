@@ -67,7 +67,10 @@ void row(const char* name, const std::string& value) {
   ImGui::TextColored(palette().dim, "%s", name);
   const std::string shown = elide(value, std::max(10.0f, width - name_width));
   const float place = width - ImGui::CalcTextSize(shown.c_str()).x;
-  ImGui::SameLine(ImGui::GetCursorPosX() + std::max(place, name_width));
+  const float left = ImGui::GetCursorPosX();
+  ImGui::SameLine();
+  // Not SameLine(x): in a table that counts from the column, the cursor from the window.
+  ImGui::SetCursorPosX(left + std::max(place, name_width));
   ImGui::TextUnformatted(shown.c_str());
   if (shown != value) tip(value);
 }
@@ -87,11 +90,16 @@ std::string number_text(double value, int digits) {
   const double size = std::abs(value);
   if (value == 0.0) return "0";
   if (!std::isfinite(value)) return std::isnan(value) ? "none" : (value > 0 ? "inf" : "-inf");
-  if (size >= 1e5 || size < 1e-3)
-    std::snprintf(text.data(), text.size(), "%.*e", digits - 1, value);
-  else
+  if (size < 1e5 && size >= 1e-3) {
     std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
+    return text.data();
+  }
+  std::snprintf(text.data(), text.size(), "%.*e", digits - 1, value);
+  std::string shown = text.data();  // 4.5000e+08: without the zeros that say nothing
+  const std::size_t e = shown.find('e'), last = shown.find_last_not_of('0', e - 1);
+  if (shown.find('.') != std::string::npos)
+    shown.erase(shown[last] == '.' ? last : last + 1, e - (shown[last] == '.' ? last : last + 1));
+  return shown;
 }
 
 std::string quantity_text(double value, const std::string& unit, int digits) {

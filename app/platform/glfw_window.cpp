@@ -95,6 +95,7 @@ class GlfwWindow : public Platform {
   }
 
   bool wants_to_close() const override { return glfwWindowShouldClose(window_); }
+  void stay_open() override { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
   void set_title(const std::string& title) override {
     if (title == title_) return;
     title_ = title;

@@ -46,6 +46,8 @@ class Platform {
   virtual void rest() { present(nullptr); }
 
   virtual bool wants_to_close() const { return false; }
+  /// Takes that wish for answered.
+  virtual void stay_open() {}
   virtual void set_title(const std::string&) {}
   virtual void set_cursor(Cursor) {}
   virtual void set_full_screen(bool) {}

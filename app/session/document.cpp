@@ -41,11 +41,11 @@ void read_plants(Document& document, Diagnostics& diagnostics) {
   }
 }
 
+}  // namespace
+
 bool is_scene(const std::filesystem::path& path) {
   return path.filename().string().ends_with(".scene.yaml");
 }
-
-}  // namespace
 
 int Document::plant_index(const std::string& name) const {
   for (std::size_t i = 0; i < plants.size(); ++i)
@@ -102,6 +102,7 @@ Document open_document(const std::filesystem::path& path) {
     auto scene = world::read_scene(path, diagnostics);
     if (!scene) throw InvalidFile(diagnostics);
     document.scene = std::make_shared<const world::Scene>(std::move(*scene));
+    if (document.scene->robot) document.waypoints = document.scene->robot->recorded;
     read_plants(document, diagnostics);
   } else if (auto file = read_plant(path, diagnostics)) {
     DocumentPlant one;
@@ -119,6 +120,7 @@ world::Scene scene_of(const Document& document) {
   world::Scene scene = *document.scene;
   scene.plants.clear();
   for (const DocumentPlant& one : document.plants) scene.plants.push_back(one.entry);
+  if (scene.robot) scene.robot->recorded = document.waypoints;
   for (const auto& [key, text] : document.settings) world::apply_override(scene, key, text);
   return scene;
 }

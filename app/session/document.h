@@ -21,11 +21,7 @@ struct DocumentPlant {
 };
 
 /// Where the robot is to be at a time after the program's start.
-struct RobotWaypoint {
-  double time = 0.0;           ///< s
-  std::vector<double> joints;  ///< rad or m, one a degree of freedom
-  bool operator==(const RobotWaypoint&) const = default;
-};
+using RobotWaypoint = world::RecordedPose;
 
 /// Everything that a user edits, as a value: copies are cheap (plants are shared until one is
 /// changed), so a document's past states are kept whole for undo.
@@ -36,7 +32,7 @@ struct Document {
   std::vector<DocumentPlant> plants;
   /// Over what the scene says, as in `--set`: key and text.
   std::vector<std::pair<std::string, std::string>> settings;
-  std::vector<RobotWaypoint> waypoints;
+  std::vector<RobotWaypoint> waypoints;  ///< a scene keeps them as `robot: recorded:`
 
   /// -1 where there is none of that name.
   int plant_index(const std::string& name) const;
@@ -48,6 +44,9 @@ struct Document {
   /// Of everything that commands change, bit by bit; not of paths.
   std::uint64_t state_hash() const;
 };
+
+/// By its name: *.scene.yaml.
+bool is_scene(const std::filesystem::path& path);
 
 /// An empty document: ground, gravity, nothing on it.
 Document empty_document();

@@ -43,6 +43,10 @@ void RunControl::set_speed(double speed) {
   impl_->thread.ask([speed](RunThread& t) { t.set_speed(speed); });
 }
 
+void RunControl::hold_at(std::optional<double> time) {
+  impl_->thread.ask([time](RunThread& t) { t.hold_at(time); });
+}
+
 void RunControl::begin_pull(const PullPlace& place, const Vec3& target_W) {
   impl_->thread.ask([place, target_W](RunThread& t) {
     t.act([place, target_W](LiveRun& run) { run.pull().begin(place, target_W); });

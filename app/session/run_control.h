@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,9 @@ class RunControl {
   /// So much simulated time (s) forward, then pauses.
   void run_for(double duration);
   /// Back by so many steps, exactly: runs anew from time 0 with everything that was done since, and
-  /// pauses. The last steps of stepping and of
-  /// such a run are kept to be shown again at once. What was done after stays for stepping forward
-  /// until something else is done.
+  /// pauses. The last steps of stepping, of such a run and, in small scenes, of playing are kept to
+  /// be shown again at once. What was done after stays for stepping forward until something else is
+  /// done.
   void step_back(long count = 1);
   /// To a step of the run, either way.
   void go_to_step(long step);
@@ -55,6 +56,10 @@ class RunControl {
   void reset();
   /// Simulated s a wall s; 0: as fast as it goes.
   void set_speed(double speed);
+  /// Steps go to that time (s) as fast as they can, playing ones too, and then wait until another
+  /// one is told; wait() waits for that. Without a time nothing is held, and playing goes by the
+  /// clock.
+  void hold_at(std::optional<double> time);
 
   void begin_pull(const PullPlace& place, const Vec3& target_W);
   void move_pull(const Vec3& target_W);

@@ -68,14 +68,14 @@ void RunThread::loop() {
     if (take_request()) continue;
     {
       std::unique_lock lock(mutex_);
-      working_ = to_do_ > 0;
+      working_ = has_steps();
       idle_.notify_all();
       wait_for_work(lock);
       if (stop_) return;
       if (!requests_.empty() || build_) continue;
     }
-    if (to_do_ == 0 && mode_ != RunMode::playing) continue;
-    if (to_do_ == 0 && speed_ > 0.0 && steady_clock::now() < due()) continue;
+    if (is_held() || (to_do_ == 0 && mode_ != RunMode::playing)) continue;
+    if (to_do_ == 0 && !held_ && speed_ > 0.0 && steady_clock::now() < due()) continue;
     one_step();
   }
 }
@@ -103,7 +103,7 @@ bool RunThread::take_request() {
   else
     guarded(request);
   const std::lock_guard lock(mutex_);
-  working_ = to_do_ > 0;
+  working_ = has_steps();
   return true;
 }
 
@@ -119,13 +119,22 @@ void RunThread::guarded(const Request& request) {
   }
 }
 
+bool RunThread::is_held() const {
+  constexpr double slack = 1e-9;  // s
+  return held_ && run_ && run_->simulation().world().time() >= *held_ - slack;
+}
+
+bool RunThread::has_steps() const {
+  return !is_held() && (to_do_ > 0 || (held_ && mode_ == RunMode::playing));
+}
+
 bool RunThread::has_work() const {
-  return stop_ || !requests_.empty() || build_ || to_do_ > 0;
+  return stop_ || !requests_.empty() || build_ || has_steps();
 }
 
 void RunThread::wait_for_work(std::unique_lock<std::mutex>& lock) {
   const auto ready = [this] { return has_work(); };
-  if (mode_ != RunMode::playing)
+  if (mode_ != RunMode::playing || is_held())
     wake_.wait(lock, ready);
   else if (speed_ > 0.0)
     wake_.wait_until(lock, due(), ready);
@@ -232,10 +241,15 @@ void RunThread::set_speed(double speed) {
   publish(true);
 }
 
+void RunThread::hold_at(std::optional<double> time) {
+  held_ = time;
+  start_clock();
+}
+
 void RunThread::act(LiveRun::Input input) {
   if (!run()) return;
   run_->act(std::move(input));
-  kept_.clear();
+  keep_anew();
   if (mode_ != RunMode::playing) publish(true);
 }
 
@@ -245,14 +259,14 @@ void RunThread::one_step() {
   run_->step();
   rates_.step(timer.seconds(), run_->simulation().world().dt());
   log.observe(run_->simulation());
-  if (to_do_ > 0 && to_do_ <= most_kept) keep_step();
+  if (keeps_steps()) keep_step();
   if (to_do_ > 0) --to_do_;
   if (speed_ > 0.0 && steady_clock::now() > due() + most_behind) start_clock();
   if (run_->unstable()) {
     last_good_time_ = before;
     check_stability();
   }
-  publish(to_do_ == 0 && mode_ != RunMode::playing);
+  publish(is_held() || (to_do_ == 0 && mode_ != RunMode::playing));
 }
 
 }  // namespace pedicel::app

@@ -42,6 +42,7 @@ class RunThread {
   void go_to(long step);
   void reset();
   void set_speed(double speed);
+  void hold_at(std::optional<double> time);
   void act(LiveRun::Input input);
   /// The run, at the step that is shown; null: there is none.
   LiveRun* run();
@@ -51,11 +52,15 @@ class RunThread {
  private:
   /// Steps that are kept to be shown again.
   static constexpr long most_kept = 120;
+  /// Elements of a run that keeps them while it plays, too: more would take a tenth of a step.
+  static constexpr int most_elements_kept = 600;
 
   void loop();
   bool take_request();
   void guarded(const Request& request);
   bool has_work() const;
+  bool has_steps() const;
+  bool is_held() const;
   void wait_for_work(std::unique_lock<std::mutex>& lock);
   void do_build(Build build);
   void take_assets(const std::shared_ptr<const SceneAssets>& assets, bool restart);
@@ -63,6 +68,8 @@ class RunThread {
   void replay_to(long step);
   bool show(long step);
   void keep_step();
+  void keep_anew();
+  bool keeps_steps() const;
   void check_stability();
   void start_clock();
   void publish(bool now);
@@ -76,7 +83,7 @@ class RunThread {
   std::deque<Request> requests_;
   std::optional<Build> build_;
   std::vector<BuildNews> news_;
-  bool stop_ = false, busy_ = false, working_ = false;  // working_: steps are to be done
+  bool stop_ = false, busy_ = false, working_ = false;  // working_: has_steps()
   std::mutex snapshot_mutex_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::atomic<bool> taken_{true};
@@ -85,8 +92,9 @@ class RunThread {
   // The thread's own.
   std::unique_ptr<LiveRun> run_;
   SnapshotMaker maker_;
-  // Steps that may be shown again without running to them: those of stepping, and the last ones of
-  // a replay. While one is shown, the run stands where it stood, and goes there when it is needed.
+  // Steps that may be shown again without running to them: the last ones of stepping, of a replay,
+  // and of playing where that costs little. While one is shown, the run stands where it stood, and
+  // goes there when it is needed.
   std::deque<std::shared_ptr<const Snapshot>> kept_;
   std::optional<long> shown_;
   RunRates rates_;
@@ -97,7 +105,8 @@ class RunThread {
   int culprit_plant_ = -1, culprit_element_ = -1;
   std::uint64_t document_hash_ = 0;
   std::chrono::steady_clock::time_point clock_start_, last_publish_;
-  double clock_time_ = 0.0;  // s, simulated, at clock_start_
+  double clock_time_ = 0.0;     // s, simulated, at clock_start_
+  std::optional<double> held_;  // s: steps wait there
   std::thread thread_;
 };
 

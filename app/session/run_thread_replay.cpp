@@ -40,6 +40,20 @@ bool RunThread::show(long step) {
   return true;
 }
 
+bool RunThread::keeps_steps() const {
+  if (to_do_ > 0 && to_do_ <= most_kept) return true;
+  int elements = 0;
+  const cosserat::RodSystem& rods = run_->simulation().rods();
+  for (int p = 0; p < rods.size(); ++p) elements += rods.model(p).size();
+  return elements <= most_elements_kept;
+}
+
+// What acts on the run from its present step on makes that step and those after it others.
+void RunThread::keep_anew() {
+  while (!kept_.empty() && kept_.back()->step >= run_->steps()) kept_.pop_back();
+  if (!kept_.empty()) keep_step();
+}
+
 void RunThread::keep_step() {
   if (!kept_.empty() && kept_.back()->step + 1 != run_->steps()) kept_.clear();
   kept_.push_back(maker_.make(*run_));

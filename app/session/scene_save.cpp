@@ -49,6 +49,7 @@ void write_values(io::YamlText& text, const io::YamlText::Path& place, const Val
     path.push_back(key);
     text.set(path, plain(value));
   }
+  if (now.empty() && !before.empty()) return text.remove(place);
   for (const auto& [key, value] : before)
     if (!now.count(key)) {
       io::YamlText::Path path = place;
@@ -66,6 +67,12 @@ std::string exact(double value) {
 
 std::string list_of(const Vec3& v) {
   return "[" + exact(v.x()) + ", " + exact(v.y()) + ", " + exact(v.z()) + "]";
+}
+
+std::string list_of(const std::vector<double>& values) {
+  std::string list;
+  for (const double value : values) list += (list.empty() ? "[" : ", ") + exact(value);
+  return list + "]";
 }
 
 /// As seen from the scene's folder where that is possible.
@@ -90,6 +97,18 @@ void write_numbers(io::YamlText& text, const Scene& before, const Scene& now) {
   write("log_rate", before.log_rate, now.log_rate);
   write("seed", before.seed, now.seed);
   write("threads", before.threads, now.threads);
+}
+
+/// A line a place: such lists are long.
+void write_recorded(io::YamlText& text, const Scene& before, const Scene& now) {
+  if (!before.robot || !now.robot || before.robot->recorded == now.robot->recorded) return;
+  const io::YamlText::Path place = {"robot", "recorded"};
+  text.remove(place);
+  std::string list;
+  for (const world::RecordedPose& pose : now.robot->recorded)
+    list += std::string(list.empty() ? "[" : ",") + "\n    {time: " + exact(pose.time) +
+            ", joints: " + list_of(pose.joints) + "}";
+  if (!list.empty()) text.set(place, list + "]");
 }
 
 void write_plant(io::YamlText& text, const std::filesystem::path& folder, const ScenePlant& was,
@@ -146,6 +165,7 @@ bool says(const Scene& read, const Scene& wanted) {
       values_of(read.rods) != values_of(wanted.rods) ||
       values_of(read.coupling) != values_of(wanted.coupling))
     return false;
+  if (read.robot && wanted.robot && read.robot->recorded != wanted.robot->recorded) return false;
   return std::ranges::all_of(wanted.plants, [&](const ScenePlant& plant) {
     const int index = index_of(read, plant.name);
     if (index < 0) return false;
@@ -180,6 +200,7 @@ std::string changed_scene_text(const Document& document, const std::string& text
   write_numbers(changed, before, now);
   write_values(changed, {"rods"}, values_of(before.rods), values_of(now.rods));
   write_values(changed, {"coupling"}, values_of(before.coupling), values_of(now.coupling));
+  write_recorded(changed, before, now);
   write_plants(changed, document, before, now);
   if (changed.text() != text && !says(parsed(changed.text(), document.path), now))
     throw UsageError(document.path.string() +

@@ -17,8 +17,10 @@ Session::Session(const SessionOptions& options)
   set_document(empty_document());
 }
 
+// What was neither saved nor given up is offered again, as after a kill.
 Session::~Session() {
-  if (journal_) journal_->close();
+  end_gesture();
+  if (journal_ && !dirty()) journal_->close();
 }
 
 void Session::set_document(Document document) {
@@ -27,6 +29,7 @@ void Session::set_document(Document document) {
   log_.clear();
   document_ = std::move(document);
   saved_hash_ = document_.state_hash();
+  saved_settings_.clear();
   begin_journal();
   rebuild(true);
 }

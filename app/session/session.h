@@ -77,13 +77,15 @@ class Session {
   /// Reads the files anew; edits that were not saved are lost (undo brings them back).
   bool reload();
   /// Writes the plants that have changed, each to its own file (the old one stays beside it as
-  /// NAME~). A new plant needs `path`.
+  /// NAME~), and what was changed of the scene into its file. A new plant needs `path`.
   Result save(const std::filesystem::path& path = {});
   /// One plant as it is drawn: *.plant.yaml, *.csv (skeleton), *.obj or *.ply.
   Result export_plant(const std::string& plant, const std::filesystem::path& path);
   /// Adds the plant of a plant file, skeleton table or MTG to the document.
   Result import_plant(const std::filesystem::path& path, const std::string& name = {});
   bool dirty() const;
+  /// Nobody wants the edits since the document was saved: their journal goes with the session.
+  void give_up_edits() { saved_hash_ = hash_; }
   const std::filesystem::path& path() const { return document_.path; }
 
   // Commands.
@@ -234,6 +236,8 @@ class Session {
   SessionOptions options_;
   Document document_;
   std::uint64_t hash_ = 0, saved_hash_ = 0;  // of the document; as it was opened or saved
+  // The document's settings that its scene file says since it was saved.
+  std::vector<std::pair<std::string, std::string>> saved_settings_;
   History history_;
   std::optional<Gesture> gesture_;
   std::vector<std::string> log_;

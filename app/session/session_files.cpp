@@ -93,7 +93,7 @@ Saved save_plants(Document& document, const std::filesystem::path& path) {
 
 /// After the plants, which have files now.
 void save_scene(const Document& document, Saved& saved) {
-  if (!document.path.filename().string().ends_with(".scene.yaml")) return;
+  if (!is_scene(document.path)) return;
   const std::string before = io::read_file(document.path);
   const std::string text = changed_scene_text(document, before);
   if (text != before) write_with_backup(document.path, text);
@@ -139,6 +139,7 @@ bool Session::reload() {
     history_.add({{Command("reload", {})}, before, document_});
     rebuild(true);
     saved_hash_ = hash_;
+    saved_settings_.clear();
     begin_journal();
     return true;
   } catch (const InvalidFile& fault) {
@@ -162,6 +163,7 @@ Result Session::save(const std::filesystem::path& path) {
     return {false, fault.what()};
   }
   saved_hash_ = hash_;
+  if (is_scene(document_.path)) saved_settings_ = document_.settings;
   begin_journal();
   return {true, saved.text()};
 }

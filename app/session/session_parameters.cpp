@@ -49,10 +49,18 @@ void add(std::vector<SessionParameter>& all, const std::string& group,
   for (std::size_t i = 0; i < now.size(); ++i) all.push_back(described(group, now[i], initial[i]));
 }
 
-bool is_set(const Document& document, const std::string& key) {
-  for (const auto& [held, text] : document.settings)
-    if (held == key) return true;
-  return false;
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+/// Null where it is not set.
+const std::string* text_of(const Texts& settings, const std::string& key) {
+  for (const auto& [held, text] : settings)
+    if (held == key) return &text;
+  return nullptr;
+}
+
+bool differs(const Texts& a, const Texts& b, const std::string& key) {
+  const std::string *in_a = text_of(a, key), *in_b = text_of(b, key);
+  return in_a && in_b ? *in_a != *in_b : in_a != in_b;
 }
 
 }  // namespace
@@ -60,7 +68,7 @@ bool is_set(const Document& document, const std::string& key) {
 std::vector<SessionParameter> Session::parameters() const {
   std::vector<SessionParameter> all;
   Document plain = document_;
-  plain.settings.clear();
+  plain.settings = saved_settings_;
   const world::Scene scene = scene_of(document_), files = scene_of(plain);
   Settings now = settings_of(scene), initial = settings_of(files);
   add(all, "rods", cosserat::parameters_of(now.rods), cosserat::parameters_of(initial.rods));
@@ -70,12 +78,15 @@ std::vector<SessionParameter> Session::parameters() const {
     if (document_.plants[p].file)
       add_plant_parameters(all, document_.plants[p].entry.name, *document_.plants[p].file,
                            scene.plants[p].set, files.plants[p].set);
-  for (SessionParameter& one : all) one.changed = is_set(document_, one.key);
+  for (SessionParameter& one : all)
+    one.changed = differs(document_.settings, saved_settings_, one.key);
   return all;
 }
 
 Result Session::reset_parameter(const std::string& key) {
-  return run(Command("unset", {{"key", key}}));
+  const std::string* saved = text_of(saved_settings_, key);
+  return run(saved ? Command("set", {{"key", key}, {"value", *saved}})
+                   : Command("unset", {{"key", key}}));
 }
 
 // Overrides of one plant, or of all, become the plant's own numbers; what belongs to the solver
@@ -107,8 +118,12 @@ Result Session::keep_parameters() {
 
 Result Session::discard_parameters() {
   begin_gesture();
-  const auto settings = document_.settings;
-  for (const auto& [key, text] : settings) change_document(Command("unset", {{"key", key}}));
+  const Texts settings = document_.settings;
+  for (const auto& [key, text] : settings)
+    if (!text_of(saved_settings_, key)) change_document(Command("unset", {{"key", key}}));
+  for (const auto& [key, text] : saved_settings_)
+    if (differs(document_.settings, saved_settings_, key))
+      change_document(Command("set", {{"key", key}, {"value", text}}));
   end_gesture();
   return {};
 }

@@ -60,6 +60,7 @@ bool Session::recover(const Lost& lost) {
   const std::uint64_t on_disk = content.document.empty() ? 0 : saved_hash_;
   for (const JournalContent::Line& line : content.base) do_line(line.command);
   history_.clear();
+  if (is_scene(document_.path)) saved_settings_ = document_.settings;
   for (const JournalContent::Line& line : content.commands) do_line(line.command);
   saved_hash_ = on_disk;
   const auto wanted = content.commands.empty() ? std::nullopt : content.commands.back().hash;

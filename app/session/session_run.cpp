@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "io/atomic_file.h"
 #include "io/csv.h"
 #include "session/command_table.h"
 #include "session/measured_commands.h"
@@ -53,6 +54,16 @@ std::optional<double> measure(const std::string& name, const Document& document,
   return series.value.back();
 }
 
+Result save_script(const Session& session, const std::filesystem::path& file) {
+  const Command first = session.path().empty()
+                            ? Command("new", {})
+                            : Command("open", {{"file", session.path().string()}});
+  std::string text = first.text() + "\n";
+  for (const std::string& line : session.log()) text += line + "\n";
+  io::write_file_atomically(file, text);
+  return {true, std::to_string(session.log().size()) + " commands in " + file.string()};
+}
+
 }  // namespace
 
 Result Session::session_command(const Command& c) {
@@ -63,6 +74,7 @@ Result Session::session_command(const Command& c) {
   }
   if (verb == "new") open_empty();
   if (verb == "reload" && !reload()) return {false, messages_.back().text};
+  if (verb == "save script") return save_script(*this, c.word("file"));
   if (verb == "save") return save(c.word_or("file", ""));
   if (verb == "import") return import_plant(c.word("file"), c.word_or("plant", ""));
   if (verb == "export") return export_plant(c.word("plant"), c.word("file"));

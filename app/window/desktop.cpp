@@ -132,11 +132,14 @@ bool Desktop::frame() {
   ui_.now = platform_.now();
   // Pictures that were not painted take as long as nobody does anything.
   if (!painter_ || painted_at_ == last)
-    ui_.times.picture += 0.1 * ((ui_.now - last) - ui_.times.picture);
-  for (const std::string& path : dropped) ui_.session.open(path);
+    ui_.times.picture +=
+        (ui_.times.picture > 0.0 ? 0.1 : 1.0) * ((ui_.now - last) - ui_.times.picture);
+  for (const std::string& path : dropped) ui_.open(path);
   ui_.session.update();
+  lead_film();
   ui_.snapshot = ui_.session.snapshot();
   follow_document();
+  follow_camera();
 
   ImGui::NewFrame();
   keys();
@@ -154,7 +157,11 @@ bool Desktop::frame() {
     written_ = ui_.preferences;
     write_preferences(written_, preferences_path_);
   }
-  return !quits_ && !platform_.wants_to_close();
+  if (platform_.wants_to_close()) {
+    platform_.stay_open();
+    ui_.ask(Action::quit);
+  }
+  return !quits_;
 }
 
 void Desktop::draw_scene(const LayoutAreas& areas) {
@@ -180,6 +187,7 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
   if (ui_.frame_box) {
     camera_.frame(*ui_.frame_box, size.x / size.y);
     ui_.frame_box.reset();
+    ui_.view.camera = -1;
   }
   scene_.camera = camera_.camera();
 

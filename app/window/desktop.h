@@ -55,7 +55,8 @@ class Desktop : private FilmMaker {
   const std::string& letters() const { return fonts_.file; }
   bool input_waits() const { return input_.has_more(); }
 
-  /// Sees the scene by one of its cameras; one that follows something stands by that now.
+  /// Sees the scene by one of its cameras. One that follows something goes with it until the view
+  /// is led by hand.
   void use_camera(int index);
 
   /// The last picture with the interface; a still one of the scene alone, in any size. Nothing on
@@ -68,6 +69,7 @@ class Desktop : private FilmMaker {
 
   void follow_fonts();
   void follow_document();
+  void follow_camera();
   void keys();
   void draw_scene(const LayoutAreas& areas);
   void draw_labels();
@@ -86,6 +88,8 @@ class Desktop : private FilmMaker {
   void add() override;
   std::string end() override;
   render::Image film_picture();
+  void lead_film();
+  void drop_film();
 
   Platform& platform_;
   std::filesystem::path preferences_path_;
@@ -113,7 +117,9 @@ class Desktop : private FilmMaker {
   bool framed_ = false, quits_ = false, full_screen_ = false;
   std::unique_ptr<render::VideoWriter> video_;
   FilmRequest film_;
-  double next_video_picture_ = 0.0;
+  double next_video_picture_ = 0.0;  // s, of the platform's clock
+  double film_time_ = 0.0;           // s, simulated, that the run may go to
+  bool picture_due_ = false, film_runs_ = false;
   bool scene_drawn_ = false;       // anew, in this picture
   std::uint64_t painted_key_ = 0;  // of the interface as it was painted last
   double painted_at_ = -1.0;       // s

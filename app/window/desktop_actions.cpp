@@ -62,7 +62,7 @@ void Desktop::perform(Action action) {
       control.set_speed(1.0);
       break;
     case Action::quit:
-      quits_ = true;
+      ui_.leave_document([this] { quits_ = true; });
       break;
     default:
       perform_file(action);
@@ -89,10 +89,7 @@ void Desktop::perform_file(Action action) {
       break;
     }
     case Action::new_document:
-      if (ui_.session.dirty())
-        ui_.say("not saved yet: save first, or undo the edits");
-      else
-        ui_.session.open_empty();
+      ui_.leave_document([this] { ui_.session.open_empty(); });
       break;
     case Action::screenshot:
       take_screenshot();
@@ -106,7 +103,7 @@ void Desktop::perform_file(Action action) {
 }
 
 void Desktop::take_screenshot() {
-  const auto picture = window_picture();
+  const auto picture = ui_.view.panels_in_pictures ? window_picture() : scene_picture(1280, 720);
   if (!picture) return;
   const std::filesystem::path path = free_name("pedicel", ".png");
   try {

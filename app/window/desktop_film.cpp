@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "app/window/desktop.h"
 #include "app/window/film.h"
 
-/// Films of the window, by the clock.
+/// Films of the window: what runs goes by simulated time, hands by the clock.
 namespace pedicel::app {
 
 std::filesystem::path free_name(const std::string& stem, const std::string& ending) {
@@ -20,14 +21,16 @@ std::filesystem::path free_name(const std::string& stem, const std::string& endi
 
 void Desktop::toggle_video() {
   if (!running())
-    ui_.report(ui_.session.run(
-        Command("record", {{"file", free_name("pedicel", ".mp4").string()}, {"ui", 1}})));
+    ui_.report(ui_.session.run(Command("record", {{"file", free_name("pedicel", ".mp4").string()},
+                                                  {"ui", ui_.view.panels_in_pictures ? 1 : 0}})));
   else if (const Result ended = ui_.session.run(Command("stop recording", {})); ui_.report(ended))
     ui_.say(ended.text);
 }
 
 void Desktop::begin(const FilmRequest& request) {
   if (!target_) throw NoPictures("no film: nothing is drawn here");
+  const int camera = camera_index(*ui_.snapshot, request.camera);
+  if (!request.camera.empty()) use_camera(camera);
   // H.264 wants even sides.
   film_ = request;
   film_.size = request.with_interface
@@ -35,13 +38,15 @@ void Desktop::begin(const FilmRequest& request) {
                    : request.size;
   video_ = open_film(request.file, film_.size[0], film_.size[1], request.fps);
   next_video_picture_ = ui_.now;
-  ui_.recording = true;
+  film_time_ = ui_.snapshot->time;
+  ui_.session.control().hold_at(film_time_);
+  ui_.recording = ui_.filmed = true;
   ui_.say("film begun: " + video_->description());
 }
 
 std::string Desktop::end() {
-  ui_.recording = false;
   const auto video = std::move(video_);
+  drop_film();
   try {
     video->finish();
   } catch (const render::OutputError& error) {
@@ -50,18 +55,44 @@ std::string Desktop::end() {
   return "film in " + std::filesystem::absolute(video->result()).string();
 }
 
+void Desktop::drop_film() {
+  video_.reset();
+  ui_.recording = ui_.filmed = false;
+  ui_.session.control().hold_at({});
+}
+
+// Before a picture of a film is made the run goes on by what the film shows in that time, and waits
+// there: so pictures are as far apart as the film says, and the same on a slow machine.
+void Desktop::lead_film() {
+  picture_due_ = video_ && ui_.now >= next_video_picture_;
+  if (!picture_due_) return;
+  const RunControl& control = ui_.session.control();
+  const auto before = control.snapshot();
+  const double step = (before->speed > 0.0 ? before->speed : 1.0) / film_.fps;
+  const double dt = before->assets ? before->assets->scene.dt : step;
+  // Where the run was led elsewhere (reset, a step back, a pause) it goes on from there.
+  if (std::abs(before->time - film_time_) > 1.5 * dt) film_time_ = before->time;
+  film_time_ += step;
+  ui_.session.control().hold_at(film_time_);
+  control.wait();
+  const auto now = control.snapshot();
+  film_runs_ = now->mode == RunMode::playing || now->step != before->step;
+}
+
 void Desktop::add() {
-  if (!video_ || ui_.now < next_video_picture_) return;
+  if (!video_ || !picture_due_) return;
   try {
     const render::Image picture = film_picture();
-    // A slow machine draws fewer a second: pictures are repeated, so that time keeps.
-    for (int copies = 0; ui_.now >= next_video_picture_ && copies < 30; ++copies) {
+    // While nothing runs pictures are repeated where the machine is slow, so that hands move as
+    // fast as they did.
+    int copies = 0;
+    do {
       video_->add(picture);
       next_video_picture_ += 1.0 / film_.fps;
-    }
+    } while (!film_runs_ && ui_.now >= next_video_picture_ && ++copies < 30);
+    next_video_picture_ = std::max(next_video_picture_, ui_.now);
   } catch (const std::exception& error) {
-    video_.reset();
-    ui_.recording = false;
+    drop_film();
     ui_.say(std::string("the film has ended: ") + error.what());
   }
 }

@@ -2,6 +2,7 @@
 
 #include "app/pictures.h"
 #include "app/window/desktop.h"
+#include "app/window/framing.h"
 #include "session/organ_place.h"
 
 /// Actions that change how the scene is seen.
@@ -16,7 +17,7 @@ void Desktop::perform_view(Action action) {
       ui_.frame_box = list_.bounds();
       break;
     case Action::frame_selection: {
-      const Eigen::AlignedBox3d box = bounds_of(ui_.selection, *ui_.snapshot, view_.shapes());
+      const Eigen::AlignedBox3d box = frame_of(ui_, view_.shapes());
       ui_.frame_box = box.isEmpty() ? list_.bounds() : box;
       break;
     }
@@ -79,6 +80,15 @@ void Desktop::use_camera(int index) {
   const Vec3 middle = list_.bounds().isEmpty() ? Vec3(Vec3::Zero()) : Vec3(list_.bounds().center());
   camera_.set(camera_of(camera, place_of(*ui_.snapshot, camera.follow).value_or(middle)));
   ui_.view.camera = index;
+}
+
+void Desktop::follow_camera() {
+  if (ui_.view.camera < 0 || !ui_.snapshot->assets) return;
+  const auto& cameras = ui_.snapshot->assets->scene.cameras;
+  const auto index = static_cast<std::size_t>(ui_.view.camera);
+  if (index >= cameras.size() || cameras[index].follow.kind == world::Anchor::Kind::none) return;
+  if (const auto place = place_of(*ui_.snapshot, cameras[index].follow))
+    camera_.set(camera_of(cameras[index], *place));
 }
 
 }  // namespace pedicel::app

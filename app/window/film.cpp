@@ -52,6 +52,7 @@ void OffscreenFilm::open_desktop() {
   desktop_ = std::make_unique<Desktop>(*platform_, session_, options_);
   Ui& ui = desktop_->ui();
   ui.preferences.seen_hint = true;
+  ui.filmed = true;
   ui.view.automatic_quality = false;
   if (prepare_) prepare_(*desktop_);
   // Without the interface its own picture of the scene is not seen.

@@ -27,6 +27,7 @@ SceneMouse::Drag SceneMouse::choose(const Ui& ui, int button, bool tool_has_left
   const bool left = button == 0, blender = ui.preferences.mouse == MousePreset::blender;
   if (left && io.KeyCtrl && io.KeyShift) return Drag::dolly;
   if (left && io.KeyCtrl && !tool_has_left) return Drag::pull;
+  if (button == 1 && io.KeyCtrl && !io.KeyShift) return Drag::pull;
   if (tool_has_left && left) return io.KeyAlt ? Drag::orbit : Drag::none;
   if (blender && button == 2)
     return io.KeyShift ? Drag::pan : io.KeyCtrl ? Drag::dolly : Drag::orbit;
@@ -57,8 +58,14 @@ void SceneMouse::press(Ui& ui, const SceneFrame& frame, int button, bool tool_ha
 }
 
 /// The pulled point goes with the pointer in the plane across the view; with Shift up and down
-/// only.
+/// only. With the right button it is pushed along the view: away from the eye while the pointer
+/// goes up.
 void SceneMouse::move_pull(Ui& ui, const SceneFrame& frame) {
+  if (button_ == 1) {
+    const Vec3 way = grabbed_W_ - frame.camera.eye;
+    const double up = pressed_at_.y - ImGui::GetIO().MousePos.y;
+    return ui.session.control().move_pull(grabbed_W_ + frame.angle(up) * way);
+  }
   const DrawPlane across = view_plane(frame.camera.target - frame.camera.eye, grabbed_W_);
   const auto at = meet(ray_of(frame.ray(ImGui::GetIO().MousePos)), across);
   if (!at) return;
@@ -110,7 +117,7 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
       if (ImGui::IsMouseClicked(button)) press(ui, frame, button, tool_has_left);
     // Both habits: the left double click selects and centres, the right one centres.
     if (ImGui::IsMouseDoubleClicked(0) || ImGui::IsMouseDoubleClicked(1)) {
-      if (ui.hover) camera.look_at(ui.hover.place_W);
+      if (ui.hover) camera.look_at(ui.hover.place_W), ui.view.camera = -1;
     }
   }
   if (hovered && io.MouseWheel != 0.0f) {

@@ -148,7 +148,7 @@ class PictureWriter : public VideoWriter {
   std::string description() const override {
     return (folder_ / name_.pattern()).string() + (why_.empty() ? "" : " (" + why_ + ")");
   }
-  std::filesystem::path result() const override { return folder_; }
+  std::filesystem::path result() const override { return folder_.empty() ? "." : folder_; }
 
  private:
   std::filesystem::path folder_;

@@ -59,6 +59,13 @@ struct SceneWaypoint {
   SourcePosition where;
 };
 
+/// Joint positions at a time, recorded by hand: kept in the scene to be played when asked for.
+struct RecordedPose {
+  double time = 0.0;           ///< s, after the program's start
+  std::vector<double> joints;  ///< rad or m, one a degree of freedom
+  bool operator==(const RecordedPose&) const = default;
+};
+
 struct SceneRobot {
   std::string name = "robot";
   std::filesystem::path file;
@@ -72,6 +79,7 @@ struct SceneRobot {
   double gripper_force = 0.0;        ///< N (or N m), limit; 0: the joint's own
   std::filesystem::path trajectory;  ///< CSV of joint positions; empty: none
   std::vector<SceneWaypoint> waypoints;
+  std::vector<RecordedPose> recorded;  ///< times from 0 s on that increase; not played by itself
   SourcePosition where;
 };
 

@@ -52,6 +52,27 @@ void read_waypoints(io::YamlMap& map, SceneRobot& robot) {
   }
 }
 
+RecordedPose read_recorded_pose(const io::YamlNode& node) {
+  RecordedPose pose;
+  io::YamlMap map(node, "a recorded place");
+  pose.time = map.number("time", io::not_negative);
+  if (const auto joints = map.required("joints")) pose.joints = joints->numbers("joints");
+  map.finish();
+  return pose;
+}
+
+void read_recorded(io::YamlMap& map, SceneRobot& robot) {
+  for (const io::YamlNode& node : map.list("recorded")) {
+    RecordedPose pose = read_recorded_pose(node);
+    if (!robot.recorded.empty() && pose.time <= robot.recorded.back().time)
+      node.error("time: expected later than the recorded place before");
+    if (pose.joints.empty()) node.error("joints: expected one number a joint");
+    if (!robot.recorded.empty() && pose.joints.size() != robot.recorded.front().joints.size())
+      node.error("joints: expected as many as at the first recorded place");
+    robot.recorded.push_back(std::move(pose));
+  }
+}
+
 void read_packages(io::YamlMap& map, const std::filesystem::path& folder, SceneRobot& robot) {
   const auto packages = map.optional("packages");
   if (!packages) return;
@@ -88,6 +109,7 @@ SceneRobot read_robot(const io::YamlNode& node, const std::filesystem::path& fol
   if (const auto trajectory = map.optional("trajectory"))
     robot.trajectory = read_path(*trajectory, "trajectory", folder);
   read_waypoints(map, robot);
+  read_recorded(map, robot);
   if (!robot.trajectory.empty() && !robot.waypoints.empty())
     map.error("robot: expected trajectory or waypoints, not both");
   map.finish();

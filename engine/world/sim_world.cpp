@@ -86,6 +86,8 @@ void SimWorld::run(Phase phase) {
 const StepReport& SimWorld::step() {
   report_.errors = no_error;
   report_.culprit.clear();
+  report_.worst_residual = report_.deepest_overlap = report_.plant_energy = 0.0;
+  report_.contacts = 0;
   report_.seconds.fill(0.0);
   run(Phase::commands);
   run(Phase::control);

@@ -9,6 +9,10 @@
 /// smooth curve a point becomes a corner by two more points close before and behind it that hold
 /// the curve on the straight line to the neighbours; fit_stroke() makes corners in the same way. So
 /// a kind is read off the points, and survives saving, loading and other programs.
+///
+/// A corner whose neighbours are ends of the stem or sharp themselves is a linear point: nothing
+/// gives the pieces beside it another direction than straight on. So the middle of three points
+/// is smooth or linear.
 namespace pedicel::plant {
 
 enum class PointKind {

@@ -2,8 +2,10 @@
 #include <chrono>
 #include <thread>
 
+#include "app/panels/stem_editor.h"
 #include "core/check.h"
 #include "desk.h"
+#include "io/atomic_file.h"
 #include "words.h"
 
 namespace pedicel::app {
@@ -104,6 +106,26 @@ TEST_F(Gui, CtrlDragPullsWithTheForceOfTheSpring) {
   EXPECT_NEAR(snapshot->pull.force_W.norm(), 50.0 * stretch, 0.05 * 50.0 * stretch);
   EXPECT_GT(snapshot->pull.force_W.norm(), 0.05);
   desk_.button(0, false);
+  desk_.hold(Key::left_control, false);
+  desk_.settle();
+  EXPECT_FALSE(desk_.snapshot()->pull.active);
+}
+
+TEST_F(Gui, CtrlRightDragPushesAlongTheView) {
+  const ImVec2 at = desk_.at(fruit_place(4));
+  desk_.move(at.x, at.y);
+  desk_.hold(Key::left_control, true);
+  desk_.button(1, true);
+  desk_.settle();
+  const Vec3 start = desk_.snapshot()->pull.target_W;
+  desk_.move(at.x, at.y - 40);
+  desk_.settle();
+  ASSERT_TRUE(desk_.snapshot()->pull.active);
+  const Vec3 pushed = desk_.snapshot()->pull.target_W - start;
+  EXPECT_GT(pushed.norm(), 0.02);
+  EXPECT_GT(pushed.normalized().dot((start - desk_.desktop().scene().camera.eye).normalized()),
+            0.999);
+  desk_.button(1, false);
   desk_.hold(Key::left_control, false);
   desk_.settle();
   EXPECT_FALSE(desk_.snapshot()->pull.active);
@@ -212,6 +234,152 @@ TEST_F(Gui, AFilmOfTheWindowIsBegunAndEndedByItsButton) {
   const bool film = std::filesystem::exists(folder / "pedicel_001.mp4") ||
                     std::filesystem::exists(folder / "pedicel_001_frames/frame_00000.png");
   EXPECT_TRUE(film) << desk_.ui().notice;
+}
+
+/// A film of the playing window in a folder of its own: how many pictures it has. They are as far
+/// apart in simulated time as the film says.
+int film_of_playing(Desk& desk, const std::filesystem::path& folder) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::filesystem::current_path(folder);
+  desk.session().control().reset();
+  desk.settle();
+  EXPECT_TRUE(desk.session().run_text("record f_%02d.png fps=20 ui=1").ok);
+  desk.session().control().play();
+  desk.session().control().wait();
+  desk.frames(40);
+  desk.session().control().pause();
+  const Result ended = desk.session().run_text("stop recording");
+  EXPECT_TRUE(ended.ok) << ended.text;
+  desk.settle();
+  std::filesystem::current_path(before);
+  const auto pictures = std::distance(std::filesystem::directory_iterator(folder), {});
+  EXPECT_NEAR(desk.snapshot()->time, static_cast<double>(pictures) / 20, 0.0043);
+  return static_cast<int>(pictures);
+}
+
+// Whatever the machine does, and nothing in them goes by the wall clock.
+TEST_F(Gui, TwoFilmsOfTheSameRunAreTheSame) {
+  const auto folder = std::filesystem::path(::testing::TempDir());
+  desk_.show("Profiler");
+  const int pictures = film_of_playing(desk_, folder / "film_a");
+  EXPECT_GE(pictures, 12) << "20 a second of 40 / 60 s";
+  std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  EXPECT_NEAR(film_of_playing(desk_, folder / "film_b"), pictures, 1);
+  for (int i = 0; i < pictures - 1; ++i) {
+    const std::string name = "f_" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".png";
+    EXPECT_EQ(io::read_file(folder / "film_a" / name), io::read_file(folder / "film_b" / name))
+        << name;
+  }
+  EXPECT_FALSE(desk_.ui().filmed);
+}
+
+TEST_F(Gui, ACameraThatFollowsGoesWithTheFruit) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "follow.scene.yaml";
+  std::string text = io::read_file(scene_file("cherry_tomato_pull_aside.scene.yaml"));
+  const std::string root = PEDICEL_SOURCE_DIR;
+  text.replace(text.find("../../plants"), 12, root + "/plants");
+  text.replace(text.find("../robots"), 9, root + "/assets/robots");
+  const std::size_t cameras = text.find("cameras:\n") + 9;
+  text.insert(cameras, "  - {name: with, eye: [0.3, -0.3, 0.1], follow: {fruit: truss/fruit_5}}\n");
+  std::ofstream(path) << text;
+  desk_.open(path);
+  const Vec3 start = desk_.desktop().camera().target();
+  EXPECT_NEAR((start - fruit_place(4)).norm(), 0.0, 1e-9);
+  desk_.session().control().run_for(2.6);
+  desk_.settle();
+  const Vec3 pulled = desk_.desktop().camera().target();
+  EXPECT_NEAR((pulled - fruit_place(4)).norm(), 0.0, 1e-9);
+  EXPECT_GT((pulled - start).norm(), 1e-3);
+  desk_.drag({ImVec2(free_x, free_y), ImVec2(free_x + 60, free_y)}, 1);
+  const Vec3 by_hand = desk_.desktop().camera().target();
+  desk_.session().control().run_for(0.3);
+  desk_.settle();
+  EXPECT_EQ(desk_.desktop().camera().target(), by_hand) << "it is led by hand now";
+}
+
+TEST_F(Gui, EditsThatAreNotSavedAreAskedAbout) {
+  ASSERT_TRUE(desk_.session().run_text("new plant x").ok);
+  desk_.key(Key::q, true);
+  EXPECT_EQ(desk_.ui().dialog, Dialog::unsaved);
+  EXPECT_TRUE(desk_.desktop().frame());
+  desk_.key(Key::escape);
+  EXPECT_EQ(desk_.ui().dialog, Dialog::none);
+  desk_.drop(scene_file("greenhouse_bend.scene.yaml").string());
+  EXPECT_EQ(desk_.ui().dialog, Dialog::unsaved);
+  desk_.frames(3);
+  const auto cancel = place_of("Edits", "Cancel");
+  ASSERT_TRUE(cancel);
+  desk_.click(cancel->x, cancel->y);
+  EXPECT_EQ(desk_.session().path().filename(), "cherry_tomato_pull_aside.scene.yaml");
+  EXPECT_GE(desk_.session().document().plant_index("x"), 0);
+  desk_.key(Key::q, true);
+  desk_.frames(3);
+  const auto leave = place_of("Edits", "Do not save");
+  ASSERT_TRUE(leave);
+  desk_.click(leave->x, leave->y);
+  EXPECT_FALSE(desk_.desktop().frame()) << "it has ended";
+}
+
+TEST_F(Gui, APlantIsImportedBesideTheOthers) {
+  desk_.show("Plants");
+  const auto button = place_of("left", "Import");
+  ASSERT_TRUE(button);
+  desk_.click(button->x, button->y);
+  ASSERT_EQ(desk_.ui().dialog, Dialog::import_plant);
+  desk_.type(
+      (std::filesystem::path(PEDICEL_SOURCE_DIR) / "plants" / "young_plant.plant.yaml").string());
+  desk_.key(Key::enter);
+  desk_.settle();
+  EXPECT_EQ(desk_.ui().dialog, Dialog::none);
+  EXPECT_EQ(desk_.session().document().plants.size(), 2u);
+  EXPECT_EQ(desk_.snapshot()->plants.size(), 2u);
+}
+
+TEST_F(Gui, FFramesWhatIsChosen) {
+  const auto framed = [&](const Vec3& middle, double nearer_than) {
+    desk_.key(Key::home);
+    desk_.key(Key::f);
+    desk_.frames(2);
+    EXPECT_LT((desk_.desktop().camera().target() - middle).norm(), 0.02);
+    EXPECT_LT(desk_.desktop().camera().distance(), nearer_than);
+  };
+  choose_fruit(desk_.ui(), "truss", "fruit_2");
+  framed(fruit_place(1), 0.25);
+  choose_curve(desk_.ui(), "truss", "petiole_1");
+  const auto& file = *desk_.session().document().plants[0].file;
+  const plant::PlantCurve& petiole =
+      file.curves[static_cast<std::size_t>(file.curve_index("petiole_1"))];
+  Eigen::AlignedBox3d box;
+  for (const Vec3& point : petiole.points)
+    box.extend(desk_.snapshot()->assets->scene.plants[0].pose * point);
+  framed(box.center(), 0.8);
+  desk_.ui().selection.kind = Selection::Kind::curve_point;
+  desk_.ui().selection.point = 1;
+  framed(desk_.snapshot()->assets->scene.plants[0].pose * petiole.points[1], 0.4);
+}
+
+TEST_F(Gui, TheProfilerHasItsFiguresAndPlotsNameTheirLines) {
+  desk_.session().control().run_for(0.5);
+  desk_.settle();
+  desk_.show("Profiler");
+  const auto written = [] {
+    std::string text;
+    for (const SeenLetter& one : seen_letters("bottom")) text += one.letter;
+    return text;
+  };
+  for (const char* row : {"stepsasecond[0-9]", "picturesasecond[0-9]", "drawlist[0-9]"})
+    EXPECT_THAT(written(), ::testing::ContainsRegex(row));
+  desk_.show("Plots");
+  const auto names = desk_.session().control().log().names();
+  const auto shown = std::ranges::find_if(
+      names, [](const std::string& one) { return one.find("margin") != std::string::npos; });
+  ASSERT_NE(shown, names.end());
+  std::string in_the_plot;
+  for (const SeenLetter& one : seen_letters("bottom"))
+    if (one.low.x > 600) in_the_plot += one.letter;
+  EXPECT_THAT(in_the_plot, HasSubstr(*shown));
 }
 
 TEST_F(Gui, TabHidesThePanelsAndTheSceneGrows) {

@@ -106,7 +106,7 @@ TEST_P(Panels, DrawOptionsOfEveryThing) {
 }
 
 TEST_P(Panels, DialogsAndLegends) {
-  for (const Dialog dialog : {Dialog::help, Dialog::info, Dialog::open}) {
+  for (const Dialog dialog : {Dialog::help, Dialog::info, Dialog::open, Dialog::unsaved}) {
     desk_->ui().dialog = dialog;
     desk_->frames(4);
     check("dialog" + std::to_string(static_cast<int>(dialog)), panel_window("left", ""));

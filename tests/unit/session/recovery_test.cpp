@@ -116,8 +116,26 @@ TEST(Recovery, ARunningOrWellEndedSessionIsNotLost) {
     draw_plant(first);
     Session second(saving(folder));
     EXPECT_TRUE(second.lost_documents().empty()) << "the first one is alive";
+    first.give_up_edits();
   }
   EXPECT_TRUE(Session(saving(folder)).lost_documents().empty());
+}
+
+// A terminal's Ctrl-C, a desktop that ends: nobody was asked.
+TEST(Recovery, WhatWasNeitherSavedNorGivenUpIsKept) {
+  TemporaryFolder folder;
+  {
+    Session session(saving(folder));
+    draw_plant(session);
+    session.begin_gesture();
+    must(session.run_text("move point p branch 2 0.2,0,0.1"));
+  }
+  Session session(saving(folder));
+  ASSERT_EQ(session.lost_documents().size(), 1u);
+  ASSERT_TRUE(session.recover(session.lost_documents()[0]));
+  EXPECT_EQ(session.document().plant("p").curves[1].points[2], Vec3(0.2, 0, 0.1));
+  must(session.save(folder / "p.plant.yaml"));
+  EXPECT_FALSE(session.dirty());
 }
 
 TEST(Recovery, AFolderThatCannotBeWrittenIsSaid) {

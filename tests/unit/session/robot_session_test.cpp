@@ -179,5 +179,28 @@ TEST_F(RobotSession, GoingBackIsTheSameRunAgain) {
   EXPECT_EQ(session_.control().state_hash(), there);
 }
 
+// A fruit in the gripper, friction in its contacts, and the break between the two ends.
+TEST(RobotRun, BackAndForwardAcrossABreakIsTheSameRun) {
+  Session session(waiting());
+  ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
+  must(session.run_text("run 2.6"));
+  const int contacts = session.snapshot()->report.contacts;
+  EXPECT_GT(contacts, 0);
+  EXPECT_EQ(contacts, static_cast<int>(session.snapshot()->contacts.size())) << "of this step";
+  ASSERT_TRUE(session.snapshot()->events->empty());
+  const std::uint64_t before = session.control().state_hash();
+  const long start = session.snapshot()->step;
+  must(session.run_text("run 0.1"));
+  ASSERT_EQ(session.snapshot()->events->size(), 1u);
+  const std::uint64_t after = session.control().state_hash();
+  const long way = session.snapshot()->step - start;
+  must(session.run_text("step back " + std::to_string(way)));
+  EXPECT_TRUE(session.snapshot()->events->empty());
+  EXPECT_EQ(session.control().state_hash(), before);
+  must(session.run_text("step " + std::to_string(way)));
+  EXPECT_EQ(session.snapshot()->events->size(), 1u);
+  EXPECT_EQ(session.control().state_hash(), after);
+}
+
 }  // namespace
 }  // namespace pedicel::app

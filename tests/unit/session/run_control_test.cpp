@@ -148,6 +148,54 @@ TEST_F(Running, KeptStepsAreWhatTheRunIsThere) {
   EXPECT_EQ(session.snapshot()->step, 45);
 }
 
+// Back after playing, without a run from the start; what acted meanwhile does not lose the steps
+// before it.
+TEST_F(Running, PlayedStepsAreShownAtOnce) {
+  session.control().set_speed(0.0);
+  session.control().play();
+  while (session.snapshot()->step < 150) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  session.control().begin_pull(berry(), {0.12, 0.02, 0.15});
+  const long acted = session.snapshot()->step;
+  while (session.snapshot()->step < acted + 20)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  session.control().pause();
+  session.control().wait();
+  const long end = session.snapshot()->step;
+  const std::uint64_t there = hash();
+  const long way = std::min(end - acted + 10, 100l);
+  back(way);
+  const auto shown = session.snapshot();
+  EXPECT_EQ(shown->step, end - way);
+  EXPECT_EQ(shown->replay_share, 0.0) << "it was run anew";
+  steps(way);
+  EXPECT_EQ(session.snapshot()->replay_share, 0.0);
+  EXPECT_EQ(hash(), there);
+  back(way);
+  hash();  // the run has to go there
+  EXPECT_EQ(session.snapshot()->plants[0].state.position, shown->plants[0].state.position);
+  steps(way);
+  EXPECT_EQ(hash(), there);
+}
+
+TEST_F(Running, PlayingWaitsWhereItIsHeld) {
+  RunControl& control = session.control();
+  control.hold_at(0.1);
+  control.play();
+  control.wait();
+  EXPECT_EQ(session.snapshot()->step, 24);
+  EXPECT_EQ(session.snapshot()->mode, RunMode::playing);
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  EXPECT_EQ(session.snapshot()->step, 24);
+  control.step(100);  // steps are held, too, and go on when they may
+  control.hold_at(0.15);
+  control.wait();
+  EXPECT_EQ(session.snapshot()->step, 36);
+  control.hold_at({});
+  control.wait();
+  EXPECT_EQ(session.snapshot()->step, 124);
+  EXPECT_EQ(session.snapshot()->mode, RunMode::paused);
+}
+
 TEST_F(Running, WhatIsDoneAfterGoingBackReplacesWhatWasDone) {
   session.control().begin_pull(berry(), {0.3, 0, 0.2});
   steps(40);
@@ -197,6 +245,17 @@ TEST_F(Running, UnstableRunsAreMarkedAndStayUsable) {
   EXPECT_EQ(session.snapshot()->mode, RunMode::paused);
   steps(5);
   EXPECT_EQ(session.snapshot()->step, 5);
+}
+
+// A report is of its step alone, however many there were before.
+TEST_F(Running, ReportsDoNotAddUp) {
+  const auto last = [&](const char* name) {
+    return session.control().log().series(name).value.back();
+  };
+  must(session.run_text("run 0.5"));
+  const double energy =
+      last("energy_kinetic_J") + last("energy_elastic_J") + last("energy_gravity_J");
+  EXPECT_NEAR(session.snapshot()->report.plant_energy, energy, 1e-2 * std::abs(energy));
 }
 
 TEST_F(Running, QuantitiesAreKept) {

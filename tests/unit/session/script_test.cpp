@@ -147,5 +147,24 @@ TEST_F(Scripts, WaypointsArePlayed) {
   EXPECT_EQ(run("play waypoints\n"), 1);
 }
 
+// What was done, as a script, does the same again: document and run.
+TEST(SavedScript, DoesTheSameAgain) {
+  TemporaryFolder folder;
+  Session session(waiting());
+  draw_plant(session);
+  must(session.run_text("move point p branch 2 0.12,0,0.14"));
+  must(session.undo());
+  must(session.run_text("set plants.p.material.density 650"));
+  must(session.run_text("run 0.1"));
+  must(session.run_text("pull p/berry 0.12,0.02,0.15"));
+  must(session.run_text("run 0.1"));
+  must(session.run_text("save script " + (folder / "again.script").string()));
+  Session other(waiting());
+  std::ostringstream out, errors;
+  EXPECT_EQ(run_script(folder / "again.script", other, out, errors), 0) << errors.str();
+  EXPECT_EQ(other.document().state_hash(), session.document().state_hash());
+  EXPECT_EQ(other.control().state_hash(), session.control().state_hash());
+}
+
 }  // namespace
 }  // namespace pedicel::app

@@ -65,6 +65,18 @@ TEST_F(Kinds, ACornerTurnsAtOncePiecesStayCurved) {
   EXPECT_EQ(curve("bow").radius.size(), curve("bow").points.size());
 }
 
+// Ends have no direction of their own that could curve the pieces beside the only inner point.
+TEST_F(Kinds, TheMiddleOfThreePointsIsSmoothOrLinear) {
+  run("draw stem p elbow 0,0,0.2;0,0.1,0.25;0.05,0.2,0.2 0.002");
+  run("set point kind p elbow 1 linear");
+  const auto straight = curve("elbow").points;
+  run("set point kind p elbow 2 smooth");
+  EXPECT_EQ(curve("elbow").points.size(), 3u);
+  run("set point kind p elbow 1 corner");
+  EXPECT_EQ(curve("elbow").points, straight);
+  EXPECT_EQ(plant::point_kind(curve("elbow"), 2), PointKind::linear);
+}
+
 TEST_F(Kinds, LinearIsStraightToTheNeighbours) {
   run("set point kind p bow 2 linear");
   EXPECT_EQ(kinds()[2], PointKind::linear);
