@@ -31,7 +31,6 @@ constexpr double family_share = 0.5;
 constexpr double least_share = 0.01;  // of the gain of the first cause, what another must bring
 constexpr int most_causes = 3;
 constexpr double beyond_doubt = 300.0;  // nats
-constexpr double clearly_more = 10.0;   // nats, by which a force must be better than one cause
 
 /// One diagnosis on its way from the data to the verdict.
 class Procedure {
@@ -298,7 +297,7 @@ class Procedure {
     conclude(findings_, result_);
     if (result_.verdict.outcome == Outcome::unknown)
       tell_of_force(missing_force());
-    else if (result_.verdict.outcome == Outcome::named && !findings_.chain.empty())
+    else if (findings_.chain.size() > 1)
       ask_for_one_force();
     conclude_outliers(result_);
     report_parameters(findings_, result_);
@@ -306,17 +305,16 @@ class Procedure {
     choose_next();
   }
 
-  // Causes that explain less of the fitted trials than one force from outside the list are none. A
-  // loud effect that is explained to the last no force explains by chance.
+  // Several causes that explain less of the fitted trials than one force from outside the list are
+  // none. What they explain to the last, and loudly, they do not by chance.
   void ask_for_one_force() {
     double evidence = 0.0;
     for (const Candidate& found : findings_.chain) evidence += found.evidence - found.held_out.gain;
     if (!result_.after.raised && evidence > beyond_doubt) return;
     const MissingForce force = missing_force();
-    const double margin = findings_.chain.size() > 1 ? 0.0 : clearly_more;
-    if (!force.found || force.fit.why == "not run" || force.evidence < evidence + margin) return;
+    if (!force.found || force.fit.why == "not run" || force.evidence < evidence) return;
     result_.verdict.outcome = Outcome::unknown;
-    result_.verdict.remainder = "one force from outside the list explains more than known causes";
+    result_.verdict.remainder = "one force explains more than several known causes together";
     tell_of_force(force);
   }
 
