@@ -17,10 +17,9 @@ constexpr double straight_turn = 0.03;       // rad
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
-// Of a plant's contact with itself, rad or element lengths:
-constexpr double settled_contact = 5.0e-3;  // the next step may do the rest
-constexpr double rough_self_contact = 0.05;
-constexpr double stalled_gain = 0.9;  // more iterations do not help
+// Of a plant's contact with itself:
+constexpr double rough_self_contact = 10.0;  // times the tolerance
+constexpr double stalled_gain = 0.9;         // more iterations do not help
 
 bool any(const std::vector<char>& flags) {
   return std::find(flags.begin(), flags.end(), 1) != flags.end();
@@ -302,17 +301,18 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   // smooth motion: cut short, the stem may end inside a thin link.
   const bool with_itself = plant.presses && plant.contacts.only_with_itself();
   const double moved = std::max(plant.change.turn, plant.change.shift);
+  const double settled = settings_.self_contact_tolerance;
   const bool rough_contact =
-      plant.presses &&
-      (with_itself ? moved > rough_self_contact && gain < stalled_gain : change > converged_change);
+      plant.presses && (with_itself ? moved > rough_self_contact * settled && gain < stalled_gain
+                                    : change > converged_change);
   const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
   const bool last = report.iterations >= most;
-  if (last && (with_itself ? moved > settled_contact : change > converged_change))
+  if (last && (with_itself ? moved > settled : change > converged_change))
     report.errors |= not_converged;
   // Self-contact leaves its coupling out of the Hessian: what the last iterations would do is below
   // what can be seen, and would cost most of the time.
   if (with_itself) {
-    plant.smooth = moved <= settled_contact;
+    plant.smooth = moved <= settled;
     return last || (plant.smooth && !first);
   }
   // Contacts are found anew in every iteration: there a small change is not yet the end.
