@@ -20,6 +20,7 @@ constexpr int rough_contact_iterations = 4;  // times newton_iterations
 // Of a plant's contact with itself:
 constexpr double rough_self_contact = 10.0;  // times the tolerance
 constexpr double stalled_gain = 0.9;         // more iterations do not help
+constexpr double left_over = 0.6;            // times the tolerance: of what is left by the series
 
 bool any(const std::vector<char>& flags) {
   return std::find(flags.begin(), flags.end(), 1) != flags.end();
@@ -96,6 +97,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.extra_energy = 0.0;
     plant.last_change = 0.0;
     plant.presses = false;
+    plant.iterate_is_here = false;
   }
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
@@ -200,7 +202,7 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     if (!wanted(p)) return;
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
-    rows_.write_iterate(p, plant.iterate);
+    if (!plant.iterate_is_here) rows_.write_iterate(p, plant.iterate);
     for (ContactSource* source : steps[p].contacts) source->use(inner);
     plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
     for (ContactSource* source : steps[p].contacts) source->use(nullptr);
@@ -272,6 +274,7 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
   // Rounding of the sum is the only ascent allowed.
   if (plant.share == 0.0 || found <= plant.energy + 1.0e-12 * (1.0 + std::abs(plant.energy))) {
     searching_[index] = 0;
+    plant.iterate_is_here = plant.touched;
     return;
   }
   plant.share *= 0.5;
@@ -307,13 +310,15 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
                                     : change > converged_change);
   const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
   const bool last = report.iterations >= most;
-  if (last && (with_itself ? moved > settled : change > converged_change))
-    report.errors |= not_converged;
   // Self-contact leaves its coupling out of the Hessian: what the last iterations would do is below
   // what can be seen, and would cost most of the time.
+  const bool is_settled =
+      moved <= settled || (gain < 1.0 && gain / (1.0 - gain) * moved <= left_over * settled);
+  if (last && (with_itself ? !is_settled : change > converged_change))
+    report.errors |= not_converged;
   if (with_itself) {
-    plant.smooth = moved <= settled;
-    return last || (plant.smooth && !first);
+    plant.smooth = is_settled;
+    return last || (is_settled && !first);
   }
   // Contacts are found anew in every iteration: there a small change is not yet the end.
   if (plant.presses) return last || change <= 1.0e-4 * settings_.tolerance;
