@@ -1,6 +1,7 @@
 #include "cosserat/capsules.h"
 
 #include <algorithm>
+#include <cstdint>
 
 // Compiled once for each instruction set, as lane_kernels.cpp is.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -98,6 +99,25 @@ void Measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, s
   }
 }
 
+// Returns how many pairs were looked at: all but those that do not fill a vector.
+std::size_t Sift(const CapsulePairs& from, double open, const std::vector<double>& reach,
+                 CapsulePairs& kept) {
+  const D d;
+  const std::size_t width = hn::MaxLanes(d);
+  std::size_t i = 0;
+  for (; i + width <= from.size(); i += width) {
+    const IndexVector a = load_indices(&from.a[i]), b = load_indices(&from.b[i]);
+    const V reached = hn::GatherIndex(d, reach.data(), a) + hn::GatherIndex(d, reach.data(), b);
+    const M near = hn::LoadU(d, &from.gap[i]) <= set(open) + reached;
+    if (hn::AllFalse(d, near)) continue;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, near, bits);
+    for (unsigned left = bits[0]; left != 0; left &= left - 1)
+      kept.add(from, i + __builtin_ctz(left));
+  }
+  return i;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pedicel::cosserat
 HWY_AFTER_NAMESPACE();
@@ -107,21 +127,24 @@ namespace pedicel::cosserat {
 
 HWY_EXPORT(Measure);
 
+HWY_EXPORT(Sift);
+
 // Pairs of the first capsule with itself fill the last vector up.
 void measure(const Capsules& capsules, CapsulePairs& pairs, const PartedLoop& loop) {
   const std::size_t count = pairs.size();
-  const auto resize = [&](std::size_t size) {
-    pairs.a.resize(size);
-    pairs.b.resize(size);
-    pairs.at_a.resize(size);
-    pairs.at_b.resize(size);
-    pairs.gap.resize(size);
-  };
-  resize((count + lane_count - 1) / lane_count * lane_count);
+  pairs.resize((count + lane_count - 1) / lane_count * lane_count);
   loop.run(count, loop.parts(count, worth_waking), [&](int, std::size_t first, std::size_t end) {
     HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs, first, end);
   });
-  resize(count);
+  pairs.resize(count);
+}
+
+void sift(const CapsulePairs& from, double open, const std::vector<double>& reach,
+          CapsulePairs& kept) {
+  kept.clear();
+  std::size_t i = HWY_DYNAMIC_DISPATCH(Sift)(from, open, reach, kept);
+  for (; i < from.size(); ++i)
+    if (from.gap[i] <= open + (reach[from.a[i]] + reach[from.b[i]])) kept.add(from, i);
 }
 
 void Capsules::resize(std::size_t count) {
@@ -136,11 +159,25 @@ void Capsules::resize(std::size_t count) {
 void CapsulePairs::clear() {
   a.clear();
   b.clear();
+  gap.clear();
+}
+
+void CapsulePairs::resize(std::size_t count) {
+  a.resize(count);
+  b.resize(count);
+  at_a.resize(count);
+  at_b.resize(count);
+  gap.resize(count);
 }
 
 void CapsulePairs::add(int first, int second) {
   a.push_back(first);
   b.push_back(second);
+}
+
+void CapsulePairs::add(const CapsulePairs& from, std::size_t pair) {
+  add(from.a[pair], from.b[pair]);
+  gap.push_back(from.gap[pair]);
 }
 
 NearestFractions nearest_fractions(const Vec3& start_a, const Vec3& along_a, const Vec3& start_b,

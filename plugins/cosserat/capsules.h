@@ -40,10 +40,17 @@ struct CapsulePairs {
 
   std::size_t size() const { return a.size(); }
   void clear();
+  void resize(std::size_t count);
   void add(int first, int second);
+  void add(const CapsulePairs& from, std::size_t pair);  // measured: with the gap
 };
 
 /// Sets at_a, at_b and gap of all pairs, several at a time: nearest_fractions() up to rounding.
 void measure(const Capsules& capsules, CapsulePairs& pairs, const PartedLoop& loop = {});
+
+/// Makes `kept` those of the measured pairs whose gap is not above `open` + reach[a] + reach[b]
+/// (m), in their order, with their gaps.
+void sift(const CapsulePairs& from, double open, const std::vector<double>& reach,
+          CapsulePairs& kept);
 
 }  // namespace pedicel::cosserat

@@ -17,10 +17,10 @@ constexpr double straight_turn = 0.03;       // rad
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
-// Of a plant's contact with itself, rad or element lengths:
-constexpr double settled_contact = 5.0e-3;  // the next step may do the rest
-constexpr double rough_self_contact = 0.05;
-constexpr double stalled_gain = 0.9;  // more iterations do not help
+// Of a plant's contact with itself:
+constexpr double rough_self_contact = 10.0;  // times the tolerance
+constexpr double stalled_gain = 0.9;         // more iterations do not help
+constexpr double left_over = 0.6;            // times the tolerance: of what is left by the series
 
 bool any(const std::vector<char>& flags) {
   return std::find(flags.begin(), flags.end(), 1) != flags.end();
@@ -97,6 +97,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.extra_energy = 0.0;
     plant.last_change = 0.0;
     plant.presses = false;
+    plant.iterate_is_here = false;
   }
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
@@ -201,7 +202,7 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     if (!wanted(p)) return;
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
-    rows_.write_iterate(p, plant.iterate);
+    if (!plant.iterate_is_here) rows_.write_iterate(p, plant.iterate);
     for (ContactSource* source : steps[p].contacts) source->use(inner);
     plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
     for (ContactSource* source : steps[p].contacts) source->use(nullptr);
@@ -273,6 +274,7 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
   // Rounding of the sum is the only ascent allowed.
   if (plant.share == 0.0 || found <= plant.energy + 1.0e-12 * (1.0 + std::abs(plant.energy))) {
     searching_[index] = 0;
+    plant.iterate_is_here = plant.touched;
     return;
   }
   plant.share *= 0.5;
@@ -302,18 +304,21 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   // smooth motion: cut short, the stem may end inside a thin link.
   const bool with_itself = plant.presses && plant.contacts.only_with_itself();
   const double moved = std::max(plant.change.turn, plant.change.shift);
+  const double settled = settings_.self_contact_tolerance;
   const bool rough_contact =
-      plant.presses &&
-      (with_itself ? moved > rough_self_contact && gain < stalled_gain : change > converged_change);
+      plant.presses && (with_itself ? moved > rough_self_contact * settled && gain < stalled_gain
+                                    : change > converged_change);
   const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
   const bool last = report.iterations >= most;
-  if (last && (with_itself ? moved > settled_contact : change > converged_change))
-    report.errors |= not_converged;
   // Self-contact leaves its coupling out of the Hessian: what the last iterations would do is below
   // what can be seen, and would cost most of the time.
+  const bool is_settled =
+      moved <= settled || (gain < 1.0 && gain / (1.0 - gain) * moved <= left_over * settled);
+  if (last && (with_itself ? !is_settled : change > converged_change))
+    report.errors |= not_converged;
   if (with_itself) {
-    plant.smooth = moved <= settled_contact;
-    return last || (plant.smooth && !first);
+    plant.smooth = is_settled;
+    return last || (is_settled && !first);
   }
   // Contacts are found anew in every iteration: there a small change is not yet the end.
   if (plant.presses) return last || change <= 1.0e-4 * settings_.tolerance;

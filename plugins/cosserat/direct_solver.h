@@ -72,6 +72,7 @@ class DirectSolver : public RodSolver {
     std::unique_ptr<BlockSystem> loops;  // where the plant has welds
     bool touched = false;                // by loads, supports, welds or contact sources
     RodState iterate;                    // where touched
+    bool iterate_is_here = false;        // where the line search ended
     bool presses = false;                // a contact did, in this iteration
     bool has_history = false;
     bool smooth = false;                      // the last step was solved to the tolerance

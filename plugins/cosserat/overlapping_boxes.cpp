@@ -17,9 +17,9 @@
 #ifndef PEDICEL_COSSERAT_OVERLAPPING_BOXES
 #define PEDICEL_COSSERAT_OVERLAPPING_BOXES
 namespace pedicel::cosserat {
-using Sides = std::array<std::vector<double>, 3>;
+using Sides = std::array<std::vector<float>, 3>;
 using Pairs = std::vector<std::pair<int, int>>;
-using Order = std::vector<std::pair<double, int>>;
+constexpr std::size_t most_floats = 16;  // of a vector
 }  // namespace pedicel::cosserat
 #endif
 
@@ -27,29 +27,29 @@ HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
 
-// Compares each box with those that begin before it ends, several at a time.
-void Sweep(const Order& order, const Sides& low, const Sides& high, std::size_t first,
-           std::size_t last, Pairs& pairs) {
-  const D d;
-  const std::size_t width = hn::MaxLanes(d);
+// Compares each box with those that begin before it ends, several at a time: their places in order.
+void Sweep(const Sides& low, const Sides& high, std::size_t first, std::size_t last, Pairs& pairs) {
+  const hn::CappedTag<float, most_floats> d;
+  const std::size_t width = hn::Lanes(d);
+  std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
-    const V end = set(high[0][i]);
-    const V low1 = set(low[1][i]), high1 = set(high[1][i]);
-    const V low2 = set(low[2][i]), high2 = set(high[2][i]);
-    for (std::size_t j = i + 1; j < order.size() && low[0][j] <= high[0][i]; j += width) {
-      const auto at = [&](const std::vector<double>& side) { return hn::LoadU(d, &side[j]); };
-      const M beside =
+    const auto low1 = hn::Set(d, low[1][i]), high1 = hn::Set(d, high[1][i]);
+    const auto low2 = hn::Set(d, low[2][i]), high2 = hn::Set(d, high[2][i]);
+    const auto end = hn::Set(d, high[0][i]);
+    for (std::size_t j = i + 1; low[0][j] <= high[0][i]; j += width) {
+      const auto at = [&](const std::vector<float>& side) { return hn::LoadU(d, &side[j]); };
+      const auto beside =
           hn::And(hn::And(at(low[1]) <= high1, at(high[1]) >= low1), at(low[0]) <= end);
-      const M overlap = hn::And(hn::And(at(low[2]) <= high2, at(high[2]) >= low2), beside);
+      const auto overlap = hn::And(hn::And(at(low[2]) <= high2, at(high[2]) >= low2), beside);
       if (hn::AllFalse(d, overlap)) continue;
       std::uint8_t bits[8] = {};
       hn::StoreMaskBits(d, overlap, bits);
-      for (unsigned left = bits[0]; left != 0; left &= left - 1) {
-        const int a = order[i].second, b = order[j + __builtin_ctz(left)].second;
-        pairs.emplace_back(std::min(a, b), std::max(a, b));
-      }
+      if (count + most_floats > pairs.size()) pairs.resize(2 * count + 64 * most_floats);
+      for (unsigned left = bits[0] | bits[1] << 8; left != 0; left &= left - 1)
+        pairs[count++] = {static_cast<int>(i), static_cast<int>(j) + __builtin_ctz(left)};
     }
   }
+  pairs.resize(count);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -70,29 +70,56 @@ void OverlappingBoxes::find(std::span<const Eigen::AlignedBox3d> boxes, Pairs& p
   if (all.isEmpty()) return;
   int axis = 0;
   all.sizes().maxCoeff(&axis);
-  sort_along(axis, boxes);
+  sort_along(axis, all, boxes);
   const int parts = loop.parts(order_.size(), 128);
   loop.run(order_.size(), parts, [&](int part, std::size_t first, std::size_t end) {
-    found_[part].clear();
-    HWY_DYNAMIC_DISPATCH(Sweep)(order_, low_, high_, first, end, found_[part]);
+    HWY_DYNAMIC_DISPATCH(Sweep)(low_, high_, first, end, found_[part]);
+    for (auto& [i, j] : found_[part]) {
+      const int a = order_[i].box, b = order_[j].box;
+      i = std::min(a, b);
+      j = std::max(a, b);
+    }
   });
   for (int part = 0; part < parts; ++part)
     pairs.insert(pairs.end(), found_[part].begin(), found_[part].end());
 }
 
-void OverlappingBoxes::sort_along(int axis, std::span<const Eigen::AlignedBox3d> boxes) {
+// By a key of 16 bits; the low end swept along is that of the key, at or below the box's.
+void OverlappingBoxes::sort_along(int axis, const Eigen::AlignedBox3d& all,
+                                  std::span<const Eigen::AlignedBox3d> boxes) {
+  constexpr double keys = 65535.0;
+  const double start = all.min()[axis], step = all.sizes()[axis] / keys;
+  const double per_step = step > 0.0 ? 1.0 / step : 0.0;
   order_.clear();
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
-    if (!boxes[i].isEmpty()) order_.emplace_back(boxes[i].min()[axis], i);
-  std::sort(order_.begin(), order_.end());
+    if (!boxes[i].isEmpty())
+      order_.push_back({static_cast<unsigned>((boxes[i].min()[axis] - start) * per_step), i});
+  sort_by_key();
+  const Vec3 middle = all.center();
+  const double rounding = 2.0e-6 * all.sizes().maxCoeff();  // float's is 6e-8 of half the size
   for (int k = 0; k < 3; ++k) {
     // What a vector holds beyond the last box begins after every other.
-    low_[k].assign(order_.size() + lane_count, std::numeric_limits<double>::infinity());
-    high_[k].assign(order_.size() + lane_count, std::numeric_limits<double>::infinity());
+    low_[k].assign(order_.size() + most_floats, std::numeric_limits<float>::infinity());
+    high_[k].assign(order_.size() + most_floats, std::numeric_limits<float>::infinity());
+    const int from = (axis + k) % 3;
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      low_[k][i] = boxes[order_[i].second].min()[(axis + k) % 3];
-      high_[k][i] = boxes[order_[i].second].max()[(axis + k) % 3];
+      const Eigen::AlignedBox3d& box = boxes[order_[i].box];
+      const double low = k == 0 ? start + order_[i].key * step : box.min()[from];
+      low_[k][i] = static_cast<float>(low - middle[from] - rounding);
+      high_[k][i] = static_cast<float>(box.max()[from] - middle[from] + rounding);
     }
+  }
+}
+
+// Two passes of counting, eight bits each.
+void OverlappingBoxes::sort_by_key() {
+  other_order_.resize(order_.size());
+  for (const int shift : {0, 8}) {
+    std::array<int, 257> places{};
+    for (const Place& place : order_) ++places[(place.key >> shift & 255) + 1];
+    for (int i = 0; i < 256; ++i) places[i + 1] += places[i];
+    for (const Place& place : order_) other_order_[places[place.key >> shift & 255]++] = place;
+    order_.swap(other_order_);
   }
 }
 

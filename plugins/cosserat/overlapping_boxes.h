@@ -10,8 +10,9 @@
 
 namespace pedicel::cosserat {
 
-/// Pairs of boxes that overlap, found by sweeping along the longest axis of them all. Does not
-/// allocate once warm.
+/// Pairs of boxes that overlap, found by sweeping along the longest axis of them all, in single
+/// precision: boxes nearer than some 1e-5 of the size of them all may count as overlapping, too.
+/// Does not allocate once warm.
 class OverlappingBoxes {
  public:
   /// Replaces `pairs` with all (i, j), i < j, each once, in an order that depends on the boxes
@@ -20,11 +21,18 @@ class OverlappingBoxes {
             const PartedLoop& loop = {});
 
  private:
-  void sort_along(int axis, std::span<const Eigen::AlignedBox3d> boxes);
+  struct Place {
+    unsigned key;  // of the low end along the axis swept
+    int box;
+  };
+  void sort_along(int axis, const Eigen::AlignedBox3d& all,
+                  std::span<const Eigen::AlignedBox3d> boxes);
+  void sort_by_key();
 
-  std::vector<std::pair<double, int>> order_;  // low end along the axis swept, box
-  // In that order, with a vector's worth beyond the last; the axis swept along is the first.
-  std::array<std::vector<double>, 3> low_, high_;
+  std::vector<Place> order_, other_order_;
+  // In that order, m from the middle of them all, with a vector's worth beyond the last; the axis
+  // swept along is the first.
+  std::array<std::vector<float>, 3> low_, high_;
   std::array<std::vector<std::pair<int, int>>, PartedLoop::most_parts> found_;  // by part
 };
 

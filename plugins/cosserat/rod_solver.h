@@ -21,6 +21,10 @@ struct RodSettings {
   int newton_iterations = 4;                 ///< 1, at most, a step
   /// 1, Newton stops when it expects to be nearer than this (m and rad) to the step's solution.
   double tolerance = 1.0e-5;
+  /// rad or element lengths: a step of a plant that touches only itself is solved when an
+  /// iteration, from the second on, turns and shifts its elements by less, or leaves less than 0.6
+  /// of it by the series of its gain. No parameter: what it is worth is tested at this value.
+  double self_contact_tolerance = 5.0e-3;
   int iterations = 5;  ///< 1, position-based: Gauss-Seidel sweeps a sub-step
   int substeps = 1;    ///< 1, position-based
 };

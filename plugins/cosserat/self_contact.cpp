@@ -54,6 +54,7 @@ SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& setti
   for (std::size_t i = 0; i < far_.pairs.size(); ++i)
     if (far_.pairs.gap[i] < settings_.margin)
       excluded_.emplace_back(far_.pairs.a[i], far_.pairs.b[i]);
+  std::sort(excluded_.begin(), excluded_.end());
   collect_far(model);
   work_ = {};
 }

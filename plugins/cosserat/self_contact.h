@@ -81,6 +81,7 @@ class SelfContact : public ContactSource {
   void collect_near(const RodModel& model);
   bool far_list_holds();
   void collect_far(const RodModel& model);
+  void leave_out_neighbours(const RodModel& model);
   double moved_apart(int a, int b) const;
   void touch_some(const RodModel& model, const RodState& state, double dt, std::size_t first,
                   std::size_t end, std::vector<ContactPoint>& found) const;
@@ -100,7 +101,7 @@ class SelfContact : public ContactSource {
   Capsules start_, now_;                       // the shapes, at the step's start and at the iterate
   std::vector<double> way_;                    // m, by shape: of an end in this step, at most
   std::vector<double> reach_;                  // m, by shape: of the way still open to it
-  List far_, near_;                            // ascending; far_'s gaps are those at its reference
+  List far_, near_;                            // near_ is ascending; far_'s gaps: at its reference
   bool near_list_made_ = false;                // in this step
   CapsulePairs measured_;                      // scratch
   std::vector<std::pair<int, int>> candidates_;  // scratch

@@ -1,6 +1,7 @@
 // The lists of pairs that SelfContact keeps.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "cosserat/self_contact.h"
 
@@ -84,21 +85,20 @@ void SelfContact::collect_near(const RodModel& model) {
     collect_far(model);
     far_list_holds();
   }
-  measured_.clear();
-  const CapsulePairs& far = far_.pairs;
-  for (std::size_t i = 0; i < far.size(); ++i)
-    if (far.gap[i] <= settings_.margin + reach_[far.a[i]] + reach_[far.b[i]])
-      measured_.add(far.a[i], far.b[i]);
+  sift(far_.pairs, settings_.margin, reach_, measured_);
   measure(now_, measured_, loop_);
   work_.pairs += static_cast<long>(measured_.size());
-  near_.pairs.clear();
+  candidates_.clear();
   for (std::size_t i = 0; i < measured_.size(); ++i) {
     const int a = measured_.a[i], b = measured_.b[i];
     const double open = settings_.margin + 2.0 * (near_.budget[a] + near_.budget[b]);
     if (measured_.gap[i] <= open + way_[a] + way_[b] &&
         measured_.gap[i] <= open + moved_apart(a, b))
-      near_.pairs.add(a, b);
+      candidates_.emplace_back(a, b);
   }
+  sort_(candidates_, static_cast<int>(now_.size()));
+  near_.pairs.clear();
+  for (const auto& [a, b] : candidates_) near_.pairs.add(a, b);
   near_.reference = now_;
   near_list_made_ = true;
 }
@@ -128,22 +128,28 @@ void SelfContact::collect_far(const RodModel& model) {
     boxes_[i].max().array() += wide;
   }
   overlapping_.find(boxes_, candidates_, loop_);
-  measured_.clear();
-  for (const auto& [a, b] : candidates_) measured_.add(a, b);
+  measured_.resize(candidates_.size());
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    std::tie(measured_.a[i], measured_.b[i]) = candidates_[i];
   measure(now_, measured_, loop_);
-  candidates_.clear();
-  for (std::size_t i = 0; i < measured_.size(); ++i) {
-    const int a = measured_.a[i], b = measured_.b[i];
-    if (measured_.gap[i] > settings_.margin + far_.budget[a] + far_.budget[b]) continue;
-    if (is_near_in_graph(model, parent_, model.shapes[a].element, model.shapes[b].element))
+  sift(measured_, settings_.margin, far_.budget, far_.pairs);
+  leave_out_neighbours(model);
+}
+
+// Shapes that are near in the tree, and those that nearly touch as drawn.
+void SelfContact::leave_out_neighbours(const RodModel& model) {
+  CapsulePairs& pairs = far_.pairs;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const int a = pairs.a[i], b = pairs.b[i];
+    if (is_near_in_graph(model, parent_, model.shapes[a].element, model.shapes[b].element) ||
+        std::binary_search(excluded_.begin(), excluded_.end(), std::pair(a, b)))
       continue;
-    if (!std::binary_search(excluded_.begin(), excluded_.end(), std::pair(a, b)))
-      candidates_.emplace_back(a, b);
+    pairs.a[kept] = a;
+    pairs.b[kept] = b;
+    pairs.gap[kept++] = pairs.gap[i];
   }
-  sort_(candidates_, static_cast<int>(now_.size()));
-  far_.pairs.clear();
-  for (const auto& [a, b] : candidates_) far_.pairs.add(a, b);
-  measure(now_, far_.pairs, loop_);
+  pairs.resize(kept);
 }
 
 // How far two capsules have moved against each other in this step, at most, wherever on them.
