@@ -18,17 +18,19 @@ constexpr double clear_margin = 5.0;   // nats by which a rival must lose
 constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
 constexpr double most_margin = 20.0;   // nats, of that
 // Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
-constexpr double least_parameter_change = 0.002;
+constexpr double least_parameter_change = 0.0015;
 // Wild samples that are worth a name: so many, and of all samples (a swing that starts within a
 // sample makes a few).
 constexpr int least_outliers = 12;
 constexpr double least_outlier_share = 0.0015;
 
-// How far a factor is from 1 in its deviations; 0 where our own errors may have moved it so far.
-double deviations(const Findings& findings, const FitSummary& model, const std::string& name) {
+// How far a factor that is needed is from 1 in its deviations; 0 where our own errors may have
+// moved it so far.
+double deviations(const Findings& findings, const FitSummary& base, const std::string& name) {
+  const FitSummary& model = findings.needed.model;
   const int p = model.hypothesis.factor_on(name);
   const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
-  const int shifted = findings.needed.model.hypothesis.factor_on(name);
+  const int shifted = base.hypothesis.factor_on(name);
   const double shift = shifted >= 0 && shifted < findings.parameter_shift.size()
                            ? left_uncorrected * std::abs(findings.parameter_shift[shifted])
                            : 0.0;
@@ -56,7 +58,7 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   const NeededParameters& needed = findings.needed;
   for (const std::string& name : needed.names) {
-    const double off = deviations(findings, needed.model, name);
+    const double off = deviations(findings, diagnosis.base, name);
     if (off != 0.0)
       verdict.causes.push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
   }
@@ -130,7 +132,9 @@ void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effec
     if (!rival.whole || rival.evidence < 0.0) break;
     const bool beaten = behind > margin && !wins_without_a_trial(findings, rival, best);
     if (beaten || findings.chain.size() > 1 || contains(rival, best)) {
-      verdict.rivals.push_back({rival.cause, behind});
+      const bool found = std::ranges::any_of(
+          findings.chain, [&](const Candidate& named) { return named.cause == rival.cause; });
+      if (!found) verdict.rivals.push_back({rival.cause, behind});
       continue;
     }
     verdict.causes.push_back(findings.named(rival, rival.fit, base_effects, verdict.fit));

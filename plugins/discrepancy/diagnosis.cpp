@@ -292,7 +292,8 @@ class Procedure {
     findings_.symptoms = symptoms(experiment(), setup_->data(), result_.predictions[refitted]);
     if (findings_.chain.empty()) {
       Evaluator evaluator = setup_->evaluator();
-      findings_.needed = needed_parameters(evaluator, result_.base, causes_, fit_options());
+      findings_.needed =
+          needed_parameters(evaluator, result_.base, causes_, fit_options(), result_.check_trials);
     }
     conclude(findings_, result_);
     if (result_.verdict.outcome == Outcome::unknown)

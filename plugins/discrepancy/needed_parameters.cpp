@@ -10,6 +10,7 @@ namespace {
 
 // Nats: 3.5 standard deviations, because three parameters share the few false alarms allowed.
 constexpr double least_cost = 0.5 * 3.5 * 3.5;
+constexpr double objection = 3.0;     // nats
 constexpr double clear_margin = 5.0;  // nats by which another one must be worse
 
 // At its nominal value for good.
@@ -18,6 +19,17 @@ Hypothesis without(const Hypothesis& model, int parameter) {
   less.set_value(parameter, 1.0);
   less.free.erase(less.free.begin() + parameter);
   return less;
+}
+
+// Whether trials that it was not fitted to say that the nominal values are better.
+bool is_refuted(Evaluator& evaluator, const NeededParameters& needed, FitOptions options,
+                const std::vector<int>& check) {
+  Hypothesis nominal = needed.model.hypothesis;
+  for (const std::string& name : needed.names) nominal.set_value(nominal.factor_on(name), 1.0);
+  options.trials = check;
+  const std::vector<Hypothesis> models{nominal, needed.model.hypothesis};
+  const Scan found = scan(evaluator, models, options);
+  return found.cost[1] - found.cost[0] > objection;
 }
 
 // Density in place of modulus, or the other way round, so that a free swing stays as it is.
@@ -52,7 +64,8 @@ std::vector<Hypothesis> damped_by(const Cause& law, const FitSummary& model) {
 }  // namespace
 
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
-                                   const std::vector<Cause>& causes, const FitOptions& options) {
+                                   const std::vector<Cause>& causes, const FitOptions& options,
+                                   const std::vector<int>& check) {
   NeededParameters needed;
   needed.model = base;
   for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
@@ -64,6 +77,7 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
     else
       needed.model = std::move(found);
   }
+  if (!check.empty() && is_refuted(evaluator, needed, options, check)) needed.names.clear();
   const auto ask = [&](const std::vector<Hypothesis>& starts) {
     if (starts.empty()) return;
     FitSummary found = fit(evaluator, starts[scan(evaluator, starts, options).best], options);

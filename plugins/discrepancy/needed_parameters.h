@@ -21,8 +21,10 @@ struct NeededParameters {
 /// Each in turn is put back to its nominal value and everything else refitted; it is needed where
 /// that costs more than noise may. Where two of them say nearly the same (modulus and density of a
 /// free swing), standard errors do not tell; the one that plants differ in less, put back first,
-/// is not blamed alone. `causes` are all that are known.
+/// is not blamed alone. None is needed where the trials kept back (`check`, may be empty) are
+/// clearly against all of them. `causes` are all that are known.
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
-                                   const std::vector<Cause>& causes, const FitOptions& options);
+                                   const std::vector<Cause>& causes, const FitOptions& options,
+                                   const std::vector<int>& check = {});
 
 }  // namespace pedicel::discrepancy
