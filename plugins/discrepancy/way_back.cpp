@@ -8,6 +8,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double believed = 2.0;     // deviations
+constexpr double least_way = 0.5;    // deviations that are worth going back
 constexpr double most_unlike = 0.3;  // of the change that a factor's way back makes
 constexpr std::size_t most_starts = 2;
 constexpr double largest_step = 0.1;  // of a logarithm
@@ -16,15 +17,15 @@ constexpr int step_iterations = 3;
 constexpr double lost = 1.5;  // times the base's cost
 constexpr double no_change = 1.0e-12;
 
-// How far back it is for each unknown; 0 for those that are not pulled.
-Eigen::VectorXd way_of(const Hypothesis& model) {
+// How far back it is for each unknown; 0 for those that are within so many deviations.
+Eigen::VectorXd way_of(const Hypothesis& model, double deviations) {
   Eigen::VectorXd way = Eigen::VectorXd::Zero(model.size());
   const Eigen::VectorXd u = model.unknowns();
   for (int p = 0; p < model.size(); ++p) {
     const FreeParameter& free = model.free[p];
     if (free.name != "factor" || free.prior <= 0.0) continue;
     const double step = free.to_unknown(free.prior_centre) - u[p];
-    if (std::abs(step) > believed * free.prior) way[p] = step;
+    if (std::abs(step) > deviations * free.prior) way[p] = step;
   }
   return way;
 }
@@ -89,12 +90,12 @@ Hypothesis grown(const Hypothesis& model, const FitSummary& base, double factor)
 }  // namespace
 
 bool is_pulled(const Hypothesis& model) {
-  return (way_of(model).array() != 0.0).any();
+  return (way_of(model, believed).array() != 0.0).any();
 }
 
 std::vector<Direction> likest_way_back(const FitSummary& base, const std::string& cause,
                                        const std::vector<Direction>& directions) {
-  const Eigen::VectorXd way = way_of(base.hypothesis);
+  const Eigen::VectorXd way = way_of(base.hypothesis, least_way);
   if ((way.array() == 0.0).all()) return {};
   const Eigen::VectorXd change = change_of(base, way, 1.0);
   std::vector<std::pair<double, const Direction*>> like;
@@ -112,7 +113,7 @@ std::vector<Direction> likest_way_back(const FitSummary& base, const std::string
 
 std::optional<FitSummary> walk_back(Evaluator& evaluator, const FitSummary& base,
                                     const Direction& cause, const FitOptions& options) {
-  const Eigen::VectorXd way = way_of(base.hypothesis);
+  const Eigen::VectorXd way = way_of(base.hypothesis, least_way);
   const int steps =
       std::max(1, static_cast<int>(std::ceil(way.cwiseAbs().maxCoeff() / largest_step)));
   const auto change_at = [&](int step) {

@@ -18,7 +18,7 @@ namespace pedicel::discrepancy {
 bool is_pulled(const Hypothesis& model);
 
 /// The starts of a cause whose change looks like the pulled factor's own way back, the likest
-/// first, two at most; empty where no factor is pulled.
+/// first, two at most; empty where no factor is half a deviation away.
 std::vector<Direction> likest_way_back(const FitSummary& base, const std::string& cause,
                                        const std::vector<Direction>& directions);
 

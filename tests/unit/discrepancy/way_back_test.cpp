@@ -88,7 +88,7 @@ TEST(WayBack, FindsTheMassThatPulledDensity) {
 
 TEST(WayBack, IsNotGoneWhereNothingIsPulled) {
   Weighted weighted;
-  weighted.base.hypothesis.set_value(weighted.base.hypothesis.factor_on("density"), 1.15);
+  weighted.base.hypothesis.set_value(weighted.base.hypothesis.factor_on("density"), 1.04);
   EXPECT_FALSE(is_pulled(weighted.base.hypothesis));
   EXPECT_TRUE(likest_way_back(weighted.base, "extra_mass", weighted.directions).empty());
 }
