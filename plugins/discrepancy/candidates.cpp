@@ -59,7 +59,9 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
 FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
                     const std::vector<Hypothesis>& starts, const FitOptions& options) {
   FitOptions look = options, rest = options;
-  look.iterations = std::min(look_iterations, options.iterations);
+  // Between places there are ridges, on which many steps are tried in vain.
+  const bool to_the_end = has_place(starts.front());
+  if (!to_the_end) look.iterations = std::min(look_iterations, options.iterations);
   rest.iterations = options.iterations - look.iterations;
   std::vector<FitSummary> found;
   std::vector<double> closeness;
@@ -68,7 +70,7 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
     closeness.push_back(-objective(found.back()));
   }
   FitSummary best;
-  for (const int i : first_by(closeness, leading_starts))
+  for (const int i : first_by(closeness, to_the_end ? 1 : leading_starts))
     keep_better(best, rest.iterations > 0 ? refit(evaluator, found[i], rest) : std::move(found[i]));
   const Scan scanned = scan(evaluator, starts, options);
   if (scanned.cost[scanned.best] >= base.cost)

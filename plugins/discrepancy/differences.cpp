@@ -7,7 +7,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double wanted_change = 5.0;  // noise units
-constexpr double most_over = 10.0;     // of the size wanted
+constexpr double most_over = 2.5;      // of the size wanted
 constexpr double first_size = 0.01, least_size = 1.0e-4, most_size = 0.05;
 
 }  // namespace
