@@ -176,8 +176,7 @@ class Refits {
       promise_gains();
     choose_whole(promise_);
     for (std::size_t i = 0; i < causes_.size(); ++i)
-      if (!likest_way_back(base_, causes_[i].name, directions_).empty())
-        candidates_[i].whole = true;
+      if (!ways_back(causes_[i].name).empty()) candidates_[i].whole = true;
     std::vector<int> whole;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
@@ -254,9 +253,15 @@ class Refits {
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     candidate.fit = best_fit(evaluator, base_, starts, few);
-    for (const Direction& start : likest_way_back(base_, candidate.cause, directions_))
+    for (const Direction& start : ways_back(candidate.cause))
       if (auto found = walk_back(evaluator, base_, start, few))
         keep_better(candidate.fit, std::move(*found));
+  }
+
+  // What a base that misses the data is pulled by says nothing.
+  std::vector<Direction> ways_back(const std::string& cause) const {
+    if (2.0 * base_.cost > small_residual * samples_) return {};
+    return likest_way_back(base_, cause, directions_);
   }
 
   // A cause that has another one as a special case does at least as well: it goes on from there.

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double believed = 2.0;     // deviations
 constexpr double least_way = 0.5;    // deviations that are worth going back
-constexpr double most_unlike = 0.3;  // of the change that a factor's way back makes
+constexpr double most_unlike = 0.1;  // of the change that a factor's way back makes
 constexpr std::size_t most_starts = 2;
 constexpr double largest_step = 0.1;  // of a logarithm
 constexpr double held_to = 0.02;      // deviation of a factor on its way
-constexpr int step_iterations = 3;
+constexpr int step_iterations = 3, most_steps = 10;
 constexpr double lost = 1.5;  // times the base's cost
 constexpr double no_change = 1.0e-12;
 
@@ -114,8 +114,8 @@ std::vector<Direction> likest_way_back(const FitSummary& base, const std::string
 std::optional<FitSummary> walk_back(Evaluator& evaluator, const FitSummary& base,
                                     const Direction& cause, const FitOptions& options) {
   const Eigen::VectorXd way = way_of(base.hypothesis, least_way);
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(way.cwiseAbs().maxCoeff() / largest_step)));
+  const int steps = std::clamp(
+      static_cast<int>(std::ceil(way.cwiseAbs().maxCoeff() / largest_step)), 1, most_steps);
   const auto change_at = [&](int step) {
     return change_of(base, way, static_cast<double>(step) / steps);
   };
