@@ -129,9 +129,40 @@ TEST(HiddenCases, RefitFollowsFar) {
                      factor("damping_time", 0.7)};
   const Sight::Change change = sight.change(changed);
   EXPECT_LT(change.rest.norm(), 0.1);
-  EXPECT_NEAR(change.refit[0], -std::log(1.27), 0.01);
-  EXPECT_NEAR(change.refit[1], -std::log(1.25), 0.01);
-  EXPECT_NEAR(change.refit[2], -std::log(0.7), 0.01);
+  EXPECT_NEAR(change.refit[0], std::log(1.27), 0.01);
+  EXPECT_NEAR(change.refit[1], std::log(1.25), 0.01);
+  EXPECT_NEAR(change.refit[2], std::log(0.7), 0.01);
+}
+
+// Two modes share their stiffness, a mass at the node of the second changes the first alone, and
+// nothing measures a force: modulus and density together change nothing. A mass leaves more the
+// larger it is, though next to a density without bounds it would be none.
+TEST(HiddenCases, AMassStaysVisibleWhereNothingWeighs) {
+  const auto predict = [](const reference::Subject& subject) {
+    double modulus = 1, density = 1, mass = 0;
+    for (const plant::Effect& e : subject.effects) {
+      if (e.name == "youngs_modulus") modulus *= e.number("factor");
+      if (e.name == "density") density *= e.number("factor");
+      if (e.name == "extra_mass") mass += e.number("mass");
+    }
+    Eigen::VectorXd samples(500);
+    for (int i = 0; i < samples.size(); ++i)
+      samples[i] = 100 * std::cos(0.2 * i * std::sqrt(modulus / (density + mass))) +
+                   30 * std::cos(1.2 * i * std::sqrt(modulus / density));
+    return samples;
+  };
+  const Sight sight({}, predict, {"youngs_modulus", "density"});
+  double before = 0;
+  for (const double mass : {1e-3, 1e-2, 0.1}) {
+    reference::Subject heavy;
+    heavy.effects.emplace_back();
+    heavy.effects[0].name = "extra_mass";
+    heavy.effects[0].numbers["mass"] = {mass};
+    const Sight::Change change = sight.change(heavy);
+    EXPECT_GT(change.rest.norm(), before) << mass;
+    EXPECT_LT(change.refit.cwiseAbs().maxCoeff(), 1) << mass;
+    before = change.rest.norm();
+  }
 }
 
 // size_for() on norms in closed form: proportional, with a threshold, and never reached.

@@ -19,7 +19,7 @@ void append(const Eigen::MatrixXd& samples, double std, double rho, std::vector<
                            : (samples(i, c) - rho * samples(i - 1, c)) / innovation);
 }
 
-/// The least squares step on residual + columns step, its columns weighed down by `damping`, none
+/// The least squares step on residual - columns step, its columns weighed down by `damping`, none
 /// of its entries above longest_step.
 Eigen::VectorXd damped_step(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
                             double damping) {
@@ -30,7 +30,7 @@ Eigen::VectorXd damped_step(const Eigen::MatrixXd& columns, const Eigen::VectorX
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(1e-10);
   qr.compute(normal);
-  const Eigen::VectorXd step = qr.solve(-columns.transpose() * residual);
+  const Eigen::VectorXd step = qr.solve(columns.transpose() * residual);
   return step * std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
 }
 
@@ -53,18 +53,20 @@ plant::Effect factor(const std::string& parameter, double value) {
 }
 
 Sight::Sight(const reference::Subject& subject, Predict predict, std::vector<std::string> absorbing)
-    : predict_(std::move(predict)), absorbing_(std::move(absorbing)), plain_(predict_(subject)) {
-  columns_ = changes_by_factors(subject, Eigen::VectorXd::Zero(factors()));
-}
+    : subject_(subject),
+      predict_(std::move(predict)),
+      absorbing_(std::move(absorbing)),
+      plain_(predict_(subject)),
+      columns_(changes_by_factors(Eigen::VectorXd::Zero(factors()))) {}
 
-reference::Subject Sight::refitted(reference::Subject subject, const Eigen::VectorXd& refit) const {
+Eigen::VectorXd Sight::refitted(const Eigen::VectorXd& refit) const {
+  reference::Subject subject = subject_;
   for (int i = 0; i < factors(); ++i)
     subject.effects.push_back(factor(absorbing_[i], std::exp(refit[i])));
-  return subject;
+  return predict_(subject);
 }
 
-Eigen::MatrixXd Sight::changes_by_factors(const reference::Subject& subject,
-                                          const Eigen::VectorXd& refit) const {
+Eigen::MatrixXd Sight::changes_by_factors(const Eigen::VectorXd& refit) const {
   const double step = 0.003;
   Eigen::MatrixXd columns(plain_.size(), factors());
   const auto place = [&](const char* name) {
@@ -77,9 +79,7 @@ Eigen::MatrixXd Sight::changes_by_factors(const reference::Subject& subject,
     // as the sum of two large changes.
     Eigen::VectorXd along = step * Eigen::VectorXd::Unit(factors(), i);
     if (both && i == density) along[modulus] = step;
-    columns.col(i) =
-        (predict_(refitted(subject, refit + along)) - predict_(refitted(subject, refit - along))) /
-        (2.0 * step);
+    columns.col(i) = (refitted(refit + along) - refitted(refit - along)) / (2.0 * step);
   }
   if (both) columns.col(density) -= columns.col(modulus);
   return columns;
@@ -88,40 +88,41 @@ Eigen::MatrixXd Sight::changes_by_factors(const reference::Subject& subject,
 Sight::Change Sight::change(const reference::Subject& with, const Eigen::VectorXd& start) const {
   Change out;
   out.refit = start.size() ? start : Eigen::VectorXd::Zero(factors());
-  Eigen::VectorXd here = predict_(refitted(with, out.refit));
-  if (!here.allFinite()) {
+  const Eigen::VectorXd data = predict_(with);
+  Eigen::VectorXd here = start.size() ? refitted(start) : plain_;
+  if (!here.allFinite() || (data - plain_).squaredNorm() < (data - here).squaredNorm()) {
     out.refit.setZero();
-    here = predict_(with);
+    here = plain_;
   }
-  out.rest = here - plain_;
+  out.rest = data - here;
   if (factors() == 0) return out;
   Eigen::MatrixXd columns = columns_;
-  bool fresh = false;    // whether the columns were taken here
-  double damping = 0.0;  // Levenberg's
+  bool fresh = out.refit.isZero();  // whether the columns were taken here
+  double damping = 0.0;             // Levenberg's
   for (int k = 0; k < most_steps; ++k) {
     const Eigen::VectorXd step = damped_step(columns, out.rest, damping);
     const Eigen::VectorXd promised = columns * step;
     // What the line promises may be believed where it is small against what is left.
-    if (promised.norm() < 0.1 * (out.rest + promised).norm()) {
+    if (promised.norm() < 0.1 * (out.rest - promised).norm()) {
       if (fresh) {
-        out.rest += columns * damped_step(columns, out.rest, 0.0);
+        out.rest -= columns * damped_step(columns, out.rest, 0.0);
         break;
       }
-      columns = changes_by_factors(with, out.refit);
+      columns = changes_by_factors(out.refit);
       fresh = true;
       continue;
     }
-    const Eigen::VectorXd there = predict_(refitted(with, out.refit + step));
-    if (there.allFinite() && (there - plain_).squaredNorm() < out.rest.squaredNorm()) {
+    const Eigen::VectorXd there = refitted(out.refit + step);
+    if (there.allFinite() && (data - there).squaredNorm() < out.rest.squaredNorm()) {
       // Broyden's update: the columns that would have told this change.
       columns += (there - here - promised) * step.transpose() / step.squaredNorm();
       out.refit += step;
       here = there;
-      out.rest = here - plain_;
+      out.rest = data - here;
       fresh = false;
       damping *= 0.1;
     } else if (!fresh) {
-      columns = changes_by_factors(with, out.refit);
+      columns = changes_by_factors(out.refit);
       fresh = true;
     } else {
       damping = std::max(10.0 * damping, 1e-4);

@@ -28,8 +28,10 @@ class Sight {
   /// A refit may put a factor on each of the parameters `absorbing`.
   Sight(const reference::Subject& subject, Predict predict, std::vector<std::string> absorbing);
 
-  /// The whitened change with `with` in place of the subject that is left when the factors are
-  /// refitted to take as much of it away as they can: orthogonal to the changes by `absorbing`.
+  /// The whitened change with `with` in place of the subject that is left when the factors of the
+  /// subject are refitted to it: orthogonal to the changes by `absorbing`. (Not the other way round,
+  /// the factors of `with` refitted to the subject: where nothing measures a force, modulus and
+  /// density together would run off until a hidden mass is none.)
   /// Large changes need the refit itself: a frequency that is a little off fills a long record with
   /// the second order of its phase, which is no part of a linear projection, and modulus and
   /// density together go far where either alone hardly moves.
@@ -43,11 +45,12 @@ class Sight {
 
  private:
   int factors() const { return static_cast<int>(absorbing_.size()); }
-  reference::Subject refitted(reference::Subject subject, const Eigen::VectorXd& refit) const;
+  /// The data of the subject with these factors.
+  Eigen::VectorXd refitted(const Eigen::VectorXd& refit) const;
   /// Differences by the factors' logarithms about `refit`.
-  Eigen::MatrixXd changes_by_factors(const reference::Subject& subject,
-                                     const Eigen::VectorXd& refit) const;
+  Eigen::MatrixXd changes_by_factors(const Eigen::VectorXd& refit) const;
 
+  reference::Subject subject_;
   Predict predict_;
   std::vector<std::string> absorbing_;
   Eigen::VectorXd plain_;
