@@ -45,10 +45,8 @@ std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& 
   // A change of full size is too large to move along with.
   if (!direction.has_threshold)
     both.set_unknowns(base.hypothesis.unknowns() + allowed_step(base, -share * direction.absorbed));
-  both.add(direction.start.shrunk(share));
+  both.add(direction.start.shrunk(share).bounded());
   both.name = direction.cause;
-  // The bounds of what was added, too.
-  both.set_unknowns(both.unknowns());
   return both;
 }
 
@@ -153,9 +151,8 @@ std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitt
       own.effects[0].numbers["amplitude"] = {small_amplitude};
     Hypothesis both = base;
     both.set_unknowns(fitted.unknowns().head(base.size()));
-    both.add(own);
+    both.add(own.bounded());
     both.name = cause.name;
-    both.set_unknowns(both.unknowns());
     starts.push_back(std::move(both));
   }
   return starts;

@@ -142,8 +142,12 @@ class Procedure {
     coarse_at(result_.base);
     result_.directions = directions_at(result_.base);
     result_.before = judge(result_.directions, result_.base, numerical_, options_.seed);
-    if (could_be_junctions(result_.before) && quiet_with_junctions(result_.base))
+    if (could_be_junctions(result_.before) && quiet_with_junctions(result_.base)) {
       result_.before.raised = false;
+      // The base has more numbers now; a search for what pulled it starts from there.
+      coarse_at(result_.base);
+      result_.directions = directions_at(result_.base);
+    }
     result_.best = result_.base;
     log_.directions(result_.directions, result_.before);
   }

@@ -122,4 +122,11 @@ Hypothesis Hypothesis::shrunk(double share) const {
   return result;
 }
 
+Hypothesis Hypothesis::bounded() const {
+  Hypothesis result = *this;
+  for (int i = 0; i < size(); ++i)
+    result.set_value(i, std::clamp(value(i), free[i].low, free[i].high));
+  return result;
+}
+
 }  // namespace pedicel::discrepancy

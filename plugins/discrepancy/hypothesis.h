@@ -65,8 +65,10 @@ struct Hypothesis {
   /// Adds the effects and free parameters of another one behind its own.
   void add(const Hypothesis& other);
   /// The same with its sizes brought nearer to where its effects vanish: `share` 1 changes nothing,
-  /// 0 would be no effect at all.
+  /// 0 would be no effect at all; beyond 1 it may leave its bounds.
   Hypothesis shrunk(double share) const;
+  /// The same with every free value within its bounds.
+  Hypothesis bounded() const;
 };
 
 }  // namespace pedicel::discrepancy

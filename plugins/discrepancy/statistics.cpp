@@ -92,8 +92,7 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
     direction.has_threshold = size < no_change || direction.cause == "yield";
     const double share =
         direction.has_threshold ? full_size : std::clamp(wanted_change / size, 1.0e-4, 20.0);
-    direction.start = direction.start.shrunk(share);
-    direction.start.set_unknowns(direction.start.unknowns());  // within its bounds
+    direction.start = direction.start.shrunk(share).bounded();
     again.push_back(d);
   }
   measure_changes(evaluator, base, options, again, directions);

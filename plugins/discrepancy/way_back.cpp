@@ -81,9 +81,7 @@ Hypothesis grown(const Hypothesis& model, const FitSummary& base, double factor)
   Hypothesis result = model;
   result.effects.resize(known);
   result.free.resize(base.hypothesis.size());
-  result.add(added.shrunk(factor));
-  for (int p = 0; p < result.size(); ++p)
-    result.set_value(p, std::clamp(result.value(p), result.free[p].low, result.free[p].high));
+  result.add(added.shrunk(factor).bounded());
   return result;
 }
 
@@ -122,9 +120,8 @@ std::optional<FitSummary> walk_back(Evaluator& evaluator, const FitSummary& base
   FitOptions few = options;
   few.iterations = std::min(step_iterations, options.iterations);
   Hypothesis model = base.hypothesis;
-  model.add(cause.start.shrunk(taken_over(base, cause, change_at(1)).size));
+  model.add(cause.start.shrunk(taken_over(base, cause, change_at(1)).size).bounded());
   model.name = cause.cause;
-  model.set_unknowns(model.unknowns());
   for (int step = 1; step <= steps; ++step) {
     if (step > 1) model = grown(model, base, change_at(step).norm() / change_at(step - 1).norm());
     const Hypothesis held = at_part(model, base, way, static_cast<double>(step) / steps);

@@ -91,6 +91,19 @@ TEST(Directions, WithoutLengthSayNothing) {
   EXPECT_EQ(directions[0].statistic, 0.0);
 }
 
+// Made 20 times as large, a segment of 0.6 of the stiffness would have a negative one: without
+// bounds its logarithm is no number.
+TEST(Hypotheses, StayWithinTheirBoundsWhenSizesGrow) {
+  Hypothesis weak = hypothesis_of("weak_segment", "factor", 0.6, "1");
+  weak.free[0].vanishes = Vanishes::at_one;
+  weak.free[0].logarithmic = true;
+  weak.free[0].low = 0.01, weak.free[0].high = 10.0;
+  EXPECT_LT(weak.shrunk(20.0).value(0), 0.0);
+  EXPECT_EQ(weak.shrunk(20.0).bounded().value(0), 0.01);
+  EXPECT_TRUE(std::isfinite(weak.shrunk(20.0).bounded().unknowns()[0]));
+  EXPECT_EQ(weak.bounded().value(0), 0.6);
+}
+
 // The response is about linear: a direction of length 4 at a mass of 20 g is seen at 5 from 25 g.
 TEST(SmallestSeen, GoesWithTheSizeOfTheDirection) {
   Direction direction{"extra_mass", hypothesis_of("extra_mass", "mass", 0.02, "kg"), {}, {}};

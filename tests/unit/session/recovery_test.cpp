@@ -51,6 +51,11 @@ std::uint64_t killed_after(const SessionOptions& options,
   return hash;
 }
 
+void recover_the_one(Session& session) {
+  ASSERT_EQ(session.lost_documents().size(), 1u);
+  ASSERT_TRUE(session.recover(session.lost_documents()[0]));
+}
+
 TEST(Recovery, AKilledSessionLosesNothingThatWasDone) {
   TemporaryFolder folder;
   const std::uint64_t lost_hash = killed_after(saving(folder), [](Session& session) {
@@ -81,8 +86,7 @@ TEST(Recovery, OnlyTheGestureInHandIsLost) {
     must(session.run_text("move point p branch 2 0.2,0,0.1"));
   });
   Session session(saving(folder));
-  ASSERT_EQ(session.lost_documents().size(), 1u);
-  ASSERT_TRUE(session.recover(session.lost_documents()[0]));
+  recover_the_one(session);
   const plant::PlantFile& plant = session.document().plant("p");
   ASSERT_EQ(plant.curves.size(), 2u);
   EXPECT_EQ(plant.fruits.size(), 1u);
@@ -131,8 +135,7 @@ TEST(Recovery, WhatWasNeitherSavedNorGivenUpIsKept) {
     must(session.run_text("move point p branch 2 0.2,0,0.1"));
   }
   Session session(saving(folder));
-  ASSERT_EQ(session.lost_documents().size(), 1u);
-  ASSERT_TRUE(session.recover(session.lost_documents()[0]));
+  recover_the_one(session);
   EXPECT_EQ(session.document().plant("p").curves[1].points[2], Vec3(0.2, 0, 0.1));
   must(session.save(folder / "p.plant.yaml"));
   EXPECT_FALSE(session.dirty());
