@@ -274,11 +274,8 @@ class DataPanel : public Panel {
       ui.view.colours = residual ? ColourMap::residual : ColourMap::none;
     ImGui::Checkbox("Errors as arrows", &view.errors);
     ImGui::BeginDisabled(!view.errors);
-    float scale = static_cast<float>(view.error_scale);
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##scale", &scale, 1.0f, 100.0f, "drawn %.0f times as long",
-                           ImGuiSliderFlags_Logarithmic))
-      view.error_scale = scale;
+    slider(ui, "Lengthened", view.error_scale, 1.0, 100.0, "%.0f times",
+           ImGuiSliderFlags_Logarithmic);
     ImGui::EndDisabled();
   }
 

@@ -20,29 +20,16 @@ void radio_row(const Ui& ui, Choice& value, const std::array<const char*, count>
   }
 }
 
-/// A name with a slider beside it that shows `factor` times the value.
-void named_slider(const char* name, double& value, double factor, float low, float high,
-                  const char* format, ImGuiSliderFlags flags, const char* what) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name);
-  tip(what);
-  ImGui::SameLine(0.46f * ImGui::GetContentRegionMax().x);
-  ImGui::SetNextItemWidth(-1);
-  ImGui::PushID(name);
-  float shown = static_cast<float>(factor * value);
-  if (ImGui::SliderFloat("##value", &shown, low, high, format, flags)) value = shown / factor;
-  ImGui::PopID();
-  tip(what);
-}
-
 /// Millimetres for a length in metres.
-void millimetres(const char* name, double& metres, float low, float high, const char* what,
-                 const char* format = "%.1f mm") {
-  named_slider(name, metres, 1e3, low, high, format, ImGuiSliderFlags_Logarithmic, what);
+void millimetres(const Ui& ui, const char* name, double& metres, double low, double high,
+                 const char* what, const char* format = "%.1f mm") {
+  double shown = 1e3 * metres;
+  if (slider(ui, name, shown, low, high, format, ImGuiSliderFlags_Logarithmic, what))
+    metres = 1e-3 * shown;
 }
 
-void share(const char* name, double& value, const char* what) {
-  named_slider(name, value, 1.0, 0.0f, 1.0f, "%.2f", 0, what);
+void share(const Ui& ui, const char* name, double& value, const char* what) {
+  slider(ui, name, value, 0.0, 1.0, "%.2f", 0, what);
 }
 
 /// The draw mode and its options, with Blender's names.
@@ -62,7 +49,7 @@ class DrawPanel : public Panel {
     if (d.thing == DrawThing::stem) stem_options(ui, d);
     if (d.thing == DrawThing::fruit) fruit_options(ui, d);
     if (d.thing == DrawThing::leaf)
-      millimetres("Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
+      millimetres(ui, "Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
     heading(ui, "How");
     how(d.thing);
   }
@@ -110,14 +97,14 @@ class DrawPanel : public Panel {
   }
   static void stem_options(Ui& ui, DrawMode& d) {
     heading(ui, "Stroke");
-    millimetres("Tolerance", d.tolerance, 0.2f, 30.0f,
+    millimetres(ui, "Tolerance", d.tolerance, 0.2f, 30.0f,
                 "How far the stem may be from the stroke: less gives more points");
     ImGui::Checkbox("Detect corners", &d.detect_corners);
     heading(ui, "Radius");
-    millimetres("Max", d.radius_max, 0.2f, 40.0f, "At the foot", "%.2f mm");
-    millimetres("Min", d.radius_min, 0.2f, 40.0f, "At the tip", "%.2f mm");
-    share("Taper start", d.taper_start, "Where along the stem it begins to get thinner");
-    share("Taper end", d.taper_end, "Where along the stem it has its smallest radius");
+    millimetres(ui, "Max", d.radius_max, 0.2f, 40.0f, "At the foot", "%.2f mm");
+    millimetres(ui, "Min", d.radius_min, 0.2f, 40.0f, "At the tip", "%.2f mm");
+    share(ui, "Taper start", d.taper_start, "Where along the stem it begins to get thinner");
+    share(ui, "Taper end", d.taper_end, "Where along the stem it has its smallest radius");
     heading(ui, "Projection plane");
     radio_row(ui, d.plane, std::array<const char*, 3>{"View", "Ground", "Tangent"});
     tip("Tangent: the plane along the stem that the stroke begins on");
@@ -127,21 +114,14 @@ class DrawPanel : public Panel {
     ImGui::Checkbox("Only first", &d.only_first);
     tip("The depth is taken where the stroke begins; else the stroke creeps over what it crosses");
     if (!d.only_first)
-      millimetres("Offset", d.offset, 0.1f, 50.0f, "From the surface towards the eye");
+      millimetres(ui, "Offset", d.offset, 0.1f, 50.0f, "From the surface towards the eye");
   }
 
   static void fruit_options(Ui& ui, DrawMode& d) {
     heading(ui, "Fruit");
-    millimetres("Radius", d.fruit_radius, 2.0f, 60.0f, "Of the fruit");
-    float density = static_cast<float>(d.fruit_density),
-          stretch = static_cast<float>(d.fruit_stretch);
-    ImGui::TextUnformatted("Density");
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##density", &density, 200.0f, 1500.0f, "%.0f kg/m3"))
-      d.fruit_density = density;
-    ImGui::TextUnformatted("Comes off at a strain of");
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##stretch", &stretch, 0.01f, 1.0f, "%.2f")) d.fruit_stretch = stretch;
+    millimetres(ui, "Radius", d.fruit_radius, 2.0f, 60.0f, "Of the fruit");
+    slider(ui, "Density", d.fruit_density, 200.0, 1500.0, "%.0f kg/m3");
+    slider(ui, "Comes off at a strain of", d.fruit_stretch, 0.01, 1.0, "%.2f");
   }
 };
 

@@ -56,25 +56,22 @@ class RobotPanel : public Panel {
     const char* format = degrees ? "%.1f\xC2\xB0" : turns ? "%.3f rad" : "%.1f mm";
     const double now = robot.q[dof];
     const double goal = robot.goal.size() > dof ? robot.goal[dof] : now;
-    float shown = static_cast<float>(unit * (dragged_ == joint.name ? dragged_value_ : goal));
-    ImGui::PushID(joint.name.c_str());
-    elided(is_gripper ? joint.name + " (gripper)" : joint.name, rest_width());
-    ImGui::SetNextItemWidth(-1);
-    const float low = static_cast<float>(unit * std::max(joint.lower, -2 * M_PI));
-    const float high = static_cast<float>(unit * std::min(joint.upper, 2 * M_PI));
-    if (ImGui::SliderFloat("##q", &shown, low, high, format, ImGuiSliderFlags_AlwaysClamp)) {
+    double shown = unit * (dragged_ == joint.name ? dragged_value_ : goal);
+    const double low = unit * std::max(joint.lower, -2 * M_PI);
+    const double high = unit * std::min(joint.upper, 2 * M_PI);
+    const std::string name = is_gripper ? joint.name + " (gripper)" : joint.name;
+    if (slider(ui, name, shown, low, high, format, ImGuiSliderFlags_AlwaysClamp)) {
       dragged_ = joint.name, dragged_value_ = shown / unit;
       ui.run(Command("joint", {{"name", joint.name}, {"value", dragged_value_}}));
     }
     if (!ImGui::IsItemActive() && dragged_ == joint.name) dragged_.clear();
-    mark_measured(static_cast<float>(unit * now), low, high);
-    ImGui::PopID();
+    mark_measured((unit * now - low) / (high - low));
   }
 
   /// A tick at the measured position: the slider shows where the joint is to go.
-  static void mark_measured(float now, float low, float high) {
+  static void mark_measured(double share) {
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-    const float x = a.x + (b.x - a.x) * std::clamp((now - low) / (high - low), 0.0f, 1.0f);
+    const float x = a.x + (b.x - a.x) * static_cast<float>(std::clamp(share, 0.0, 1.0));
     const float tall = 0.27f * ImGui::GetFontSize();
     ImGui::GetWindowDrawList()->AddLine(ImVec2(x, b.y - tall), ImVec2(x, b.y),
                                         colour_u32(palette().warning), 0.5f * tall);
@@ -87,11 +84,7 @@ class RobotPanel : public Panel {
     std::snprintf(text.data(), text.size(), "%.1f, %.1f, %.1f", p.x(), p.y(), p.z());
     row("Place, mm", text.data());
     goal(ui);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Step");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
-    ImGui::SliderFloat("##step", &step_mm_, 1.0f, 100.0f, "%.0f mm", ImGuiSliderFlags_Logarithmic);
+    slider(ui, "Step", step_mm_, 1.0, 100.0, "%.0f mm", ImGuiSliderFlags_Logarithmic);
     constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
     const float width = (ImGui::GetContentRegionAvail().x - 5 * 4.0f * ui.scale) / 6.0f;
     for (int axis = 0; axis < 3; ++axis)
@@ -165,7 +158,7 @@ class RobotPanel : public Panel {
   std::string dragged_, problem_;
   Vec3 problem_at_ = Vec3::Zero();  // m, the goal when it arose
   double dragged_value_ = 0.0;
-  float step_mm_ = 10.0f;
+  double step_mm_ = 10.0;
 };
 
 }  // namespace

@@ -92,13 +92,7 @@ class TuningPanel : public Panel {
     const double value = dragged_ == p.key ? dragged_value_ : p.value;
     const std::string unit = p.unit == "1" || p.unit.empty() ? "" : " " + p.unit;
     const std::string text = p.flag ? (value != 0.0 ? "on" : "off") : number_text(value, 5) + unit;
-    const float wide = ImGui::GetContentRegionMax().x;
-    const float value_width = ImGui::CalcTextSize(text.c_str()).x;
-    const std::string label = elide(short_name(p), rest_width(value_width + 10.0f * ui.scale));
-    ImGui::TextColored(p.changed ? palette().warning : palette().text, "%s", label.c_str());
-    tip(tip_of(p));
-    ImGui::SameLine(wide - value_width);
-    ImGui::TextColored(palette().dim, "%s", text.c_str());
+    caption(ui, short_name(p), text, p.changed ? palette().warning : palette().text, tip_of(p));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6.0f * ui.scale, 0.0f));
     control(ui, p);
     if (p.changed) {

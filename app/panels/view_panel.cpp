@@ -17,17 +17,6 @@ void choose(const char* id, Choice& value, const std::array<const char*, count>&
     value = static_cast<Choice>(index);
 }
 
-void slider(const char* name, double& value, double low, double high, const char* format) {
-  float shown = static_cast<float>(value);
-  ImGui::TextUnformatted(name);
-  ImGui::SetNextItemWidth(-1);
-  ImGui::PushID(name);
-  if (ImGui::SliderFloat("##value", &shown, static_cast<float>(low), static_cast<float>(high),
-                         format))
-    value = shown;
-  ImGui::PopID();
-}
-
 class ViewPanel : public Panel {
  public:
   std::string_view name() const override { return "View"; }
@@ -50,9 +39,9 @@ class ViewPanel : public Panel {
            std::array<const char*, 5>{"as they are", "strain", "margin to break", "contact force",
                                       "residual of measured data"});
     if (ui.view.colours == ColourMap::strain)
-      slider("Upper end, strain", ui.view.strain_scale, 0.005, 0.5, "%.3f");
+      slider(ui, "Upper end, strain", ui.view.strain_scale, 0.005, 0.5, "%.3f");
     if (ui.view.colours == ColourMap::contact)
-      slider("Upper end, N", ui.view.contact_scale, 0.1, 50.0, "%.1f");
+      slider(ui, "Upper end, N", ui.view.contact_scale, 0.1, 50.0, "%.1f");
   }
 
   static void shown(Ui& ui) {
@@ -96,8 +85,9 @@ class ViewPanel : public Panel {
     heading(ui, "Quality");
     ImGui::Checkbox("By the time that a picture takes", &ui.view.automatic_quality);
     ImGui::BeginDisabled(ui.view.automatic_quality);
-    ImGui::SetNextItemWidth(-1);
-    ImGui::SliderInt("##quality", &ui.view.quality, 0, 5, "level %d (0 is best)");
+    double level = ui.view.quality;
+    if (slider(ui, "Level (0 is best)", level, 0.0, 5.0, "%.0f"))
+      ui.view.quality = static_cast<int>(std::lround(level));
     ImGui::EndDisabled();
   }
 
@@ -117,7 +107,7 @@ class ViewPanel : public Panel {
   /// Taken over when the slider is let go, so that it does not move under the hand.
   void text_size(Ui& ui) {
     if (!sizing_) text_scale_ = ui.preferences.font_scale;
-    slider("Size of text", text_scale_, 0.7, 2.0, "%.2f");
+    slider(ui, "Size of text", text_scale_, 0.7, 2.0, "%.2f");
     const bool held = ImGui::IsItemActive();
     if (sizing_ && !held) ui.preferences.font_scale = text_scale_;
     sizing_ = held;
@@ -127,8 +117,8 @@ class ViewPanel : public Panel {
     heading(ui, "Mouse");
     choose("##mouse", ui.preferences.mouse,
            std::array<const char*, 2>{"Gazebo, MuJoCo", "Blender"});
-    slider("Turning", ui.preferences.orbit_sensitivity, 0.2, 3.0, "%.2f");
-    slider("Strength of pulling, N/m", ui.preferences.pull_stiffness, 1.0, 500.0, "%.0f");
+    slider(ui, "Turning", ui.preferences.orbit_sensitivity, 0.2, 3.0, "%.2f");
+    slider(ui, "Strength of pulling, N/m", ui.preferences.pull_stiffness, 1.0, 500.0, "%.0f");
     ImGui::Checkbox("Invert up and down", &ui.preferences.invert_orbit);
     ImGui::Checkbox("Invert wheel", &ui.preferences.invert_wheel);
     ImGui::Checkbox("Angles in degrees", &ui.preferences.degrees);

@@ -119,6 +119,34 @@ std::string quantity_text(double value, const std::string& unit, int digits) {
   return {};
 }
 
+void caption(const Ui& ui, const std::string& name, const std::string& value, const ImVec4& colour,
+             const std::string& what) {
+  const float value_width = ImGui::CalcTextSize(value.c_str()).x;
+  const std::string shown = elide(name, rest_width(value_width + 10.0f * ui.scale));
+  ImGui::TextColored(colour, "%s", shown.c_str());
+  tip(!what.empty() ? what : shown != name ? name : "");
+  ImGui::SameLine();
+  // Not SameLine(x): see row().
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + rest_width(value_width));
+  ImGui::TextColored(palette().dim, "%s", value.c_str());
+}
+
+bool slider(const Ui& ui, const std::string& name, double& value, double low, double high,
+            const char* format, ImGuiSliderFlags flags, const std::string& what) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  caption(ui, name, text.data(), palette().text, what);
+  ImGui::PushID(name.c_str());
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6.0f * ui.scale, 0.0f));
+  ImGui::SetNextItemWidth(-1);
+  const bool moved =
+      ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, "", flags);
+  ImGui::PopStyleVar();
+  ImGui::PopID();
+  tip((what.empty() ? "" : what + "\n") + std::string("Ctrl+click: type a value."));
+  return moved;
+}
+
 bool number_field(const char* id, double& value, const char* format) {
   double shown = value;
   ImGui::InputDouble(id, &shown, 0.0, 0.0, format);

@@ -56,6 +56,14 @@ std::string number_text(double value, int digits = 4);
 /// With its unit, in the prefix that reads best for m, N, Pa, s ("12.3 mm", "4.2 MPa").
 std::string quantity_text(double value, const std::string& unit, int digits = 3);
 
+/// A name to the left and, dim, a value to the right; what does not fit of the name ends in "...".
+void caption(const Ui& ui, const std::string& name, const std::string& value, const ImVec4& colour,
+             const std::string& what = "");
+/// A slider under its caption: on the slider itself the grab would cover the value. `format` is
+/// printf's, for the value. True while it is moved; Ctrl+click types a value.
+bool slider(const Ui& ui, const std::string& name, double& value, double low, double high,
+            const char* format, ImGuiSliderFlags flags = 0, const std::string& what = "");
+
 /// An input of a number that is committed by Enter or by leaving it. True once, when it was.
 bool number_field(const char* id, double& value, const char* format = "%.6g");
 /// The same with a label before it and its unit behind it, in two columns.
