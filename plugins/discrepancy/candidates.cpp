@@ -18,8 +18,8 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr int first_iterations = 6, whole_iterations = 5;
-constexpr std::size_t leaders = 4;
+constexpr int first_iterations = 6, whole_iterations = 10;
+constexpr std::size_t leaders = 6;
 constexpr std::size_t most_whole = 8;  // of each of the two lists
 constexpr std::array growing_horizons{0.5 * first_horizon, first_horizon, 1.0};
 constexpr int look_iterations = 2;                   // of every start, and

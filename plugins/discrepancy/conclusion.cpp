@@ -115,8 +115,11 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   double gain = 0.0;
   for (const Candidate& found : findings.chain)
     gain += found.gain + std::max(0.0, found.held_out.gain);
-  // What the loudest direction would still gain.
-  const double missed = 0.5 * std::pow(diagnosis.after.statistic, 2);
+  // What the loudest direction would still gain, or a cause of what none looks for.
+  const Leftover& other = diagnosis.after.leftover;
+  const double missed =
+      0.5 *
+      std::pow(std::max(diagnosis.after.statistic, other.shows() ? other.deviations : 0.0), 2);
   const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
   if (much || missed > most_missed * gain) verdict.outcome = Outcome::unknown;
 }
@@ -198,7 +201,8 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   if (!diagnosis.before.raised) {
     conclude_parameters(findings, diagnosis);
-  } else if (findings.chain.empty() && findings.excess(diagnosis.base) < small_excess) {
+  } else if (findings.chain.empty() && !diagnosis.before.leftover.shows() &&
+             findings.excess(diagnosis.base) < small_excess) {
     conclude_parameters(findings, diagnosis);
     verdict.remainder = text(
         "a steady difference of %.3g noise units in all, which no cause explains and no single "
@@ -206,6 +210,13 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
         diagnosis.before.statistic);
   } else if (findings.chain.empty()) {
     verdict.outcome = Outcome::unknown;
+    const Leftover& left = diagnosis.before.leftover;
+    if (left.shows())
+      verdict.remainder = "the plant moves in its own shapes in trial " +
+                          diagnosis.admission.experiment.trials[left.trial].name +
+                          text(" at %.3g to %.3g Hz", left.low_hz, left.high_hz) +
+                          text(", %.3g deviations beyond noise", left.deviations) +
+                          ", and no cause explains it";
   } else {
     conclude_causes(findings, diagnosis);
   }

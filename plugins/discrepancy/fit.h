@@ -15,8 +15,8 @@ namespace pedicel::discrepancy {
 struct FitOptions {
   std::vector<int> trials;
   double horizon = 1.0;       ///< share of each trial's duration that counts
-  int iterations = 20;        ///< at most
-  double tolerance = 1.0e-4;  ///< relative change of the cost below which it stops
+  int iterations = 60;        ///< at most
+  double tolerance = 1.0e-5;  ///< relative change of the cost below which it stops
 };
 
 /// What a fit found. Starts as "not run".

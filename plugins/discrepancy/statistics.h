@@ -6,6 +6,7 @@
 
 #include "discrepancy/causes.h"
 #include "discrepancy/fit.h"
+#include "discrepancy/leftover.h"
 
 namespace pedicel::discrepancy {
 
@@ -40,6 +41,7 @@ struct Alarm {
   double level = 0.0;      ///< that noise alone exceeds once in 200 times
   int loudest = -1;        ///< direction
   bool raised = false;
+  Leftover leftover = {};  ///< what no direction looks for
 };
 
 /// Fills in the directions' statistics for a residual and judges them. `numerical` is the whitened

@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 namespace pedicel::hidden {
 
@@ -18,6 +19,8 @@ using reference::TrialPlan;
 
 // The least that counts as identifiable: what stays of the change after a refit, in noise units.
 constexpr double identifiable = 5.0;
+constexpr int most_draws = 20;          // of an effect until one leaves a trace, and
+constexpr double least_visible = 0.02;  // of what is identifiable, that counts as one
 
 /// Makes one case, step by step.
 class Maker {
@@ -64,7 +67,9 @@ class Maker {
                         factor("damping_time", random_.uniform(0.6, 1.6))};
     subject_ = {case_.setting.plant, case_.refitted, {}};
     plain_ = subject_;
-    coarse_ = {2.0 * case_.setting.plant.distance, 0.005};
+    // What yields is a zone next to the sharpest bend, which a coarse mesh makes as long as a
+    // segment.
+    coarse_ = {(count("yield") ? 0.5 : 2.0) * case_.setting.plant.distance, 0.005};
     fine_ = {0.25 * case_.setting.plant.distance, 0.0017};
     make_trials();
   }
@@ -84,6 +89,9 @@ class Maker {
     for (const TrialPlan& t : case_.trials) {
       const Record r = run_trial(plain_, t, case_.setting.markers, coarse_);
       scale_.most_curvature = std::max(scale_.most_curvature, r.most_curvature);
+      if (count("yield"))
+        fine_curvature_ = std::max(
+            fine_curvature_, run_trial(plain_, t, case_.setting.markers, fine_).most_curvature);
       scale_.settled_curvature = std::max(scale_.settled_curvature, r.settled_curvature);
     }
   }
@@ -112,8 +120,12 @@ class Maker {
 
   void hide() {
     const bool one = order().kind == Kind::look_alike;
-    for (std::size_t i = 0; i < order().hidden.size() && (!one || i == 0); ++i)
-      hide_one(draw(order().hidden[i]));
+    for (std::size_t i = 0; i < order().hidden.size() && (!one || i == 0); ++i) {
+      const std::string& name = order().hidden[i];
+      int draws = 0;  // a string may hang where the plant never goes
+      while (!hide_one(draw(name)))
+        if (++draws == most_draws) throw std::runtime_error(case_.name + ": no trace of " + name);
+    }
   }
 
   HiddenEffect draw(const std::string& name) {
@@ -163,8 +175,8 @@ class Maker {
   }
 
   // Adds it at the ordered multiple of its smallest identifiable size. Where that would be more
-  // than makes sense, better instruments are taken instead.
-  void hide_one(const HiddenEffect& effect) {
+  // than makes sense, better instruments are taken instead. False where it leaves no trace.
+  bool hide_one(const HiddenEffect& effect) {
     double smallest = 0.003, size = smallest * std::min(order().size, 8.0), seen = 0.0;
     if (effect.sized) {
       const Sight eye = sight(effect.name);
@@ -178,6 +190,7 @@ class Maker {
       if (order().kind == Kind::look_alike && count("density"))
         size = 0.15;  // nothing tells them apart, however large: no need to be near the limit
       const double better = norm(smallest) / identifiable;
+      if (!(better > least_visible)) return false;
       seen = norm(size);
       if (better < 0.94) {
         case_.noise.position_std *= better;
@@ -187,9 +200,13 @@ class Maker {
       }
     }
     effect.add(size, subject_);
+    // Met in the data as far below the sharpest bend as in what the size was found with.
+    if (effect.name == "yield")
+      subject_.effects.back().numbers["curvature"][0] *= fine_curvature_ / scale_.most_curvature;
     case_.smallest.push_back(smallest);
     case_.size.push_back(size);
     case_.visible.push_back(seen);
+    return true;
   }
 
   // The sine between the truth and the others that are said to look like it.
@@ -282,6 +299,7 @@ class Maker {
   Subject plain_, subject_;  // without and with what is hidden
   Mesh coarse_, fine_;
   Scale scale_;
+  double fine_curvature_ = 0.0;  // 1/m, most_curvature on the mesh of the data
   Vec3 start_ = Vec3::Zero();
   double last_size_ = 0.0;  // of look()
   Eigen::VectorXd last_refit_;

@@ -1,0 +1,153 @@
+#include "discrepancy/leftover.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr int most_shapes = 4;
+constexpr double least_shape = 1.0e-8;   // of the largest one's square
+constexpr int least_neighbourhood = 10;  // frequencies to either side, for the noise
+constexpr double mistrust = 2.0;         // of the amplitude of our own error
+
+/// One trial's markers in a vector over the trials' entries.
+struct Block {
+  int trial = 0;
+  Eigen::Index first = 0, rows = 0, channels = 0;
+  double duration = 0.0;  // s
+
+  Eigen::Map<const Eigen::MatrixXd> of(const double* entries) const {
+    return {entries + first, rows, channels};
+  }
+};
+
+std::vector<Block> blocks_of(const DataSet& data, std::span<const int> trials) {
+  std::vector<Block> blocks;
+  Eigen::Index place = 0;
+  for (const int t : trials) {
+    const Trial& trial = data.experiment().trials[t];
+    blocks.push_back(
+        {t, place, trial.markers.value.rows(), trial.markers.value.cols(), trial.duration()});
+    place += data.size(std::span(&t, 1));
+  }
+  return blocks;
+}
+
+/// Orthonormal columns, the shapes of motion first, then what lies across them.
+struct Shapes {
+  Eigen::MatrixXd basis;
+  int count = 0;  // of motion
+};
+
+Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& blocks) {
+  const Eigen::Index channels = blocks.front().channels;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(channels, channels);
+  for (Eigen::Index p = 0; p < jacobian.cols(); ++p) {
+    const double square = jacobian.col(p).squaredNorm();
+    if (!(square > 0.0)) continue;
+    for (const Block& block : blocks) {
+      const auto part = block.of(jacobian.col(p).data());
+      covariance += part.transpose() * part / square;
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  const auto moving =
+      (eigen.eigenvalues().array() > least_shape * eigen.eigenvalues()[channels - 1]).count();
+  const int count = static_cast<int>(std::min<Eigen::Index>(moving, channels / 3));
+  return {eigen.eigenvectors().rowwise().reverse(), std::min(most_shapes, count)};
+}
+
+/// Power of each column at the frequencies 1/duration, 2/duration, ...: squares of its products
+/// with a cosine and a sine of unit length, which are chi-square with two degrees of freedom for
+/// noise.
+Eigen::MatrixXd periodograms(const Eigen::MatrixXd& series) {
+  const Eigen::Index n = series.rows(), frequencies = (n - 1) / 2;
+  Eigen::MatrixXd power(frequencies, series.cols());
+  Eigen::MatrixX2d waves(n, 2);
+  for (Eigen::Index f = 1; f <= frequencies; ++f) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double angle = 2.0 * M_PI * static_cast<double>(f * i % n) / static_cast<double>(n);
+      waves.row(i) << std::cos(angle), std::sin(angle);
+    }
+    power.row(f - 1) =
+        (waves.transpose() * series).colwise().squaredNorm() * 2.0 / static_cast<double>(n);
+  }
+  return power;
+}
+
+/// The ratio of two means of squares with n and m degrees of freedom, as a standard normal.
+double deviations_of(double ratio, double n, double m) {
+  const double a = 2.0 / (9.0 * n), b = 2.0 / (9.0 * m), root = std::cbrt(ratio);
+  return ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
+}
+
+/// One trial's power by frequency.
+struct Powers {
+  Eigen::VectorXd along, across, own;  // of the residual, and along the shapes of our own error
+  int shapes = 0, others = 0;
+
+  double deviations(Eigen::Index first, Eigen::Index count) const {
+    const double found = std::sqrt(along.segment(first, count).sum()) -
+                         mistrust * std::sqrt(own.segment(first, count).sum());
+    if (found <= 0.0) return 0.0;
+    const Eigen::Index low = std::max<Eigen::Index>(0, first - least_neighbourhood);
+    const Eigen::Index high =
+        std::min<Eigen::Index>(across.size(), first + count + least_neighbourhood);
+    const double n = 2.0 * shapes * static_cast<double>(count);
+    const double m = 2.0 * others * static_cast<double>(high - low);
+    const double noise = across.segment(low, high - low).sum() / m;
+    return noise > 0.0 ? deviations_of(found * found / n / noise, n, m) : 0.0;
+  }
+};
+
+Powers powers_of(const Block& block, const Shapes& shapes, const Eigen::VectorXd& residual,
+                 const Eigen::VectorXd& numerical) {
+  Powers powers;
+  powers.shapes = shapes.count;
+  powers.others = static_cast<int>(block.channels) - shapes.count;
+  const Eigen::MatrixXd power = periodograms(block.of(residual.data()) * shapes.basis);
+  powers.along = power.leftCols(shapes.count).rowwise().sum();
+  powers.across = power.rightCols(powers.others).rowwise().sum();
+  powers.own = Eigen::VectorXd::Zero(power.rows());
+  if (numerical.size() == residual.size())
+    powers.own = periodograms(block.of(numerical.data()) * shapes.basis.leftCols(shapes.count))
+                     .rowwise()
+                     .sum();
+  return powers;
+}
+
+}  // namespace
+
+Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSummary& model,
+                  const Eigen::VectorXd& numerical) {
+  Leftover loudest;
+  const std::vector<Block> blocks = blocks_of(data, trials);
+  if (blocks.empty() || model.jacobian.rows() != model.residual.size()) return loudest;
+  const Eigen::Index channels = blocks.front().channels;
+  const bool same =
+      std::ranges::all_of(blocks, [&](const Block& block) { return block.channels == channels; });
+  if (channels < 3 || !same) return loudest;
+  const Shapes shapes = shapes_of(model.jacobian, blocks);
+  if (shapes.count < 1) return loudest;
+  for (const Block& block : blocks) {
+    if (block.rows < 4 * least_neighbourhood) continue;
+    const Powers powers = powers_of(block, shapes, model.residual, numerical);
+    const auto look = [&](Eigen::Index first, Eigen::Index count) {
+      const double deviations = powers.deviations(first, count);
+      if (deviations <= loudest.deviations) return;
+      const auto hz = [&](Eigen::Index f) { return static_cast<double>(f) / block.duration; };
+      loudest = {deviations, block.trial, hz(first + 1), hz(first + count)};
+    };
+    const Eigen::Index frequencies = powers.along.size();
+    for (Eigen::Index f = 0; f < frequencies; ++f) look(f, 1);
+    for (Eigen::Index width = 2; width <= frequencies; width *= 2) {
+      look(0, width);
+      if (2 * width <= frequencies) look(width, width);
+    }
+  }
+  return loudest;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,100 @@
+// What is left of the plant's own motion: seen along its shapes, not across them, whatever the
+// colour of the noise.
+#include "discrepancy/leftover.h"
+
+#include <gtest/gtest.h>
+
+#include "made_data.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+constexpr double hz = 1.3;
+const std::vector<int> trials{0, 2};
+
+/// Made data with noise and, in the last trial, a swing of `amplitude` (m) at the stem's tip.
+struct Left {
+  MadeData made;
+  FitSummary model;
+  Eigen::VectorXd swing;  // whitened, by itself
+
+  /// `along` m each marker moves at z = 1 m height; noise whose correlation is `real`, taken for
+  /// `believed`.
+  Left(std::uint64_t seed, double real, double believed, const Vec3& along) {
+    DataSet data = data_of(believed);
+    made.add_noise(seed, real);
+    model.residual = residual(data, 1.0);
+    model.jacobian = (residual(data, 1.0) - residual(data, 1.1)) / 0.1;
+    made.change([&](int trial, double t, int, const Vec3& p) -> Vec3 {
+      return trial == trials.back() ? Vec3(p.z() * std::sin(2.0 * M_PI * hz * t) * along)
+                                    : Vec3(Vec3::Zero());
+    });
+    swing = residual(data, 1.0) - model.residual;
+    model.residual += swing;
+  }
+
+  Leftover found(const Eigen::VectorXd& numerical = {}) const {
+    return leftover(data_of(0.0), trials, model, numerical);
+  }
+
+ private:
+  DataSet data_of(double correlation) const {
+    DataSet data(made.experiment);
+    data.set_noise(MadeData::noise_of(MadeData::position_std, correlation),
+                   MadeData::noise_of(MadeData::force_std, 0.0));
+    return data;
+  }
+
+  // Of the predictions with their motion, from where each trial begins, times `factor`.
+  Eigen::VectorXd residual(const DataSet& data, double factor) const {
+    Eigen::VectorXd all(data.size(trials));
+    Eigen::Index place = 0;
+    for (const int t : trials) {
+      Prediction p = made.predictions[t];
+      const Eigen::RowVectorXd first = p.markers.row(0);
+      p.markers = (factor * (p.markers.rowwise() - first)).rowwise() + first;
+      const Eigen::Index size = data.size(std::span(&t, 1));
+      data.residual(t, p, 1.0, all.segment(place, size));
+      place += size;
+    }
+    return all;
+  }
+};
+
+TEST(Leftover, NoiseShowsNothing) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    EXPECT_LT(Left(seed, 0.0, 0.0, Vec3::Zero()).found().deviations, 5.0) << seed;
+    EXPECT_LT(Left(seed, 0.8, 0.8, Vec3::Zero()).found().deviations, 5.0) << seed;
+    // Taken for less coloured than it is, it has too much power at low frequencies, in all
+    // directions alike.
+    EXPECT_FALSE(Left(seed, 0.8, 0.6, Vec3::Zero()).found().shows()) << seed;
+  }
+}
+
+// The plant moves along x. A swing of 0.4 of the noise's deviation at the tip is nowhere seen in a
+// sample; over n samples of m markers its square is A^2 n m / 2 in noise units.
+TEST(Leftover, ASwingOfThePlantShows) {
+  const Leftover found = Left(3, 0.0, 0.0, Vec3(2e-4, 0, 0)).found();
+  EXPECT_TRUE(found.shows()) << found.deviations;
+  EXPECT_EQ(found.trial, trials.back());
+  EXPECT_LE(found.low_hz, hz + 0.2);
+  EXPECT_GE(found.high_hz, hz - 0.2);
+}
+
+TEST(Leftover, WhatThePlantDoesNotDoIsNoise) {
+  EXPECT_FALSE(Left(3, 0.0, 0.0, Vec3(0, 2e-4, 0)).found().shows());
+}
+
+TEST(Leftover, OurOwnErrorIsTakenOff) {
+  const Left left(3, 0.0, 0.0, Vec3(2e-4, 0, 0));
+  EXPECT_FALSE(left.found(left.swing).shows());
+}
+
+TEST(Leftover, NeedsTheModelsDerivatives) {
+  Left left(3, 0.0, 0.0, Vec3(2e-4, 0, 0));
+  left.model.jacobian.resize(0, 0);
+  EXPECT_EQ(left.found().trial, -1);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
