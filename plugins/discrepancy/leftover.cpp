@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unsupported/Eigen/FFT>
 
 namespace pedicel::discrepancy {
 
@@ -65,14 +66,12 @@ Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& bloc
 Eigen::MatrixXd periodograms(const Eigen::MatrixXd& series) {
   const Eigen::Index n = series.rows(), frequencies = (n - 1) / 2;
   Eigen::MatrixXd power(frequencies, series.cols());
-  Eigen::MatrixX2d waves(n, 2);
-  for (Eigen::Index f = 1; f <= frequencies; ++f) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double angle = 2.0 * M_PI * static_cast<double>(f * i % n) / static_cast<double>(n);
-      waves.row(i) << std::cos(angle), std::sin(angle);
-    }
-    power.row(f - 1) =
-        (waves.transpose() * series).colwise().squaredNorm() * 2.0 / static_cast<double>(n);
+  Eigen::FFT<double> transform;
+  Eigen::VectorXcd waves;
+  for (Eigen::Index c = 0; c < series.cols(); ++c) {
+    const Eigen::VectorXd column = series.col(c);
+    transform.fwd(waves, column);
+    power.col(c) = waves.segment(1, frequencies).cwiseAbs2() * 2.0 / static_cast<double>(n);
   }
   return power;
 }
