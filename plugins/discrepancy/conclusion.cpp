@@ -88,6 +88,16 @@ bool contains(const Candidate& rival, const Candidate& best) {
          rival.evidence < best.evidence;
 }
 
+// What a cause that has more numbers explains as well, but for a nat, the data do not refute:
+// fewer numbers make the other one likelier, up to so many margins.
+constexpr double as_well = 1.0, most_margins = 3.0;
+
+bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
+  const auto of_data = [](const Candidate& c) { return c.gain + c.held_out.gain; };
+  return of_data(best) - of_data(rival) < as_well &&
+         best.evidence - rival.evidence < most_margins * margin;
+}
+
 // Whether leaving out one of the trials would turn the order round.
 bool wins_without_a_trial(const Findings& findings, const Candidate& rival, const Candidate& best) {
   if (findings.fit_trials.size() < 3) return false;
@@ -133,7 +143,8 @@ void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effec
     const Candidate& rival = diagnosis.ranking[i];
     const double behind = best.evidence - rival.evidence;
     if (!rival.whole || rival.evidence < 0.0) break;
-    const bool beaten = behind > margin && !wins_without_a_trial(findings, rival, best);
+    const bool beaten = behind > margin && !explains_as_well(rival, best, margin) &&
+                        !wins_without_a_trial(findings, rival, best);
     if (beaten || findings.chain.size() > 1 || contains(rival, best)) {
       const bool found = std::ranges::any_of(
           findings.chain, [&](const Candidate& named) { return named.cause == rival.cause; });

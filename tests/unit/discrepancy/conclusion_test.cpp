@@ -104,6 +104,20 @@ TEST(Conclusion, IsAmbiguousWithinTheMargin) {
   EXPECT_NEAR(v.rivals[0].behind, 11.5, 1e-9);
 }
 
+// A soft foot has three numbers where a soft root has one; where both leave the same, the data tell
+// nothing. Evidence 15 nats behind is beyond the margin of 11.4.
+TEST(Conclusion, FewerNumbersAloneDoNotRefute) {
+  Case c;
+  c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 639.5, 631.0 - 15.0));
+  EXPECT_THAT(names(c.concluded()), ElementsAre("base_compliance", "weak_segment"));
+  Case worse;
+  worse.diagnosis.ranking.push_back(worse.candidate("weak_segment", "factor", 638.0, 616.0));
+  EXPECT_THAT(names(worse.concluded()), ElementsAre("base_compliance"));
+  Case much;
+  much.diagnosis.ranking.push_back(much.candidate("gust", "drag_area", 640.0, 631.0 - 35.0));
+  EXPECT_THAT(names(much.concluded()), ElementsAre("base_compliance"));
+}
+
 TEST(Conclusion, OfALargeGainHasAMarginOf25Nats) {
   Case c;
   c.diagnosis.ranking[0].gain = 1e5;
