@@ -223,11 +223,10 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
     verdict.outcome = Outcome::unknown;
     const Leftover& left = diagnosis.before.leftover;
     if (left.shows())
-      verdict.remainder = "the plant moves in its own shapes in trial " +
-                          diagnosis.admission.experiment.trials[left.trial].name +
-                          text(" at %.3g to %.3g Hz", left.low_hz, left.high_hz) +
-                          text(", %.3g deviations beyond noise", left.deviations) +
-                          ", and no cause explains it";
+      verdict.remainder =
+          "the plant moves in its own shapes in trial " +
+          diagnosis.admission.experiment.trials[left.trial].name + left.frequency() +
+          text(", %.3g deviations beyond noise", left.deviations) + ", and no cause explains it";
   } else {
     conclude_causes(findings, diagnosis);
   }

@@ -40,9 +40,8 @@ void DiagnosisLog::directions(std::vector<Direction> directions, const Alarm& al
   note(text("Largest directed statistic %.3g, level %.3g.", alarm.statistic, alarm.level));
   const Leftover& left = alarm.leftover;
   if (left.trial >= 0)
-    note(text("Left in the plant's shapes of motion: %.3g deviations, at ", left.deviations) +
-         text("%.3g to %.3g Hz", left.low_hz, left.high_hz) + " of trial " +
-         std::to_string(left.trial + 1) + ".");
+    note(text("Left in the plant's shapes of motion: %.3g deviations,", left.deviations) +
+         left.frequency() + " of trial " + std::to_string(left.trial + 1) + ".");
   std::ranges::stable_sort(directions, [](const Direction& a, const Direction& b) {
     return std::abs(a.statistic) > std::abs(b.statistic);
   });

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <unsupported/Eigen/FFT>
 
+#include "discrepancy/sentence.h"
+
 namespace pedicel::discrepancy {
 
 namespace {
@@ -118,6 +120,11 @@ Powers powers_of(const Block& block, const Shapes& shapes, const Eigen::VectorXd
 }
 
 }  // namespace
+
+std::string Leftover::frequency() const {
+  return low_hz == high_hz ? text(" at %.3g Hz", low_hz)
+                           : text(" at %.3g to %.3g Hz", low_hz, high_hz);
+}
 
 Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSummary& model,
                   const Eigen::VectorXd& numerical) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "discrepancy/fit.h"
@@ -16,6 +17,7 @@ struct Leftover {
   /// Beyond what noise does in some hundred bands (5), and one more for noise that is not as
   /// modelled.
   bool shows() const { return deviations > 6.0; }
+  std::string frequency() const;  ///< " at 1.4 Hz", " at 1.2 to 2.4 Hz"
 };
 
 /// Markers move in a few shapes, noise in all directions alike. The shapes are the largest

@@ -294,10 +294,10 @@ class Inference {
     const std::string size = text("it reaches %.2g N", most);
     const std::string kind = force ? kind_of(*force) : "";
     if (kind == "string" || kind == "stop")
-      return size + text(", and acts in %.2g %% of the time, by where the plant is", active);
+      return size + text(", and acts in %.0f %% of the time, by where the plant is", active);
     if (kind == "periodic") return size + ", and comes back with time, whatever the plant does";
     if (kind == "jolt" || kind == "onset") return size + ", in one trial alone";
-    return size + text(", and acts in %.2g %% of the time", active);
+    return size + text(", and acts in %.0f %% of the time", active);
   }
 
   static std::string how_text(double ratio) {
@@ -346,7 +346,7 @@ class Inference {
 std::string MissingForce::sentence() const {
   if (!found) return "";
   std::string all =
-      text("%.2g %% of what the model left above the noise is this. ", 100.0 * share) + where + ".";
+      text("%.0f %% of what the model left above the noise is this. ", 100.0 * share) + where + ".";
   if (!kind.empty()) all += " Kind: " + kind + ".";
   if (!what.empty()) all += " " + what + ".";
   std::string course = when.empty() || how.empty() ? when + how : when + "; " + how;
@@ -354,7 +354,7 @@ std::string MissingForce::sentence() const {
     course[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(course[0])));
     all += " " + course + ".";
   }
-  if (gain) all += text(" On trials kept back it removes %.2g %% of the error.", 100.0 * *gain);
+  if (gain) all += text(" On trials kept back it removes %.0f %% of the error.", 100.0 * *gain);
   return all + " Do not extrapolate.";
 }
 

@@ -159,7 +159,7 @@ void add_card(io::HtmlReport& page, const ReportData& report,
   page.note(headline(v), v.outcome == Outcome::adequate || v.outcome == Outcome::named);
   page.paragraph(certainty_text(d));
   if (concluded(v) && !v.remainder.empty())
-    page.paragraph("Still unexplained: " + v.remainder + ".");
+    page.paragraph("Still unexplained: " + v.remainder + (v.remainder.ends_with('.') ? "" : "."));
   if (report.predicted && concluded(v)) add_symptom(page, report, pairs);
   add_causes(page, v);
   const std::string gain = gain_text(d);
