@@ -85,7 +85,12 @@ void set(Document& document, const Command& c) {
     document.settings.emplace_back(key, value);
   else
     held->second = value;
-  check_settings(document);
+  try {
+    check_settings(document);
+  } catch (const UsageError& fault) {  // says "--set KEY: ...", as on the command line
+    const std::string text = fault.what(), option = "--set ";
+    throw UsageError(text.starts_with(option) ? text.substr(option.size()) : text);
+  }
 }
 
 void unset(Document& document, const Command& c) {
