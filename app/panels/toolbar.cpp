@@ -52,6 +52,14 @@ void part_toggle(const char* label, bool& shown, const char* what) {
   tip(what);
 }
 
+float width_of(const std::array<const char*, 3>& labels) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = 0.0f;
+  for (const char* label : labels)
+    width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  return width;
+}
+
 std::string document_name(const Ui& ui) {
   std::string name = ui.session.path().filename().string();
   if (name.empty()) name = "new scene";
@@ -82,13 +90,12 @@ void draw_toolbar(Ui& ui) {
   action_button(ui, Action::help, Icon::help);
 
   // To the right: what is open, and the parts of the window.
-  const std::array<const char*, 3> labels = {"Left", "Bottom", "Right"};
   const ImGuiStyle& style = ImGui::GetStyle();
-  float width = 0.0f;
-  for (const char* label : labels)
-    width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
-  const float start = ImGui::GetWindowWidth() - width - style.WindowPadding.x;
   ImGui::SameLine();
+  std::array<const char*, 3> labels = {"Left", "Bottom", "Right"};
+  const float most = ImGui::GetWindowWidth() - style.WindowPadding.x - ImGui::GetCursorPosX();
+  if (width_of(labels) > most) labels = {"L", "B", "R"};
+  const float start = ImGui::GetWindowWidth() - width_of(labels) - style.WindowPadding.x;
   const float room = start - ImGui::GetCursorPosX() - 2 * style.ItemSpacing.x;
   if (room > 4.0f * ImGui::GetFontSize()) {
     const std::string name = elide(document_name(ui), room);

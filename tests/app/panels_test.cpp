@@ -1,5 +1,6 @@
 // Every panel is drawn off screen in several windows, and must show something, and whole words.
 #include <map>
+#include <set>
 
 #include "app/panels/stem_editor.h"
 #include "app/panels/theme.h"
@@ -122,7 +123,30 @@ TEST_P(Panels, DialogsAndLegends) {
 INSTANTIATE_TEST_SUITE_P(Looks, Panels,
                          ::testing::Values(Look{1280, 720, 1.0, Theme::dark},
                                            Look{1600, 900, 1.25, Theme::light},
-                                           Look{2560, 1440, 2.0, Theme::dark}));
+                                           Look{2560, 1440, 2.0, Theme::dark},
+                                           Look{1280, 720, 2.0, Theme::light}));
+
+/// Whether items of the toolbar lie over each other or beyond the window: seen by the rectangles of
+/// its buttons, drawn in one row.
+TEST(Toolbar, FitsIntoANarrowWindow) {
+  for (const auto& [width, scale] : {std::pair{1280, 2.0}, {1280, 1.0}, {1100, 1.5}}) {
+    Desk desk(width, 720, scale);
+    if (!desk.available()) GTEST_SKIP() << desk.why();
+    desk.open_empty();
+    // Pointed at from the left to the right, every item is met in turn, and none twice.
+    std::vector<ImGuiID> met;
+    for (int x = 2; x < width; x += 6) {
+      desk.send(InputEvent::move(x, 14.0 * scale));
+      desk.frames(1);
+      const ImGuiID id = ImGui::GetHoveredID();
+      if (id && (met.empty() || met.back() != id)) met.push_back(id);
+    }
+    const std::set<ImGuiID> different(met.begin(), met.end());
+    EXPECT_EQ(met.size(), different.size())
+        << width << " scale " << scale << ": one covers another";
+    EXPECT_EQ(different.size(), 16u) << width << " scale " << scale << ": one is covered";
+  }
+}
 
 TEST(CutText, IsSeen) {
   Desk desk(640, 480);
