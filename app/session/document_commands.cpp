@@ -88,8 +88,11 @@ void set(Document& document, const Command& c) {
   try {
     check_settings(document);
   } catch (const UsageError& fault) {  // says "--set KEY: ...", as on the command line
-    const std::string text = fault.what(), option = "--set ";
-    throw UsageError(text.starts_with(option) ? text.substr(option.size()) : text);
+    std::string text = fault.what();
+    for (const std::string word : {"--set ", "error: "})
+      if (const std::size_t at = text.find(word); at != std::string::npos)
+        text.erase(at, word.size());
+    throw UsageError(text);
   }
 }
 

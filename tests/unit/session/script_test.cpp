@@ -170,6 +170,17 @@ TEST_F(Scripts, WhatCannotBeDoneIsNotTakenSilently) {
   }
 }
 
+TEST_F(Scripts, AFaultIsCalledErrorOnceAndInTheCommandsOwnWords) {
+  std::ofstream(folder / "bad.plant.yaml") << "curves: 3\n";
+  EXPECT_EQ(run("open " + (folder / "bad.plant.yaml").string() + "\n"), 3);
+  const std::string said = errors.str();
+  EXPECT_EQ(said.find("error:"), said.rfind("error:")) << said;
+  EXPECT_THAT(said, HasSubstr("story.txt:1:1: error: "));
+  EXPECT_EQ(run("set nosuch 3\n"), 1);
+  EXPECT_THAT(errors.str(), HasSubstr("nosuch"));
+  EXPECT_EQ(errors.str().find("--set"), std::string::npos) << errors.str();
+}
+
 TEST_F(Scripts, AFileWithAFaultIsInvalid) {
   open_robot();
   EXPECT_EQ(run("play trajectory " + (folder / "none.csv").string() + "\n"), 3);
