@@ -57,7 +57,6 @@ class ProfilerPanel : public Panel {
     row("mean, last half second", number_text(s.ms_per_step, 3) + " ms");
     row("95 % are below", number_text(s.ms_per_step_p95, 3) + " ms");
     row("steps a second", number_text(s.steps_per_second, 4));
-    if (seen_ == 0) return;
     const double whole = std::accumulate(seconds_.begin(), seconds_.end(), 0.0);
     for (int i = 0; i < world::phase_count; ++i)
       bar(std::string(world::name_of(static_cast<world::Phase>(i))),

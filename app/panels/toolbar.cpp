@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -9,8 +10,13 @@ namespace pedicel::app {
 
 namespace {
 
+/// A window with large letters: everything moves together.
+bool is_narrow() {
+  return ImGui::GetWindowWidth() < 46.0f * ImGui::GetFontSize();
+}
+
 void gap(const Ui& ui) {
-  ImGui::SameLine(0, 14.0f * ui.scale);
+  ImGui::SameLine(0, (is_narrow() ? 4.0f : 14.0f) * ui.scale);
 }
 
 void run_buttons(Ui& ui) {
@@ -31,7 +37,7 @@ void speed_choice(Ui& ui) {
   const auto text = [](double speed) -> std::string {
     return speed == 0.0 ? "as fast as it goes" : number_text(speed, 3) + " x";
   };
-  ImGui::SetNextItemWidth(5.2f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth((is_narrow() ? 4.4f : 5.2f) * ImGui::GetFontSize());
   const std::string now = ui.snapshot->speed == 0.0 ? std::string("max") : text(ui.snapshot->speed);
   if (ImGui::BeginCombo("##speed", now.c_str())) {
     for (const double speed : speeds)
@@ -95,7 +101,8 @@ void draw_toolbar(Ui& ui) {
   std::array<const char*, 3> labels = {"Left", "Bottom", "Right"};
   const float most = ImGui::GetWindowWidth() - style.WindowPadding.x - ImGui::GetCursorPosX();
   if (width_of(labels) > most) labels = {"L", "B", "R"};
-  const float start = ImGui::GetWindowWidth() - width_of(labels) - style.WindowPadding.x;
+  const float start = std::max(ImGui::GetCursorPosX(),
+                               ImGui::GetWindowWidth() - width_of(labels) - style.WindowPadding.x);
   const float room = start - ImGui::GetCursorPosX() - 2 * style.ItemSpacing.x;
   if (room > 4.0f * ImGui::GetFontSize()) {
     const std::string name = elide(document_name(ui), room);

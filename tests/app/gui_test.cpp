@@ -435,7 +435,7 @@ TEST_F(Gui, TheProfilerHasItsFiguresAndPlotsNameTheirLines) {
   ASSERT_NE(shown, names.end());
   std::string in_the_plot;
   for (const SeenLetter& one : seen_letters("bottom"))
-    if (one.low.x > 600) in_the_plot += one.letter;
+    if (one.low.x > 530) in_the_plot += one.letter;
   EXPECT_THAT(in_the_plot, HasSubstr(*shown));
 }
 
