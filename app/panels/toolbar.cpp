@@ -16,7 +16,7 @@ bool is_narrow() {
 }
 
 void gap(const Ui& ui) {
-  ImGui::SameLine(0, (is_narrow() ? 4.0f : 14.0f) * ui.scale);
+  ImGui::SameLine(0, (is_narrow() ? 8.0f : 14.0f) * ui.scale);
 }
 
 void run_buttons(Ui& ui) {
