@@ -18,6 +18,7 @@
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "render/image.h"
+#include "session/document.h"
 #include "session/script.h"
 #include "world/settings.h"
 
@@ -68,10 +69,18 @@ int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   return run_script(a.script, session, std::cout, std::cerr);
 }
 
+/// With the plant, where that is all there is.
+RunOptions options_of_run(const RunArguments& a) {
+  RunOptions options = run_options(a);
+  if (is_lone_plant(a.scene))
+    options.simulation.edited = options_of(open_document(a.scene), {}).edited;
+  return options;
+}
+
 int run_verb(const RunArguments& a, const MakeFilms& make_films) {
   if (!a.script.empty()) return script_verb(a, make_films);
   if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
-  const RunOptions options = run_options(a);
+  const RunOptions options = options_of_run(a);
   const world::Scene scene = load_scene(a);
   const RunResult result = run_with_sweep(scene, options);
   if (a.json) std::cout << to_json(scene, result) << std::endl;
@@ -92,7 +101,7 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
   app.add_option("--show", window.show, "a panel to bring to the front (Plots); may be repeated")
       ->allow_extra_args(false);
   app.add_option("--colours", window.colours, "of stems in the window")
-      ->check(CLI::IsMember({"strain", "margin", "contact"}));
+      ->check(CLI::IsMember({"strain", "margin", "contact", "residual"}));
   app.add_option("--theme", window.theme, "of the window")->check(CLI::IsMember({"dark", "light"}));
   app.add_option("--scale", window.scale, "of the window's texts (default: as the monitor says)")
       ->check(CLI::Range(0.5, 4.0));
@@ -109,6 +118,8 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
     throw UsageError("--record: no scene given, expected one to make a film of");
   const bool run = a.headless || a.json || a.quiet || !a.out.empty() || !a.script.empty();
   if (!open_desktop || (run && !picture)) return run_verb(a, make_films);
+  if (!window.screenshot.empty() && !window.screenshot.ends_with(".png"))
+    throw UsageError("--screenshot " + window.screenshot + ": expected a name that ends in .png");
   window.file = a.scene;
   window.script = a.script;
   window.set = a.set;
@@ -151,7 +162,7 @@ int sweep_verb(RunArguments a) {
   }
   if (!sweep) throw UsageError("sweep: expected --set key=value,value,...");
   a.set = plain;
-  const RunOptions options = run_options(a);
+  const RunOptions options = options_of_run(a);
   world::Scene scene = load_scene(a);
   if (scene.sweep && scene.sweep->key != sweep->key)
     std::erase_if(scene.expectations, [](const auto& e) { return e.over_sweep(); });
@@ -224,7 +235,7 @@ WorldsResult bench_scene(const BenchArguments& a) {
   run.dt = a.dt;
   run.duration = a.duration;
   const world::Scene scene = load_scene(run);
-  return run_worlds(scene_worlds(scene, {a.packages, {}, {}}),
+  return run_worlds(scene_worlds(scene, {a.packages, {}, asset_leaf_folders()}),
                     worlds_options(a, scene.dt, scene.duration));
 }
 

@@ -88,7 +88,7 @@ class Run {
       result_.exit_code = exit_unstable;
       result_.error =
           "unstable at " + io::format_number(report.time, 6) +
-          " s: " + (report.culprit.empty() ? "unknown organ" : report.culprit) + ": " +
+          " s: " + (report.culprit.empty() ? "" : report.culprit + ": ") +
           world::remedy(static_cast<world::StepError>(report.errors & world::fatal_errors));
     }
   }

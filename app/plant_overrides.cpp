@@ -1,5 +1,6 @@
 #include "app/plant_overrides.h"
 
+#include <algorithm>
 #include <map>
 
 #include "world/settings.h"
@@ -44,6 +45,23 @@ bool in_bounds(const std::string& key, double value) {
   return value > 0.0;
 }
 
+// Curves of other tissue than the plant (a soft stalk on a woody stem) stay so much softer, lighter
+// or calmer than it. Without a number of the plant to compare with, or with 0, there is no ratio.
+void set_material(plant::PlantFile& plant, const std::string& key,
+                  std::optional<double> MaterialValues::*member, double value) {
+  const std::optional<double> before = plant.material.*member;
+  plant.material.*member = value;
+  for (plant::PlantCurve& curve : plant.curves) {
+    std::optional<double>& own = curve.material.*member;
+    if (!own) continue;
+    if (!before)
+      own.reset();
+    else if (*before != 0.0)
+      own = *own * (value / *before);
+    if (own && key == "material.poisson_ratio") own = std::clamp(*own, -0.99, 0.5);
+  }
+}
+
 }  // namespace
 
 void apply_plant_overrides(plant::PlantFile& plant, const std::vector<world::Setting>& settings,
@@ -68,8 +86,7 @@ void apply_plant_overrides(plant::PlantFile& plant, const std::vector<world::Set
     if (detach != detach_keys().end()) {
       for (plant::PlantFruit& fruit : plant.fruits) fruit.detach.*(detach->second) = *value;
     } else if (material != material_keys().end()) {
-      plant.material.*(material->second) = *value;
-      for (plant::PlantCurve& curve : plant.curves) (curve.material.*(material->second)).reset();
+      set_material(plant, setting.key, material->second, *value);
     } else {
       (connect ? plant.connect : plant.distance) = *value;
     }

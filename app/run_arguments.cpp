@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "io/atomic_file.h"
+#include "session/document.h"
 #include "world/scene_reader.h"
 #include "world/settings.h"
 
@@ -48,7 +49,9 @@ void add_run_options(CLI::App& app, RunArguments& a) {
 
 world::Scene load_scene(const RunArguments& a) {
   Diagnostics diagnostics;
-  std::optional<world::Scene> scene = world::read_scene(a.scene, diagnostics);
+  std::optional<world::Scene> scene = is_lone_plant(a.scene)
+                                          ? scene_of(open_document(a.scene))
+                                          : world::read_scene(a.scene, diagnostics);
   if (!scene) throw InvalidFile(diagnostics);
   for (const Diagnostic& warning : diagnostics.all())
     std::fprintf(stderr, "%s\n", to_string(warning).c_str());
@@ -74,6 +77,7 @@ world::Scene load_scene(const RunArguments& a) {
 RunOptions run_options(const RunArguments& a) {
   RunOptions options;
   options.simulation.packages = a.packages;
+  options.simulation.leaf_folders = asset_leaf_folders();
   options.out = a.out;
   if (options.out.empty()) {
     std::string name = std::filesystem::path(a.scene).filename().string();

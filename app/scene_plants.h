@@ -18,8 +18,8 @@ struct ScenePlantModel {
 /// worth knowing (an absent optional file) to `notes`.
 ///
 /// Overrides: detach.stretch, .bend, .force, .moment, .torsion (all fruits),
-/// material.youngs_modulus, .poisson_ratio, .density, .damping_time (the whole plant, curves' own
-/// values too), sampling.connect, sampling.distance.
+/// material.youngs_modulus, .poisson_ratio, .density, .damping_time (the plant's number; curves
+/// with one of their own keep their ratio to it), sampling.connect, sampling.distance.
 std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
                                           const SimulationOptions& options,
                                           Diagnostics& diagnostics,

@@ -12,6 +12,7 @@
 #include "plant/mtg_reader.h"
 #include "plant/plant_builder.h"
 #include "robot/urdf_reader.h"
+#include "session/document.h"
 #include "world/scene_reader.h"
 
 namespace pedicel::app {
@@ -35,6 +36,8 @@ std::string check_plant(const std::filesystem::path& path, const Packages&,
   if (!file) return {};
   plant::BuildOptions options;
   options.leaf_folders = {path.parent_path(), path.parent_path() / "../assets/leaves"};
+  for (const std::filesystem::path& folder : asset_leaf_folders())
+    options.leaf_folders.push_back(folder);
   const auto built = plant::build_plant(*file, options, diagnostics);
   return built ? plant::residual_text(*built) : "";
 }
@@ -57,6 +60,7 @@ std::string check_scene(const std::filesystem::path& path, const Packages& packa
   if (!scene) return {};
   SimulationOptions options;
   options.packages = packages;
+  options.leaf_folders = asset_leaf_folders();
   // Builds everything that the scene names, and runs none of it.
   return Simulation(*scene, options).worst_residual();
 }

@@ -65,6 +65,7 @@ class DataPanel : public Panel {
       view.trial = view.marker = view.model = fresh.model;
       view.time = 0.0, view.playing = false;
       if (data.experiment()) ui.ask(Action::frame_all);
+      if (data.experiment()) path_ = opened_ = data.experiment()->folder.string();
       plot_ = {};
     }
     if (found_ != data.diagnosis()) {

@@ -18,7 +18,7 @@ void paragraph(const std::string& text, const ImVec4* colour = nullptr) {
   if (text.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, colour ? *colour : palette().text);
   ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(at_blanks(text).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
 }
@@ -103,7 +103,12 @@ void DiagnosisPart::draw_rivals(Ui& ui) {
   if (card_.rivals.empty()) return;
   heading(ui, "What else it could have been");
   for (const DiagnosisCard::Rival& rival : card_.rivals) {
-    row(rival.name.c_str(), number_text(rival.behind, 3) + " nats");
+    // The reason says how far it is behind where that is what decides.
+    const bool said = rival.why.find(" nats ") != std::string::npos;
+    if (said)
+      paragraph(rival.name);
+    else
+      row(rival.name.c_str(), number_text(rival.behind, 3) + " nats");
     note(rival.why);
   }
 }

@@ -1,6 +1,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+
 #include "app/panels/panel.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui.h"
@@ -21,7 +23,7 @@ class MessagesPanel : public Panel {
     const float line = ImGui::GetFrameHeightWithSpacing();
     if (ImGui::BeginChild("messages", ImVec2(0, -line))) {
       const auto& messages = ui.session.messages();
-      if (messages.empty()) note("Nothing to say.");
+      if (messages.empty() && answer_.empty()) note("Nothing to say.");
       for (std::size_t i = 0; i < messages.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         message(ui, messages[i]);
@@ -37,10 +39,15 @@ class MessagesPanel : public Panel {
   /// A file that cannot be read is shown at once, with what to do; other news bring the tab up.
   void idle(Ui& ui) override {
     const auto& messages = ui.session.messages();
-    if (messages.size() > shown_) ui.show_panel = "Messages";
-    for (std::size_t i = shown_; i < messages.size(); ++i)
+    const std::size_t said = ui.session.messages_said();
+    const std::size_t news = std::min(said - shown_, messages.size());
+    if (news > 0) ui.show_panel = "Messages";
+    for (std::size_t i = messages.size() - news; i < messages.size(); ++i)
       if (messages[i].can_retry) ui.problem = messages[i].text, ui.dialog = Dialog::problem;
-    shown_ = messages.size();
+    shown_ = said;
+    const bool mended = std::none_of(messages.begin(), messages.end(),
+                                     [](const Message& one) { return one.can_retry; });
+    if (mended && ui.dialog == Dialog::problem) ui.dialog = Dialog::none;
   }
 
  private:
@@ -64,7 +71,7 @@ class MessagesPanel : public Panel {
       ImGui::SetKeyboardFocusHere(-1);
     }
     ImGui::SameLine();
-    if (ImGui::Button("Clear")) ui.session.clear_messages(), answer_.clear(), shown_ = 0;
+    if (ImGui::Button("Clear")) ui.session.clear_messages(), answer_.clear();
   }
 
   std::size_t shown_ = 0, scrolled_ = 0;

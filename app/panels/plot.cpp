@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
@@ -43,26 +44,32 @@ void show_all(const std::vector<PlotLine>& lines, PlotView& view) {
   view.y_low = y0 - margin, view.y_high = y1 + margin;
 }
 
+double spacing(const std::vector<double>& ticks) {
+  return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+}
+
 void draw_grid(ImDrawList& list, const Frame& frame, const char* x_label) {
   const float em = ImGui::GetFontSize();
   const ImU32 grid = colour_u32(palette().line, 0.6f), ink = colour_u32(palette().dim);
   const PlotView& v = frame.view;
   const int across = std::max(2, static_cast<int>((frame.high.x - frame.low.x) / (5 * em)));
   const int up = std::max(2, static_cast<int>((frame.high.y - frame.low.y) / (2.2f * em)));
-  for (const double t : ticks(v.x_low, v.x_high, across)) {
+  const std::vector<double> times = ticks(v.x_low, v.x_high, across);
+  for (const double t : times) {
     const float x = frame.x(t);
     list.AddLine(ImVec2(x, frame.low.y), ImVec2(x, frame.high.y), grid);
-    const std::string text = number_text(t, 4);
+    const std::string text = tick_text(t, spacing(times));
     const float width = ImGui::CalcTextSize(text.c_str()).x;
     if (x + 0.5f * width < frame.high.x - ImGui::CalcTextSize(x_label).x - 0.4f * em)
       list.AddText(ImVec2(x - 0.5f * width, frame.high.y + 3), ink, text.c_str());
   }
   list.AddText(ImVec2(frame.high.x - ImGui::CalcTextSize(x_label).x, frame.high.y + 3), ink,
                x_label);
-  for (const double value : ticks(v.y_low, v.y_high, up)) {
+  const std::vector<double> values = ticks(v.y_low, v.y_high, up);
+  for (const double value : values) {
     const float y = frame.y(value);
     list.AddLine(ImVec2(frame.low.x, y), ImVec2(frame.high.x, y), grid);
-    const std::string text = number_text(value, 3);
+    const std::string text = tick_text(value, spacing(values));
     list.AddText(ImVec2(frame.low.x - ImGui::CalcTextSize(text.c_str()).x - 5, y - 0.5f * em), ink,
                  text.c_str());
   }
@@ -140,7 +147,47 @@ void move_view(PlotView& view, const Frame& frame, const std::vector<PlotLine>& 
   if (ImGui::IsMouseDoubleClicked(0)) view.follows = true, show_all(lines, view);
 }
 
+Frame frame_of(const ImVec2& corner, const ImVec2& size, const PlotView& view) {
+  const float em = ImGui::GetFontSize();
+  return {ImVec2(corner.x + 4.2f * em, corner.y + 0.5f * em),
+          ImVec2(corner.x + size.x - 0.6f * em, corner.y + size.y - 1.5f * em), view};
+}
+
+/// Where a box of that size hides the fewest values of the lines; the upper right one if alike.
+ImVec2 emptiest_corner(const Frame& frame, const std::vector<PlotLine>& lines, const ImVec2& size,
+                       float pad) {
+  const float left = frame.low.x + pad, right = frame.high.x - pad - size.x;
+  const float top = frame.low.y + pad, bottom = frame.high.y - pad - size.y;
+  ImVec2 best(right, top);
+  long fewest = -1;
+  for (const ImVec2& at :
+       {ImVec2(right, top), ImVec2(left, top), ImVec2(right, bottom), ImVec2(left, bottom)}) {
+    long hidden = 0;
+    for (const PlotLine& line : lines)
+      for (std::size_t i = 0; i < line.x.size(); ++i) {
+        const float x = frame.x(line.x[i]), y = frame.y(line.y[i]);
+        hidden += x >= at.x && x <= at.x + size.x && y >= at.y && y <= at.y + size.y;
+      }
+    if (fewest >= 0 && hidden >= fewest) continue;
+    fewest = hidden;
+    best = at;
+  }
+  return best;
+}
+
 }  // namespace
+
+std::string tick_text(double value, double step) {
+  if (std::abs(value) < 1e-9 * step) return "0";
+  const int last = static_cast<int>(std::floor(std::log10(step) + 1e-9));  // power that differs
+  if (last < -4 || std::abs(value) >= 1e5) {
+    const int first = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
+    return number_text(value, std::clamp(first - last + 1, 1, 6));
+  }
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", std::max(0, -last), value);
+  return text.data();
+}
 
 std::vector<double> ticks(double low, double high, int most) {
   if (!(high > low) || most < 1) return {};
@@ -170,8 +217,7 @@ void draw_plot(const char* id, const std::vector<PlotLine>& lines, PlotView& vie
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(id, size);
   if (view.follows) show_all(lines, view);
-  const Frame frame{ImVec2(corner.x + 4.2f * em, corner.y + 0.5f * em),
-                    ImVec2(corner.x + size.x - 0.6f * em, corner.y + size.y - 1.5f * em), view};
+  const Frame frame = frame_of(corner, size, view);
   if (frame.high.x - frame.low.x < em || frame.high.y - frame.low.y < em) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(frame.low, frame.high, colour_u32(palette().window, 0.6f), 3.0f);
@@ -181,6 +227,25 @@ void draw_plot(const char* id, const std::vector<PlotLine>& lines, PlotView& vie
   list.PopClipRect();
   move_view(view, frame, lines);
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) draw_values(list, frame, lines);
+}
+
+void name_lines(const std::vector<PlotLine>& lines, const PlotView& view) {
+  const Frame frame = frame_of(ImGui::GetItemRectMin(), ImGui::GetItemRectSize(), view);
+  const float pad = 0.4f * ImGui::GetFontSize(), height = ImGui::GetTextLineHeight();
+  ImVec2 size(2 * pad, 2 * pad + static_cast<float>(lines.size()) * height);
+  for (const PlotLine& line : lines)
+    size.x = std::max(size.x, ImGui::CalcTextSize(line.name.c_str()).x + 2 * pad);
+  const ImVec2 room(frame.high.x - frame.low.x, frame.high.y - frame.low.y);
+  if (lines.empty() || 1.5f * size.x > room.x || size.y > 0.7f * room.y) return;
+  ImVec2 at = emptiest_corner(frame, lines, size, pad);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), colour_u32(palette().window, 0.85f),
+                     pad);
+  at.x += pad, at.y += pad;
+  for (const PlotLine& line : lines) {
+    list.AddText(at, line.colour, line.name.c_str());
+    at.y += height;
+  }
 }
 
 }  // namespace pedicel::app

@@ -25,6 +25,13 @@ struct PlotView {
 void draw_plot(const char* id, const std::vector<PlotLine>& lines, PlotView& view,
                const ImVec2& size, const char* x_label);
 
+/// The names of the lines over the plot that was drawn last, in the corner where they hide least;
+/// not where there is no room.
+void name_lines(const std::vector<PlotLine>& lines, const PlotView& view);
+
+/// A tick's number with the digits by which it differs from the next one, which is `step` off.
+std::string tick_text(double value, double step);
+
 /// Steps of 1, 2 or 5 times a power of ten, at most `most` of them between low and high.
 std::vector<double> ticks(double low, double high, int most);
 

@@ -9,6 +9,7 @@
 #include "app/panels/theme.h"
 #include "app/panels/ui.h"
 #include "app/panels/widgets.h"
+#include "app/window/desktop.h"
 #include "app/window/measured_marks.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
@@ -43,7 +44,7 @@ class PlotsPanel : public Panel {
     ImGui::SameLine();
     const std::vector<PlotLine> lines = make_lines(ui);
     draw_plot("plot", lines, view_, ImGui::GetContentRegionAvail(), "s");
-    name_lines(ui, lines);
+    name_lines(lines, view_);
   }
 
  private:
@@ -51,26 +52,6 @@ class PlotsPanel : public Panel {
   static constexpr const char* trial_prefix = "trial: ";
   static constexpr std::array<const char*, 4> forces = {"force_x_N", "force_y_N", "force_z_N",
                                                         "force_N"};
-
-  /// The names of the lines in the plot's corner; in the list they may be scrolled away.
-  static void name_lines(const Ui& ui, const std::vector<PlotLine>& lines) {
-    float width = 0.0f;
-    for (const PlotLine& line : lines)
-      width = std::max(width, ImGui::CalcTextSize(line.name.c_str()).x);
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    const float height = ImGui::GetTextLineHeight(), pad = 6.0f * ui.scale;
-    const float tall = static_cast<float>(lines.size()) * height;
-    if (lines.empty() || 1.6f * width > high.x - low.x || tall > 0.7f * (high.y - low.y)) return;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    ImVec2 at(high.x - width - 4 * pad, low.y + 3 * pad);
-    list.AddRectFilled(ImVec2(at.x - pad, at.y - pad),
-                       ImVec2(at.x + width + pad, at.y + tall + pad),
-                       colour_u32(palette().window, 0.85f), 4.0f * ui.scale);
-    for (const PlotLine& line : lines) {
-      list.AddText(at, line.colour, line.name.c_str());
-      at.y += height;
-    }
-  }
 
   static ImU32 ink(const render::Colour& c) {
     return ImGui::ColorConvertFloat4ToU32(ImVec4(c.r, c.g, c.b, 1.0f));
@@ -105,7 +86,7 @@ class PlotsPanel : public Panel {
     ImGui::InputTextWithHint("##search", "search", search_, sizeof search_);
     ImGui::SameLine();
     if (ImGui::Button("CSV")) export_csv(ui);
-    tip("Writes the lines that are shown to plot.csv in the working folder");
+    tip("Writes the lines that are shown to plot_001.csv, plot_002.csv, ... in the working folder");
     if (ImGui::BeginChild("names", ImVec2(0, 0), true)) {
       if (has_force(ui))
         for (const char* part : forces) toggle(std::string(trial_prefix) + part);
@@ -199,8 +180,9 @@ class PlotsPanel : public Panel {
       text += "\n";
     }
     try {
-      io::write_file_atomically("plot.csv", text);
-      ui.say("written: " + std::filesystem::absolute("plot.csv").string());
+      const std::filesystem::path file = free_name("plot", ".csv");
+      io::write_file_atomically(file, text);
+      ui.say("written: " + std::filesystem::absolute(file).string());
     } catch (const std::exception& error) {
       ui.say(error.what());
     }

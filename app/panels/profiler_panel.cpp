@@ -1,5 +1,9 @@
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
+#include <numeric>
+
 #include "app/panels/panel.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui.h"
@@ -19,7 +23,10 @@ class ProfilerPanel : public Panel {
   std::string_view name() const override { return "Profiler"; }
   Dock dock() const override { return Dock::bottom; }
 
+  void idle(Ui& ui) override { follow(*ui.snapshot); }
+
   void draw(Ui& ui) override {
+    follow(*ui.snapshot);
     if (ui.filmed) return note("Nothing is measured while a film is made.");
     if (!ImGui::BeginTable("profiler", 2, ImGuiTableFlags_SizingStretchSame)) return;
     ImGui::TableNextColumn();
@@ -30,18 +37,30 @@ class ProfilerPanel : public Panel {
   }
 
  private:
-  static void step(Ui& ui) {
+  /// The time of each phase, over about the last twenty steps that were seen: beside means, a
+  /// single step would mislead.
+  void follow(const Snapshot& s) {
+    if (s.number == number_) return;
+    if (s.stage != stage_) seen_ = 0, stage_ = s.stage;
+    number_ = s.number;
+    if (s.report.wall_seconds() <= 0.0) return;
+    const double weight = std::max(0.05, 1.0 / static_cast<double>(++seen_));
+    for (int i = 0; i < world::phase_count; ++i) {
+      double& mean = seconds_[static_cast<std::size_t>(i)];
+      mean += weight * (s.report.seconds_of(static_cast<world::Phase>(i)) - mean);
+    }
+  }
+
+  void step(Ui& ui) const {
     const Snapshot& s = *ui.snapshot;
     heading(ui, "A step of the simulation");
     row("mean, last half second", number_text(s.ms_per_step, 3) + " ms");
     row("95 % are below", number_text(s.ms_per_step_p95, 3) + " ms");
     row("steps a second", number_text(s.steps_per_second, 4));
-    const double whole = s.report.wall_seconds();
-    for (int i = 0; i < world::phase_count; ++i) {
-      const auto phase = static_cast<world::Phase>(i);
-      const double seconds = s.report.seconds_of(phase);
-      bar(std::string(world::name_of(phase)), seconds, whole);
-    }
+    const double whole = std::accumulate(seconds_.begin(), seconds_.end(), 0.0);
+    for (int i = 0; i < world::phase_count; ++i)
+      bar(std::string(world::name_of(static_cast<world::Phase>(i))),
+          seconds_[static_cast<std::size_t>(i)], whole);
   }
 
   static void picture(Ui& ui) {
@@ -67,6 +86,10 @@ class ProfilerPanel : public Panel {
     list.AddRectFilled(at, ImVec2(at.x + share * width, at.y + tall), colour_u32(palette().accent));
     ImGui::Dummy(ImVec2(width, tall));
   }
+
+  std::array<double, world::phase_count> seconds_{};
+  long seen_ = 0;
+  std::uint64_t number_ = ~0ull, stage_ = ~0ull;
 };
 
 }  // namespace

@@ -131,7 +131,7 @@ class RobotPanel : public Panel {
       ImGui::SameLine(0, spacing);
       ImGui::SetNextItemWidth(width);
       ImGui::PushID(axis);
-      double value = 1e3 * goal->asked_W.position[axis];
+      double value = std::round(1e4 * goal->asked_W.position[axis]) / 10.0 + 0.0;  // no -0.0
       if (number_field("##goal", value, "%.1f")) {
         Vec3 to = goal->asked_W.position;
         to[axis] = 1e-3 * value;

@@ -37,6 +37,10 @@ void banner(Ui& ui, ImDrawList& list, const LayoutAreas& areas, const std::strin
 void legend(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
   const ViewState& view = ui.view;
   if (view.colours == ColourMap::none) return;
+  // The shape that a model says of the only plant has no strains: only residuals colour it.
+  if (view.colours != ColourMap::residual && view.hidden_plant >= 0 &&
+      ui.snapshot->plants.size() == 1)
+    return;
   std::string title = "surface strain, 1", top = number_text(view.strain_scale, 3);
   if (view.colours == ColourMap::margin) title = "used of the threshold, %", top = "100";
   if (view.colours == ColourMap::contact)

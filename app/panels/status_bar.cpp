@@ -56,7 +56,7 @@ void draw_status_bar(Ui& ui) {
         plain);
   field(ui, "strain", fixed("%.3f", s.largest_strain),
         "Largest strain at a surface: " + s.largest_strain_organ, plain);
-  if (!ui.filmed)
+  if (!ui.filmed && ui.times.platform == "window")  // off screen nobody waits for a picture
     field(ui, "picture", fixed("%.0f/s", ui.times.picture > 0 ? 1.0 / ui.times.picture : 0.0),
           "Pictures a second; the simulation does not wait for them", plain);
   std::string right;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -9,8 +10,13 @@ namespace pedicel::app {
 
 namespace {
 
+/// A window with large letters: everything moves together.
+bool is_narrow() {
+  return ImGui::GetWindowWidth() < 46.0f * ImGui::GetFontSize();
+}
+
 void gap(const Ui& ui) {
-  ImGui::SameLine(0, 14.0f * ui.scale);
+  ImGui::SameLine(0, (is_narrow() ? 8.0f : 14.0f) * ui.scale);
 }
 
 void run_buttons(Ui& ui) {
@@ -31,7 +37,7 @@ void speed_choice(Ui& ui) {
   const auto text = [](double speed) -> std::string {
     return speed == 0.0 ? "as fast as it goes" : number_text(speed, 3) + " x";
   };
-  ImGui::SetNextItemWidth(5.2f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth((is_narrow() ? 4.4f : 5.2f) * ImGui::GetFontSize());
   const std::string now = ui.snapshot->speed == 0.0 ? std::string("max") : text(ui.snapshot->speed);
   if (ImGui::BeginCombo("##speed", now.c_str())) {
     for (const double speed : speeds)
@@ -50,6 +56,14 @@ void part_toggle(const char* label, bool& shown, const char* what) {
   if (ImGui::Button(label)) shown = !shown;
   if (was) ImGui::PopStyleColor();
   tip(what);
+}
+
+float width_of(const std::array<const char*, 3>& labels) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = 0.0f;
+  for (const char* label : labels)
+    width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  return width;
 }
 
 std::string document_name(const Ui& ui) {
@@ -82,13 +96,13 @@ void draw_toolbar(Ui& ui) {
   action_button(ui, Action::help, Icon::help);
 
   // To the right: what is open, and the parts of the window.
-  const std::array<const char*, 3> labels = {"Left", "Bottom", "Right"};
   const ImGuiStyle& style = ImGui::GetStyle();
-  float width = 0.0f;
-  for (const char* label : labels)
-    width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
-  const float start = ImGui::GetWindowWidth() - width - style.WindowPadding.x;
   ImGui::SameLine();
+  std::array<const char*, 3> labels = {"Left", "Bottom", "Right"};
+  const float most = ImGui::GetWindowWidth() - style.WindowPadding.x - ImGui::GetCursorPosX();
+  if (width_of(labels) > most) labels = {"L", "B", "R"};
+  const float start = std::max(ImGui::GetCursorPosX(),
+                               ImGui::GetWindowWidth() - width_of(labels) - style.WindowPadding.x);
   const float room = start - ImGui::GetCursorPosX() - 2 * style.ItemSpacing.x;
   if (room > 4.0f * ImGui::GetFontSize()) {
     const std::string name = elide(document_name(ui), room);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "app/panels/panel.h"
 #include "app/panels/theme.h"
@@ -61,8 +62,7 @@ class TuningPanel : public Panel {
       any = true;
       if (p.group != group) {
         group = p.group;
-        ImGui::SetNextItemOpen(*search_ || plant(p), *search_ ? ImGuiCond_Always : ImGuiCond_Once);
-        open = ImGui::CollapsingHeader(group.c_str());
+        open = header(group, plant(p));
       }
       if (open) parameter(ui, p);
     }
@@ -71,6 +71,15 @@ class TuningPanel : public Panel {
   }
 
  private:
+  /// A search opens what it finds, and leaves the groups as they were by hand.
+  bool header(const std::string& group, bool begins_open) {
+    bool& open = open_.emplace(group, begins_open).first->second;
+    ImGui::SetNextItemOpen(open || *search_, ImGuiCond_Always);
+    const bool shown = ImGui::CollapsingHeader(group.c_str());
+    if (!*search_) open = shown;
+    return shown;
+  }
+
   static void changed_row(Ui& ui, const std::vector<SessionParameter>& parameters) {
     const auto changed =
         std::ranges::count_if(parameters, [](const SessionParameter& p) { return p.changed; });
@@ -141,7 +150,8 @@ class TuningPanel : public Panel {
   }
 
   char search_[64] = "";
-  std::string dragged_;  // key of the slider in hand
+  std::map<std::string, bool> open_;  // groups, by hand
+  std::string dragged_;               // key of the slider in hand
   double dragged_value_ = 0.0;
 };
 

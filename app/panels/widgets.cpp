@@ -77,8 +77,29 @@ void row(const char* name, const std::string& value) {
 
 void note(const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
-  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::TextWrapped("%s", at_blanks(text).c_str());
   ImGui::PopStyleColor();
+}
+
+std::string at_blanks(const std::string& text) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  std::string all, line;
+  const auto end_word = [&](const std::string& word) {
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= room) {
+      line = longer;
+      return;
+    }
+    all += line + "\n";
+    line = word;
+  };
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n", start), text.size());
+    end_word(text.substr(start, end - start));
+    if (end < text.size() && text[end] == '\n') all += line + "\n", line.clear();
+    start = end + 1;
+  }
+  return all + line;
 }
 
 bool wide_button(const char* label) {

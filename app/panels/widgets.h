@@ -45,6 +45,9 @@ void row(const char* name, const std::string& value);
 void note(const std::string& text);
 /// A button as wide as its column.
 bool wide_button(const char* label);
+/// Text broken into lines for the room there is, at blanks only: ImGui breaks numbers at their
+/// point, too.
+std::string at_blanks(const std::string& text);
 /// Text cut to a width (px) with "..."; the whole text as a tip.
 void elided(const std::string& text, float width, const ImVec4* colour = nullptr);
 std::string elide(const std::string& text, float width);

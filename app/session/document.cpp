@@ -89,6 +89,11 @@ std::uint64_t Document::state_hash() const {
   return hash.value();
 }
 
+bool is_lone_plant(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return name.ends_with(".plant.yaml") || name.ends_with(".csv") || name.ends_with(".mtg");
+}
+
 Document empty_document() {
   Document document;
   document.scene = bare_scene();
@@ -128,11 +133,16 @@ world::Scene scene_of(const Document& document) {
 SimulationOptions options_of(const Document& document, const std::vector<std::string>& packages) {
   SimulationOptions options;
   options.packages = packages;
-  if (const auto assets = asset_folder(); !assets.empty())
-    options.leaf_folders.push_back(assets / "leaves");
+  options.leaf_folders = asset_leaf_folders();
   for (const DocumentPlant& one : document.plants)
     if (one.file) options.edited[one.entry.name] = *one.file;
   return options;
+}
+
+std::vector<std::filesystem::path> asset_leaf_folders() {
+  const std::filesystem::path assets = asset_folder();
+  if (assets.empty()) return {};
+  return {assets / "leaves"};
 }
 
 std::filesystem::path asset_folder() {

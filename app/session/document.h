@@ -48,6 +48,9 @@ struct Document {
 /// By its name: *.scene.yaml.
 bool is_scene(const std::filesystem::path& path);
 
+/// By its name: *.plant.yaml, *.csv (a skeleton) or *.mtg.
+bool is_lone_plant(const std::filesystem::path& path);
+
 /// An empty document: ground, gravity, nothing on it.
 Document empty_document();
 /// Reads a scene (*.scene.yaml), a plant file, a skeleton table (*.csv) or an MTG (*.mtg) with
@@ -62,5 +65,8 @@ SimulationOptions options_of(const Document& document, const std::vector<std::st
 /// The program's own assets (leaf templates, scenes): the folder `assets` beside the program or
 /// above it; empty where there is none.
 std::filesystem::path asset_folder();
+/// Where leaf templates are looked for beside a plant's own folders: that folder's; empty without
+/// it.
+std::vector<std::filesystem::path> asset_leaf_folders();
 
 }  // namespace pedicel::app

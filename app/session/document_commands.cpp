@@ -85,7 +85,15 @@ void set(Document& document, const Command& c) {
     document.settings.emplace_back(key, value);
   else
     held->second = value;
-  check_settings(document);
+  try {
+    check_settings(document);
+  } catch (const UsageError& fault) {  // says "--set KEY: ...", as on the command line
+    std::string text = fault.what();
+    for (const std::string word : {"--set ", "error: "})
+      if (const std::size_t at = text.find(word); at != std::string::npos)
+        text.erase(at, word.size());
+    throw UsageError(text);
+  }
 }
 
 void unset(Document& document, const Command& c) {

@@ -36,6 +36,13 @@ const Document& History::undo() {
   return steps_[--position_].before;
 }
 
+Document History::drop() {
+  PEDICEL_ASSERT(can_undo());
+  Document before = std::move(steps_[--position_].before);
+  steps_.resize(position_);
+  return before;
+}
+
 const Document& History::redo() {
   PEDICEL_ASSERT(can_redo());
   return steps_[position_++].after;

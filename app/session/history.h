@@ -28,6 +28,10 @@ class History {
   /// The document before the last step, or after the next one. There must be one.
   const Document& undo();
   const Document& redo();
+  /// The document before the last step, which is forgotten with those that were undone. There must
+  /// be one.
+  Document drop();
+  const Step& last() const { return steps_[position_ - 1]; }
   /// Steps that count, the oldest first.
   std::vector<Step> past() const {
     return {steps_.begin(), steps_.begin() + static_cast<long>(position_)};

@@ -48,12 +48,18 @@ std::string empty_plant_text(const DocumentPlant& one) {
          sampling("distance", file.distance);
 }
 
-/// The plants that the document's file does not say itself are added; the others are set.
 std::string base_text(const Document& document) {
-  std::string text =
-      std::string(first_line) + "\n# document " +
-      (document.path.empty() ? std::string() : std::filesystem::absolute(document.path).string()) +
-      "\n";
+  return std::string(first_line) + "\n# document " +
+         (document.path.empty() ? std::string()
+                                : std::filesystem::absolute(document.path).string()) +
+         "\n" + state_commands(document) + "# base\n";
+}
+
+}  // namespace
+
+// Plants that the document's file does not say itself are added; the others are set.
+std::string state_commands(const Document& document) {
+  std::string text;
   for (const DocumentPlant& one : document.plants) {
     if (one.file && one.file->curves.empty()) text += empty_plant_text(one);
     if (!one.file || one.file->curves.empty()) continue;
@@ -67,10 +73,8 @@ std::string base_text(const Document& document) {
     text += Command("set", {{"key", key}, {"value", value}}).text() + "\n";
   for (const RobotWaypoint& one : document.waypoints)
     text += Command("add waypoint", {{"time", one.time}, {"joints", one.joints}}).text() + "\n";
-  return text + "# base\n";
+  return text;
 }
-
-}  // namespace
 
 Journal::Journal(std::filesystem::path folder)
     : folder_(std::move(folder)), file_(folder_ / unique_name()) {}

@@ -10,6 +10,9 @@
 
 namespace pedicel::app {
 
+/// The document's plants, settings and waypoints as commands that set them, a line each.
+std::string state_commands(const Document& document);
+
 /// What a killed program leaves: a file that holds the document as it was opened or saved last, as
 /// commands, and then every command since, each written and flushed to disk as it is done. A line
 /// counts once its end is there. The file is locked while its program lives.

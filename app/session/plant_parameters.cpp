@@ -17,15 +17,19 @@ struct Description {
 };
 
 constexpr Description descriptions[] = {
-    {"material.youngs_modulus", "Pa", "Stiffness of all stems; a green stem 1e7 to 1e9, wood 1e10.",
+    {"material.youngs_modulus", "Pa",
+     "Stiffness of the stems (those with their own keep their ratio to it); a green stem 1e7 to "
+     "1e9, wood 1e10.",
      1.0e5, 1.0e11, true, false},
     {"material.poisson_ratio", "1", "Decides the shear and twist stiffness; 0.3 to 0.4 for tissue.",
      -0.9, 0.5, false, false},
-    {"material.density", "kg/m3", "Mass of the stems; fresh tissue 700 to 1000.", 50.0, 3000.0,
-     false, false},
+    {"material.density", "kg/m3",
+     "Mass of the stems (those with their own keep their ratio to it); fresh tissue 700 to 1000.",
+     50.0, 3000.0, false, false},
     {"material.damping_time", "s",
-     "Kelvin-Voigt: damping ratio = pi * frequency * this; 0.01 calms a stem within seconds.", 0.0,
-     1.0, false, false},
+     "Kelvin-Voigt: damping ratio = pi * frequency * this; 0.01 calms a stem within seconds. Stems "
+     "with their own keep their ratio to it.",
+     0.0, 1.0, false, false},
     {"detach.stretch", "1", "Strain of its stalk at which a fruit comes off.", 1.0e-3, 2.0, true,
      false},
     {"detach.bend", "rad", "Bending of its stalk's joint at which a fruit comes off.", 1.0e-3, 3.2,

@@ -18,4 +18,8 @@ void add_plant_parameters(std::vector<SessionParameter>& all, const std::string&
                           const plant::PlantFile& plant, const std::vector<world::Setting>& now,
                           const std::vector<world::Setting>& files);
 
+/// Every described number of a document, with what it is in `files`, the same document without the
+/// settings that were made since.
+std::vector<SessionParameter> document_parameters(const Document& document, const Document& files);
+
 }  // namespace pedicel::app

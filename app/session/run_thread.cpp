@@ -194,7 +194,7 @@ void RunThread::take_assets(const std::shared_ptr<const SceneAssets>& assets, bo
   log.begin(run_->simulation());
   if (mode_ == RunMode::unstable) mode_ = RunMode::paused;
   error_.clear();
-  rates_.rest();
+  rates_ = RunRates{};
   start_clock();
 }
 

@@ -25,9 +25,11 @@ void RunThread::check_stability() {
     if (own.errors == 0 || own.element < 0 || culprit_plant_ >= 0) continue;
     culprit_plant_ = p;
     culprit_element_ = own.element;
+    const cosserat::RodModel& model = run_->simulation().rods().model(p);
+    if (culprit_.empty()) culprit_ = model.organs[model.elements[own.element].organ];
   }
   error_ = "unstable at " + io::format_number(report.time, 6) +
-           " s: " + (report.culprit.empty() ? "unknown organ" : report.culprit) + ": " +
+           " s: " + (culprit_.empty() ? "" : culprit_ + ": ") +
            world::remedy(static_cast<world::StepError>(report.errors & world::fatal_errors));
   rates_.rest();
 }

@@ -1,6 +1,7 @@
 #include "session/session.h"
 
 #include <cstdlib>
+#include <map>
 
 #include "core/check.h"
 #include "io/atomic_file.h"
@@ -10,6 +11,19 @@
 #include "session/measured_data.h"
 
 namespace pedicel::app {
+
+namespace {
+
+/// A script may be played from another folder.
+Command with_whole_path(const Command& command) {
+  if (command.verb() != "play trajectory") return command;
+  const auto file = std::filesystem::absolute(command.word("file")).lexically_normal();
+  std::map<std::string, Value> arguments{{"file", file.string()}};
+  if (command.has("loop")) arguments.emplace("loop", command.number("loop"));
+  return Command(command.verb(), std::move(arguments));
+}
+
+}  // namespace
 
 Session::Session(const SessionOptions& options)
     : options_(options), measured_(std::make_unique<MeasuredData>()) {
@@ -30,12 +44,16 @@ void Session::set_document(Document document) {
   document_ = std::move(document);
   saved_hash_ = document_.state_hash();
   saved_settings_.clear();
+  first_ = document_;
+  saved_.reset();
+  built_ = false;
   begin_journal();
   rebuild(true);
 }
 
 void Session::rebuild(bool restart) {
   hash_ = document_.state_hash();
+  unbuilt_.reset();
   control_.build(
       [document = document_, packages = options_.packages] {
         return std::make_shared<const SceneAssets>(scene_of(document),
@@ -55,7 +73,7 @@ Result Session::run(const Command& command) {
   } catch (const UsageError& fault) {
     result = {false, command.verb() + ": " + fault.what()};
   } catch (const InvalidFile& fault) {
-    result = {false, fault.what()};
+    result = {false, fault.what(), true};
   } catch (const io::WriteError& fault) {
     result = {false, fault.what()};
   }
@@ -69,17 +87,6 @@ Result Session::run_text(const std::string& line) {
   return run(*command);
 }
 
-// Where commands wait, a build that failed is the fault of the command that asked for it.
-Result Session::finish(Result result) {
-  if (!options_.waits) return result;
-  control_.wait();
-  const std::size_t before = messages_.size();
-  update();
-  for (std::size_t i = before; i < messages_.size() && result.ok; ++i)
-    if (messages_[i].severity == Severity::error) result = {false, messages_[i].text};
-  return result;
-}
-
 Result Session::dispatch(const Command& command) {
   const CommandDescription* description = find_command(command.verb());
   if (!description) throw UsageError("no such command");
@@ -91,7 +98,7 @@ Result Session::dispatch(const Command& command) {
   if (command.verb() == "tool" && !log_.empty() && log_.back().starts_with("tool "))
     log_.back() = command.text();
   else
-    log_.push_back(command.text());
+    log_.push_back(with_whole_path(command).text());
   return result;
 }
 
@@ -130,6 +137,15 @@ void Session::begin_journal() {
 
 void Session::note(const std::string& line) {
   log_.push_back(line);
+  add_to_journal(line);
+}
+
+// Read back, each command of a gesture is a step by itself.
+void Session::note_step(const std::string& verb, const History::Step& step) {
+  for (std::size_t i = 0; i < step.commands.size(); ++i) note(verb);
+}
+
+void Session::add_to_journal(const std::string& line) {
   if (!journal_) return;
   try {
     journal_->add(line, document_.state_hash());
@@ -150,6 +166,7 @@ void Session::end_gesture() {
   gesture_.reset();
   if (gesture.commands.empty()) return;
   record({std::move(gesture.commands), std::move(gesture.before), document_});
+  take_back_unbuilt();
 }
 
 void Session::cancel_gesture() {
@@ -177,8 +194,9 @@ Result Session::undo() {
   end_gesture();
   if (!history_.can_undo()) return {false, "nothing to undo"};
   const std::string name = history_.undo_name();
+  const History::Step& step = history_.last();
   take_back(history_.undo());
-  note("undo");
+  note_step("undo", step);
   return finish({true, name});
 }
 
@@ -187,27 +205,8 @@ Result Session::redo() {
   if (!history_.can_redo()) return {false, "nothing to redo"};
   const std::string name = history_.redo_name();
   take_back(history_.redo());
-  note("redo");
+  note_step("redo", history_.last());
   return finish({true, name});
-}
-
-void Session::update() {
-  for (const BuildNews& news : control_.take_news()) {
-    std::string text;
-    for (const Diagnostic& one : news.problems)
-      text += (text.empty() ? "" : "\n") + (one.where.file.empty() ? one.what : to_string(one));
-    if (!text.empty()) say(Severity::error, text, true);
-    if (!news.restarted) continue;
-    for (const std::string& one : news.notes) say(Severity::warning, one);
-  }
-  std::erase_if(dropped_, [](const auto& one) { return one->has_ended(); });
-  if (reading_ && reading_->has_ended()) finish_reading();
-  tell_faults(measured_->update());
-}
-
-void Session::say(Severity severity, std::string text, bool can_retry) {
-  if (!messages_.empty() && messages_.back().text == text) return;
-  messages_.push_back({severity, std::move(text), can_retry});
 }
 
 std::filesystem::path autosave_folder() {

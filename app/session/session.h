@@ -31,7 +31,8 @@ struct Message {
 /// What became of a command.
 struct Result {
   bool ok = true;
-  std::string text;  ///< the fault, or what a query answers; may be empty
+  std::string text;       ///< the fault, or what a query answers; may be empty
+  bool bad_file = false;  ///< the fault is one of a file that was to be read
   explicit operator bool() const { return ok; }
 };
 
@@ -89,7 +90,9 @@ class Session {
   const std::filesystem::path& path() const { return document_.path; }
 
   // Commands.
-  /// Does a command of any scope. Document commands refuse as a whole.
+  /// Does a command of any scope. Document commands refuse as a whole; one whose document cannot be
+  /// simulated (and the one before could) is taken back as a whole, with a message, once that is
+  /// known.
   Result run(const Command& command);
   Result run_text(const std::string& line);
   /// Everything until end_gesture() is one step of the history; commands that go on changing the
@@ -105,8 +108,11 @@ class Session {
   /// Whether what is simulated is what is drawn: false while it is being built, and where it cannot
   /// be (see messages()).
   bool is_simulated() const { return snapshot()->document_hash == hash_; }
-  /// Everything that was done, one line each; as a script it does the same again.
+  /// Everything that was done, one line each.
   const std::vector<std::string>& log() const { return log_; }
+  /// What makes the document as it was opened, and then the log: as a script it does the same
+  /// again. Where files were saved over since, it says in commands what they said.
+  std::string script() const;
 
   // The simulation.
   RunControl& control() { return control_; }
@@ -115,7 +121,10 @@ class Session {
   /// Takes what the simulation's thread has to tell into messages(); once a frame.
   void update();
 
+  /// The newest last. Faults of files go once the files can be read.
   const std::vector<Message>& messages() const { return messages_; }
+  /// How many there were since the start, those that have gone too.
+  std::size_t messages_said() const { return said_; }
   void clear_messages() { messages_.clear(); }
 
   // Parameters.
@@ -209,9 +218,15 @@ class Session {
   void rebuild(bool restart = false);
   Result dispatch(const Command& command);
   void take_back(const Document& document);
+  void take_news(const BuildNews& news);
+  bool take_back_unbuilt();
+  void forget_in_log(const std::vector<Command>& commands);
+  void forget_file_faults();
   Result change_document(const Command& command);
   void record(History::Step step);
   void note(const std::string& line);
+  void note_step(const std::string& verb, const History::Step& step);
+  void add_to_journal(const std::string& line);
   void begin_journal();
   Result session_command(const Command& command);
   Result run_command(const Command& command);
@@ -221,6 +236,7 @@ class Session {
   Result play(robot::Trajectory trajectory, bool loops);
   robot::Trajectory waypoint_trajectory(const robot::KinematicModel& model) const;
   Result pull_command(const Command& command);
+  Result step_back(long steps);
   Result expect_command(const Command& command) const;
   Result measured_command(const Command& command);
   Result film_command(const Command& command);
@@ -238,10 +254,15 @@ class Session {
   std::uint64_t hash_ = 0, saved_hash_ = 0;  // of the document; as it was opened or saved
   // The document's settings that its scene file says since it was saved.
   std::vector<std::pair<std::string, std::string>> saved_settings_;
+  Document first_;                 // as it was opened
+  std::optional<Document> saved_;  // as it was written to its files since
   History history_;
   std::optional<Gesture> gesture_;
   std::vector<std::string> log_;
   std::vector<Message> messages_;
+  std::size_t said_ = 0;
+  bool built_ = false;                // something of this document
+  std::optional<BuildNews> unbuilt_;  // the document of now cannot be built
   std::unique_ptr<Journal> journal_;
   std::filesystem::path failed_path_;  // what could not be opened, for reload()
   std::unique_ptr<MeasuredData> measured_;

@@ -107,6 +107,7 @@ bool Session::open(const std::filesystem::path& path) {
   try {
     set_document(open_document(path));
     failed_path_.clear();
+    forget_file_faults();
     if (options_.waits) control_.wait();
     return true;
   } catch (const InvalidFile& fault) {
@@ -126,6 +127,7 @@ void Session::open_empty() {
 }
 
 bool Session::reload() {
+  forget_file_faults();
   if (!failed_path_.empty()) return open(failed_path_);
   if (document_.path.empty()) {
     control_.reset();
@@ -137,6 +139,7 @@ bool Session::reload() {
     gesture_.reset();
     document_ = std::move(fresh);
     history_.add({{Command("reload", {})}, before, document_});
+    built_ = false;
     rebuild(true);
     saved_hash_ = hash_;
     saved_settings_.clear();
@@ -163,6 +166,7 @@ Result Session::save(const std::filesystem::path& path) {
     return {false, fault.what()};
   }
   saved_hash_ = hash_;
+  if (!saved.written.empty()) saved_ = document_;
   if (is_scene(document_.path)) saved_settings_ = document_.settings;
   begin_journal();
   return {true, saved.text()};
@@ -176,7 +180,7 @@ Result Session::export_plant(const std::string& plant, const std::filesystem::pa
 Result Session::import_plant(const std::filesystem::path& path, const std::string& name) {
   Diagnostics diagnostics;
   const auto file = read_plant(path, diagnostics);
-  if (!file) return {false, diagnostics.text()};
+  if (!file) return {false, diagnostics.text(), true};
   // The text goes into the command, so that the log does not depend on the file.
   const Command command("add plant", {{"plant", name.empty() ? file->name : name},
                                       {"text", plant::plant_text(*file)}});

@@ -87,8 +87,8 @@ Result Session::finish_reading() {
 
 Result Session::adopt(ExperimentReading& reading) {
   const std::string path = reading.path().string();
-  if (!reading.fault().empty()) return {false, path + ": " + reading.fault()};
-  if (!reading.experiment()) return {false, reading.diagnostics().text()};
+  if (!reading.fault().empty()) return {false, path + ": " + reading.fault(), true};
+  if (!reading.experiment()) return {false, reading.diagnostics().text(), true};
   if (measured_->is_diagnosing())
     return {false, path + ": a diagnosis runs, expected it to end or be cancelled"};
   const bool replaces = find_plant(document_, reading.experiment()->plant) < 0;

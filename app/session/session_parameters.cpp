@@ -65,19 +65,24 @@ bool differs(const Texts& a, const Texts& b, const std::string& key) {
 
 }  // namespace
 
-std::vector<SessionParameter> Session::parameters() const {
+std::vector<SessionParameter> document_parameters(const Document& document, const Document& plain) {
   std::vector<SessionParameter> all;
-  Document plain = document_;
-  plain.settings = saved_settings_;
-  const world::Scene scene = scene_of(document_), files = scene_of(plain);
+  const world::Scene scene = scene_of(document), files = scene_of(plain);
   Settings now = settings_of(scene), initial = settings_of(files);
   add(all, "rods", cosserat::parameters_of(now.rods), cosserat::parameters_of(initial.rods));
   add(all, "coupling", coupling::parameters_of(now.coupling),
       coupling::parameters_of(initial.coupling));
-  for (std::size_t p = 0; p < document_.plants.size(); ++p)
-    if (document_.plants[p].file)
-      add_plant_parameters(all, document_.plants[p].entry.name, *document_.plants[p].file,
+  for (std::size_t p = 0; p < document.plants.size(); ++p)
+    if (document.plants[p].file)
+      add_plant_parameters(all, document.plants[p].entry.name, *document.plants[p].file,
                            scene.plants[p].set, files.plants[p].set);
+  return all;
+}
+
+std::vector<SessionParameter> Session::parameters() const {
+  Document plain = document_;
+  plain.settings = saved_settings_;
+  std::vector<SessionParameter> all = document_parameters(document_, plain);
   for (SessionParameter& one : all)
     one.changed = differs(document_.settings, saved_settings_, one.key);
   return all;

@@ -1,5 +1,6 @@
 #include <chrono>
 #include <ctime>
+#include <utility>
 
 #include "core/check.h"
 #include "io/atomic_file.h"
@@ -51,6 +52,8 @@ bool Session::recover(const Lost& lost) {
     return false;
   }
   if (content.document.empty() || !open(content.document)) open_empty();
+  // The lines say themselves what was taken back: nothing is to be judged in between.
+  const bool waits = std::exchange(options_.waits, false);
   const auto do_line = [this](const std::string& line) {
     Diagnostics diagnostics;
     const auto command = parse_command(line, {"journal", 1, 1}, diagnostics);
@@ -62,6 +65,8 @@ bool Session::recover(const Lost& lost) {
   history_.clear();
   if (is_scene(document_.path)) saved_settings_ = document_.settings;
   for (const JournalContent::Line& line : content.commands) do_line(line.command);
+  options_.waits = waits;
+  finish({});
   saved_hash_ = on_disk;
   const auto wanted = content.commands.empty() ? std::nullopt : content.commands.back().hash;
   if (wanted && *wanted != document_.state_hash())

@@ -1,4 +1,5 @@
 #include "core/check.h"
+#include "io/csv.h"
 #include "session/robot_goal.h"
 #include "session/session.h"
 
@@ -13,6 +14,16 @@ int joint_of(const robot::KinematicModel& model, const std::string& name) {
   std::string names;
   for (const std::string& one : model.joint_names()) names += (names.empty() ? "" : ", ") + one;
   throw UsageError("no joint \"" + name + "\", expected one of: " + names);
+}
+
+void check_limits(const robot::KinematicModel& model, const Eigen::VectorXd& q) {
+  constexpr double slack = 1e-6;  // rad or m, of numbers that were rounded to be shown
+  for (int i = 0; i < model.dofs(); ++i) {
+    if (q[i] >= model.lower()[i] - slack && q[i] <= model.upper()[i] + slack) continue;
+    throw UsageError("joint \"" + model.joint_names()[static_cast<std::size_t>(i)] + "\" to " +
+                     io::format_number(q[i]) + ", expected " + io::format_number(model.lower()[i]) +
+                     " to " + io::format_number(model.upper()[i]) + " (rad or m)");
+  }
 }
 
 }  // namespace
@@ -37,6 +48,7 @@ Result Session::move_joints(const Eigen::VectorXd& q) {
   if (q.size() != model.dofs())
     throw UsageError(std::to_string(q.size()) + " values, expected " +
                      std::to_string(model.dofs()) + ", one a joint");
+  check_limits(model, q);
   control_.move_robot(q);
   return {};
 }

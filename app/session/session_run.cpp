@@ -54,13 +54,22 @@ std::optional<double> measure(const std::string& name, const Document& document,
   return series.value.back();
 }
 
+int steps_of(const Command& c) {
+  const int count = c.whole_or("count", 1);
+  if (count < 1) throw UsageError("count " + std::to_string(count) + ", expected 1 or more");
+  return count;
+}
+
+double at_least_0(const Command& c, const char* argument, const char* unit) {
+  const double value = c.number(argument);
+  if (value < 0.0)
+    throw UsageError(std::string(argument) + " " + io::format_number(value) + ", expected " + unit +
+                     " from 0 on");
+  return value;
+}
+
 Result save_script(const Session& session, const std::filesystem::path& file) {
-  const Command first = session.path().empty()
-                            ? Command("new", {})
-                            : Command("open", {{"file", session.path().string()}});
-  std::string text = first.text() + "\n";
-  for (const std::string& line : session.log()) text += line + "\n";
-  io::write_file_atomically(file, text);
+  io::write_file_atomically(file, session.script());
   return {true, std::to_string(session.log().size()) + " commands in " + file.string()};
 }
 
@@ -70,10 +79,10 @@ Result Session::session_command(const Command& c) {
   const std::string& verb = c.verb();
   if (verb == "open") {
     if (open(c.word("file"))) return {};
-    return {false, messages_.back().text};
+    return {false, messages_.back().text, true};
   }
   if (verb == "new") open_empty();
-  if (verb == "reload" && !reload()) return {false, messages_.back().text};
+  if (verb == "reload" && !reload()) return {false, messages_.back().text, true};
   if (verb == "save script") return save_script(*this, c.word("file"));
   if (verb == "save") return save(c.word_or("file", ""));
   if (verb == "import") return import_plant(c.word("file"), c.word_or("plant", ""));
@@ -95,15 +104,25 @@ Result Session::run_command(const Command& c) {
   const std::string& verb = c.verb();
   if (verb == "play") control_.play();
   if (verb == "pause") control_.pause();
-  if (verb == "step") advance(c.whole_or("count", 1));
-  if (verb == "step back") control_.step_back(c.whole_or("count", 1));
-  if (verb == "run") run_for(c.number("duration"));
+  if (verb == "step") advance(steps_of(c));
+  if (verb == "step back") return step_back(steps_of(c));
+  if (verb == "run") run_for(at_least_0(c, "duration", "s"));
   if (verb == "reset") control_.reset();
-  if (verb == "speed") control_.set_speed(c.number("value"));
+  if (verb == "speed") control_.set_speed(at_least_0(c, "value", "simulated s a wall s"));
   if (verb == "pull") return pull_command(c);
   if (verb == "release") control_.end_pull();
   if (verb == "watch") control_.log().watch(c.word("organ"));
   return robot_command(c);
+}
+
+Result Session::step_back(long steps) {
+  const long now = snapshot()->step;
+  if (steps > now)
+    return {false, "step back: " + std::to_string(steps) + " from step " + std::to_string(now) +
+                       (now == 0 ? ", expected a run that has begun"
+                                 : ", expected at most as many as were done")};
+  control_.step_back(steps);
+  return {};
 }
 
 Result Session::pull_command(const Command& c) {

@@ -33,6 +33,25 @@ Cursor cursor_of(ImGuiMouseCursor cursor) {
   }
 }
 
+/// What neither the document nor the run nor the view behind a dialog feels.
+bool acts_over_dialogs(Action action) {
+  switch (action) {
+    case Action::cancel:
+    case Action::reload:  // of a file that could not be read
+    case Action::help:
+    case Action::info:
+    case Action::screenshot:
+    case Action::video:
+    case Action::full_screen:
+    case Action::larger_text:
+    case Action::smaller_text:
+    case Action::quit:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 struct Desktop::Context {
@@ -116,6 +135,7 @@ void Desktop::follow_document() {
 void Desktop::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   for (const Binding& binding : bindings()) {
+    if (ui_.dialog != Dialog::none && !acts_over_dialogs(binding.action)) continue;
     // While a text is typed, only what cannot be part of it.
     if (io.WantTextInput && !binding.control && binding.key < Key::f1) continue;
     if (binding.control != io.KeyCtrl || binding.shift != io.KeyShift) continue;
@@ -149,7 +169,7 @@ bool Desktop::frame() {
   draw_dialogs(ui_);
   perform_all();
   ImGui::Render();
-  ui_.times.interface += 0.1 * (seconds_since(start) - ui_.times.scene - ui_.times.interface);
+  ui_.times.interface += 0.1 * (seconds_since(start) - scene_seconds_ - ui_.times.interface);
   platform_.set_cursor(
       ui_.draw.on && ui_.hover.distance > 0.0 ? Cursor::cross : cursor_of(ImGui::GetMouseCursor()));
   paint();
@@ -166,6 +186,7 @@ bool Desktop::frame() {
 
 void Desktop::draw_scene(const LayoutAreas& areas) {
   scene_drawn_ = false;
+  scene_seconds_ = 0.0;
   const ImVec2 size(areas.scene_max.x - areas.scene_min.x, areas.scene_max.y - areas.scene_min.y);
   if (size.x < 8 || size.y < 8) return;
   ImGui::SetNextWindowPos(areas.scene_min);
@@ -205,7 +226,8 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
                                  ui_.view.shadows);
     ui_.view.quality = ui_.times.quality = quality_.level;
     ui_.times.triangles = canvas_->triangles();
-    ui_.times.scene += 0.2 * (seconds_since(start) - ui_.times.scene);
+    scene_seconds_ = seconds_since(start);
+    ui_.times.scene += 0.2 * (scene_seconds_ - ui_.times.scene);
     const auto texture =
         reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(canvas_->texture()));
     ImGui::GetWindowDrawList()->AddImage(texture, areas.scene_min, areas.scene_max, ImVec2(0, 1),

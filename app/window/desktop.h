@@ -121,6 +121,7 @@ class Desktop : private FilmMaker {
   double film_time_ = 0.0;           // s, simulated, that the run may go to
   bool picture_due_ = false, film_runs_ = false;
   bool scene_drawn_ = false;       // anew, in this picture
+  double scene_seconds_ = 0.0;     // s, that it took in this picture
   std::uint64_t painted_key_ = 0;  // of the interface as it was painted last
   double painted_at_ = -1.0;       // s
 };

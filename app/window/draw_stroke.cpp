@@ -88,10 +88,7 @@ void DrawTool::extend_stroke(const Ui&, const SceneFrame& frame) {
 void DrawTool::end_stroke(Ui& ui) {
   const std::vector<plant::StrokeSample> stroke = std::move(stroke_);
   stroke_.clear();
-  if (length_of(stroke) < shortest_stem) {
-    if (foot_) choose_curve(ui, foot_->plant, foot_->stem);  // a click
-    return;
-  }
+  if (length_of(stroke) < shortest_stem) return;
   const DrawMode& d = ui.draw;
   const auto shape = shape_of(stroke, d);
   if (!shape) return;

@@ -32,6 +32,7 @@ bool DrawTool::update(Ui& ui, const SceneFrame& frame) {
 
 void DrawTool::press(Ui& ui, const SceneFrame& frame) {
   pressed_at_ = ImGui::GetIO().MousePos;
+  travel_ = 0.0f;
   if (ui.draw.thing == DrawThing::trim) {
     hand_ = Hand::trim;
     trim_.begin(pressed_at_);
@@ -60,6 +61,8 @@ void DrawTool::press(Ui& ui, const SceneFrame& frame) {
 
 void DrawTool::drag(Ui& ui, const SceneFrame& frame) {
   ImGuiIO& io = ImGui::GetIO();
+  travel_ =
+      std::max(travel_, std::hypot(io.MousePos.x - pressed_at_.x, io.MousePos.y - pressed_at_.y));
   switch (hand_) {
     case Hand::idle:
       break;
@@ -84,13 +87,16 @@ void DrawTool::drag(Ui& ui, const SceneFrame& frame) {
 }
 
 void DrawTool::release(Ui& ui) {
-  constexpr float click_reach = 4.0f;  // px
+  constexpr float click_reach = 4.0f;  // px, that a hand may slip in a click
   const ImVec2 at = ImGui::GetIO().MousePos;
-  if (hand_ == Hand::stroke) {
+  const bool click = travel_ < click_reach * ui.scale;
+  if (hand_ == Hand::stroke && click) {
+    stroke_.clear();
+    if (foot_) choose_curve(ui, foot_->plant, foot_->stem);
+  } else if (hand_ == Hand::stroke) {
     end_stroke(ui);
   } else if (hand_ == Hand::trim) {
-    if (foot_ && std::hypot(at.x - pressed_at_.x, at.y - pressed_at_.y) < click_reach)
-      trim_.cut(*foot_);
+    if (foot_ && click) trim_.cut(*foot_);
     trim_.apply(ui);
   } else {
     ui.session.end_gesture();

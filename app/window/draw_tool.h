@@ -71,6 +71,7 @@ class DrawTool {
   int point_ = -1;
   RadiusHandle handle_;
   ImVec2 pressed_at_{0, 0}, grip_{0, 0};    // px; grip: from the organ's foot to the pointer
+  float travel_ = 0.0f;                     // px, the farthest that the pointer was from the press
   std::optional<plant::StemPicker> stems_;  // of the plant whose organ is dragged
   Vec3 moved_ = Vec3::Zero();               // m, by the simulation from the drawing, at the organ
   TrimBrush trim_;

@@ -90,8 +90,8 @@ void OffscreenFilm::add() {
 std::string OffscreenFilm::end() {
   const auto video = std::move(video_);
   written([&] { video->finish(); });
-  return "film in " + video->result().string() + ": " + std::to_string(video->frames()) +
-         " pictures";
+  const auto result = std::filesystem::absolute(video->result()).lexically_normal();
+  return "film in " + result.string() + ": " + std::to_string(video->frames()) + " pictures";
 }
 
 }  // namespace pedicel::app

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/plant_edit.h"
+#include "plant/plant_graph.h"
 #include "plant/plant_pick.h"
 #include "render/colormap.h"
 #include "session/session.h"
@@ -14,7 +16,30 @@ namespace {
 using discrepancy::Model;
 using render::Colour;
 
-constexpr double marker_radius = 0.0035;  // m
+constexpr double marker_radius = 0.0035;  // m, on thin stems
+
+/// Beads on a thick stem stand out of it on all sides: a measured one most, so that it is seen over
+/// a simulated one in the same place.
+struct BeadSizes {
+  double measured, simulated;  // m
+};
+BeadSizes bead_sizes(double stem_radius, bool chosen) {
+  const double factor = chosen ? 1.5 : 1.0;
+  return {std::max(factor * marker_radius, (chosen ? 1.6 : 1.35) * stem_radius),
+          std::max(0.8 * factor * marker_radius, (chosen ? 1.35 : 1.15) * stem_radius)};
+}
+
+/// The radius (m) of the stem at each marker.
+std::vector<double> stem_radii(const discrepancy::Experiment& experiment) {
+  std::vector<double> radii;
+  const auto curves = plant::make_curves(experiment.plant);
+  for (const discrepancy::Marker& marker : experiment.markers) {
+    const int c = plant::find_stem(experiment.plant, marker.place.curve);
+    const auto i = static_cast<std::size_t>(std::max(c, 0));
+    radii.push_back(c < 0 ? 0.0 : curves[i].radius(marker.place.at * curves[i].length()));
+  }
+  return radii;
+}
 
 /// The models that are shown, and how far beside the first one.
 std::vector<int> shown_models(const MeasuredData& data, const MeasuredView& view) {
@@ -93,6 +118,8 @@ void MeasuredMarks::update(ViewState& view, const Session& session, const Snapsh
     for (const auto& [curve, at] : places_.of_element)
       view.residual.push_back(residual_along(*data.experiment(), path->marker_rms, curve, at));
   }
+  if (stem_radii_.size() != data.experiment()->markers.size() || radii_of_ != data.number())
+    stem_radii_ = stem_radii(*data.experiment()), radii_of_ = data.number();
   const double beside = width_of(data.experiment()->plant);
   for (const int model : shown_models(data, view.measured)) {
     add_model(data, view, model, place_W);
@@ -139,11 +166,11 @@ void MeasuredMarks::add_markers(const MeasuredMoment& moment, const MeasuredView
   const render::Material said{model_colour(model), 0.4f, 0.4f};
   for (std::size_t m = 0; m < moment.markers.size(); ++m) {
     const MarkerMoment& one = moment.markers[m];
-    const double radius = marker_radius * (static_cast<int>(m) == view.marker ? 1.5 : 1.0);
+    const BeadSizes size = bead_sizes(stem_radii_[m], static_cast<int>(m) == view.marker);
     if (view.markers && one.measured.allFinite())
-      list_.spheres.push_back({place_W * one.measured, radius, seen});
+      list_.spheres.push_back({place_W * one.measured, size.measured, seen});
     if (view.markers && one.simulated.allFinite())
-      list_.spheres.push_back({place_W * one.simulated, 0.8 * radius, said});
+      list_.spheres.push_back({place_W * one.simulated, size.simulated, said});
     if (!view.errors || !one.error().allFinite()) continue;
     const Vec3 from = place_W * one.simulated;
     const Vec3 to = place_W * Vec3(one.simulated + view.error_scale * one.error());

@@ -41,6 +41,8 @@ class MeasuredMarks {
                    const Pose& place_W);
 
   Places places_;
+  std::vector<double> stem_radii_;  // m, at each marker
+  int radii_of_ = -1;               // number of the measured data
   render::DrawList list_;
 };
 

@@ -41,6 +41,7 @@ void show_parts(Desktop& desktop, const DesktopRequest& request) {
   if (request.colours == "strain") desktop.ui().view.colours = ColourMap::strain;
   if (request.colours == "margin") desktop.ui().view.colours = ColourMap::margin;
   if (request.colours == "contact") desktop.ui().view.colours = ColourMap::contact;
+  if (request.colours == "residual") desktop.ui().view.colours = ColourMap::residual;
   for (const std::string& panel : request.show) {
     const auto& all = desktop.layout().panels();
     if (std::ranges::none_of(all, [&](const auto& one) { return one->name() == panel; }))

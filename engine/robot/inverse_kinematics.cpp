@@ -184,7 +184,8 @@ IkResult best_of_restarts(const KinematicModel& model, const IkTarget& target,
   return best;
 }
 
-std::string millimetres(double metres) {
+std::string distance_text(double metres) {
+  if (metres >= 1.0) return io::format_number(metres, 3) + " m";
   return io::format_number(metres * 1e3, metres < 0.1 ? 2 : 3) + " mm";
 }
 
@@ -208,11 +209,11 @@ IkResult inverse_kinematics(const KinematicModel& model, const IkTarget& target,
   point.approach_W.reset();
   const IkResult nearest = best_of_restarts(model, point, best.q, settings);
   if (!nearest.reached)
-    best.sentence =
-        "unreachable: nearest reachable point is " + millimetres(nearest.position_error) + " away";
+    best.sentence = "unreachable: nearest reachable point is " +
+                    distance_text(nearest.position_error) + " away";
   else
     best.sentence = "unreachable in this orientation: nearest reachable pose is " +
-                    millimetres(best.position_error) + " and " +
+                    distance_text(best.position_error) + " and " +
                     io::format_number(best.rotation_error * 180.0 / std::numbers::pi, 2) +
                     " degrees away";
   return best;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/check.h"
 #include "cosserat/rotation.h"
@@ -58,6 +59,11 @@ void add_shapes(RodModel& model) {
     const Fruit& fruit = model.fruits[f];
     model.shapes.push_back({fruit.element, fruit.back, fruit.back, fruit.radius, fruit.radius, f});
   }
+}
+
+bool same_welds(const RodModel& a, const RodModel& b) {
+  const auto same = [](const Weld& x, const Weld& y) { return x.a == y.a && x.b == y.b; };
+  return std::equal(a.welds.begin(), a.welds.end(), b.welds.begin(), b.welds.end(), same);
 }
 
 }  // namespace
@@ -132,11 +138,28 @@ void finish(RodModel& model) {
   add_shapes(model);
 }
 
+std::vector<int> first_of_welded(const RodModel& model) {
+  std::vector<int> first(model.elements.size());
+  std::iota(first.begin(), first.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Weld& weld : model.welds) {
+      const int lowest = std::min(first[weld.a], first[weld.b]);
+      changed |= first[weld.a] != lowest || first[weld.b] != lowest;
+      first[weld.a] = first[weld.b] = lowest;
+    }
+  }
+  return first;
+}
+
 bool differs_in_constants_only(const RodModel& a, const RodModel& b) {
-  if (!a.laws.empty() || !b.laws.empty() || a.welds.size() != b.welds.size()) return false;
-  const auto same_element = [](const Element& x, const Element& y) {
+  if (!a.laws.empty() || !b.laws.empty() || !same_welds(a, b)) return false;
+  const std::vector<int> first = first_of_welded(a);
+  const auto same_element = [&](const Element& x, const Element& y) {
+    const auto e = &x - a.elements.data();
+    const bool opened = first[e] != e;  // drawn where its first is; moved from there by its force
     return x.parent == y.parent && x.organ == y.organ && x.length == y.length &&
-           x.drawn_position == y.drawn_position &&
+           (opened || x.drawn_position == y.drawn_position) &&
            x.drawn_rotation.coeffs() == y.drawn_rotation.coeffs() &&
            x.radius_near == y.radius_near && x.radius_far == y.radius_far;
   };

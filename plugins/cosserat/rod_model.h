@@ -160,8 +160,13 @@ void finish(RodModel& model);
 /// as gone (`fruit_gone` empty: none is).
 void lump_inertia(RodModel& model, int element, const std::vector<bool>& fruit_gone = {});
 
+/// Elements whose nodes are welded together, each by the first of them; the others by themselves.
+std::vector<int> first_of_welded(const RodModel& model);
+
 /// Whether two finished models are one plant with other constants: the same elements (parents,
-/// organs, lengths, drawn shape), organs, fruits (names and places) and shapes, without joint laws.
+/// organs, lengths, drawn shape), organs, fruits (names and places), welds and shapes, without
+/// joint laws. A welded node is drawn where its weld's first one is: the gap through which the weld
+/// carries its load in the plant as it stands is no shape.
 bool differs_in_constants_only(const RodModel& a, const RodModel& b);
 
 /// Mass and volume of a fruit.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "cosserat/direct_solver.h"
@@ -142,21 +141,6 @@ bool load_support(const RodModel& model, const Loads& moved, Support& support, L
       rest_rotation(Quat::Identity(), element.drawn_rotation, support.rotation_stiffness, moment);
   support.rotation = rest.value_or(element.drawn_rotation);
   return rest.has_value();
-}
-
-// Elements whose nodes are welded together, each by the first of them; the others by themselves.
-std::vector<int> first_of_welded(const RodModel& model) {
-  std::vector<int> first(model.elements.size());
-  std::iota(first.begin(), first.end(), 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Weld& weld : model.welds) {
-      const int lowest = std::min(first[weld.a], first[weld.b]);
-      changed |= first[weld.a] != lowest || first[weld.b] != lowest;
-      first[weld.a] = first[weld.b] = lowest;
-    }
-  }
-  return first;
 }
 
 // A weld is drawn closed, and carries its force through a gap of force / stiffness: the nodes that

@@ -1,7 +1,7 @@
 #include "plant/plant_export.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "io/csv.h"
 #include "plant/plant_graph.h"
@@ -21,6 +21,34 @@ std::string row(const Vec3& v, const char* between) {
   return number(v.x()) + between + number(v.y()) + between + number(v.z());
 }
 
+constexpr double same_arc = 1.0e-6;         // m
+constexpr double chord_tolerance = 2.0e-4;  // m, of straight rows from a smooth curve
+
+double chord_error(const geometry::Curve& curve, double from, double to) {
+  const Vec3 middle = 0.5 * (curve.point(from) + curve.point(to));
+  return (curve.point(0.5 * (from + to)) - middle).norm();
+}
+
+/// Arc lengths of the control points, and between them as many as a chord needs to stay near.
+std::vector<double> row_arcs(const geometry::Curve& curve) {
+  std::vector<double> arcs;
+  for (int i = 0; i + 1 < curve.control_points(); ++i) {
+    const double from = curve.control_arc(i), whole = curve.control_arc(i + 1) - from;
+    const auto worst = [&](int parts) {
+      double error = 0.0;
+      for (int k = 0; k < parts; ++k)
+        error = std::max(
+            error, chord_error(curve, from + whole * k / parts, from + whole * (k + 1) / parts));
+      return error;
+    };
+    int parts = 1;
+    while (parts < 64 && worst(parts) > chord_tolerance) parts *= 2;
+    for (int k = 0; k < parts; ++k) arcs.push_back(from + whole * k / parts);
+  }
+  arcs.push_back(curve.length());
+  return arcs;
+}
+
 /// Writes the rows of a skeleton table, parents first.
 class SkeletonWriter {
  public:
@@ -28,40 +56,54 @@ class SkeletonWriter {
       : plant_(plant), tree_(stem_tree(plant)), curves_(make_curves(plant)) {}
 
   std::string text() {
+    for (const geometry::Curve& curve : curves_) arcs_.push_back(row_arcs(curve));
+    add_feet();
     for (std::size_t c = 0; c < tree_.size(); ++c) {
       if (!tree_[c].joined || tree_[c].parent >= 0) continue;
       add_curve(static_cast<int>(c));
       for (const int branch : branches_of(tree_, static_cast<int>(c))) add_curve(branch);
     }
-    return "id,parent,x_m,y_m,z_m,is_branch,diameter_m\n" + rows_;
+    return "x,y,z,parentid,vid,edgetype,diameter_m\n" + rows_;
   }
 
  private:
-  void add_curve(int c) {
-    const PlantCurve& curve = plant_.curves[c];
-    const int count = static_cast<int>(curve.points.size());
-    int parent = tree_[c].parent < 0 ? -1 : nearest(tree_[c].parent, tree_[c].parent_at);
-    for (int i = 0; i < count; ++i) {
-      const int point = tree_[c].foot_first ? i : count - 1 - i;
-      const double diameter = 2.0 * curves_[c].radius(curves_[c].control_arc(point));
-      rows_ += std::to_string(next_) + "," + (parent < 0 ? "" : std::to_string(parent)) + "," +
-               row(curve.points[point], ",") + "," + (i == 0 && parent >= 0 ? "1" : "0") + "," +
-               number(diameter) + "\n";
-      ids_.push_back({c, curves_[c].control_arc(point), next_});
-      parent = next_++;
+  double foot_arc(int c) const { return tree_[c].parent_at * curves_[tree_[c].parent].length(); }
+
+  // A row of the parent for each branch: a table cannot say that one begins between two rows.
+  void add_feet() {
+    for (std::size_t c = 0; c < tree_.size(); ++c) {
+      if (!tree_[c].joined || tree_[c].parent < 0) continue;
+      std::vector<double>& arcs = arcs_[tree_[c].parent];
+      const double foot = foot_arc(static_cast<int>(c));
+      const auto is_foot = [foot](double arc) { return std::abs(arc - foot) < same_arc; };
+      if (std::ranges::none_of(arcs, is_foot))
+        arcs.insert(std::ranges::lower_bound(arcs, foot), foot);
     }
   }
 
-  int nearest(int parent, double at) const {
-    int id = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Id& one : ids_) {
-      const double distance = std::abs(one.arc - at * curves_[parent].length());
-      if (one.curve != parent || distance >= least) continue;
-      least = distance;
-      id = one.id;
+  // As the drawing has them where there is a control point.
+  Vec3 place(int c, double arc) const {
+    for (int i = 0; i < curves_[c].control_points(); ++i)
+      if (std::abs(curves_[c].control_arc(i) - arc) < same_arc) return plant_.curves[c].points[i];
+    return curves_[c].point(arc);
+  }
+
+  // A branch begins on its parent's centre line, where building joins it, with its own radius.
+  void add_curve(int c) {
+    std::vector<double> arcs = arcs_[c];
+    if (!tree_[c].foot_first) std::ranges::reverse(arcs);
+    const Id* foot = tree_[c].parent < 0 ? nullptr : nearest(tree_[c].parent, foot_arc(c));
+    int parent = foot ? foot->id : -1;
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      const bool begins = i == 0 && foot;
+      const Vec3 at = begins ? place(foot->curve, foot->arc) : place(c, arcs[i]);
+      rows_ += row(at, ",") + "," + (parent < 0 ? "" : std::to_string(parent)) + "," +
+               std::to_string(next_) + "," + (begins ? "+" : "<") + "," +
+               number(2.0 * curves_[c].radius(arcs[i])) + "\n";
+      parent = next_++;
+      ids_.push_back({c, arcs[i], parent});
+      if (begins) foot = nullptr;
     }
-    return id;
   }
 
   struct Id {
@@ -69,9 +111,20 @@ class SkeletonWriter {
     double arc;  // m
     int id;
   };
+
+  // Null where the parent has no rows.
+  const Id* nearest(int parent, double arc) const {
+    const Id* best = nullptr;
+    for (const Id& one : ids_)
+      if (one.curve == parent && (!best || std::abs(one.arc - arc) < std::abs(best->arc - arc)))
+        best = &one;
+    return best;
+  }
+
   const PlantFile& plant_;
   std::vector<StemJoint> tree_;
   std::vector<geometry::Curve> curves_;
+  std::vector<std::vector<double>> arcs_;  // m, of each curve's rows
   std::vector<Id> ids_;
   std::string rows_;
   int next_ = 0;

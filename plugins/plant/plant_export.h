@@ -11,9 +11,10 @@
 /// left out.
 namespace pedicel::plant {
 
-/// id,parent,x_m,y_m,z_m,is_branch,diameter_m: what read_skeleton_csv() reads. One row a control
-/// point, in the order of the tree; a branch hangs from the parent's nearest control point. Curves
-/// that reach nothing are left out.
+/// x,y,z,parentid,vid,edgetype,diameter_m (m, P; "<" follows, "+" branches): what
+/// read_skeleton_csv() reads. A row a control point, in the order of the tree, and more where a
+/// smooth curve would be farther than 0.2 mm from the chord; a branch begins at a row of the
+/// parent's centre line. Curves that reach nothing are left out.
 std::string skeleton_text(const PlantFile& plant);
 
 /// Stems as tubes with `sides` sides, closed at both ends, and fruits as spheres; m, P.

@@ -34,7 +34,8 @@ std::vector<Axis> make_axes(const std::vector<SkeletonNode>& nodes) {
 
 // A parent's axis comes before those that branch off from it.
 std::vector<double> diameters(const std::vector<SkeletonNode>& nodes, const std::vector<Axis>& axes,
-                              double smallest) {
+                              const MtgOptions& options) {
+  const double smallest = options.smallest_diameter;
   std::vector<double> result(nodes.size(), 0.0);
   for (const Axis& axis : axes) {
     const auto known = std::find_if(axis.nodes.begin(), axis.nodes.end(),
@@ -44,7 +45,7 @@ std::vector<double> diameters(const std::vector<SkeletonNode>& nodes, const std:
                                                : smallest;
     for (const int n : axis.nodes) {
       current = nodes[n].diameter.value_or(current);
-      result[n] = std::max(current, smallest);
+      result[n] = options.keeps_thin && current > 0.0 ? current : std::max(current, smallest);
     }
   }
   return result;
@@ -80,7 +81,7 @@ PlantFile skeleton_plant(const std::vector<SkeletonNode>& nodes, const std::stri
   plant.root = nodes.front().position;
   plant.where = nodes.front().where;
   const std::vector<Axis> axes = make_axes(nodes);
-  const std::vector<double> diameter = diameters(nodes, axes, options.smallest_diameter);
+  const std::vector<double> diameter = diameters(nodes, axes, options);
   for (const Axis& axis : axes) {
     PlantCurve curve = axis_curve(nodes, axis, diameter);
     if (curve.points.size() < 2) continue;

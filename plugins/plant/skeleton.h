@@ -19,6 +19,7 @@ struct MtgOptions {
   double connect = 0.02;             ///< m
   double distance = 0.06;            ///< m
   double smallest_diameter = 0.004;  ///< m; thinner and unmeasured wood gets this
+  bool keeps_thin = false;           ///< only unmeasured wood gets that
 };
 
 /// A digitised place of a plant.

@@ -93,6 +93,31 @@ TEST_F(DataPanelTest, ShowsTheMarkersOverThePlant) {
   EXPECT_LT(share_of(measured_colour), before + 1e-4);
 }
 
+// Beads that lie within a thick stem cannot be seen.
+TEST_F(DataPanelTest, MarkersStandOutOfThickStems) {
+  discrepancy::Experiment e = pedicel::testing::MeasuredStem().experiment();
+  for (plant::PlantCurve& curve : e.plant.curves) curve.radius = {0.02};
+  discrepancy::write_experiment(folder_ / "stem", e);
+  open();
+  MeasuredMarks marks;
+  marks.update(desk_.ui().view, desk_.session(), *desk_.snapshot());
+  render::DrawList list;
+  marks.add_to(list);
+  ASSERT_FALSE(list.spheres.empty());
+  for (const auto& bead : list.spheres) EXPECT_GT(bead.radius, 0.022);
+}
+
+TEST_F(DataPanelTest, SaysWhatIsOpenAndHasNoLegendOfAHiddenPlant) {
+  open();
+  EXPECT_TRUE(place_of("right", "/stem")) << keep("path");
+  desk_.ui().view.colours = ColourMap::margin;
+  desk_.frames(3);
+  EXPECT_FALSE(place_of("##Foreground", "used of the threshold")) << keep("legend");
+  desk_.ui().view.measured.shape = false;
+  desk_.frames(3);
+  EXPECT_TRUE(place_of("##Foreground", "used of the threshold")) << keep("legend");
+}
+
 TEST_F(DataPanelTest, PlaysThroughTheTrial) {
   open();
   desk_.ui().view.measured.playing = true;

@@ -41,6 +41,44 @@ class Editing : public ::testing::Test {
   std::size_t steps_ = 0;
 };
 
+// The foot of a stroke is snapped to the stem's middle, some millimetres from the pointer's ray.
+TEST_F(Editing, AClickOnAStemChoosesItAndDrawsNothing) {
+  const auto hash = desk_.session().document().state_hash();
+  const ImVec2 at = desk_.at(Vec3(0, 0, 0.2));
+  for (const float beside : {-3.0f, -1.5f, 0.0f, 1.5f, 3.0f}) {
+    desk_.ui().selection = {};
+    desk_.frames(2);
+    desk_.move(at.x + beside, at.y);
+    desk_.button(0, true);
+    desk_.move(at.x + beside + 1.0f, at.y - 1.0f);  // a hand slips
+    desk_.button(0, false);
+    desk_.frames(25);
+    EXPECT_EQ(desk_.session().document().state_hash(), hash) << beside << " px beside";
+    EXPECT_EQ(desk_.ui().selection.kind, Selection::Kind::curve) << beside << " px beside";
+    EXPECT_EQ(desk_.ui().selection.curve, "stem");
+  }
+}
+
+// A dialog is what a person is at: keys are not for what lies behind it.
+TEST_F(Editing, KeysDoNotActBehindADialog) {
+  choose("branch", -1);
+  desk_.key(Key::f1);
+  ASSERT_EQ(desk_.ui().dialog, Dialog::help);
+  const auto hash = desk_.session().document().state_hash();
+  desk_.key(Key::del);
+  desk_.key(Key::z, true);
+  desk_.key(Key::space);
+  desk_.key(Key::d);
+  EXPECT_EQ(desk_.session().document().state_hash(), hash);
+  EXPECT_EQ(desk_.snapshot()->mode, RunMode::paused);
+  EXPECT_TRUE(desk_.ui().draw.on);
+  desk_.key(Key::escape);
+  EXPECT_EQ(desk_.ui().dialog, Dialog::none);
+  EXPECT_TRUE(desk_.ui().draw.on) << "Esc was the dialog's";
+  desk_.key(Key::del);
+  EXPECT_NE(desk_.session().document().state_hash(), hash);
+}
+
 TEST_F(Editing, ARadiusHandleIsDraggedAcrossTheStem) {
   choose("stem", -1);
   desk_.frames(2);

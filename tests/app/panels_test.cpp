@@ -124,6 +124,27 @@ INSTANTIATE_TEST_SUITE_P(Looks, Panels,
                                            Look{1600, 900, 1.25, Theme::light},
                                            Look{2560, 1440, 2.0, Theme::dark}));
 
+// Pointed at from the left to the right, every item is met in turn, with a gap before the next.
+TEST(Toolbar, FitsIntoANarrowWindow) {
+  for (const auto& [width, scale] : {std::pair{1280, 2.0}, {1280, 1.0}}) {
+    Desk desk(width, 720, scale);
+    if (!desk.available()) GTEST_SKIP() << desk.why();
+    desk.open_empty();
+    std::vector<ImGuiID> met{0};
+    for (double x = 2; x < width; x += 3.0 * scale) {
+      desk.send(InputEvent::move(x, 17.0 * scale));
+      desk.frames(1);
+      if (const ImGuiID id = ImGui::GetHoveredID(); met.back() != id) met.push_back(id);
+    }
+    int items = 0;
+    for (std::size_t i = 1; i < met.size(); ++i) {
+      items += met[i] != 0;
+      EXPECT_TRUE(met[i] == 0 || met[i - 1] == 0) << "one covers another at scale " << scale;
+    }
+    EXPECT_EQ(items, 16) << "scale " << scale;
+  }
+}
+
 TEST(CutText, IsSeen) {
   Desk desk(640, 480);
   if (!desk.available()) GTEST_SKIP() << desk.why();

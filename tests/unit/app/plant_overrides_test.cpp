@@ -30,11 +30,35 @@ TEST(PlantOverrides, AThresholdIsSetOnEveryFruit) {
   for (const plant::PlantFruit& fruit : file.fruits) EXPECT_EQ(fruit.detach.stretch, 0.25);
 }
 
-TEST(PlantOverrides, AMaterialValueHoldsForTheWholePlant) {
+TEST(PlantOverrides, CurvesOfAnotherMaterialKeepTheirRatioToThePlants) {
   plant::PlantFile file = plant();
   EXPECT_EQ(apply(file, "material.density", "300"), "");
   EXPECT_EQ(file.material.density, 300);
-  EXPECT_FALSE(file.curves[1].material.density);
+  EXPECT_FALSE(file.curves[0].material.density);
+  ASSERT_TRUE(file.curves[1].material.density);
+  EXPECT_DOUBLE_EQ(*file.curves[1].material.density, 900.0 * 300.0 / 700.0);
+}
+
+TEST(PlantOverrides, TheNumberThatThePlantHasChangesNothing) {
+  plant::PlantFile file = plant();
+  EXPECT_EQ(apply(file, "material.density", "700"), "");
+  EXPECT_EQ(file, plant());
+}
+
+TEST(PlantOverrides, WithoutANumberOfThePlantAllCurvesGetIt) {
+  plant::PlantFile file = plant();
+  file.curves[0].material.youngs_modulus = 1e7;
+  EXPECT_EQ(apply(file, "material.youngs_modulus", "1e9"), "");
+  EXPECT_EQ(file.material.youngs_modulus, 1e9);
+  EXPECT_FALSE(file.curves[0].material.youngs_modulus);
+}
+
+TEST(PlantOverrides, APoissonRatioOfACurveStaysPossible) {
+  plant::PlantFile file = plant();
+  file.material.poisson_ratio = 0.2;
+  file.curves[0].material.poisson_ratio = 0.3;
+  EXPECT_EQ(apply(file, "material.poisson_ratio", "0.4"), "");
+  EXPECT_EQ(file.curves[0].material.poisson_ratio, 0.5);
 }
 
 TEST(PlantOverrides, SamplingIsSet) {

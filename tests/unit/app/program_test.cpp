@@ -104,6 +104,16 @@ TEST_F(Program, AScriptDrawsPullsAndSaves) {
   EXPECT_EQ(run("--script " + path("nothing.txt")), 3);
 }
 
+// As the window shows it: for ten seconds, or as long as is said.
+TEST_F(Program, ALonePlantRunsOffScreen) {
+  EXPECT_EQ(run_scene("--duration 0.1 --json", "stem.plant.yaml"), 0) << err_;
+  EXPECT_EQ(nlohmann::json::parse(out_).at("exit_code"), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "log.csv"));
+  write("bad.plant.yaml", "format: pedicel-plant\n");
+  EXPECT_EQ(run_scene("", "bad.plant.yaml"), 3);
+  EXPECT_THAT(err_, HasSubstr("bad.plant.yaml:1:1: error: missing key"));
+}
+
 TEST_F(Program, HelpNamesTheExitCodes) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_THAT(out_, HasSubstr("Exit codes: 0 ok, 1 runtime failure, 2 usage"));
@@ -114,6 +124,8 @@ TEST_F(Program, UsageErrorsEndWith2) {
   EXPECT_EQ(run_scene("--set dt=-1"), 2);
   EXPECT_THAT(err_, HasSubstr("must be a number between"));
   EXPECT_EQ(run_scene("--size big"), 2);
+  EXPECT_EQ(run(path("quick.scene.yaml") + " --screenshot " + path("a.jpg")), 2);
+  EXPECT_THAT(err_, HasSubstr("a.jpg: expected a name that ends in .png"));
   EXPECT_EQ(run("bench nothing"), 2);
   EXPECT_THAT(err_, HasSubstr("expected one of rods_2242, tree_2242, row_1k"));
   EXPECT_EQ(run("bench --set dt=1"), 2);

@@ -44,6 +44,18 @@ TEST_F(Validate, EveryShippedFileIsGood) {
   EXPECT_EQ(validate(files), 0) << text_;
 }
 
+// What the program writes anywhere, with leaves of its own assets, it reads there.
+TEST_F(Validate, LeavesOfTheProgramAreFoundFromAnyFolder) {
+  const std::string folder = PEDICEL_SOURCE_DIR;
+  const std::string text = io::read_file(folder + "/plants/cherry_tomato.plant.yaml");
+  EXPECT_EQ(validate({write("elsewhere/saved.plant.yaml", text)}), 0) << text_;
+  EXPECT_EQ(validate({write("elsewhere/saved.scene.yaml",
+                            "format: pedicel-scene\nversion: 1\npurpose: a\nsee: b\nduration: 1\n"
+                            "plants:\n  - {name: p, file: saved.plant.yaml}\n")}),
+            0)
+      << text_;
+}
+
 TEST_F(Validate, OneBadFileIsEnough) {
   const std::string good = std::string(PEDICEL_SOURCE_DIR) + "/plants/cherry_tomato.plant.yaml";
   const std::string bad = write("bad.plant.yaml", "format: pedicel-plant\nversion: 1\n");

@@ -77,6 +77,14 @@ TEST_F(Running, NeverWaitsForThePicture) {
   EXPECT_GT(last->steps_per_second, 10.0 * std::max(1.0, last->snapshots_per_second));
 }
 
+TEST_F(Running, RatesAreThoseOfWhatIsOpen) {
+  for (int i = 0; i < 20 && session.snapshot()->steps_per_second == 0.0; ++i) steps(4000);
+  EXPECT_GT(session.snapshot()->steps_per_second, 0.0);
+  session.open_empty();
+  EXPECT_EQ(session.snapshot()->steps_per_second, 0.0);
+  EXPECT_EQ(session.snapshot()->ms_per_step, 0.0);
+}
+
 TEST_F(Running, PullsWithTheForceOfTheSpring) {
   const Vec3 at = session.snapshot()->plants[0].state.position.back();
   PullPlace place = berry();

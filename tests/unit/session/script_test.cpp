@@ -51,6 +51,9 @@ class Scripts : public ::testing::Test {
     errors.str("");
     return run_script(folder / "story.txt", session, out, errors);
   }
+  void open_robot() {
+    ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_up.scene.yaml")));
+  }
   TemporaryFolder folder;
   Session session;
   std::ostringstream out, errors;
@@ -129,7 +132,7 @@ TEST_F(Scripts, ATrajectoryIsPlayed) {
   ASSERT_EQ(run("play trajectory " + file + "\nrun 1\n"), 0) << errors.str();
   EXPECT_NEAR(session.snapshot()->robot.q[0], to, 5.0e-3);
   std::ofstream(folder / "move.csv") << "time_s,elbow_of_nobody\n0,0\n";
-  EXPECT_EQ(run("play trajectory " + file + "\n"), 1);
+  EXPECT_EQ(run("play trajectory " + file + "\n"), 3);
   EXPECT_THAT(errors.str(), HasSubstr("move.csv:1:8"));
 }
 
@@ -145,6 +148,46 @@ TEST_F(Scripts, WaypointsArePlayed) {
   EXPECT_NEAR(session.snapshot()->robot.q[0], q[0], 5.0e-3);
   must(session.undo());
   EXPECT_EQ(run("play waypoints\n"), 1);
+}
+
+TEST_F(Scripts, WhatCannotBeDoneIsNotTakenSilently) {
+  open_robot();
+  const std::string joint =
+      robot::KinematicModel(*session.snapshot()->assets->robot).joint_names()[0];
+  const std::vector<std::pair<std::string, std::string>> refused = {
+      {"run -1", "duration -1, expected s from 0 on"},
+      {"speed -2", "value -2, expected simulated s a wall s from 0 on"},
+      {"step 0", "count 0, expected 1 or more"},
+      {"step back -3", "count -3, expected 1 or more"},
+      {"step back 5", "5 from step 0, expected a run that has begun"},
+      {"step 2\nstep back 3", "3 from step 2, expected at most as many as were done"},
+      {"joint " + joint + " 99", "joint \"" + joint + "\" to 99, expected -"},
+      {"gripper 9", "to 9, expected "}};
+  for (const auto& [line, words] : refused) {
+    errors.str("");
+    EXPECT_EQ(run("reset\n" + line + "\n"), 1) << line;
+    EXPECT_THAT(errors.str(), HasSubstr(words)) << line;
+  }
+}
+
+TEST_F(Scripts, AFaultIsCalledErrorOnceAndInTheCommandsOwnWords) {
+  std::ofstream(folder / "bad.plant.yaml") << "curves: 3\n";
+  EXPECT_EQ(run("open " + (folder / "bad.plant.yaml").string() + "\n"), 3);
+  const std::string said = errors.str();
+  EXPECT_EQ(said.find("error:"), said.rfind("error:")) << said;
+  EXPECT_THAT(said, HasSubstr("story.txt:1:1: error: "));
+  EXPECT_EQ(run("set nosuch 3\n"), 1);
+  EXPECT_THAT(errors.str(), HasSubstr("nosuch"));
+  EXPECT_EQ(errors.str().find("--set"), std::string::npos) << errors.str();
+}
+
+TEST_F(Scripts, AFileWithAFaultIsInvalid) {
+  open_robot();
+  EXPECT_EQ(run("play trajectory " + (folder / "none.csv").string() + "\n"), 3);
+  EXPECT_EQ(run("load waypoints " + (folder / "none.csv").string() + "\n"), 3);
+  std::ofstream(folder / "experiment.yaml") << "format: pedicel-experiment\nversion: 9\n";
+  EXPECT_EQ(run("open experiment " + (folder / "").string() + "\n"), 3) << errors.str();
+  EXPECT_EQ(run("joint nobody 1\n"), 1);
 }
 
 // What was done, as a script, does the same again: document and run.
@@ -164,6 +207,68 @@ TEST(SavedScript, DoesTheSameAgain) {
   EXPECT_EQ(run_script(folder / "again.script", other, out, errors), 0) << errors.str();
   EXPECT_EQ(other.document().state_hash(), session.document().state_hash());
   EXPECT_EQ(other.control().state_hash(), session.control().state_hash());
+}
+
+void expect_replay(const TemporaryFolder& folder, Session& session) {
+  must(session.run_text("save script " + (folder / "replay.script").string()));
+  Session other(waiting());
+  std::ostringstream out, errors;
+  EXPECT_EQ(run_script(folder / "replay.script", other, out, errors), 0) << errors.str();
+  EXPECT_EQ(other.document().plants.size(), session.document().plants.size());
+  for (const DocumentPlant& one : session.document().plants)
+    EXPECT_EQ(other.document().plant(one.entry.name), *one.file);
+  EXPECT_EQ(other.control().state_hash(), session.control().state_hash());
+}
+
+TEST(SavedScript, BeginsWithWhatWasThereBeforeASave) {
+  TemporaryFolder folder;
+  Session session(waiting());
+  draw_plant(session);
+  must(session.save(folder / "new.plant.yaml"));
+  must(session.run_text("move point p branch 2 0.12,0,0.14"));
+  must(session.run_text("run 0.1"));
+  expect_replay(folder, session);  // a new plant
+  must(session.run_text("open " + (folder / "new.plant.yaml").string()));
+  must(session.run_text("draw stem p second 0,0,0.2;0.1,0.05,0.25 0.002"));
+  must(session.save());
+  must(session.run_text("delete organ p berry"));
+  must(session.run_text("run 0.1"));
+  expect_replay(folder, session);  // one that was saved over
+}
+
+TEST(SavedScript, OfASceneThatWasSavedOver) {
+  TemporaryFolder folder;
+  std::filesystem::copy_file(source("plants/cherry_tomato.plant.yaml"),
+                             folder / "truss.plant.yaml");
+  const auto scene = folder / "s.scene.yaml";
+  std::ofstream(scene) << "format: pedicel-scene\nversion: 1\npurpose: a\nsee: b\nduration: 1\n"
+                          "ground: {height: 0}\nplants:\n"
+                          "  - {name: truss, file: truss.plant.yaml}\n";
+  Session session(waiting());
+  ASSERT_TRUE(session.open(scene)) << session.messages().back().text;
+  must(session.run_text("set dt 0.004"));
+  must(session.run_text("set plants.truss.detach.stretch 0.2"));
+  must(session.run_text("new plant p"));
+  must(session.run_text("draw stem p stem 0.3,0,0;0.3,0,0.2 0.003"));
+  must(session.save(folder / "p.plant.yaml"));
+  must(session.run_text("unset dt"));
+  must(session.run_text("run 0.1"));
+  const double dt = session.snapshot()->assets->scene.dt;
+  expect_replay(folder, session);
+  EXPECT_NE(dt, 0.004);
+}
+
+// A stroke that makes a plant is two commands and one step.
+TEST(SavedScript, HasAWholeGestureUndone) {
+  TemporaryFolder folder;
+  Session session(waiting());
+  draw_plant(session);
+  session.begin_gesture();
+  must(session.run_text("new plant q"));
+  must(session.run_text("draw stem q stem 0.3,0,0;0.3,0,0.2 0.003"));
+  session.end_gesture();
+  must(session.undo());
+  expect_replay(folder, session);
 }
 
 }  // namespace

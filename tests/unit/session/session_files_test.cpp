@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "io/atomic_file.h"
+#include "plant/plant_graph.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 
@@ -95,6 +96,71 @@ TEST_F(Files, AFaultNamesFileAndLineAndCanBeRetried) {
   EXPECT_EQ(session.path(), file);
 }
 
+// The scene's robot grips fruit_5: without it nothing can be simulated.
+class Unbuildable : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Unbuildable, AnEditIsTakenBackWholeWithOneSentence) {
+  SessionOptions options;
+  options.waits = GetParam();
+  Session session(options);
+  ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
+  session.control().wait();
+  session.update();
+  must(session.run_text("delete organ truss fruit_1"));
+  const std::uint64_t before = session.document().state_hash();
+  const std::size_t lines = session.log().size();
+  const Result result = session.run_text("delete organ truss fruit_5");
+  session.control().wait();
+  session.update();
+  session.control().wait();
+  session.update();
+  EXPECT_EQ(result.ok, !GetParam()) << "where commands wait it is known at once";
+  ASSERT_EQ(session.messages().size(), 1u);
+  const Message& message = session.messages().front();
+  EXPECT_THAT(message.text, HasSubstr("delete organ: taken back, for it could not be simulated"));
+  EXPECT_THAT(message.text, HasSubstr("\"truss/fruit_5\" is not there"));
+  EXPECT_THAT(message.text, ::testing::Not(HasSubstr("\n")));
+  EXPECT_FALSE(message.can_retry) << "no file is to be mended";
+  EXPECT_EQ(session.document().state_hash(), before);
+  EXPECT_TRUE(session.is_simulated());
+  EXPECT_EQ(session.log().size(), lines) << "a script of it must not stop there";
+  EXPECT_EQ(session.history().size(), 1u);
+  EXPECT_FALSE(session.history().can_redo());
+  must(session.undo());
+  EXPECT_FALSE(session.dirty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, Unbuildable, ::testing::Bool(), [](const auto& one) {
+  return std::string(one.param ? "ThatWait" : "ThatReturn");
+});
+
+// A drag is judged when it ends: on its way it may pass through what cannot be.
+TEST_F(Files, AGestureThatCannotBeSimulatedIsTakenBackAtItsEnd) {
+  ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
+  const std::uint64_t before = session.document().state_hash();
+  session.begin_gesture();
+  must(session.run_text("delete organ truss fruit_1"));
+  EXPECT_FALSE(session.run_text("delete organ truss fruit_5"));
+  EXPECT_NE(session.document().state_hash(), before);
+  session.end_gesture();
+  EXPECT_EQ(session.document().state_hash(), before);
+  EXPECT_FALSE(session.history().can_undo());
+}
+
+TEST_F(Files, AMendedFileTakesItsMessageAway) {
+  const auto file = folder / "mended.plant.yaml";
+  const std::string good = io::read_file(source("plants/cherry_tomato.plant.yaml"));
+  std::ofstream(file) << "curves: 3\n";
+  EXPECT_FALSE(session.open(file));
+  EXPECT_EQ(session.messages().size(), 1u);
+  EXPECT_FALSE(session.reload());
+  EXPECT_EQ(session.messages().size(), 1u) << "the same fault stands there once";
+  EXPECT_EQ(session.messages_said(), 2u) << "but it was said again";
+  std::ofstream(file) << good;
+  ASSERT_TRUE(session.reload());
+  EXPECT_TRUE(session.messages().empty());
+}
+
 TEST_F(Files, ASceneWithItsPlantsAndRobot) {
   const auto scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml");
   ASSERT_TRUE(session.open(scene));
@@ -116,6 +182,40 @@ TEST_F(Files, ASkeletonTableGoesOutAndComesBack) {
   EXPECT_NEAR((back.curves[1].points.back() - Vec3(0.1, 0, 0.15)).norm(), 0.0, 1.0e-12);
   must(session.undo());
   EXPECT_EQ(session.document().plants.size(), 1u);
+}
+
+// Branches anywhere between control points, thin stalks, smooth curves: the same plant again, but
+// for what a table cannot say, and from then on the same to the last bit.
+TEST_F(Files, ATableOfAPlantIsReadAsTheSamePlant) {
+  ASSERT_TRUE(session.open(source("plants/cherry_tomato.plant.yaml")));
+  const std::string name = session.document().plants[0].entry.name;
+  must(
+      session.run(Command("export", {{"plant", name}, {"file", (folder / "first.csv").string()}})));
+  EXPECT_TRUE(io::read_file(folder / "first.csv").starts_with("x,y,z,parentid,vid,edgetype,"));
+  must(session.run_text("import " + (folder / "first.csv").string() + " plant=again"));
+  const plant::PlantFile &drawn = session.document().plant(name),
+                         &back = session.document().plant("again");
+  const auto before = plant::make_curves(drawn), after = plant::make_curves(back);
+  ASSERT_EQ(after.size(), before.size());
+  const auto length_near = [&](const Vec3& tip) {
+    double length = 0.0, least = 1.0;
+    for (const auto& curve : after)
+      if ((curve.point(curve.length()) - tip).norm() < least)
+        least = (curve.point(curve.length()) - tip).norm(), length = curve.length();
+    EXPECT_LT(least, 1e-9);
+    return length;
+  };
+  for (const auto& curve : before) {
+    const double length = length_near(curve.point(curve.length()));
+    EXPECT_NEAR(length, curve.length(), 0.002) << "a branch begins on the centre line";
+  }
+  double thinnest = 1.0;
+  for (const plant::PlantCurve& curve : back.curves)
+    thinnest = std::min(thinnest, *std::ranges::min_element(curve.radius));
+  EXPECT_NEAR(thinnest, 0.001, 1e-9);
+  must(session.run_text("export again " + (folder / "second.csv").string()));
+  must(session.run_text("import " + (folder / "second.csv").string() + " plant=third"));
+  EXPECT_EQ(session.document().plant("third").curves, session.document().plant("again").curves);
 }
 
 // Every edge of a closed surface is run through once each way, and the tubes have the volume of

@@ -42,6 +42,42 @@ TEST_F(Tuning, AStifferPlantGoesOnWithoutARestart) {
               1.0e-9);
 }
 
+// A leaf's ring of veins is closed by welds, which are drawn open by what they carry.
+TEST_F(Tuning, APlantWithLeavesGoesOnToo) {
+  must(session.run_text("add leaf p leaf stem 0.8 0.06"));
+  must(session.run_text("run 0.2"));
+  const long before = step();
+  ASSERT_FALSE(session.snapshot()->plants[0].model->welds.empty());
+  must(session.run_text("set plants.p.material.youngs_modulus 4e8"));
+  EXPECT_EQ(step(), before);
+  must(session.run_text("set plants.p.material.poisson_ratio 0.2"));
+  EXPECT_EQ(step(), before);
+  must(session.run_text("set plants.p.material.density 600"));
+  EXPECT_EQ(step(), before);
+  must(session.run_text("move point p branch 2 0.1,0,0.151"));
+  EXPECT_EQ(step(), 0) << "another shape";
+}
+
+// A slider begins at the number that it shows: that one is no change, whatever stems have of their
+// own.
+TEST_F(Tuning, TheNumberShownChangesNothing) {
+  must(session.run_text("set material p youngs_modulus 2e7 stem=branch"));
+  must(session.run_text("set material p density 500 stem=branch"));
+  must(session.run_text("run 0.1"));
+  const cosserat::RodModel before = *session.snapshot()->plants[0].model;
+  for (const char* name : {"youngs_modulus", "density", "poisson_ratio", "damping_time"}) {
+    const std::string key = std::string("plants.p.material.") + name;
+    must(session.run(
+        Command("set", {{"key", key}, {"value", std::to_string(parameter(key).value)}})));
+  }
+  const cosserat::RodModel& now = *session.snapshot()->plants[0].model;
+  ASSERT_EQ(now.size(), before.size());
+  for (int e = 0; e < now.size(); ++e) {
+    EXPECT_EQ(now.elements[e].bend_stiffness, before.elements[e].bend_stiffness) << e;
+    EXPECT_EQ(now.elements[e].mass, before.elements[e].mass) << e;
+  }
+}
+
 // The change is really felt: a pulled branch gives way half as far when it is twice as stiff. (It
 // stands as drawn under its own weight either way.)
 TEST_F(Tuning, TheChangeIsFelt) {
