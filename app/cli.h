@@ -33,7 +33,7 @@ struct DesktopRequest {
   std::string camera;                   ///< of the scene's; empty: the first
   bool quiet = false;                   ///< says nothing of a film's progress
   std::vector<std::string> show;        ///< panels that are in front: "Plots"
-  std::string colours;                  ///< of stems: strain | margin | contact | residual; empty: their own
+  std::string colours;  ///< of stems: strain | margin | contact | residual; empty: their own
 };
 /// Opens the window and stays until it is closed: the exit code. Nothing where there is no window
 /// to open (it has said why, in one line).

@@ -22,8 +22,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 // Nats that a named cause must be worth: an effect of twice the size that could just be seen (10
-// noise units in all) is worth 50 less up to 20 for its parameters, and a third of it may lie in the
-// trials kept back; two honest solvers differ by up to 15.
+// noise units in all) is worth 50 less up to 20 for its parameters, and a third of it may lie in
+// the trials kept back; two honest solvers differ by up to 15.
 constexpr double enough_evidence = 18.0;
 constexpr double numerical_limit = 0.5;  // of the noise, RMS
 // Of the gain of a cause, what another of its family must bring to be one.

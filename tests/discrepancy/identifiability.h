@@ -29,12 +29,12 @@ class Sight {
   Sight(const reference::Subject& subject, Predict predict, std::vector<std::string> absorbing);
 
   /// The whitened change with `with` in place of the subject that is left when the factors of the
-  /// subject are refitted to it: orthogonal to the changes by `absorbing`. (Not the other way round,
-  /// the factors of `with` refitted to the subject: where nothing measures a force, modulus and
-  /// density together would run off until a hidden mass is none.)
-  /// Large changes need the refit itself: a frequency that is a little off fills a long record with
-  /// the second order of its phase, which is no part of a linear projection, and modulus and
-  /// density together go far where either alone hardly moves.
+  /// subject are refitted to it: orthogonal to the changes by `absorbing`. (Not the other way
+  /// round, the factors of `with` refitted to the subject: where nothing measures a force, modulus
+  /// and density together would run off until a hidden mass is none.) Large changes need the refit
+  /// itself: a frequency that is a little off fills a long record with the second order of its
+  /// phase, which is no part of a linear projection, and modulus and density together go far where
+  /// either alone hardly moves.
   struct Change {
     Eigen::VectorXd rest;   ///< noise units
     Eigen::VectorXd refit;  ///< logarithms of the factors that took the most away
