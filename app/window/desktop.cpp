@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "app/panels/theme.h"
@@ -31,6 +32,12 @@ Cursor cursor_of(ImGuiMouseCursor cursor) {
     default:
       return Cursor::arrow;
   }
+}
+
+/// Undo, redo, copy, cut, paste, choose all: those of the text that is typed.
+bool edits_text(const Binding& binding) {
+  constexpr std::array keys{Key::z, Key::y, Key::c, Key::x, Key::v, Key::a};
+  return binding.control && std::ranges::find(keys, binding.key) != keys.end();
 }
 
 /// What neither the document nor the run nor the view behind a dialog feels.
@@ -137,7 +144,8 @@ void Desktop::keys() {
   for (const Binding& binding : bindings()) {
     if (ui_.dialog != Dialog::none && !acts_over_dialogs(binding.action)) continue;
     // While a text is typed, only what cannot be part of it.
-    if (io.WantTextInput && !binding.control && binding.key < Key::f1) continue;
+    if (io.WantTextInput && (edits_text(binding) || (!binding.control && binding.key < Key::f1)))
+      continue;
     if (binding.control != io.KeyCtrl || binding.shift != io.KeyShift) continue;
     const bool repeats = binding.action == Action::step || binding.action == Action::step_back;
     if (ImGui::IsKeyPressed(static_cast<int>(binding.key), repeats)) ui_.ask(binding.action);
@@ -203,7 +211,7 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
                              ImGuiButtonFlags_MouseButtonMiddle);
   scene_ = {areas.scene_min, size, camera_.camera()};
   const bool handle = tool_handles_.update(ui_, scene_);
-  const bool tool = draw_tool_->update(ui_, scene_) || handle;
+  const bool tool = (ui_.dialog == Dialog::none && draw_tool_->update(ui_, scene_)) || handle;
   mouse_.update(ui_, camera_, scene_, view_.shapes(), tool);
   if (ui_.frame_box) {
     camera_.frame(*ui_.frame_box, size.x / size.y);

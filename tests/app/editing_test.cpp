@@ -79,6 +79,22 @@ TEST_F(Editing, KeysDoNotActBehindADialog) {
   EXPECT_NE(desk_.session().document().state_hash(), hash);
 }
 
+TEST_F(Editing, NothingIsDrawnBehindADialog) {
+  const auto hash = desk_.session().document().state_hash();
+  const ImVec2 at = desk_.at(Vec3(0, 0, 0.2));
+  const std::vector<ImVec2> stroke{at, ImVec2(at.x + 40, at.y - 20), ImVec2(at.x + 80, at.y - 30)};
+  desk_.ui().dialog = Dialog::info;
+  desk_.frames(3);
+  desk_.drag(stroke);
+  desk_.settle();
+  EXPECT_EQ(desk_.session().document().state_hash(), hash);
+  desk_.ui().dialog = Dialog::none;
+  desk_.frames(3);
+  desk_.drag(stroke);
+  desk_.settle();
+  EXPECT_NE(desk_.session().document().state_hash(), hash) << "the same stroke without it";
+}
+
 TEST_F(Editing, ARadiusHandleIsDraggedAcrossTheStem) {
   choose("stem", -1);
   desk_.frames(2);

@@ -241,6 +241,22 @@ TEST_F(Gui, KeysAreLettersWhileATextIsTyped) {
   EXPECT_EQ(desk_.snapshot()->step, 3);
 }
 
+TEST_F(Gui, UndoWhileATextIsTypedIsTheTexts) {
+  ASSERT_TRUE(desk_.session().run_text("set rods.newton_iterations 7").ok);
+  desk_.settle();
+  const auto hash = desk_.session().document().state_hash();
+  desk_.show("Messages");
+  const ImGuiWindow* panel = panel_window("bottom", "Messages");
+  ASSERT_NE(panel, nullptr);
+  desk_.click(panel->InnerRect.Min.x + 60, panel->InnerRect.Max.y - 14);
+  desk_.type("abc");
+  desk_.key(Key::z, true);
+  EXPECT_EQ(desk_.session().document().state_hash(), hash);
+  desk_.key(Key::escape);
+  desk_.key(Key::z, true);
+  EXPECT_NE(desk_.session().document().state_hash(), hash) << "the document's once it is left";
+}
+
 TEST_F(Gui, AFileThatCannotBeReadIsShownAndRetried) {
   const auto path = std::filesystem::path(::testing::TempDir()) / "broken.plant.yaml";
   std::ofstream(path) << "format: pedicel-plant\nversion: 1\nnonsense: 3\n";
