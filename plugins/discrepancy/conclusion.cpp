@@ -88,13 +88,16 @@ bool contains(const Candidate& rival, const Candidate& best) {
          rival.evidence < best.evidence;
 }
 
-// What a cause that has more numbers explains as well, but for a nat, the data do not refute:
-// fewer numbers make the other one likelier, up to so many margins.
+// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
+// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
+// offsets of a force sensor) a cause follows others.
 constexpr double as_well = 1.0, most_margins = 3.0;
+constexpr int most_more_numbers = 2;
 
 bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
   const auto of_data = [](const Candidate& c) { return c.gain + c.held_out.gain; };
-  return of_data(best) - of_data(rival) < as_well &&
+  return rival.fit.hypothesis.size() - best.fit.hypothesis.size() <= most_more_numbers &&
+         of_data(best) - of_data(rival) < as_well &&
          best.evidence - rival.evidence < most_margins * margin;
 }
 

@@ -81,7 +81,9 @@ TEST_F(Editing, KeysDoNotActBehindADialog) {
 
 TEST_F(Editing, NothingIsDrawnBehindADialog) {
   const auto hash = desk_.session().document().state_hash();
-  const ImVec2 at = desk_.at(Vec3(0, 0, 0.2));
+  const ImGuiWindow* scene = ImGui::FindWindowByName("scene");
+  ASSERT_NE(scene, nullptr);
+  const ImVec2 at(scene->Pos.x + 30, scene->Pos.y + scene->Size.y - 60);  // beside the dialog
   const std::vector<ImVec2> stroke{at, ImVec2(at.x + 40, at.y - 20), ImVec2(at.x + 80, at.y - 30)};
   desk_.ui().dialog = Dialog::info;
   desk_.frames(3);

@@ -116,6 +116,12 @@ TEST(Conclusion, FewerNumbersAloneDoNotRefute) {
   Case much;
   much.diagnosis.ranking.push_back(much.candidate("gust", "drag_area", 640.0, 631.0 - 35.0));
   EXPECT_THAT(names(much.concluded()), ElementsAre("base_compliance"));
+  Case more;
+  Candidate rival = more.candidate("force_gain", "gain", 640.0, 631.0 - 15.0);
+  for (int i = 0; i < 3; ++i) rival.fit.hypothesis.free.push_back(rival.fit.hypothesis.free.back());
+  rival.fit.standard_error = Eigen::VectorXd::Constant(5, 0.02);
+  more.diagnosis.ranking.push_back(rival);
+  EXPECT_THAT(names(more.concluded()), ElementsAre("base_compliance"));
 }
 
 TEST(Conclusion, OfALargeGainHasAMarginOf25Nats) {
