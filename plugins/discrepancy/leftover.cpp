@@ -13,6 +13,7 @@ namespace {
 constexpr int most_shapes = 4;
 constexpr double least_shape = 1.0e-8;   // of the largest one's square
 constexpr int least_neighbourhood = 10;  // frequencies to either side, for the noise
+constexpr double tame = 4.0;             // noise units; a wild sample has power at all frequencies
 constexpr double mistrust = 2.0;         // of the amplitude of our own error
 
 /// One trial's markers in a vector over the trials' entries.
@@ -135,11 +136,12 @@ Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSum
   const bool same =
       std::ranges::all_of(blocks, [&](const Block& block) { return block.channels == channels; });
   if (channels < 3 || !same) return loudest;
+  const Eigen::VectorXd residual = model.residual.cwiseMax(-tame).cwiseMin(tame);
   const Shapes shapes = shapes_of(model.jacobian, blocks);
   if (shapes.count < 1) return loudest;
   for (const Block& block : blocks) {
     if (block.rows < 4 * least_neighbourhood) continue;
-    const Powers powers = powers_of(block, shapes, model.residual, numerical);
+    const Powers powers = powers_of(block, shapes, residual, numerical);
     const auto look = [&](Eigen::Index first, Eigen::Index count) {
       const double deviations = powers.deviations(first, count);
       if (deviations <= loudest.deviations) return;

@@ -23,11 +23,12 @@ struct Leftover {
 /// Markers move in a few shapes, noise in all directions alike. The shapes are the largest
 /// principal components of the markers' derivatives by the model's unknowns (`model.jacobian`); the
 /// power of the whitened residual along them, over a single frequency or a band of octaves, is
-/// compared with its power across them in the same neighbourhood, which has the noise's own colour:
-/// an F test a band, by Wilson and Hilferty's cube roots (Johnson, Kotz, Balakrishnan, Continuous
-/// Univariate Distributions 2, 27.4) as deviations of a standard normal. `numerical` (noise units,
-/// may be empty) is our own error: its amplitude, twice, is taken off that of the residual. The
-/// loudest of all bands and trials; nothing for fewer markers than shapes to compare.
+/// compared with its power across them in the same neighbourhood, which has the noise's own colour;
+/// samples count up to 4 noise units: an F test a band, by Wilson and Hilferty's cube roots
+/// (Johnson, Kotz, Balakrishnan, Continuous Univariate Distributions 2, 27.4) as deviations of a
+/// standard normal. `numerical` (noise units, may be empty) is our own error: its amplitude, twice,
+/// is taken off that of the residual. The loudest of all bands and trials; nothing for fewer
+/// markers than shapes to compare.
 Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSummary& model,
                   const Eigen::VectorXd& numerical);
 
