@@ -17,6 +17,11 @@ constexpr double most_missed = 0.1;  // of what all causes found gain on all tri
 constexpr double clear_margin = 5.0;   // nats by which a rival must lose
 constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
 constexpr double most_margin = 20.0;   // nats, of that
+// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
+// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
+// offsets of a force sensor) a cause follows others.
+constexpr double as_well = 1.0, most_margins = 3.0;
+constexpr int most_more_numbers = 2;
 // Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
 constexpr double least_parameter_change = 0.0015;
 // Wild samples that are worth a name: so many, and of all samples (a swing that starts within a
@@ -87,12 +92,6 @@ bool contains(const Candidate& rival, const Candidate& best) {
   return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
          rival.evidence < best.evidence;
 }
-
-// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
-// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
-// offsets of a force sensor) a cause follows others.
-constexpr double as_well = 1.0, most_margins = 3.0;
-constexpr int most_more_numbers = 2;
 
 bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
   const auto of_data = [](const Candidate& c) { return c.gain + c.held_out.gain; };

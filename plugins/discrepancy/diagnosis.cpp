@@ -145,10 +145,11 @@ class Procedure {
     result_.directions = directions_at(result_.base);
     result_.before = judged(result_.directions, result_.base);
     if (could_be_junctions(result_.before) && quiet_with_junctions(result_.base)) {
-      result_.before.raised = false;
       // The base has more numbers now; a search for what pulled it starts from there.
       coarse_at(result_.base);
       result_.directions = directions_at(result_.base);
+      result_.before = judged(result_.directions, result_.base);
+      result_.before.raised = false;
     }
     result_.best = result_.base;
     log_.directions(result_.directions, result_.before);
