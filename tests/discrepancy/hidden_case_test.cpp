@@ -105,17 +105,21 @@ TEST(HiddenCases, WhiteningUndoesTheColour) {
   EXPECT_NEAR(w.head(w.size() - 1).dot(w.tail(w.size() - 1)) / size, 0.0, 4 / std::sqrt(size));
 }
 
+double factor_on(const std::string& parameter, const reference::Subject& subject) {
+  double product = 1;
+  for (const plant::Effect& e : subject.effects)
+    if (e.name == parameter) product *= e.number("factor");
+  return product;
+}
+
 // A swing whose frequency tells modulus over density and whose sag tells density over modulus with
 // a hundredth of the weight: factors of all three are refitted away wholly, out of phase as they
 // start.
 TEST(HiddenCases, RefitFollowsFar) {
   const auto predict = [](const reference::Subject& subject) {
-    double modulus = 1, density = 1, damping = 1;
-    for (const plant::Effect& e : subject.effects) {
-      if (e.name == "youngs_modulus") modulus *= e.number("factor");
-      if (e.name == "density") density *= e.number("factor");
-      if (e.name == "damping_time") damping *= e.number("factor");
-    }
+    const double modulus = factor_on("youngs_modulus", subject);
+    const double density = factor_on("density", subject);
+    const double damping = factor_on("damping_time", subject);
     Eigen::VectorXd samples(500);
     for (int i = 0; i < samples.size(); ++i) {
       const double t = 0.01 * i, w = 20 * std::sqrt(modulus / density);
@@ -139,12 +143,11 @@ TEST(HiddenCases, RefitFollowsFar) {
 // larger it is, though next to a density without bounds it would be none.
 TEST(HiddenCases, AMassStaysVisibleWhereNothingWeighs) {
   const auto predict = [](const reference::Subject& subject) {
-    double modulus = 1, density = 1, mass = 0;
-    for (const plant::Effect& e : subject.effects) {
-      if (e.name == "youngs_modulus") modulus *= e.number("factor");
-      if (e.name == "density") density *= e.number("factor");
+    const double modulus = factor_on("youngs_modulus", subject);
+    const double density = factor_on("density", subject);
+    double mass = 0;
+    for (const plant::Effect& e : subject.effects)
       if (e.name == "extra_mass") mass += e.number("mass");
-    }
     Eigen::VectorXd samples(500);
     for (int i = 0; i < samples.size(); ++i)
       samples[i] = 100 * std::cos(0.2 * i * std::sqrt(modulus / (density + mass))) +
