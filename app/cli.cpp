@@ -240,6 +240,9 @@ WorldsResult bench_scene(const BenchArguments& a) {
 }
 
 int bench_verb(const BenchArguments& a) {
+  // Writes no file that would have to be ended in good order: Ctrl-C ends it at once.
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
   const auto print = [&a](const auto& result) {
     std::cout << (a.json ? to_json(result) : to_text(result)) << std::endl;
     return ok;

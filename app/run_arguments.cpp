@@ -65,7 +65,7 @@ world::Scene load_scene(const RunArguments& a) {
   set("threads", a.threads);
   for (const std::string& assignment : a.set) {
     const auto [key, value] = world::split_assignment(assignment);
-    world::apply_override(*scene, key, value);
+    world::apply_override(*scene, key, value, "--set ");
   }
   if (a.no_sweep) {
     scene->sweep.reset();

@@ -48,7 +48,7 @@ void add_plant(Document& document, const Command& c) {
   check_new(document, c.word("plant"));
   Diagnostics diagnostics;
   auto file = plant::parse_plant(c.word("text"), c.word("plant"), diagnostics);
-  if (!file) throw UsageError(diagnostics.text());
+  if (!file) throw UsageError(sentences(diagnostics.all()));
   add(document, c.word("plant"), std::move(*file), c);
 }
 
@@ -59,7 +59,7 @@ void set_plant(Document& document, const Command& c) {
   document.plant(c.word("plant"));  // it must be one that can be edited
   Diagnostics diagnostics;
   auto file = plant::parse_plant(c.word("text"), c.word("plant"), diagnostics);
-  if (!file) throw UsageError(diagnostics.text());
+  if (!file) throw UsageError(sentences(diagnostics.all()));
   DocumentPlant& one = document.plants[index];
   one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
   if (c.has("position")) one.entry.pose.position = c.point("position");
@@ -85,15 +85,7 @@ void set(Document& document, const Command& c) {
     document.settings.emplace_back(key, value);
   else
     held->second = value;
-  try {
-    check_settings(document);
-  } catch (const UsageError& fault) {  // says "--set KEY: ...", as on the command line
-    std::string text = fault.what();
-    for (const std::string word : {"--set ", "error: "})
-      if (const std::size_t at = text.find(word); at != std::string::npos)
-        text.erase(at, word.size());
-    throw UsageError(text);
-  }
+  check_settings(document);
 }
 
 void unset(Document& document, const Command& c) {

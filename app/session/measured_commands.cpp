@@ -18,7 +18,7 @@ using Kind = ArgumentKind;
 void set_effects(Document& document, const Command& c) {
   Diagnostics diagnostics;
   auto effects = parse_effects(c.word("text"), diagnostics);
-  if (!effects) throw UsageError(diagnostics.text());
+  if (!effects) throw UsageError(sentences(diagnostics.all()));
   const plant::PlantFile& before = document.plant(c.word("plant"));
   for (const plant::Effect& effect : *effects)
     if (effect.place && before.curve_index(effect.place->curve) < 0)

@@ -15,15 +15,6 @@ bool is_empty(const std::string& line) {
   return first == std::string::npos || line[first] == '#';
 }
 
-/// A fault of a file that the line names has a place of its own, and says only there that it is
-/// one.
-std::string without_second_error(std::string text) {
-  const std::string word = " error: ";
-  for (std::size_t at; (at = text.find(word)) != std::string::npos;)
-    text.replace(at, word.size(), " ");
-  return text;
-}
-
 int exit_code(const Command& command, const Result& result, const Snapshot& now) {
   if (result.bad_file) return invalid;
   if (now.mode == RunMode::unstable) return unstable;
@@ -50,8 +41,7 @@ int run_script(const std::filesystem::path& file, Session& session, std::ostream
     if (result.ok && session.snapshot()->mode == RunMode::unstable)
       result = {false, session.snapshot()->error};
     if (!result.ok) {
-      errors << to_string(Diagnostic{Severity::error, where, without_second_error(result.text)})
-             << '\n';
+      errors << to_string(Diagnostic{Severity::error, where, result.text}) << '\n';
       return exit_code(*command, result, *session.snapshot());
     }
     if (!result.text.empty()) out << result.text << '\n';

@@ -73,7 +73,7 @@ Result Session::run(const Command& command) {
   } catch (const UsageError& fault) {
     result = {false, command.verb() + ": " + fault.what()};
   } catch (const InvalidFile& fault) {
-    result = {false, fault.what(), true};
+    result = {false, sentences(fault.all()), true};
   } catch (const io::WriteError& fault) {
     result = {false, fault.what()};
   }
@@ -83,7 +83,7 @@ Result Session::run(const Command& command) {
 Result Session::run_text(const std::string& line) {
   Diagnostics diagnostics;
   const auto command = parse_command(line, {"command", 1, 1}, diagnostics);
-  if (!command) return {false, diagnostics.text()};
+  if (!command) return {false, sentences(diagnostics.all())};
   return run(*command);
 }
 

@@ -25,6 +25,7 @@ class MeasuredData;
 struct Message {
   Severity severity = Severity::error;
   std::string text;  ///< one or more lines, "file:line:column: error: ..." where a file is meant
+  std::string sentence;    ///< the same without the word, for what says by itself that it failed
   bool can_retry = false;  ///< reload() reads the file again
 };
 
@@ -247,7 +248,9 @@ class Session {
   void tell_faults(const std::vector<std::string>& faults);
   Result move_joints(const Eigen::VectorXd& q);
   Result finish(Result result);
-  void say(Severity severity, std::string text, bool can_retry = false);
+  void say(Severity severity, const std::string& text, bool can_retry = false);
+  void say(const std::vector<Diagnostic>& problems, bool can_retry);
+  void add_message(Message message);
 
   SessionOptions options_;
   Document document_;

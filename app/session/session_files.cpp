@@ -112,7 +112,7 @@ bool Session::open(const std::filesystem::path& path) {
     return true;
   } catch (const InvalidFile& fault) {
     failed_path_ = path;
-    say(Severity::error, fault.what(), true);
+    say(fault.all(), true);
   } catch (const UsageError& fault) {
     failed_path_ = path;
     say(Severity::error, path.string() + ": " + fault.what(), true);
@@ -127,10 +127,12 @@ void Session::open_empty() {
 }
 
 bool Session::reload() {
+  const Command again("reload", {});
   forget_file_faults();
   if (!failed_path_.empty()) return open(failed_path_);
   if (document_.path.empty()) {
     control_.reset();
+    log_.push_back(again.text());
     return true;
   }
   try {
@@ -138,7 +140,8 @@ bool Session::reload() {
     Document fresh = open_document(document_.path);
     gesture_.reset();
     document_ = std::move(fresh);
-    history_.add({{Command("reload", {})}, before, document_});
+    history_.add({{again}, before, document_});
+    log_.push_back(again.text());
     built_ = false;
     rebuild(true);
     saved_hash_ = hash_;
@@ -146,7 +149,7 @@ bool Session::reload() {
     begin_journal();
     return true;
   } catch (const InvalidFile& fault) {
-    say(Severity::error, fault.what(), true);
+    say(fault.all(), true);
   }
   return false;
 }
@@ -161,7 +164,7 @@ Result Session::save(const std::filesystem::path& path) {
   } catch (const UsageError& fault) {
     return {false, fault.what()};
   } catch (const InvalidFile& fault) {
-    return {false, fault.what()};
+    return {false, sentences(fault.all()), true};
   } catch (const io::WriteError& fault) {
     return {false, fault.what()};
   }
@@ -180,7 +183,7 @@ Result Session::export_plant(const std::string& plant, const std::filesystem::pa
 Result Session::import_plant(const std::filesystem::path& path, const std::string& name) {
   Diagnostics diagnostics;
   const auto file = read_plant(path, diagnostics);
-  if (!file) return {false, diagnostics.text(), true};
+  if (!file) return {false, sentences(diagnostics.all()), true};
   // The text goes into the command, so that the log does not depend on the file.
   const Command command("add plant", {{"plant", name.empty() ? file->name : name},
                                       {"text", plant::plant_text(*file)}});

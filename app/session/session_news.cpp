@@ -9,13 +9,6 @@ namespace pedicel::app {
 
 namespace {
 
-std::string text_of(const std::vector<Diagnostic>& problems) {
-  std::string text;
-  for (const Diagnostic& one : problems)
-    text += (text.empty() ? "" : "\n") + (one.where.file.empty() ? one.what : to_string(one));
-  return text;
-}
-
 /// The first of them, and how many more there are, in one line.
 std::string summary_of(const std::vector<Diagnostic>& problems) {
   if (problems.empty()) return "no reason given";
@@ -41,8 +34,8 @@ Result Session::finish(Result result) {
   } while (hash_ != built);
   const std::size_t news = std::min(said_ - before, messages_.size());
   for (std::size_t i = messages_.size() - news; i < messages_.size() && result.ok; ++i)
-    if (messages_[i].severity == Severity::error) result = {false, messages_[i].text};
-  if (unbuilt_ && result.ok) result = {false, text_of(unbuilt_->problems)};
+    if (messages_[i].severity == Severity::error) result = {false, messages_[i].sentence};
+  if (unbuilt_ && result.ok) result = {false, sentences(unbuilt_->problems)};
   return result;
 }
 
@@ -58,10 +51,10 @@ void Session::take_news(const BuildNews& news) {
     built_ = true;
     if (failed_path_.empty()) forget_file_faults();
   } else if (news.document_hash == 0) {
-    say(Severity::error, text_of(news.problems));  // of the run
+    say(news.problems, false);  // of the run
   } else if (news.document_hash == hash_) {
     unbuilt_ = news;
-    if (!gesture_ && !take_back_unbuilt()) say(Severity::error, text_of(news.problems), true);
+    if (!gesture_ && !take_back_unbuilt()) say(news.problems, true);
   }
   if (!news.restarted) return;
   for (const std::string& one : news.notes) say(Severity::warning, one);
@@ -103,10 +96,18 @@ void Session::forget_file_faults() {
   std::erase_if(messages_, [](const Message& one) { return one.can_retry; });
 }
 
-void Session::say(Severity severity, std::string text, bool can_retry) {
-  if (!messages_.empty() && messages_.back().text == text) return;
+void Session::say(Severity severity, const std::string& text, bool can_retry) {
+  add_message({severity, text, text, can_retry});
+}
+
+void Session::say(const std::vector<Diagnostic>& problems, bool can_retry) {
+  add_message({Severity::error, lines_of(problems), sentences(problems), can_retry});
+}
+
+void Session::add_message(Message message) {
+  if (!messages_.empty() && messages_.back().text == message.text) return;
   ++said_;
-  messages_.push_back({severity, std::move(text), can_retry});
+  messages_.push_back(std::move(message));
 }
 
 }  // namespace pedicel::app

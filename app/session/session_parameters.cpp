@@ -108,7 +108,7 @@ Result Session::keep_parameters() {
     apply_plant_overrides(changed, scene.plants[p].set, diagnostics);
     if (diagnostics.has_errors()) {
       cancel_gesture();
-      return {false, diagnostics.text()};
+      return {false, sentences(diagnostics.all())};
     }
     change_document(
         Command("set plant", {{"plant", one.entry.name}, {"text", plant::plant_text(changed)}}));

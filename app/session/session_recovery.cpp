@@ -48,7 +48,7 @@ bool Session::recover(const Lost& lost) {
   try {
     content = read_journal(lost.file);
   } catch (const InvalidFile& fault) {
-    say(Severity::error, fault.what());
+    say(fault.all(), false);
     return false;
   }
   if (content.document.empty() || !open(content.document)) open_empty();

@@ -79,10 +79,10 @@ Result Session::session_command(const Command& c) {
   const std::string& verb = c.verb();
   if (verb == "open") {
     if (open(c.word("file"))) return {};
-    return {false, messages_.back().text, true};
+    return {false, messages_.back().sentence, true};
   }
   if (verb == "new") open_empty();
-  if (verb == "reload" && !reload()) return {false, messages_.back().text, true};
+  if (verb == "reload" && !reload()) return {false, messages_.back().sentence, true};
   if (verb == "save script") return save_script(*this, c.word("file"));
   if (verb == "save") return save(c.word_or("file", ""));
   if (verb == "import") return import_plant(c.word("file"), c.word_or("plant", ""));

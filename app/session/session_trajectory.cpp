@@ -81,7 +81,7 @@ Result Session::play_trajectory(const std::filesystem::path& file, bool loops) {
   Diagnostics diagnostics;
   robot::Trajectory trajectory =
       robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
-  if (diagnostics.has_errors()) return {false, diagnostics.text(), true};
+  if (diagnostics.has_errors()) return {false, sentences(diagnostics.all()), true};
   return play(std::move(trajectory), loops);
 }
 
@@ -97,7 +97,7 @@ Result Session::load_waypoints(const std::filesystem::path& file) {
   Diagnostics diagnostics;
   const robot::Trajectory read =
       robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
-  if (diagnostics.has_errors()) return {false, diagnostics.text(), true};
+  if (diagnostics.has_errors()) return {false, sentences(diagnostics.all()), true};
   std::vector<double> joints;
   for (const Eigen::VectorXd& row : read.positions())
     joints.insert(joints.end(), row.begin(), row.end());

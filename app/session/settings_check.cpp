@@ -19,7 +19,7 @@ void check_settings(const Document& document) {
     if (document.plants[p].file) plant = *document.plants[p].file;
     apply_plant_overrides(plant, scene.plants[p].set, diagnostics);
   }
-  if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
+  if (diagnostics.has_errors()) throw UsageError(sentences(diagnostics.all()));
 }
 
 }  // namespace pedicel::app

@@ -4,14 +4,34 @@
 
 namespace pedicel {
 
+namespace {
+
+// With what parts it from the rest of a line.
+std::string place(const SourcePosition& where) {
+  if (where.file.empty()) return "";
+  if (where.line == 0) return where.file + ": ";
+  return where.file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+}
+
+}  // namespace
+
 std::string to_string(const Diagnostic& diagnostic) {
-  std::string text = diagnostic.where.file;
-  if (diagnostic.where.line > 0) {
-    text += ":" + std::to_string(diagnostic.where.line);
-    text += ":" + std::to_string(diagnostic.where.column);
-  }
-  text += diagnostic.severity == Severity::error ? ": error: " : ": warning: ";
-  return text + diagnostic.what;
+  const char* severity = diagnostic.severity == Severity::error ? "error: " : "warning: ";
+  return place(diagnostic.where) + severity + diagnostic.what;
+}
+
+std::string lines_of(const std::vector<Diagnostic>& diagnostics) {
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics)
+    text += (text.empty() ? "" : "\n") + to_string(diagnostic);
+  return text;
+}
+
+std::string sentences(const std::vector<Diagnostic>& diagnostics) {
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics)
+    text += (text.empty() ? "" : "\n") + place(diagnostic.where) + diagnostic.what;
+  return text;
 }
 
 void Diagnostics::error(SourcePosition where, std::string what) {
@@ -24,12 +44,7 @@ void Diagnostics::warning(SourcePosition where, std::string what) {
 }
 
 std::string Diagnostics::text() const {
-  std::string text;
-  for (const Diagnostic& diagnostic : all_) {
-    if (!text.empty()) text += '\n';
-    text += to_string(diagnostic);
-  }
-  return text;
+  return lines_of(all_);
 }
 
 void Diagnostics::add(const InvalidFile& fault) {

@@ -26,6 +26,10 @@ struct Diagnostic {
 
 /// "file:line:column: error: what"
 std::string to_string(const Diagnostic& diagnostic);
+/// Those, one line each.
+std::string lines_of(const std::vector<Diagnostic>& diagnostics);
+/// "file:line:column: what", one line each, for what says by itself that it failed.
+std::string sentences(const std::vector<Diagnostic>& diagnostics);
 
 /// Collects what is wrong with a file, so that a reader can report every fault at once. Readers
 /// take one of these, add to it, and return nothing when it holds an error: nothing half loaded.

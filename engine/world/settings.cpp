@@ -90,14 +90,14 @@ bool starts_with(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0 && text.size() > prefix.size();
 }
 
-void set_on_plant(Scene& scene, const std::string& key, const std::string& rest, Setting setting) {
+void set_on_plant(Scene& scene, const std::string& rest, Setting setting) {
   for (ScenePlant& plant : scene.plants) {
     if (!starts_with(rest, plant.name + ".")) continue;
     setting.key = rest.substr(plant.name.size() + 1);
     plant.set.push_back(setting);
     return;
   }
-  throw UsageError("--set " + key + ": the scene has no plant of that name");
+  throw UsageError(setting.where.file + ": the scene has no plant of that name");
 }
 
 }  // namespace
@@ -128,17 +128,18 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
   }
 }
 
-void apply_override(Scene& scene, const std::string& key, const std::string& value) {
+void apply_override(Scene& scene, const std::string& key, const std::string& value,
+                    const std::string& asked) {
   if (set_scene_number(scene, key, value)) return;
-  const Setting setting{key, value, {"--set " + key, 0, 0}};
+  const Setting setting{key, value, {asked + key, 0, 0}};
   if (starts_with(key, "rods.")) {
     scene.rods.push_back({key.substr(5), value, setting.where});
   } else if (starts_with(key, "coupling.")) {
     scene.coupling.push_back({key.substr(9), value, setting.where});
   } else if (starts_with(key, "plants.")) {
-    set_on_plant(scene, key, key.substr(7), setting);
+    set_on_plant(scene, key.substr(7), setting);
   } else if (key.find('.') == std::string::npos) {
-    throw UsageError("--set " + key +
+    throw UsageError(setting.where.file +
                      ": expected duration, dt, log_rate, seed, threads, rods.KEY, coupling.KEY, "
                      "plants.NAME.KEY, or an override of every plant such as detach.stretch");
   } else {

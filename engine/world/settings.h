@@ -28,8 +28,10 @@ std::optional<double> to_number(const std::string& text);
 
 /// Changes a scene as `--set key=value` does: dt, duration, seed, threads, log_rate, rods.KEY,
 /// coupling.KEY, plants.NAME.KEY (one plant) and any other KEY that is an override of every plant
-/// (detach.stretch). Throws UsageError where the key or the value is impossible.
-void apply_override(Scene& scene, const std::string& key, const std::string& value);
+/// (detach.stretch). `asked` comes before the key in the place that a fault names ("--set ").
+/// Throws UsageError where the key or the value is impossible.
+void apply_override(Scene& scene, const std::string& key, const std::string& value,
+                    const std::string& asked = "");
 
 /// Splits "key=value". Throws UsageError where there is no "=" or no key.
 std::pair<std::string, std::string> split_assignment(const std::string& text);

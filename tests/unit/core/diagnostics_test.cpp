@@ -26,6 +26,13 @@ TEST(Diagnostics, CollectsInOrderAndCountsErrorsOnly) {
   EXPECT_STREQ(InvalidFile(diagnostics).what(), diagnostics.text().c_str());
 }
 
+TEST(Diagnostics, SentencesLeaveOutTheWord) {
+  const std::vector<Diagnostic> two{{Severity::error, {"a.yaml", 3, 5}, "too short"},
+                                    {Severity::error, {}, "no display"}};
+  EXPECT_EQ(sentences(two), "a.yaml:3:5: too short\nno display");
+  EXPECT_EQ(lines_of(two), "a.yaml:3:5: error: too short\nerror: no display");
+}
+
 TEST(Diagnostics, InvalidFileFromOneFault) {
   EXPECT_STREQ(InvalidFile({"f", 4, 2}, "broken").what(), "f:4:2: error: broken");
 }

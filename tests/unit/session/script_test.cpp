@@ -258,6 +258,22 @@ TEST(SavedScript, OfASceneThatWasSavedOver) {
   EXPECT_NE(dt, 0.004);
 }
 
+TEST(SavedScript, ReadsTheFilesAnewWhereThatWasDone) {
+  TemporaryFolder folder;
+  std::filesystem::copy_file(source("plants/cherry_tomato.plant.yaml"), folder / "p.plant.yaml");
+  Session session(waiting());
+  ASSERT_TRUE(session.open(folder / "p.plant.yaml")) << session.messages().back().text;
+  const std::string plant = session.document().plants.front().entry.name;
+  must(session.run_text("draw stem \"" + plant + "\" more 0,0,0.2;0.1,0.05,0.25 0.002"));
+  must(session.run_text("reload"));
+  must(session.run_text("run 0.1"));
+  EXPECT_EQ(session.document().plants.front().file->curve_index("more"), -1);
+  expect_replay(folder, session);
+  must(session.undo());
+  EXPECT_NE(session.document().plants.front().file->curve_index("more"), -1);
+  expect_replay(folder, session);
+}
+
 // A stroke that makes a plant is two commands and one step.
 TEST(SavedScript, HasAWholeGestureUndone) {
   TemporaryFolder folder;

@@ -91,7 +91,7 @@ TEST(Override, GoesToSections) {
 std::string refusal(const std::string& key, const std::string& value) {
   Scene scene;
   try {
-    apply_override(scene, key, value);
+    apply_override(scene, key, value, "--set ");
   } catch (const UsageError& error) {
     return error.what();
   }
