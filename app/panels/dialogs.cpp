@@ -2,6 +2,8 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 #include "app/panels/file_list.h"
 #include "app/panels/layout.h"
@@ -66,17 +68,27 @@ void mouse_table(bool blender) {
   ImGui::EndTable();
 }
 
+void help_section(Ui& ui, const std::string& title) {
+  heading(ui, title.c_str());
+  if (title == "Mouse in the scene")
+    mouse_table(ui.preferences.mouse == MousePreset::blender);
+  else
+    keys_table(title.c_str());
+}
+
 void help(Ui& ui) {
   if (begin_dialog(ui, "Help", 1200, 640)) {
-    if (ImGui::BeginTable("columns", 3, ImGuiTableFlags_SizingStretchSame)) {
-      ImGui::TableNextColumn();
-      for (const char* group : {"Simulation", "File"}) heading(ui, group), keys_table(group);
-      ImGui::TableNextColumn();
-      for (const char* group : {"Edit", "Windows"}) heading(ui, group), keys_table(group);
-      ImGui::TableNextColumn();
-      heading(ui, "View"), keys_table("View");
-      heading(ui, "Mouse in the scene");
-      mouse_table(ui.preferences.mouse == MousePreset::blender);
+    constexpr std::array titles = {"Simulation", "File", "Edit",
+                                   "Windows",    "View", "Mouse in the scene"};
+    constexpr float column = 24.0f;  // letters that an explanation takes
+    const float room = ImGui::GetContentRegionAvail().x / (column * ImGui::GetFontSize());
+    const int columns = std::clamp(static_cast<int>(room), 1, 3);
+    if (ImGui::BeginTable("columns", columns, ImGuiTableFlags_SizingStretchSame)) {
+      const std::size_t each = titles.size() / static_cast<std::size_t>(columns);
+      for (std::size_t i = 0; i < titles.size(); ++i) {
+        if (i % each == 0) ImGui::TableNextColumn();
+        help_section(ui, titles[i]);
+      }
       ImGui::EndTable();
     }
   }

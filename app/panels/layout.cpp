@@ -8,6 +8,8 @@ namespace pedicel::app {
 
 namespace {
 
+constexpr float narrow_drawer = 28.0f;  // letters
+
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoBringToFrontOnFocus |
@@ -116,9 +118,12 @@ LayoutAreas Layout::draw(Ui& ui) {
   if (begin_bar("status", ImVec2(0, size.y - status), size, ImVec2(10.0f * s, 5.0f * s)))
     draw_status_bar(ui);
   ImGui::End();
-  const float low = top, high = size.y - status;
-  if (left > 0) dock(ui, Dock::left, "left", ImVec2(0, low), ImVec2(left, high));
-  if (right > 0) dock(ui, Dock::right, "right", ImVec2(size.x - right, low), ImVec2(size.x, high));
+  const float low = top, high = size.y - status, above = high - bottom;
+  // Between sidebars that leave too little room the drawer goes below them.
+  const bool below = size.x - left - right < narrow_drawer * ImGui::GetFontSize();
+  const float side = below ? above : high;
+  if (left > 0) dock(ui, Dock::left, "left", ImVec2(0, low), ImVec2(left, side));
+  if (right > 0) dock(ui, Dock::right, "right", ImVec2(size.x - right, low), ImVec2(size.x, side));
   const auto hidden = [&](Dock where) {
     return (where == Dock::left && left == 0) || (where == Dock::right && right == 0) ||
            (where == Dock::bottom && bottom == 0);
@@ -126,8 +131,9 @@ LayoutAreas Layout::draw(Ui& ui) {
   for (const auto& panel : panels_)
     if (hidden(panel->dock())) panel->idle(ui);
   if (bottom > 0)
-    dock(ui, Dock::bottom, "bottom", ImVec2(left, high - bottom), ImVec2(size.x - right, high));
-  return {ImVec2(left, low), ImVec2(size.x - right, high - bottom)};
+    dock(ui, Dock::bottom, "bottom", ImVec2(below ? 0 : left, above),
+         ImVec2(below ? size.x : size.x - right, high));
+  return {ImVec2(left, low), ImVec2(size.x - right, above)};
 }
 
 }  // namespace pedicel::app

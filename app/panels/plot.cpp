@@ -39,7 +39,9 @@ void show_all(const std::vector<PlotLine>& lines, PlotView& view) {
     }
   if (!(x1 >= x0)) x0 = 0, x1 = 1, y0 = 0, y1 = 1;
   if (x1 - x0 < 1e-9) x1 = x0 + 1.0;
-  const double margin = y1 > y0 ? 0.06 * (y1 - y0) : std::max(0.1 * std::abs(y0), 1e-6);
+  // What hardly changes is a level line, not a picture of its last digits.
+  const double most = std::max(std::abs(y0), std::abs(y1)), least = most > 0.0 ? 1e-3 * most : 1.0;
+  const double margin = 0.06 * (y1 - y0) + 0.5 * std::max(0.0, least - (y1 - y0));
   view.x_low = x0, view.x_high = x1;
   view.y_low = y0 - margin, view.y_high = y1 + margin;
 }

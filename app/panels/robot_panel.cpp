@@ -110,10 +110,10 @@ class RobotPanel : public Panel {
     ImGui::Checkbox("Handles", &ui.view.tool_handles);
     tip("Arrows, rings and a knob in the scene to drag the tool by, key " +
         keys_of(Action::tool_handles));
-    ImGui::SameLine();
+    stay_in_row("Tool's axes");
     ImGui::Checkbox("Tool's axes", &ui.view.tool_axes);
     tip("The handles turn with the tool; else they are the world's");
-    ImGui::SameLine();
+    stay_in_row("Ghost");
     ImGui::Checkbox("Ghost", &ui.view.ghost);
     tip("Shows the robot where it is told to go while it is not there");
   }

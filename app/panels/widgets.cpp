@@ -35,6 +35,13 @@ void heading(const Ui& ui, const char* text) {
                                         colour_u32(palette().line));
 }
 
+void stay_in_row(const char* label) {
+  const float wide =
+      ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+}
+
 float rest_width(float right) {
   return std::max(10.0f, ImGui::GetContentRegionAvail().x - right);
 }

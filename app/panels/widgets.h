@@ -51,6 +51,8 @@ std::string at_blanks(const std::string& text);
 /// Text cut to a width (px) with "..."; the whole text as a tip.
 void elided(const std::string& text, float width, const ImVec4* colour = nullptr);
 std::string elide(const std::string& text, float width);
+/// Goes on in the row where a check box with that label still fits into it, else in the next one.
+void stay_in_row(const char* label);
 /// The width that is left, but for `right` px.
 float rest_width(float right = 0.0f);
 

@@ -47,10 +47,14 @@ class Desk {
     session_->open(path);
     settle();
   }
-  /// A scene with nothing in it, drawn coarsely, so that a picture costs little.
-  void open_empty() {
+  /// So that a picture costs little.
+  void draw_coarsely() {
     ui().view.automatic_quality = false;
     ui().view.quality = CanvasQuality::coarsest;
+  }
+  /// A scene with nothing in it, drawn coarsely.
+  void open_empty() {
+    draw_coarsely();
     session_->open_empty();
     settle();
   }

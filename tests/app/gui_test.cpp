@@ -2,7 +2,6 @@
 #include <chrono>
 #include <thread>
 
-#include "app/panels/plot.h"
 #include "app/panels/stem_editor.h"
 #include "core/check.h"
 #include "desk.h"
@@ -18,8 +17,7 @@ class Gui : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!desk_.available()) GTEST_SKIP() << desk_.why();
-    desk_.ui().view.automatic_quality = false;
-    desk_.ui().view.quality = CanvasQuality::coarsest;
+    desk_.draw_coarsely();
     desk_.open(scene_file("cherry_tomato_pull_aside.scene.yaml"));
   }
   Vec3 fruit_place(int fruit) {
@@ -88,20 +86,6 @@ TEST_F(Gui, ASearchLeavesTheGroupsAsTheyWere) {
   desk_.key(Key::del);
   desk_.frames(3);
   EXPECT_FALSE(shown()) << "as before the search";
-}
-
-TEST(PlotTicks, HaveTheDigitsThatTellThemApart) {
-  const auto texts = [](double low, double high) {
-    const std::vector<double> all = ticks(low, high, 4);
-    std::vector<std::string> shown;
-    for (const double one : all) shown.push_back(tick_text(one, all[1] - all[0]));
-    return shown;
-  };
-  using ::testing::ElementsAre;
-  EXPECT_THAT(texts(0.1094, 0.1101), ElementsAre("0.1094", "0.1096", "0.1098", "0.1100"));
-  EXPECT_THAT(texts(0.0, 2.0), ElementsAre("0", "0.5", "1.0", "1.5", "2.0"));
-  EXPECT_THAT(texts(-20.0, 20.0), ElementsAre("-20", "-10", "0", "10", "20"));
-  EXPECT_THAT(texts(0.0, 4e-7), ElementsAre("0", "1e-07", "2e-07", "3e-07", "4e-07"));
 }
 
 TEST_F(Gui, StepsForwardAndBack) {

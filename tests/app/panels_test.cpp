@@ -27,8 +27,7 @@ class Panels : public ::testing::TestWithParam<Look> {
     desk_ = std::make_unique<Desk>(look.width, look.height, look.scale);
     if (!desk_->available()) GTEST_SKIP() << desk_->why();
     desk_->ui().preferences.theme = look.theme;
-    desk_->ui().view.automatic_quality = false;
-    desk_->ui().view.quality = CanvasQuality::coarsest;
+    desk_->draw_coarsely();
     desk_->open(scene_file("cherry_tomato_pull_aside.scene.yaml"));
   }
 
@@ -122,7 +121,8 @@ TEST_P(Panels, DialogsAndLegends) {
 INSTANTIATE_TEST_SUITE_P(Looks, Panels,
                          ::testing::Values(Look{1280, 720, 1.0, Theme::dark},
                                            Look{1600, 900, 1.25, Theme::light},
-                                           Look{2560, 1440, 2.0, Theme::dark}));
+                                           Look{2560, 1440, 2.0, Theme::dark},
+                                           Look{1280, 720, 2.0, Theme::dark}));
 
 // Pointed at from the left to the right, every item is met in turn, with a gap before the next.
 TEST(Toolbar, FitsIntoANarrowWindow) {

@@ -13,8 +13,7 @@ const plant::PlantFile* only_plant(Desk& desk) {
 TEST(Story, DrawPullUndoSaveReload) {
   Desk desk;
   if (!desk.available()) GTEST_SKIP() << desk.why();
-  desk.ui().view.automatic_quality = false;
-  desk.ui().view.quality = CanvasQuality::coarsest;
+  desk.draw_coarsely();
   desk.session().open_empty();
   desk.settle();
   desk.key(Key::d);

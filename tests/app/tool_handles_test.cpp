@@ -16,8 +16,7 @@ class ToolHandlesTest : public ::testing::Test {
       : desk_(1280, 900, 1.0, platform) {}
   void SetUp() override {
     if (!desk_.available()) GTEST_SKIP() << desk_.why();
-    desk_.ui().view.automatic_quality = false;
-    desk_.ui().view.quality = CanvasQuality::coarsest;
+    desk_.draw_coarsely();
     desk_.open(scene_file("cherry_tomato_pull_aside.scene.yaml"));
     // To where the arm can go any way.
     desk_.session().control().run_for(1.0);
