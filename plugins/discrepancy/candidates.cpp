@@ -5,11 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "core/thread_pool.h"
 #include "discrepancy/candidate_starts.h"
 #include "discrepancy/cause_names.h"
+#include "discrepancy/evidence.h"
+#include "discrepancy/place_search.h"
 #include "discrepancy/profile.h"
 #include "discrepancy/promise.h"
 #include "discrepancy/way_back.h"
@@ -19,6 +22,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr int first_iterations = 6, whole_iterations = 10;
+constexpr double rough_step = 1.0;  // nats, of fits that only tell who leads
 constexpr std::size_t leaders = 6;
 constexpr std::size_t most_whole = 8;  // of each of the two lists
 constexpr std::array growing_horizons{0.5 * first_horizon, first_horizon, 1.0};
@@ -26,6 +30,7 @@ constexpr int look_iterations = 2;                   // of every start, and
 constexpr std::size_t leading_starts = 2;            // go on
 constexpr double far_behind = 0.3;                   // of the first one's gain or statistic
 constexpr double near_by = 50.0, near_share = 0.05;  // nats, of the best one's gain
+constexpr double lost_by = 200.0, lost_share = 0.3;  // nats, likewise: before its fit has ended
 constexpr double small_residual = 2.0;               // mean square in noise units, see refit_all()
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.
@@ -39,6 +44,7 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
   options.horizon = first_horizon;
   options.iterations = std::min(first_iterations, options.iterations);
+  options.least_step = rough_step;
   for (const Hypothesis& start : starts)
     keep_better(best, fit(evaluator, start, options, base.jacobian));
   return best;
@@ -60,8 +66,7 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
                     const std::vector<Hypothesis>& starts, const FitOptions& options) {
   FitOptions look = options, rest = options;
   // Between places there are ridges, on which many steps are tried in vain.
-  const bool to_the_end = has_place(starts.front());
-  if (!to_the_end) look.iterations = std::min(look_iterations, options.iterations);
+  if (!has_place(starts.front())) look.iterations = std::min(look_iterations, options.iterations);
   rest.iterations = options.iterations - look.iterations;
   std::vector<FitSummary> found;
   std::vector<double> closeness;
@@ -70,7 +75,7 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
     closeness.push_back(-objective(found.back()));
   }
   FitSummary best;
-  for (const int i : first_by(closeness, to_the_end ? 1 : leading_starts))
+  for (const int i : first_by(closeness, leading_starts))
     keep_better(best, rest.iterations > 0 ? refit(evaluator, found[i], rest) : std::move(found[i]));
   const Scan scanned = scan(evaluator, starts, options);
   if (scanned.cost[scanned.best] >= base.cost)
@@ -92,65 +97,6 @@ void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& o
         options.progress(from + (to - from) * static_cast<double>(++done) / count);
     }
   });
-}
-
-// What a model's numbers cost: how much narrower the data make them than what is known beforehand,
-// by Laplace's approximation (MacKay 2003, chapter 28). A number that the data leave open is free.
-double cost_of_numbers(const FitSummary& model, double dispersion) {
-  const int n = model.hypothesis.size();
-  if (n == 0) return 0.0;
-  Eigen::VectorXd width(n);
-  double away = 0.0;
-  for (int p = 0; p < n; ++p) {
-    const FreeParameter& free = model.hypothesis.free[p];
-    width[p] = free.width();
-    if (free.prior > 0.0)
-      away += std::pow(
-          (free.to_unknown(model.hypothesis.value(p)) - free.to_unknown(free.prior_centre)) /
-              free.prior,
-          2);
-  }
-  const Eigen::MatrixXd scaled = model.jacobian * width.asDiagonal() / std::sqrt(dispersion);
-  const Eigen::MatrixXd narrowed = Eigen::MatrixXd::Identity(n, n) + scaled.transpose() * scaled;
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(narrowed, Eigen::EigenvaluesOnly)
-          .eigenvalues();
-  return 0.5 * (values.cwiseMax(1.0).array().log().sum() + away);
-}
-
-void sort_by_evidence(std::vector<Candidate>& candidates) {
-  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
-    return a.whole != b.whole ? a.whole : a.evidence > b.evidence;
-  });
-}
-
-// The mean square that even the best of the whole fits leaves, 1 where that is noise: where it is
-// more, differences count for less.
-double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary& base,
-                     int samples) {
-  double least = base.cost;
-  for (const Candidate& candidate : candidates)
-    if (candidate.whole && candidate.fit.why != "not run")
-      least = std::min(least, candidate.fit.cost);
-  return std::max(1.0, 2.0 * least / samples);
-}
-
-// Gains and evidence of the whole fits, and the order.
-void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples,
-           double dispersion) {
-  const double cost = cost_of_numbers(base, dispersion);
-  for (Candidate& candidate : candidates) {
-    if (candidate.whole) {
-      candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
-      candidate.evidence = candidate.gain - (cost_of_numbers(candidate.fit, dispersion) - cost) -
-                           std::log(static_cast<double>(candidates.size())) +
-                           candidate.held_out.gain;
-    } else {
-      const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
-      candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
-    }
-  }
-  sort_by_evidence(candidates);
 }
 
 // All candidates of one model, on their way from starts to a ranking.
@@ -181,13 +127,11 @@ class Refits {
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
     // A few iterations tell who is behind; only the leaders are worth the rest.
+    longest_first(whole);
     share_out(coarse_, static_cast<int>(whole.size()), options_, 0.5, 0.7,
               [&](Evaluator& evaluator, int c) { fit_whole(evaluator, whole[c]); });
     extend_special_cases();
-    std::vector<double> closeness(causes_.size(), -std::numeric_limits<double>::infinity());
-    for (const int i : whole)
-      if (candidates_[i].fit.why != "not run") closeness[i] = -candidates_[i].fit.cost;
-    const std::vector<int> first = first_by(closeness, std::min(leaders, whole.size()));
+    const std::vector<int> first = leading(whole);
     share_out(coarse_, static_cast<int>(first.size()), options_, 0.7, 0.8,
               [&](Evaluator& evaluator, int c) {
                 FitSummary& found = candidates_[first[c]].fit;
@@ -210,8 +154,12 @@ class Refits {
         0.5 * coarse_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
     std::vector<std::size_t> starts(causes_.size(), 1);
     for (const int i : first_by(promise_, most_whole)) starts[i] = 2;
-    share_out(coarse_, static_cast<int>(causes_.size()), options_, 0.0, 0.5,
-              [&](Evaluator& evaluator, int i) {
+    std::vector<int> all(causes_.size());
+    std::iota(all.begin(), all.end(), 0);
+    longest_first(all);
+    share_out(coarse_, static_cast<int>(all.size()), options_, 0.0, 0.5,
+              [&](Evaluator& evaluator, int c) {
+                const int i = all[c];
                 candidates_[i].fit =
                     fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
                 candidates_[i].gain = early_cost - candidates_[i].fit.cost;
@@ -219,6 +167,14 @@ class Refits {
     std::vector<double> gain;
     for (const Candidate& candidate : candidates_) gain.push_back(candidate.gain);
     choose_whole(gain);
+  }
+
+  // So that no worker waits for one long task at the end.
+  void longest_first(std::vector<int>& chosen) const {
+    const auto work = [&](int i) {
+      return causes_[i].starts.size() * (base_.hypothesis.size() + causes_[i].starts[0].size());
+    };
+    std::ranges::stable_sort(chosen, [&](int a, int b) { return work(a) > work(b); });
   }
 
   // The first few, and others that are not far behind.
@@ -242,6 +198,7 @@ class Refits {
   void fit_whole(Evaluator& evaluator, int i) {
     FitOptions few = options_.fit;
     few.iterations = has_place(causes_[i].starts.front()) ? 2 * whole_iterations : whole_iterations;
+    few.least_step = rough_step;
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
     if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
@@ -252,7 +209,7 @@ class Refits {
     if (plain) starts.push_back(std::move(*plain));
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
-    candidate.fit = best_fit(evaluator, base_, starts, few);
+    candidate.fit = slide_along(evaluator, best_fit(evaluator, base_, starts, few), few);
     for (const Direction& start : ways_back(candidate.cause))
       if (auto found = walk_back(evaluator, base_, start, few))
         keep_better(candidate.fit, std::move(*found));
@@ -269,7 +226,7 @@ class Refits {
     for (const auto& [special, general] : special_cases()) {
       Candidate* from = whole_one(special);
       Candidate* to = whole_one(general);
-      if (!from || !to || stopped()) continue;
+      if (!from || !to || stopped() || is_lost(*from, least_cost(candidates_, base_))) continue;
       const Cause& cause = causes_[to - candidates_.data()];
       const std::vector<Hypothesis> starts =
           continued(base_.hypothesis, from->fit.hypothesis, cause);
@@ -277,6 +234,7 @@ class Refits {
       const Scan found = scan(evaluator, starts, options_.fit);
       FitOptions few = options_.fit;
       few.iterations = 2 * whole_iterations;
+      few.least_step = rough_step;
       keep_better(to->fit, fit(evaluator, starts[found.best], few, base_.jacobian));
     }
   }
@@ -286,6 +244,25 @@ class Refits {
       if (candidate.cause == cause && candidate.whole && candidate.fit.why != "not run")
         return &candidate;
     return nullptr;
+  }
+
+  // Whether it is too far from the best one for the rest of its iterations to matter.
+  bool is_lost(const Candidate& candidate, double least) const {
+    return candidate.fit.why == "not run" ||
+           candidate.fit.cost - least > std::max(lost_by, lost_share * (base_.cost - least));
+  }
+
+  // Of those that were fitted whole, the closest ones.
+  std::vector<int> leading(const std::vector<int>& whole) const {
+    std::vector<double> closeness(candidates_.size(), -std::numeric_limits<double>::infinity());
+    const double least = least_cost(candidates_, base_);
+    std::size_t count = 0;
+    for (const int i : whole) {
+      if (is_lost(candidates_[i], least)) continue;
+      closeness[i] = -candidates_[i].fit.cost;
+      ++count;
+    }
+    return first_by(closeness, std::min(leaders, count));
   }
 
   // Whether it may be the best or a rival of it, the coarse simulator's errors considered.
@@ -361,11 +338,6 @@ class Refits {
 };
 
 }  // namespace
-
-double cost_of(int parameters, int samples, std::size_t candidates) {
-  return 0.5 * parameters * std::log(std::max(samples, 2)) +
-         std::log(static_cast<double>(std::max<std::size_t>(candidates, 1)));
-}
 
 std::vector<Candidate> refit_all(const Workers& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,

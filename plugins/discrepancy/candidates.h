@@ -21,6 +21,9 @@ struct Candidate {
   /// gains on the trials kept back.
   double evidence = 0.0;
   HeldOut held_out;  ///< on the trials kept back, of a whole fit
+  /// The cause that it turned into, because its fit ended where that one begins (limits()); empty
+  /// otherwise.
+  std::string limit_of;
   /// False: it fell so far behind over the first part of the records, and its direction shows so
   /// little, that it was not refitted over the whole; its gain is that of the first part, or what
   /// its direction promises.
@@ -54,9 +57,5 @@ std::vector<Candidate> refit_all(const Workers& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,
                                  const std::vector<Direction>& directions,
                                  const RefitOptions& options);
-
-/// Bayesian information criterion: what a model's additional parameters cost, with the choice
-/// between so many candidates (nats).
-double cost_of(int parameters, int samples, std::size_t candidates);
 
 }  // namespace pedicel::discrepancy

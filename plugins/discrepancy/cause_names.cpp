@@ -25,6 +25,14 @@ const std::vector<std::pair<std::string, std::string>>& special_cases() {
   return pairs;
 }
 
+const std::vector<Limit>& limits() {
+  static const std::vector<Limit> all{{"relaxation", "time", true, "creep"},
+                                      {"creep", "time", false, "relaxation"},
+                                      {"weak_segment", "length", false, "base_compliance"},
+                                      {"weak_segment", "length", false, "attachment_compliance"}};
+  return all;
+}
+
 std::string unit_of(const std::string& cause, const std::string& parameter) {
   static const std::map<std::string, std::string> units = {
       {"mass", "kg"},    {"rate", "1/s"},     {"time", "s"},           {"curvature", "1/m"},

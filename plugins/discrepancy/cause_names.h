@@ -21,6 +21,15 @@ Vanishes vanishing(const std::string& cause, const std::string& parameter);
 /// drag.
 const std::vector<std::pair<std::string, std::string>>& special_cases();
 
+/// A bound of a cause's number at which it is, or goes over into, another cause: relaxation with a
+/// time longer than the longest trial is creep, a weak stretch of no length is a hinge.
+struct Limit {
+  std::string cause, parameter;
+  bool high = false;  ///< the upper bound; else the lower one
+  std::string becomes;
+};
+const std::vector<Limit>& limits();
+
 /// Whether two causes are of one kind (memory and damping, masses, softness, air, grip, frame):
 /// where one of them acts, another law of the same kind takes up what two honest implementations of
 /// the first differ by.

@@ -5,6 +5,7 @@
 
 #include "discrepancy/cause_names.h"
 #include "discrepancy/decoys.h"
+#include "discrepancy/evidence.h"
 #include "discrepancy/sentence.h"
 
 namespace pedicel::discrepancy {
@@ -20,7 +21,7 @@ constexpr double most_margin = 20.0;   // nats, of that
 // What a cause that has one or two more numbers explains as well, but for a nat, the data do not
 // refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
 // offsets of a force sensor) a cause follows others.
-constexpr double as_well = 1.0, most_margins = 3.0;
+constexpr double most_margins = 3.0;
 constexpr int most_more_numbers = 2;
 // Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
 constexpr double least_parameter_change = 0.0015;
@@ -86,17 +87,17 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
 }
 
 // A rival that has the best one as a special case, and needs more parameters to do no better, is
-// no other explanation: a wind of no speed is drag.
+// no other explanation: a wind of no speed is drag. Nor is one whose fit turned into the best one.
 bool contains(const Candidate& rival, const Candidate& best) {
+  if (rival.limit_of == best.cause) return true;
   const auto& special = special_cases();
   return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
          rival.evidence < best.evidence;
 }
 
 bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
-  const auto of_data = [](const Candidate& c) { return c.gain + c.held_out.gain; };
   return rival.fit.hypothesis.size() - best.fit.hypothesis.size() <= most_more_numbers &&
-         of_data(best) - of_data(rival) < as_well &&
+         said_by_data(best) - said_by_data(rival) < as_well &&
          best.evidence - rival.evidence < most_margins * margin;
 }
 

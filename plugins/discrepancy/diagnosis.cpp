@@ -322,10 +322,12 @@ class Procedure {
   }
 
   // Several causes are none where one force from outside the list explains as much of the fitted
-  // trials, nor is one that does so at the end of what its numbers may be. What causes explain to
-  // the last, and loudly, they do not by chance.
+  // trials, nor is one that does so at the end of what its numbers may be; any other single cause
+  // is none where a force explains clearly more. What causes explain to the last, and loudly, they
+  // do not by chance.
   void ask_for_one_force() {
-    if (findings_.chain.size() == 1 && !stands_at_bound(findings_.chain.front())) return;
+    const bool several = findings_.chain.size() > 1;
+    const bool alone = !several && !stands_at_bound(findings_.chain.front());
     double evidence = 0.0;
     for (const Candidate& found : findings_.chain) evidence += found.evidence - found.held_out.gain;
     if (!result_.after.raised && evidence > beyond_doubt) return;
@@ -339,12 +341,14 @@ class Procedure {
     const double by_causes = without - 0.5 * left.col(1).squaredNorm();
     const double by_force = without - force.fit.cost;
     log_.note(text("One force gains %.4g nats, what was found %.4g.", by_force, by_causes));
-    if (by_force < by_causes - std::max(force_margin, force_share * by_causes)) return;
+    const double margin = std::max(force_margin, force_share * by_causes);
+    if (by_force < by_causes + (alone ? margin : -margin)) return;
     result_.verdict.outcome = Outcome::unknown;
-    result_.verdict.remainder = findings_.chain.size() > 1
-                                    ? "one force explains as much as several known causes together"
-                                    : "one force explains as much as a known cause that stands at "
-                                      "the end of what its numbers may be";
+    result_.verdict.remainder =
+        several ? "one force explains as much as several known causes together"
+        : alone ? "one force explains more than any known cause"
+                : "one force explains as much as a known cause that stands at the end of what its "
+                  "numbers may be";
     tell_of_force(force);
   }
 

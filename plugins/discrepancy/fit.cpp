@@ -67,6 +67,7 @@ class Problem : public ceres::CostFunction {
     if (!differences_.suited()) at_.resize(0);
   }
 
+  const DataSet& data() const { return evaluator_.data(); }
   const Eigen::VectorXd& residual() const { return residual_; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
   double spread() const { return spread_; }
@@ -237,7 +238,9 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
     ceres::Solver::Options settings;
     settings.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     settings.max_num_iterations = options.iterations;
-    settings.function_tolerance = options.tolerance;
+    settings.function_tolerance =
+        2.0 * options.least_step /
+        std::max(1, problem.data().samples(options.trials, options.horizon));
     settings.parameter_tolerance = 1.0e-6;
     // With bounds Ceres searches along every step. One try is the whole step, which the trust
     // region looks at anyway; where that fails the region shrinks.

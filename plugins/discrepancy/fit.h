@@ -14,9 +14,11 @@ namespace pedicel::discrepancy {
 
 struct FitOptions {
   std::vector<int> trials;
-  double horizon = 1.0;       ///< share of each trial's duration that counts
-  int iterations = 60;        ///< at most
-  double tolerance = 1.0e-5;  ///< relative change of the cost below which it stops
+  double horizon = 1.0;  ///< share of each trial's duration that counts
+  int iterations = 60;   ///< at most
+  /// It stops when a step gains less (nats; where the model leaves more than noise, in units of
+  /// what it leaves).
+  double least_step = 0.05;
 };
 
 /// What a fit found. Starts as "not run".

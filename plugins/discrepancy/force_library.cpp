@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "discrepancy/candidates.h"
+#include "discrepancy/evidence.h"
 #include "discrepancy/force_term.h"
 
 namespace pedicel::discrepancy {

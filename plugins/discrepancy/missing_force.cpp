@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "discrepancy/candidates.h"
+#include "discrepancy/evidence.h"
 #include "discrepancy/force_term.h"
 #include "discrepancy/places.h"
 #include "discrepancy/sentence.h"

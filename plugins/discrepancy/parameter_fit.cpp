@@ -136,29 +136,38 @@ class Run {
     result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
   }
 
-  // What moves no sample is held where it was given: a fit would only walk about.
+  // What moves no sample is held where it was given: a fit would only walk about. A number that
+  // the first part of the records drove to where it does nothing is given back.
   void keep_what_is_seen(const Hypothesis& found) {
+    const int n = found.size();
     std::vector<Hypothesis> models{found};
-    for (int p = 0; p < found.size(); ++p) {
+    for (int p = 0; p < n; ++p) {
       const FreeParameter& free = found.free[p];
       double u = free.to_unknown(found.value(p));
       u += u + probe > free.to_unknown(free.high) ? -probe : probe;
       models.push_back(found);
       models.back().set_value(p, free.to_value(u));
     }
+    for (int p = 0; p < n; ++p) {
+      models.push_back(found);
+      models.back().set_value(p, starts_.front().value(p));
+    }
     Evaluator with = setup_.evaluator();
     const Eigen::MatrixXd r = with.residuals(models, setup_.options());
+    const auto moves = [&](int model) {
+      return (r.col(model) - r.col(0)).cwiseAbs().maxCoeff() >= least_change;
+    };
     Hypothesis& kept = result_.summary.hypothesis;
     kept = found;
     kept.free.clear();
-    for (int p = 0; p < found.size(); ++p) {
-      if ((r.col(p + 1) - r.col(0)).cwiseAbs().maxCoeff() >= least_change) {
-        kept.free.push_back(found.free[p]);
-        continue;
-      }
-      FreeParameter lost = found.free[p];
-      kept.effects[lost.effect] = starts_.front().effects[lost.effect];
-      unseen_.push_back(lost);
+    for (int p = 0; p < n; ++p) {
+      const FreeParameter& free = found.free[p];
+      const bool seen = moves(1 + p);
+      if (!seen) kept.effects[free.effect] = starts_.front().effects[free.effect];
+      if (seen || moves(1 + n + p))
+        kept.free.push_back(free);
+      else
+        unseen_.push_back(free);
     }
   }
 
@@ -178,7 +187,7 @@ class Run {
     Evaluator with = setup_.evaluator();
     result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
     FitOptions fine = setup_.options();
-    fine.tolerance = std::min(fine.tolerance, 0.01 / std::max(1.0, result_.summary.cost));
+    fine.least_step = std::min(fine.least_step, 0.01);
     result_.summary = fit(with, result_.summary.hypothesis, fine);
     result_.spread =
         std::sqrt(std::max(1.0, 2.0 * result_.summary.cost / std::max(1, setup_.samples())));

@@ -16,7 +16,7 @@ class Held {
  public:
   Held(Evaluator& evaluator, const FitSummary& fit, int parameter, const FitOptions& options)
       : evaluator_(evaluator), best_(fit), parameter_(parameter), options_(options) {
-    options_.tolerance = std::min(options.tolerance, cost_error / std::max(1.0, fit.cost));
+    options_.least_step = std::min(options.least_step, cost_error);
     const Eigen::VectorXd u = fit.hypothesis.unknowns();
     best_unknown_ = u[parameter];
     best_others_ = others_of(u);

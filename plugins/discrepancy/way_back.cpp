@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrepancy/place_search.h"
+
 namespace pedicel::discrepancy {
 
 namespace {
@@ -129,7 +131,7 @@ std::optional<FitSummary> walk_back(Evaluator& evaluator, const FitSummary& base
     if (!(found.cost < lost * base.cost)) return {};
     model.set_unknowns(found.hypothesis.unknowns());
   }
-  return fit(evaluator, model, options, base.jacobian);
+  return slide_along(evaluator, fit(evaluator, model, options, base.jacobian), options);
 }
 
 }  // namespace pedicel::discrepancy

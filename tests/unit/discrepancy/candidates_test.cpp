@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "discrepancy/candidate_starts.h"
+#include "discrepancy/evidence.h"
 #include "discrepancy/needed_parameters.h"
 #include "discrepancy/promise.h"
 #include "unit/discrepancy/beam_experiment.h"

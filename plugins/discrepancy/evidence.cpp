@@ -1,0 +1,152 @@
+#include "discrepancy/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/cause_names.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double at_the_end = 0.02;  // of an unknown, from its bound
+
+// Of an effect with sizes of more than one name (a sensor's gain and offset), those that vanish at
+// zero, which the effect can do without.
+std::vector<int> further_sizes(const Hypothesis& model) {
+  const int last = static_cast<int>(model.effects.size()) - 1;
+  std::vector<int> found;
+  bool another = false;
+  for (int p = 0; p < model.size(); ++p) {
+    const FreeParameter& free = model.free[p];
+    if (free.effect != last || free.vanishes == Vanishes::never) continue;
+    const bool can_go = free.vanishes == Vanishes::at_zero && !free.logarithmic;
+    another = another || !can_go || (!found.empty() && model.free[found.front()].name != free.name);
+    if (can_go) found.push_back(p);
+  }
+  return another ? found : std::vector<int>{};
+}
+
+// Logarithm of the density at zero of some unknowns after the data over that before them.
+double density_ratio(const FitSummary& model, const Eigen::MatrixXd& information,
+                     const std::vector<int>& unknowns) {
+  const Eigen::MatrixXd covariance =
+      information.llt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  const Eigen::VectorXd u = model.hypothesis.unknowns();
+  const int n = static_cast<int>(unknowns.size());
+  Eigen::MatrixXd after(n, n);
+  Eigen::VectorXd away(n);
+  double before = 0.0;
+  for (int i = 0; i < n; ++i) {
+    away[i] = u[unknowns[i]];
+    before += 2.0 * std::log(model.hypothesis.free[unknowns[i]].width());
+    for (int j = 0; j < n; ++j) after(i, j) = covariance(unknowns[i], unknowns[j]);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> root(after);
+  return 0.5 * (before - 2.0 * root.matrixLLT().diagonal().array().log().sum() -
+                away.dot(root.solve(away)));
+}
+
+void sort_by_evidence(std::vector<Candidate>& candidates) {
+  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+    if (a.whole != b.whole) return a.whole;
+    if (a.evidence != b.evidence) return a.evidence > b.evidence;
+    return a.limit_of.empty() && !b.limit_of.empty();
+  });
+}
+
+bool ends_at(const FitSummary& fit, const Limit& limit) {
+  const Hypothesis& model = fit.hypothesis;
+  const Eigen::VectorXd u = model.unknowns(), bound = limit.high ? model.high() : model.low();
+  for (int p = model.size() - 1; p >= 0; --p) {
+    const FreeParameter& free = model.free[p];
+    if (free.name == limit.parameter && model.effects[free.effect].name == limit.cause)
+      return std::abs(u[p] - bound[p]) < at_the_end;
+  }
+  return false;
+}
+
+// A cause that does no better where it turns into another one is no other explanation than that.
+void find_limits(std::vector<Candidate>& candidates) {
+  for (Candidate& candidate : candidates) candidate.limit_of.clear();
+  for (const Limit& limit : limits())
+    for (Candidate& from : candidates)
+      for (const Candidate& to : candidates) {
+        if (from.cause != limit.cause || to.cause != limit.becomes || !from.whole || !to.whole ||
+            !ends_at(from.fit, limit) || said_by_data(from) > said_by_data(to) + as_well)
+          continue;
+        from.limit_of = to.cause;
+        from.evidence = std::min(from.evidence, to.evidence);
+      }
+}
+
+}  // namespace
+
+double said_by_data(const Candidate& candidate) {
+  return candidate.gain + candidate.held_out.gain;
+}
+
+double least_cost(const std::vector<Candidate>& candidates, const FitSummary& base) {
+  double least = base.cost;
+  for (const Candidate& candidate : candidates)
+    if (candidate.whole && candidate.fit.why != "not run")
+      least = std::min(least, candidate.fit.cost);
+  return least;
+}
+
+double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary& base,
+                     int samples) {
+  return std::max(1.0, 2.0 * least_cost(candidates, base) / samples);
+}
+
+void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples,
+           double dispersion) {
+  const double cost = cost_of_numbers(base, dispersion);
+  for (Candidate& candidate : candidates) {
+    if (candidate.whole) {
+      candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
+      candidate.evidence = candidate.gain - (cost_of_numbers(candidate.fit, dispersion) - cost) -
+                           std::log(static_cast<double>(candidates.size())) +
+                           candidate.held_out.gain;
+    } else {
+      const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
+      candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
+    }
+  }
+  find_limits(candidates);
+  sort_by_evidence(candidates);
+}
+
+double cost_of_numbers(const FitSummary& model, double dispersion) {
+  const int n = model.hypothesis.size();
+  if (n == 0) return 0.0;
+  Eigen::VectorXd width(n);
+  double away = 0.0;
+  for (int p = 0; p < n; ++p) {
+    const FreeParameter& free = model.hypothesis.free[p];
+    width[p] = free.width();
+    if (free.prior > 0.0)
+      away += std::pow(
+          (free.to_unknown(model.hypothesis.value(p)) - free.to_unknown(free.prior_centre)) /
+              free.prior,
+          2);
+  }
+  const Eigen::MatrixXd scaled = model.jacobian * width.asDiagonal() / std::sqrt(dispersion);
+  const Eigen::MatrixXd narrowed = Eigen::MatrixXd::Identity(n, n) + scaled.transpose() * scaled;
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(narrowed, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  const double cost = 0.5 * (values.cwiseMax(1.0).array().log().sum() + away);
+  const std::vector<int> further = further_sizes(model.hypothesis);
+  if (further.empty()) return cost;
+  const Eigen::VectorXd known = width.cwiseInverse();
+  const Eigen::MatrixXd information = known.asDiagonal() * narrowed * known.asDiagonal();
+  return cost - std::max(0.0, density_ratio(model, information, further));
+}
+
+double cost_of(int parameters, int samples, std::size_t candidates) {
+  return 0.5 * parameters * std::log(std::max(samples, 2)) +
+         std::log(static_cast<double>(std::max<std::size_t>(candidates, 1)));
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "discrepancy/candidates.h"
+
+namespace pedicel::discrepancy {
+
+/// What all data say for a candidate (nats), whatever its numbers cost, and by how much less
+/// another one still explains them as well.
+double said_by_data(const Candidate& candidate);
+inline constexpr double as_well = 1.0;
+
+/// The least cost of the base and of the whole fits.
+double least_cost(const std::vector<Candidate>& candidates, const FitSummary& base);
+
+/// The mean square (noise units) that even the best of the whole fits leaves over so many samples,
+/// at least 1: where it is more, differences count for less.
+double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary& base, int samples);
+
+/// Sets the gains and the evidence of the whole fits and their limits, and sorts by evidence: the
+/// whole fits first.
+void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples,
+           double dispersion);
+
+/// What a model's numbers cost (nats): how much narrower the data make them than what is known
+/// beforehand, by Laplace's approximation (MacKay 2003, chapter 28). A number that the data leave
+/// open is free, and so are the further sizes of its last effect that the data do not ask for: the
+/// model without them is what they would be compared with (Dickey 1971, Annals of Mathematical
+/// Statistics 42: the ratio of the densities at zero, afterwards and beforehand).
+double cost_of_numbers(const FitSummary& model, double dispersion);
+
+/// Bayesian information criterion: what a model's additional parameters cost, with the choice
+/// between so many candidates (nats).
+double cost_of(int parameters, int samples, std::size_t candidates);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,78 @@
+// A place lies in a narrow valley: a fit that stopped elsewhere must be led to it.
+#include "discrepancy/place_search.h"
+
+#include <gtest/gtest.h>
+
+#include "discrepancy/cause_start.h"
+#include "discrepancy/causes.h"
+#include "discrepancy/profile.h"
+#include "unit/discrepancy/beam_experiment.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+constexpr double noise = 2.0e-4;       // m
+constexpr double hidden_mass = 0.004;  // kg, of the beam's 9 g
+constexpr double hidden_at = 0.75;
+constexpr Numerics numerics{0.05, 1.0 / 240.0};
+
+Experiment weighted_beam() {
+  testing::Beam beam;
+  beam.damping_time = 0.01;
+  Experiment e = testing::experiment_of(beam, 1.0, 0.02);
+  e.plant.distance = 0.05;
+  Trial& trial = e.trials[0];
+  trial.force = {};
+  trial.gravity = Vec3(0, 0, -9.81);
+  trial.holds.push_back(
+      {testing::on_stem(0.8), testing::resting_at(Vec3(0.03, 0, 0.8 * beam.length)), 0.3, 20.0});
+  Variant variant;
+  variant.effects = {testing::effect("extra_mass", "mass", {hidden_mass})};
+  variant.effects[0].place = testing::on_stem(hidden_at);
+  Simulator simulator(e, numerics, 1);
+  const Simulator::Request request{&variant, 0};
+  trial.markers.value = simulator.run(std::span(&request, 1)).front().markers;
+  return e;
+}
+
+struct Slid {
+  Experiment experiment = weighted_beam();
+  DataSet data{experiment};
+  Simulator simulator{experiment, numerics, 1};
+  Evaluator evaluator{simulator, data};
+  FitOptions options;
+
+  Slid() {
+    data.set_noise(white_noise(noise), white_noise(1.0));
+    options.trials = {0};
+  }
+  FitSummary stopped_early(const Hypothesis& added) {
+    Hypothesis start = baseline();
+    start.add(added);
+    FitOptions early = options;
+    early.iterations = 0;
+    return fit(evaluator, start, early);
+  }
+};
+
+TEST(PlaceSearch, LeadsAMassAlongTheCurve) {
+  Slid slid;
+  const FitSummary early = slid.stopped_early(
+      Start("extra_mass").moving_place("stem", 0.4).positive("mass", 0.008, 1e-5, 0.3));
+  ASSERT_LT(early.hypothesis.effects.back().place->at, 0.6);
+  const FitSummary found = slide_along(slid.evaluator, early, slid.options);
+  EXPECT_NEAR(found.hypothesis.effects.back().place->at, hidden_at, 0.02);
+  EXPECT_NEAR(found.hypothesis.value(found.hypothesis.size() - 1), hidden_mass, 0.1 * hidden_mass);
+  EXPECT_LT(objective(found), 0.1 * objective(early));
+}
+
+TEST(PlaceSearch, LeavesAFitWithoutPlaceAsItIs) {
+  Slid slid;
+  const FitSummary early =
+      slid.stopped_early(Start("mass_distribution").signed_number("gradient", 0.2, 0.3, -1.9, 1.9));
+  const FitSummary found = slide_along(slid.evaluator, early, slid.options);
+  EXPECT_EQ(found.hypothesis.unknowns(), early.hypothesis.unknowns());
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
