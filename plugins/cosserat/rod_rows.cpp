@@ -69,7 +69,6 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
   grow(scratch_->iterate);
   grow(scratch_->base);
   grow(scratch_->rate);
-  grow(scratch_->end_rate);
   grow(scratch_->term);
   grow(scratch_->factor);
   for (int p = 0; p < layout_.packs(); ++p) {
@@ -396,7 +395,7 @@ void RodRows::move(int group, bool keep) {
 void RodRows::finish(int group) {
   const RowArrays rows = arrays();
   for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p)
-    cosserat::finish(rows, packs_[p], scratch_->end_rate.data());
+    cosserat::finish(rows, packs_[p], previous_rate_.data());
 }
 
 void RodRows::write_end(int plant, RodState& state) const {
@@ -409,8 +408,8 @@ void RodRows::write_end(int plant, RodState& state) const {
       if (!state.alive[e]) continue;
       state.position[e] = vector_at(scratch_->iterate[row].position, lane);
       state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
-      state.velocity[e] = vector_at(scratch_->end_rate[row].velocity, lane);
-      state.angular_velocity[e] = vector_at(scratch_->end_rate[row].angular_velocity, lane);
+      state.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
+      state.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
       const int branches = extended_[plant].branches;
       for (int j = 0; j < branches; ++j)
         state.joint_memory[e * branches + j] =

@@ -25,7 +25,7 @@ struct RodHistory {
 /// and then stay in a core's cache.
 struct RowScratch {
   std::vector<PoseRow> start, iterate, base;
-  std::vector<RateRow> rate, end_rate;
+  std::vector<RateRow> rate;
   std::vector<TermRow> term;
   std::vector<FactorRow> factor;
 };
@@ -137,7 +137,7 @@ class RodRows {
   std::vector<Pack> packs_;
   std::vector<ElementRow> element_;
   std::vector<PoseRow> previous_;
-  std::vector<RateRow> previous_rate_;
+  std::vector<RateRow> previous_rate_;  // between finish() and end_step() the end's, as velocities
   std::shared_ptr<RowScratch> scratch_;
   // Empty unless some plant is extended; branch_: branches_a_row_ a row.
   std::vector<ExtensionRow> extension_;

@@ -30,7 +30,8 @@ constexpr int look_iterations = 2;                   // of every start, and
 constexpr std::size_t leading_starts = 2;            // go on
 constexpr double far_behind = 0.3;                   // of the first one's gain or statistic
 constexpr double near_by = 50.0, near_share = 0.05;  // nats, of the best one's gain
-constexpr double lost_by = 200.0, lost_share = 0.3;  // nats, likewise: before its fit has ended
+constexpr double lost_by = 200.0, lost_share = 0.3;  // nats, likewise: before its last iterations,
+constexpr double still_moving = 2.0;                 // times that where it had no time to converge
 constexpr double small_residual = 2.0;               // mean square in noise units, see refit_all()
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.
@@ -248,8 +249,9 @@ class Refits {
 
   // Whether it is too far from the best one for the rest of its iterations to matter.
   bool is_lost(const Candidate& candidate, double least) const {
-    return candidate.fit.why == "not run" ||
-           candidate.fit.cost - least > std::max(lost_by, lost_share * (base_.cost - least));
+    const double allowed = (candidate.fit.converged ? 1.0 : still_moving) *
+                           std::max(lost_by, lost_share * (base_.cost - least));
+    return candidate.fit.why == "not run" || candidate.fit.cost - least > allowed;
   }
 
   // Of those that were fitted whole, the closest ones.

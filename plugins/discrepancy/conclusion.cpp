@@ -6,6 +6,7 @@
 #include "discrepancy/cause_names.h"
 #include "discrepancy/decoys.h"
 #include "discrepancy/evidence.h"
+#include "discrepancy/leave_one_out.h"
 #include "discrepancy/sentence.h"
 
 namespace pedicel::discrepancy {
@@ -15,9 +16,10 @@ namespace {
 // Of the noise variance, an excess that is no sign of a missing effect.
 constexpr double small_excess = 0.01;
 constexpr double most_missed = 0.1;  // of what all causes found gain on all trials, by what is left
-constexpr double clear_margin = 5.0;   // nats by which a rival must lose
-constexpr double margin_share = 0.01;  // and of the gain: our model errors scale with it
-constexpr double most_margin = 20.0;   // nats, of that
+constexpr double clear_margin = 3.0;    // nats by which a rival must lose: 20 to 1
+constexpr double margin_share = 0.005;  // and of the gain: our model errors scale with it
+constexpr double most_margin = 10.0;    // nats, of that
+constexpr double turned = 5.0;          // nats for a rival when a trial is left out
 // What a cause that has one or two more numbers explains as well, but for a nat, the data do not
 // refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
 // offsets of a force sensor) a cause follows others.
@@ -101,18 +103,20 @@ bool explains_as_well(const Candidate& rival, const Candidate& best, double marg
          best.evidence - rival.evidence < most_margins * margin;
 }
 
+// A fit without each of its trials; nothing where too few would be left.
+std::vector<LeftOut> without_a_trial(const Findings& findings, const FitSummary& fit) {
+  if (findings.fit_trials.size() < 3) return {};
+  std::vector<Eigen::Index> rows;
+  for (const int t : findings.fit_trials) rows.push_back(findings.data->size(std::span(&t, 1)));
+  return leave_one_out(fit, rows);
+}
+
 // Whether leaving out one of the trials would turn the order round.
 bool wins_without_a_trial(const Findings& findings, const Candidate& rival, const Candidate& best) {
-  if (findings.fit_trials.size() < 3) return false;
-  const double all = rival.fit.cost - best.fit.cost;
-  Eigen::Index row = 0;
-  for (const int t : findings.fit_trials) {
-    const Eigen::Index size = findings.data->size(std::span(&t, 1));
-    const double here = 0.5 * (rival.fit.residual.segment(row, size).squaredNorm() -
-                               best.fit.residual.segment(row, size).squaredNorm());
-    if (all - here < -clear_margin) return true;
-    row += size;
-  }
+  const std::vector<LeftOut> ours = without_a_trial(findings, best.fit);
+  const std::vector<LeftOut> theirs = without_a_trial(findings, rival.fit);
+  for (std::size_t t = 0; t < ours.size(); ++t)
+    if (theirs[t].cost < ours[t].cost - turned) return true;
   return false;
 }
 
@@ -146,8 +150,14 @@ void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effec
     const Candidate& rival = diagnosis.ranking[i];
     const double behind = best.evidence - rival.evidence;
     if (!rival.whole || rival.evidence < 0.0) break;
-    const bool beaten = behind > margin && !explains_as_well(rival, best, margin) &&
-                        !wins_without_a_trial(findings, rival, best);
+    const bool turns = wins_without_a_trial(findings, rival, best);
+    const bool beaten = behind > margin && !explains_as_well(rival, best, margin) && !turns;
+    diagnosis.steps.push_back(
+        text("Of %.4g nats that a rival must lose by, ", margin) + rival.cause +
+        text(" loses by %.4g; the data say %.4g less for it, and it has", behind,
+             said_by_data(best) - said_by_data(rival)) +
+        text(" %g more numbers", rival.fit.hypothesis.size() - best.fit.hypothesis.size()) +
+        (turns ? "; one trial alone decides between them." : "."));
     if (beaten || findings.chain.size() > 1 || contains(rival, best)) {
       const bool found = std::ranges::any_of(
           findings.chain, [&](const Candidate& named) { return named.cause == rival.cause; });
@@ -177,6 +187,21 @@ void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
       "the same change backwards in time, or at other markers, explains the data as well";
 }
 
+// By how much the trials disagree about the numbers of the first cause.
+void show_trials_left_out(const Findings& findings, NamedCause& cause) {
+  const FitSummary& fit = findings.chain.front().fit;
+  double most = 0.0;
+  const std::vector<LeftOut> all = without_a_trial(findings, fit);
+  for (const LeftOut& without : all)
+    for (int p = 0; p < fit.hypothesis.size(); ++p)
+      if (fit.hypothesis.effects[fit.hypothesis.free[p].effect].name == cause.name &&
+          fit.standard_error[p] > 0.0)
+        most = std::max(most, std::abs(without.moved[p]) / fit.standard_error[p]);
+  if (!all.empty())
+    cause.because +=
+        text(" Without any one of the trials its numbers move by %.2g deviations at most.", most);
+}
+
 void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   const int base_effects = static_cast<int>(diagnosis.base.hypothesis.effects.size());
@@ -187,6 +212,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   weigh_rivals(findings, diagnosis, base_effects);
   judge_remainder(findings, diagnosis);
   show_decoys(findings, diagnosis);
+  show_trials_left_out(findings, verdict.causes.front());
   // A cause that does nothing for trials that it was not fitted to is none.
   if (verdict.outcome == Outcome::named && !findings.chain.front().held_out.carries_over()) {
     verdict.outcome = Outcome::unknown;

@@ -323,8 +323,8 @@ class Procedure {
 
   // Several causes are none where one force from outside the list explains as much of the fitted
   // trials, nor is one that does so at the end of what its numbers may be; any other single cause
-  // is none where a force explains clearly more. What causes explain to the last, and loudly, they
-  // do not by chance.
+  // is none where a force explains clearly more. That holds for the trials kept back, too. What
+  // causes explain to the last, and loudly, they do not by chance.
   void ask_for_one_force() {
     const bool several = findings_.chain.size() > 1;
     const bool alone = !several && !stands_at_bound(findings_.chain.front());
@@ -343,6 +343,8 @@ class Procedure {
     log_.note(text("One force gains %.4g nats, what was found %.4g.", by_force, by_causes));
     const double margin = std::max(force_margin, force_share * by_causes);
     if (by_force < by_causes + (alone ? margin : -margin)) return;
+    const std::optional<double>& gain = result_.verdict.gain;
+    if (gain && force.gain && *force.gain < *gain - (alone ? 0.0 : force_share)) return;
     result_.verdict.outcome = Outcome::unknown;
     result_.verdict.remainder =
         several ? "one force explains as much as several known causes together"
