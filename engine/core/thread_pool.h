@@ -11,7 +11,7 @@ namespace pedicel {
 
 /// Runs independent tasks on a fixed number of threads. Which thread takes which task is not
 /// fixed, so tasks must not depend on each other: then any number of threads gives the same bits.
-/// Threads wait for the next call awake for some ten microseconds, because waking one up costs as
+/// Threads wait for the next call awake for some hundred microseconds, since waking one costs as
 /// much as a small task, and sleep after that.
 class ThreadPool {
  public:

@@ -1,15 +1,53 @@
 #include "cosserat/rod_system.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "core/check.h"
 
 namespace pedicel::cosserat {
 
 namespace {
-// Elements. A bed of the first size stays in a core's own cache; below the second what is read
-// again comes from the shared cache, and full lanes and even shares count for more.
-constexpr int bed_size = 480, undivided = 2400;
+// Elements. A bed of the first size stays in a core's own cache. Below the second, for each thread,
+// full lanes and even shares count for more, as far as dividing would cost any.
+constexpr int bed_size = 480, undivided = 2400, equal_undivided = 1100;
+
+struct Share {
+  int plants = 0, thread = 0;
+};
+
+// How many plants each bed takes, in order, and whose it is.
+std::vector<Share> share_out(const std::vector<int>& elements, int threads) {
+  const int plants = static_cast<int>(elements.size());
+  const int total = std::accumulate(elements.begin(), elements.end(), 0);
+  const int largest = *std::max_element(elements.begin(), elements.end());
+  const bool equal = std::count(elements.begin(), elements.end(), largest) == plants;
+  const int together = threads * (equal ? equal_undivided : undivided);
+  // A multiple of the number of threads, so that none waits for the last bed.
+  const int rounds = total <= together ? 1 : total / (threads * bed_size);
+  const double share = static_cast<double>(total) / (threads * rounds);
+  if (largest > share || total < bed_size) return {{plants, 0}};
+  std::vector<Share> shares;
+  if (equal && rounds > 1) {  // all lanes are full but in a thread's last bed
+    const int in_lanes = lane_count * largest;
+    const int full = lane_count * std::max(1, static_cast<int>(std::lround(share / in_lanes)));
+    for (int thread = 0; thread < threads; ++thread) {
+      int left = plants / threads + (thread < plants % threads ? 1 : 0);
+      for (; left > 0; left -= full) shares.push_back({std::min(left, full), thread});
+    }
+    return shares;
+  }
+  int filled = 0;
+  for (const int count : elements) {
+    if (filled >= share * static_cast<double>(shares.size()))
+      shares.push_back({0, static_cast<int>(shares.size()) % threads});
+    ++shares.back().plants;
+    filled += count;
+  }
+  return shares;
+}
+
 }  // namespace
 
 RodSystem::RodSystem(const RodSettings& settings, int threads)
@@ -37,8 +75,8 @@ void RodSystem::step(double dt, const Vec3& gravity) {
       step_bed(beds_[0], dt, gravity, &pool_);
     else
       pool_.for_each(pool_.threads(), [&](int thread) {
-        for (std::size_t b = thread; b < beds_.size(); b += pool_.threads())
-          step_bed(beds_[b], dt, gravity, nullptr);
+        for (Bed& bed : beds_)
+          if (bed.thread == thread) step_bed(bed, dt, gravity, nullptr);
       });
   } else {
     pool_.for_each(size(), [&](int i) {
@@ -55,35 +93,28 @@ void RodSystem::step(double dt, const Vec3& gravity) {
 }
 
 void RodSystem::make_beds() {
-  int total = 0, largest = 0;
-  for (const Plant& plant : plants_) {
-    total += plant.model.size();
-    largest = std::max(largest, plant.model.size());
-  }
-  // A multiple of the number of threads, so that none waits for the last bed.
   const int threads = pool_.threads();
-  const int rounds = total <= threads * undivided ? 1 : total / (threads * bed_size);
-  double share = static_cast<double>(total) / (threads * rounds);
-  if (largest > share || total < bed_size) share = total;
-  int filled = 0;
-  for (int p = 0; p < size(); ++p) {
-    if (beds_.empty() || filled >= share * static_cast<double>(beds_.size()))
-      beds_.emplace_back().first = p;
-    plants_[p].bed = static_cast<int>(beds_.size()) - 1;
-    plants_[p].model_changed = true;
-    filled += plants_[p].model.size();
-  }
   // The beds of a thread share the memory that a step needs.
   std::vector<std::shared_ptr<RowScratch>> scratch;
   for (int thread = 0; thread < threads; ++thread)
     scratch.push_back(std::make_shared<RowScratch>());
-  for (std::size_t b = 0; b < beds_.size(); ++b) {
-    const int end = b + 1 < beds_.size() ? beds_[b + 1].first : size();
+  std::vector<int> elements;
+  for (const Plant& plant : plants_) elements.push_back(plant.model.size());
+  const std::vector<Share> shares = share_out(elements, threads);
+  int next = 0;
+  for (const Share& share : shares) {
+    Bed& bed = beds_.emplace_back();
+    bed.first = next;
+    bed.thread = share.thread;
     std::vector<const RodModel*> models;
-    for (int p = beds_[b].first; p < end; ++p) models.push_back(&plants_[p].model);
-    beds_[b].solver = std::make_unique<DirectSolver>(
-        settings_, models, beds_.size() == 1 ? threads : 1, scratch[b % threads]);
-    beds_[b].steps.resize(models.size());
+    for (int i = 0; i < share.plants; ++i, ++next) {
+      plants_[next].bed = static_cast<int>(beds_.size()) - 1;
+      plants_[next].model_changed = true;
+      models.push_back(&plants_[next].model);
+    }
+    bed.solver = std::make_unique<DirectSolver>(settings_, models, shares.size() == 1 ? threads : 1,
+                                                scratch[bed.thread]);
+    bed.steps.resize(models.size());
   }
 }
 

@@ -76,7 +76,8 @@ class RodSystem {
   /// then share the phases.
   struct Bed {
     std::unique_ptr<DirectSolver> solver;
-    int first = 0;  // its first plant
+    int first = 0;   // its first plant
+    int thread = 0;  // that steps it, where there are several beds
     std::vector<DirectSolver::PlantStep> steps;
   };
   void make_beds();
