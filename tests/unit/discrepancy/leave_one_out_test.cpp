@@ -58,7 +58,8 @@ TEST(LeaveOneOut, WhatIsKnownBeforehandHolds) {
   FreeParameter& known = fit.hypothesis.free[0];
   known.prior = 1e-6;
   known.prior_centre = fit.hypothesis.value(0);
-  for (const LeftOut& without : leave_one_out(fit, rows)) EXPECT_LT(std::abs(without.moved[0]), 1e-9);
+  for (const LeftOut& without : leave_one_out(fit, rows))
+    EXPECT_LT(std::abs(without.moved[0]), 1e-9);
 }
 
 }  // namespace
