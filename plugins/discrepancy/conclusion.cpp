@@ -188,8 +188,10 @@ void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
 
 // By how much the trials disagree about the numbers of the first cause.
 void show_trials_left_out(const Findings& findings, NamedCause& cause) {
-  if (findings.fit_trials.size() < 2) return;
   const FitSummary& fit = findings.chain.front().fit;
+  if (findings.fit_trials.size() < 2 ||
+      fit.jacobian.rows() != findings.data->size(findings.fit_trials))
+    return;
   std::vector<Eigen::Index> rows;
   for (const int t : findings.fit_trials) rows.push_back(findings.data->size(std::span(&t, 1)));
   double most = 0.0;
