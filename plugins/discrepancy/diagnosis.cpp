@@ -11,7 +11,6 @@
 #include "discrepancy/conclusion.h"
 #include "discrepancy/diagnosis_log.h"
 #include "discrepancy/fit_setup.h"
-#include "discrepancy/missing_force.h"
 #include "discrepancy/promise.h"
 #include "discrepancy/sentence.h"
 #include "discrepancy/way_back.h"
@@ -331,7 +330,7 @@ class Procedure {
     double evidence = 0.0;
     for (const Candidate& found : findings_.chain) evidence += found.evidence - found.held_out.gain;
     if (!result_.after.raised && evidence > beyond_doubt) return;
-    const MissingForce force = missing_force();
+    MissingForce force = missing_force();
     if (!force.found || force.fit.why == "not run") return;
     // With the noise as it was read last.
     Evaluator evaluator = setup_->evaluator();
@@ -351,7 +350,7 @@ class Procedure {
         : alone ? "one force explains more than any known cause"
                 : "one force explains as much as a known cause that stands at the end of what its "
                   "numbers may be";
-    tell_of_force(force);
+    tell_of_force(std::move(force));
   }
 
   static bool stands_at_bound(const Candidate& found) {
@@ -378,7 +377,9 @@ class Procedure {
     return force;
   }
 
-  void tell_of_force(const MissingForce& force) {
+  void tell_of_force(MissingForce found) {
+    result_.force = std::move(found);
+    const MissingForce& force = result_.force;
     name_nothing(result_.verdict);
     std::string& remainder = result_.verdict.remainder;
     if (!remainder.empty()) remainder += ". ";

@@ -8,6 +8,7 @@
 
 #include "discrepancy/admission.h"
 #include "discrepancy/candidates.h"
+#include "discrepancy/missing_force.h"
 #include "discrepancy/next_experiment.h"
 #include "discrepancy/numerics.h"
 #include "discrepancy/statistics.h"
@@ -43,6 +44,7 @@ struct Diagnosis {
   std::vector<Direction> directions;
   /// [model][trial]; of `extended` as refitted where no cause was found.
   std::array<std::vector<Prediction>, model_count> predictions;
+  MissingForce force;              ///< where the outcome is unknown
   NextExperiment next;             ///< empty where there is none
   std::vector<std::string> steps;  ///< what was done, one sentence each
   bool stopped = false;            ///< the caller asked for it, and the rest is not complete

@@ -1,8 +1,11 @@
 #include "discrepancy/case_run.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "discrepancy/cause_names.h"
 #include "discrepancy/diagnosis.h"
+#include "discrepancy/evidence.h"
 #include "io/atomic_file.h"
 
 namespace pedicel::hidden {
@@ -36,6 +39,34 @@ TrueError true_error(const HiddenCase& hidden, const Diagnosis& diagnosis) {
   return truth;
 }
 
+// Score::lead. A cause that has the truth as a special case, or turned into it, is no other one.
+std::optional<double> lead_of(const HiddenCase& hidden, const Diagnosis& diagnosis) {
+  using discrepancy::Candidate;
+  if (hidden.order.kind != CaseOrder::Kind::effect) return {};
+  const std::string& name = hidden.causes.front().name;
+  const auto truth = std::ranges::find_if(
+      diagnosis.ranking, [&](const Candidate& c) { return c.whole && c.cause == name; });
+  if (truth == diagnosis.ranking.end()) return {};
+  const auto& special = discrepancy::special_cases();
+  std::optional<double> lead;
+  for (const Candidate& rival : diagnosis.ranking) {
+    if (!rival.whole || rival.cause == name || rival.limit_of == name ||
+        std::ranges::find(special, std::pair(name, rival.cause)) != special.end())
+      continue;
+    const double here = discrepancy::said_by_data(*truth) - discrepancy::said_by_data(rival);
+    lead = std::min(lead.value_or(here), here);
+  }
+  return lead;
+}
+
+// Where and of what kind the force is that was found in place of a known cause.
+void score_force(const HiddenCase& hidden, const discrepancy::MissingForce& force, Score& score) {
+  score.force_kind = force.kind;
+  if (hidden.strangers.empty() || !force.place) return;
+  const plant::CurvePlace& truth = hidden.strangers.front().place;
+  if (truth.curve == force.place->curve) score.force_away = std::abs(truth.at - force.place->at);
+}
+
 std::string notes_of(const CaseRun& run, const Diagnosis& diagnosis) {
   std::string text = truth_text(run.hidden) + "\n";
   for (const std::string& step : diagnosis.steps) text += step + "\n";
@@ -62,6 +93,8 @@ CaseRun run_case(std::uint64_t seed, const CaseOrder& order, const CaseRunOption
     const Diagnosis diagnosis = discrepancy::diagnose(*experiment, how);
     run.verdict = diagnosis.verdict;
     run.score = score(run.hidden, run.verdict, true_error(run.hidden, diagnosis));
+    run.score.lead = lead_of(run.hidden, diagnosis);
+    score_force(run.hidden, diagnosis.force, run.score);
     run.score.alarm = diagnosis.before.statistic - diagnosis.before.level;
     run.notes = notes_of(run, diagnosis);
   } catch (const std::exception& error) {

@@ -5,12 +5,14 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <map>
 
 namespace pedicel::hidden {
 
 namespace {
 
 constexpr double z95 = 1.959964;
+constexpr double tie = 3.0;  // nats: odds of 20 to 1
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
@@ -21,6 +23,22 @@ bool is(const Score& s, const char* kind) {
 }
 bool alarmed(const Score& s) {
   return s.call == Call::false_alarm || s.call == Call::parameter_alarm;
+}
+// Whether another cause, refitted in full, explains the data as well as the true one.
+bool ties(const Score& s) {
+  return s.lead && std::abs(*s.lead) < tie;
+}
+constexpr double near = 0.1;  // of a curve
+bool right_place(const Score& s) {
+  return s.force_away && *s.force_away <= near;
+}
+bool right_kind(const Score& s) {
+  static const std::map<std::string, std::string> kinds{{"string", "string"},
+                                                        {"stake", "stop"},
+                                                        {"push", "periodic push"},
+                                                        {"attraction", "attraction to a point"}};
+  const auto kind = kinds.find(s.hidden.front());
+  return kind != kinds.end() && kind->second == s.force_kind;
 }
 bool hides_known(const Score& s) {
   return is(s, "effect") || is(s, "pair") || is(s, "look_alike");
@@ -75,6 +93,13 @@ void add_effect_rows(const Counter& count, std::vector<TableRow>& rows) {
   rows.push_back(row_of("- 4 x the smallest and above",
                         count([](const Score& s) { return is(s, "effect") && s.times >= 4.0; },
                               called(Call::right))));
+  const auto parted = [=](const Score& s) { return effect(s) && !ties(s); };
+  const auto tied = [=](const Score& s) { return effect(s) && ties(s); };
+  rows.push_back(row_of("- where the data part the true cause from every other",
+                        count(parted, called(Call::right))));
+  rows.push_back(row_of(
+      "- where they do not: the truth alone or in the set",
+      count(tied, [](const Score& s) { return s.call == Call::right || s.call == Call::held; })));
   rows.push_back(
       row_of("wrong name said with confidence", count(effect, called(Call::wrong)), "5 %", "1 %"));
   rows.push_back(
@@ -140,6 +165,9 @@ void add_outside_rows(const Counter& count, std::vector<TableRow>& rows) {
   rows.push_back(row_of("outside the list: said unknown",
                         count(outside, [](const Score& s) { return s.call == Call::right; }),
                         "70 %", "95 %"));
+  rows.push_back(row_of("- the right place, within a tenth of the curve",
+                        count(outside, right_place), "60 %", "85 %"));
+  rows.push_back(row_of("- the right kind", count(outside, right_kind), "50 %", "75 %"));
   rows.push_back(row_of("- a name with confidence",
                         count(outside, [](const Score& s) { return s.call == Call::wrong; })));
   rows.push_back(

@@ -178,6 +178,9 @@ std::string to_line(const Score& s) {
                              {"sizes", sizes},
                              {"evidence", number(s.evidence)},
                              {"alarm", number(s.alarm)},
+                             {"lead", number(s.lead.value_or(NAN))},
+                             {"force_kind", s.force_kind},
+                             {"force_away", number(s.force_away.value_or(NAN))},
                              {"plant", s.plant},
                              {"pack", s.pack},
                              {"coloured", s.coloured},
@@ -208,6 +211,9 @@ Score from_line(const std::string& line) {
   s.alarm = number_of(json.at("alarm"));
   s.seconds = number_of(json.at("seconds"));
   if (!json.at("gain_share").is_null()) s.gain_share = number_of(json.at("gain_share"));
+  if (!json.at("lead").is_null()) s.lead = number_of(json.at("lead"));
+  if (!json.at("force_away").is_null()) s.force_away = number_of(json.at("force_away"));
+  json.at("force_kind").get_to(s.force_kind);
   const auto call = std::ranges::find(call_names, json.at("call").get<std::string>());
   if (call == call_names.end()) throw std::invalid_argument("no such call");
   s.call = static_cast<Call>(call - call_names.begin());

@@ -47,7 +47,14 @@ struct Score {
   std::optional<double> gain_share;
   std::vector<SizeError> sizes;  ///< of the causes that were named rightly
   double evidence = 0.0;         ///< of the first cause, nats
-  double alarm = 0.0;            ///< largest directed statistic less its level
+  /// Of one hidden effect: nats by which the data, whatever numbers cost, say less for the nearest
+  /// other cause than for the true one, both refitted in full; absent where one of them was not.
+  std::optional<double> lead;
+  /// What was said of a force from outside the list, where the verdict is unknown; else empty.
+  std::string force_kind;
+  /// How far from the hidden one, as a share of their curve; absent on another curve.
+  std::optional<double> force_away;
+  double alarm = 0.0;  ///< largest directed statistic less its level
   long simulations = 0;
   double seconds = 0.0;
   std::string fault;  ///< why there is no verdict; empty: there is one

@@ -226,13 +226,29 @@ std::vector<Score> some_scores() {
     s.number = number;
     return s;
   };
+  const auto led = [](Score s, double lead) {
+    s.lead = lead;
+    return s;
+  };
+  const auto placed = [](Score s, const std::string& kind, double away) {
+    s.force_kind = kind;
+    s.force_away = away;
+    return s;
+  };
   const HiddenCase quiet = case_of(Kind::null, {}), wind = case_of(Kind::effect, {"wind"});
-  return {numbered(score(quiet, verdict_of(Outcome::adequate), {}), 0),
-          numbered(score(quiet, verdict_of(Outcome::named, {"density"}), {}), 1),
-          numbered(score(wind, verdict_of(Outcome::named, {"wind"}), {}), 2),
-          numbered(score(wind, verdict_of(Outcome::named, {"gust"}), {}), 3),
-          numbered(score(wind, verdict_of(Outcome::ambiguous, {"gust", "wind", "yield"}), {}), 4),
-          numbered(score(case_of(Kind::outside, {"stake"}), verdict_of(Outcome::unknown), {}), 5)};
+  return {
+      numbered(score(quiet, verdict_of(Outcome::adequate), {}), 0),
+      numbered(score(quiet, verdict_of(Outcome::named, {"density"}), {}), 1),
+      numbered(led(score(wind, verdict_of(Outcome::named, {"wind"}), {}), 40.0), 2),
+      numbered(score(wind, verdict_of(Outcome::named, {"gust"}), {}), 3),
+      numbered(
+          led(score(wind, verdict_of(Outcome::ambiguous, {"gust", "wind", "yield"}), {}), -0.5), 4),
+      numbered(placed(score(case_of(Kind::outside, {"stake"}), verdict_of(Outcome::unknown), {}),
+                      "stop", 0.04),
+               5),
+      numbered(placed(score(case_of(Kind::outside, {"string"}), verdict_of(Outcome::unknown), {}),
+                      "stop", 0.3),
+               6)};
 }
 
 TEST(ScoreTable, CountsEveryKindAmongItsOwn) {
@@ -241,10 +257,17 @@ TEST(ScoreTable, CountsEveryKindAmongItsOwn) {
   const TableRow right = row(rows, "right name, one effect, 2 x the smallest and above");
   EXPECT_DOUBLE_EQ(right.value, 1.0 / 3.0);
   EXPECT_EQ(right.count, 3);
+  // The one that the data leave open does not count; the one whose lead is not known does.
+  const TableRow parted = row(rows, "- where the data part the true cause from every other");
+  EXPECT_DOUBLE_EQ(parted.value, 0.5);
+  EXPECT_EQ(parted.count, 2);
+  EXPECT_EQ(row(rows, "- where they do not: the truth alone or in the set").count, 1);
   EXPECT_DOUBLE_EQ(row(rows, "wrong name said with confidence").value, 1.0 / 3.0);
   EXPECT_DOUBLE_EQ(row(rows, "\"cannot tell\" set holds the truth").value, 1.0);
   EXPECT_DOUBLE_EQ(row(rows, "mean size of the set").value, 3.0);
   EXPECT_DOUBLE_EQ(row(rows, "outside the list: said unknown").value, 1.0);
+  EXPECT_DOUBLE_EQ(row(rows, "- the right place, within a tenth of the curve").value, 0.5);
+  EXPECT_DOUBLE_EQ(row(rows, "- the right kind").value, 0.5);
   EXPECT_TRUE(std::isnan(row(rows, "two effects, both named").value));
   EXPECT_NE(markdown(rows).find("| 33.3 % |"), std::string::npos);
 }
@@ -254,7 +277,7 @@ TEST(ScoreTable, ConfusionHasOneCellACase) {
   int all = 0;
   for (const auto& counts : matrix.count)
     for (const int count : counts) all += count;
-  EXPECT_EQ(all, 6);
+  EXPECT_EQ(all, 7);
   const std::string text = markdown(matrix);
   EXPECT_NE(text.find("| wind | gust 1, wind 1, cannot tell, among them 1 |"), std::string::npos)
       << text;
@@ -267,6 +290,7 @@ TEST(ScoreFile, ResumesAfterAStopInTheMiddleOfALine) {
   const auto file = folder / "results.jsonl";
   std::vector<Score> scores = some_scores();
   scores[2].gain_share = 0.93;
+  scores[2].lead = 12.5;
   scores[2].sizes = {{"wind", 0.04, 1, 1, std::nan("")}};
   for (const Score& s : scores) append_score(file, s);
   std::ofstream(file, std::ios::app) << "{\"case\": 9, \"se";
@@ -274,7 +298,7 @@ TEST(ScoreFile, ResumesAfterAStopInTheMiddleOfALine) {
   late.number = 10;
   append_score(file, late);
   const std::vector<Score> back = read_scores(file, 0);
-  ASSERT_EQ(back.size(), 7u);
+  ASSERT_EQ(back.size(), 8u);
   EXPECT_EQ(back.back().number, 10);
   EXPECT_EQ(to_line(back[2]), to_line(scores[2]));
   EXPECT_TRUE(read_scores(file, 1).empty());
