@@ -47,6 +47,9 @@ class ContactSource {
   /// The threads that find() may use until told otherwise; null: the caller's alone. What it finds
   /// must not depend on them.
   virtual void use(ThreadPool* /*pool*/) {}
+  /// Which part of its motion over the whole step what is touched makes in the steps that follow:
+  /// from share `from` of the way to share `to`. All of it, 0 to 1, until told otherwise.
+  virtual void cover(double /*from*/, double /*to*/) {}
   /// A step begins at `start` (same time as the iterates that find() gets).
   virtual void begin_step(const RodModel& /*model*/, const RodState& /*start*/, double /*dt*/) {}
   virtual void find(const RodModel& model, const RodState& state, double dt,

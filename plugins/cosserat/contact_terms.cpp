@@ -173,6 +173,16 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
   });
 }
 
+void ContactTerms::add_to(std::vector<ContactForce>& forces, double share) const {
+  for (ContactForce force : forces_) {
+    force.normal *= share;
+    force.tangential_W *= share;
+    force.point.stiffness *= share;
+    force.point.surface_motion_W /= share;
+    forces.push_back(force);
+  }
+}
+
 double ContactTerms::deepest() const {
   double deepest = 0.0;
   for (const ContactForce& force : forces_) deepest = std::max(deepest, -force.point.gap);

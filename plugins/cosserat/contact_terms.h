@@ -44,6 +44,11 @@ class ContactTerms {
   /// Whether all that was found is the plant's contact with itself.
   bool only_with_itself() const { return only_with_itself_; }
   void forget() { memory_.clear(); }
+  /// Adds its forces to those of a longer step of which its own was this share: springs of that
+  /// share of the stiffness, whose impulse, work and energy are a part's of the longer step.
+  void add_to(std::vector<ContactForce>& forces, double share) const;
+  /// Reports these in place of its own.
+  void report(const std::vector<ContactForce>& forces) { forces_ = forces; }
 
  private:
   struct Active {

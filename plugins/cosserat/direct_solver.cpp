@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cosserat/rotation.h"
+
 namespace pedicel::cosserat {
 
 namespace {
@@ -17,6 +19,7 @@ constexpr double straight_turn = 0.03;       // rad
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
+constexpr int parts = 2;                     // of a step that contact keeps from its solution
 // Of a plant's contact with itself:
 constexpr double rough_self_contact = 10.0;  // times the tolerance
 constexpr double stalled_gain = 0.9;         // more iterations do not help
@@ -65,6 +68,12 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
                         ThreadPool& pool) {
   begin(steps, dt, gravity, pool);
   solve(steps, dt, pool);
+  pool.for_each(size(), [&](int p) {
+    const Plant& plant = plants_[p];
+    if (!is_part_ && (steps[p].report.errors & not_converged) && plant.presses &&
+        !plant.contacts.only_with_itself())
+      take_in_parts(p, steps[p], dt, gravity);
+  });
   end(steps, dt, pool);
 }
 
@@ -97,6 +106,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.extra_energy = 0.0;
     plant.last_change = 0.0;
     plant.presses = false;
+    plant.in_parts = false;
     plant.iterate_is_here = false;
   }
   std::fill(working_.begin(), working_.end(), 1);
@@ -329,16 +339,59 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   return last || small;
 }
 
+// A stem that is dragged over an edge slides by many of its radii in one step, too far for Newton;
+// cut short, it may end on the other side of a thin link. In parts what drags it moves less.
+void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity) {
+  Plant& plant = plants_[index];
+  if (!plant.parts) plant.parts = std::make_unique<DirectSolver>(settings_, *step.model);
+  DirectSolver& solver = *plant.parts;
+  Plant& alone = solver.plants_.front();
+  solver.settings_ = settings_;
+  solver.is_part_ = true;
+  solver.reset();
+  solver.forces_.clear();
+  std::swap(alone.contacts, plant.contacts);
+  RodState& state = *step.state;
+  plant.iterate = state;
+  const Pose from = state.previous_root, to = state.root;
+  step.report = {};
+  for (int k = 0; k < parts; ++k) {
+    for (ContactSource* source : step.contacts)
+      source->cover(k / double(parts), (k + 1) / double(parts));
+    state.root = k + 1 == parts ? to : between(from, to, (k + 1) / double(parts));
+    PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0, {}};
+    solver.step({&part, 1}, dt / parts, gravity);
+    part.report.errors |= step.report.errors;
+    part.report.iterations += step.report.iterations;
+    step.report = part.report;
+    if (part.report.errors & not_finite) {
+      state = plant.iterate;
+      break;
+    }
+    alone.contacts.add_to(solver.forces_, 1.0 / parts);
+  }
+  for (ContactSource* source : step.contacts) source->cover(0.0, 1.0);
+  std::swap(alone.contacts, plant.contacts);
+  plant.contacts.report(solver.forces_);
+  plant.in_parts = true;
+  state.time = plant.iterate.time;
+}
+
 void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   root_outward(pool, [&](int group) { rows_.finish(group); });
   pool.for_each(size(), [&](int p) {
     Plant& plant = plants_[p];
     RodState& state = *steps[p].state;
     StepReport& report = steps[p].report;
-    plant.has_history = true;
+    plant.has_history = !plant.in_parts;
     state.previous_root = state.root;
     if (report.errors & not_finite) {
       state.previous_dt = 0.0;
+      return;
+    }
+    if (plant.in_parts) {  // what it left is not in the rows
+      state.previous_dt = 0.0;
+      state.time += dt;
       return;
     }
     rows_.write_end(p, state);

@@ -82,6 +82,8 @@ class DirectSolver : public RodSolver {
     double last_change = 0.0;  // of the iteration before; 0: there was none
     // What an iteration leaves of the change before it, and the change at which that was measured.
     double gain = 1.0, gain_change = 0.0;
+    std::unique_ptr<DirectSolver> parts;  // for steps in parts, once there was one
+    bool in_parts = false;                // this step was taken so
   };
 
   void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
@@ -95,6 +97,7 @@ class DirectSolver : public RodSolver {
   void start_search(int index, StepReport& report);
   void try_share(int index, const RodModel& model, StepReport& report);
   bool is_done(Plant& plant, StepReport& report) const;
+  void take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity);
   void end(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   template <class Task>
   void root_outward(ThreadPool& pool, const Task& task);
@@ -108,6 +111,8 @@ class DirectSolver : public RodSolver {
   std::vector<char> working_, searching_;  // Newton, its line search: not done yet
   bool any_loops_ = false;
   bool settling_ = false;
+  bool is_part_ = false;              // takes the steps of another one in parts
+  std::vector<ContactForce> forces_;  // of the parts
   ThreadPool alone_{1};
 };
 

@@ -52,4 +52,10 @@ inline Quat least_rotation(const Vec3& a, const Vec3& b) {
   return Quat::FromTwoVectors(a, b);
 }
 
+/// A pose on the way from one to another: positions along a straight line, rotations evenly.
+inline Pose between(const Pose& from, const Pose& to, double share) {
+  return {from.position + share * (to.position - from.position),
+          from.rotation.slerp(share, to.rotation)};
+}
+
 }  // namespace pedicel::cosserat

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "cosserat/rotation.h"
 
 namespace pedicel::coupling {
 
@@ -38,6 +39,20 @@ bool ColliderSource::is_ignored(int shape, int collider) const {
   return std::binary_search(ignored_.begin(), ignored_.end(), std::pair(shape, collider));
 }
 
+void ColliderSource::cover(double from, double to) {
+  covered_.clear();
+  if (from == 0.0 && to == 1.0) return;
+  for (int i = 0; i < colliders_.size(); ++i) {
+    const Placement& whole = colliders_.placement(i);
+    Placement& part = covered_.emplace_back(whole);
+    if (!whole.is_moving) continue;
+    part.X_WC_before = cosserat::between(whole.X_WC_before, whole.X_WC, from);
+    part.X_WC = cosserat::between(whole.X_WC_before, whole.X_WC, to);
+    part.R_WC_before = part.X_WC_before.rotation.toRotationMatrix();
+    part.R_WC = part.X_WC.rotation.toRotationMatrix();
+  }
+}
+
 void ColliderSource::begin_step(const RodModel& model, const RodState& start, double) {
   if (!chunks_.is_built_for(model)) chunks_.build(model, settings_.margin);
   start_position_ = start.position;
@@ -60,8 +75,7 @@ void ColliderSource::find(const RodModel& model, const RodState& state, double d
       shape.index = chunks_.shapes()[i];
       if (!place(model, state, shape)) continue;
       for (const int collider : chunk_near_)
-        if (shape.way_W.intersects(colliders_.placement(collider).box_W) &&
-            !is_ignored(shape.index, collider))
+        if (shape.way_W.intersects(placement(collider).box_W) && !is_ignored(shape.index, collider))
           touch(model, shape, collider, found);
     }
   }
@@ -71,8 +85,8 @@ void ColliderSource::find(const RodModel& model, const RodState& state, double d
 void ColliderSource::choose_colliders() {
   near_.clear();
   for (int i = 0; i < colliders_.size(); ++i) {
-    const Placement& placement = colliders_.placement(i);
-    if (placement.is_active && placement.box_W.intersects(chunks_.box_W())) near_.push_back(i);
+    const Placement& at = placement(i);
+    if (at.is_active && at.box_W.intersects(chunks_.box_W())) near_.push_back(i);
   }
 }
 
@@ -81,7 +95,7 @@ void ColliderSource::choose_colliders() {
 void ColliderSource::choose_for(const ElementChunks::Chunk& chunk) {
   chunk_near_.clear();
   for (const int i : near_) {
-    const Placement& at = colliders_.placement(i);
+    const Placement& at = placement(i);
     if (!at.box_W.intersects(chunk.way_W)) continue;
     if (!at.is_moving) {
       const Vec3 middle_C = at.R_WC.transpose() * (chunk.way_W.center() - at.X_WC.position);
@@ -132,7 +146,7 @@ void ColliderSource::touch(const RodModel& model, const Placed& placed, int coll
                            std::vector<ContactPoint>& found) const {
   const CollisionShape& shape = model.shapes[placed.index];
   const Collider& collider = colliders_.collider(collider_index);
-  const Placement& at = colliders_.placement(collider_index);
+  const Placement& at = placement(collider_index);
   const MovingCapsule capsule = in_collider(shape, at, placed.now.near_W, placed.now.far_W,
                                             placed.before.near_W, placed.before.far_W);
   SearchSettings search;

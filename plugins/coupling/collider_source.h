@@ -32,6 +32,7 @@ class ColliderSource : public cosserat::ContactSource {
   /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
   void change_settings(const CouplingSettings& settings);
 
+  void cover(double from, double to) override;
   void begin_step(const cosserat::RodModel& model, const cosserat::RodState& start,
                   double dt) override;
   void find(const cosserat::RodModel& model, const cosserat::RodState& state, double dt,
@@ -54,8 +55,13 @@ class ColliderSource : public cosserat::ContactSource {
   void touch(const cosserat::RodModel& model, const Placed& shape, int collider,
              std::vector<cosserat::ContactPoint>& found) const;
 
+  const Placement& placement(int collider) const {
+    return covered_.empty() ? colliders_.placement(collider) : covered_[collider];
+  }
+
   const ColliderSet& colliders_;
   CouplingSettings settings_;
+  std::vector<Placement> covered_;       // of all colliders, where a part of their way is covered
   std::vector<Vec3> start_position_;     // m, W
   std::vector<Quat> start_orientation_;  // E to W
   ElementChunks chunks_;

@@ -20,6 +20,10 @@ class SphereSource : public ContactSource {
   std::vector<Sphere> spheres;
   double friction = 0.5, stiffness = 1000.0, margin = 0.001;  // 1, N/m, m
 
+  void cover(double from, double to) override {
+    from_ = from;
+    to_ = to;
+  }
   void find(const RodModel& model, const RodState& state, double,
             std::vector<ContactPoint>& found) override {
     for (int s = 0; s < static_cast<int>(model.shapes.size()); ++s) {
@@ -35,10 +39,11 @@ class SphereSource : public ContactSource {
     const Sphere& sphere = spheres[i];
     const Vec3 near = point_on(model, state, shape.element, shape.back_near);
     const Vec3 axis = point_on(model, state, shape.element, shape.back_far) - near;
+    const Vec3 centre = sphere.centre - (1.0 - to_) * sphere.motion;
     const double along =
-        axis.squaredNorm() > 0.0 ? (sphere.centre - near).dot(axis) / axis.squaredNorm() : 0.0;
+        axis.squaredNorm() > 0.0 ? (centre - near).dot(axis) / axis.squaredNorm() : 0.0;
     const double t = std::clamp(along, 0.0, 1.0);
-    const Vec3 away = near + t * axis - sphere.centre;
+    const Vec3 away = near + t * axis - centre;
     ContactPoint point;
     point.shape = s;
     point.collider = i;
@@ -46,12 +51,14 @@ class SphereSource : public ContactSource {
     point.radius = (1.0 - t) * shape.radius_near + t * shape.radius_far;
     point.normal_W = away.normalized();
     point.gap = away.norm() - sphere.radius - point.radius;
-    point.surface_motion_W = sphere.motion;
+    point.surface_motion_W = (to_ - from_) * sphere.motion;
     point.friction = friction;
     point.stiffness = stiffness;
     point.margin = margin;
     if (point.gap < 2.0 * margin) found.push_back(point);
   }
+
+  double from_ = 0.0, to_ = 1.0;
 };
 
 }  // namespace pedicel::cosserat::cases
