@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "discrepancy/baseline_start.h"
 #include "discrepancy/cause_names.h"
@@ -11,8 +12,10 @@
 #include "discrepancy/conclusion.h"
 #include "discrepancy/diagnosis_log.h"
 #include "discrepancy/fit_setup.h"
+#include "discrepancy/held_out.h"
 #include "discrepancy/promise.h"
 #include "discrepancy/sentence.h"
+#include "discrepancy/trial_split.h"
 #include "discrepancy/way_back.h"
 #include "plant/effects.h"
 
@@ -30,6 +33,8 @@ constexpr double family_share = 0.5;
 constexpr double least_share = 0.01;  // of the gain of the first cause, what another must bring
 constexpr int most_causes = 3;
 constexpr double beyond_doubt = 300.0;  // nats
+// Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
+constexpr double least_objection = 6.0, small_objection = 0.1;
 // What one force may gain less than several causes: nats, or a share of theirs.
 constexpr double force_margin = 5.0, force_share = 0.05;
 
@@ -37,7 +42,8 @@ constexpr double force_margin = 5.0, force_share = 0.05;
 class Procedure {
  public:
   Procedure(const Experiment& experiment, const DiagnosisOptions& options)
-      : options_(options),
+      : given_(experiment),
+        options_(options),
         start_(std::chrono::steady_clock::now()),
         log_(options.progress, options.note, result_.steps) {
     result_.admission = admit(experiment);
@@ -55,10 +61,24 @@ class Procedure {
     return finished();
   }
 
+  /// With another trial kept back, where the diagnosis should begin anew.
+  const std::optional<Experiment>& exchanged() const { return exchanged_; }
+
  private:
   void decide() {
     look();
-    if (result_.before.raised || is_pulled(result_.base.hypothesis)) {
+    const bool wrong = result_.before.raised || is_pulled(result_.base.hypothesis);
+    if (!wrong) look_at_check_trials();
+    if (objecting_ >= 0) {
+      Experiment other = given_;
+      const TrialSplit split{result_.fit_trials, result_.check_trials};
+      if (exchange_trials(other, split, objecting_)) {
+        log_.note("It is fitted in place of another one, and all begins anew.");
+        exchanged_ = std::move(other);
+        return;
+      }
+    }
+    if (wrong) {
       search();
       extend();
     }
@@ -152,6 +172,26 @@ class Procedure {
     }
     result_.best = result_.base;
     log_.directions(result_.directions, result_.before);
+  }
+
+  // What acts in a trial kept back alone is not seen in those that are fitted.
+  void look_at_check_trials() {
+    Evaluator evaluator = setup_->evaluator();
+    const double dispersion = std::max(1.0, 2.0 * result_.base.cost / setup_->samples());
+    double most = 0.0;
+    for (const int t : result_.check_trials) {
+      FitOptions check = fit_options();
+      check.trials = {t};
+      const int samples = setup_->data().samples(check.trials);
+      const double excess =
+          kept_back_excess(kept_back(evaluator, result_.base, check), samples, dispersion) - 1.0;
+      const double deviations = excess / std::sqrt(2.0 / std::max(1, samples));
+      log_.note("What is left of trial " + experiment().trials[t].name +
+                text(", kept back, is %.3g deviations above the noise.", deviations));
+      if (deviations < least_objection || excess < small_objection || excess < most) continue;
+      most = excess;
+      objecting_ = t;
+    }
   }
 
   // The directed tests, and what they do not look for.
@@ -310,10 +350,17 @@ class Procedure {
           needed_parameters(evaluator, result_.base, causes_, fit_options(), result_.check_trials);
     }
     conclude(findings_, result_);
-    if (result_.verdict.outcome == Outcome::unknown)
+    if (objecting_ >= 0) {
+      name_nothing(result_.verdict);
+      result_.verdict.outcome = Outcome::unknown;
+      result_.verdict.remainder = "the refitted model explains the fitted trials, but not trial " +
+                                  experiment().trials[objecting_].name +
+                                  ", which is kept back: fit it, too";
+    } else if (result_.verdict.outcome == Outcome::unknown) {
       tell_of_force(missing_force());
-    else if (!findings_.chain.empty())
+    } else if (!findings_.chain.empty()) {
       ask_for_one_force();
+    }
     conclude_outliers(result_);
     report_parameters(findings_, result_);
     report_hidden(causes_, result_);
@@ -436,6 +483,7 @@ class Procedure {
     return std::move(result_);
   }
 
+  const Experiment& given_;
   DiagnosisOptions options_;
   std::chrono::steady_clock::time_point start_;
   Diagnosis result_;
@@ -449,12 +497,21 @@ class Procedure {
   std::vector<Evaluator> coarse_workers_;
   long coarse_simulations_ = 0;  // of coarse models that are gone
   Findings findings_;
+  int objecting_ = -1;  // the trial kept back that the refitted model misses most
+  std::optional<Experiment> exchanged_;
 };
 
 }  // namespace
 
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
-  return Procedure(experiment, options).run();
+  Procedure first(experiment, options);
+  Diagnosis found = first.run();
+  if (!first.exchanged()) return found;
+  Diagnosis again = Procedure(*first.exchanged(), options).run();
+  again.steps.insert(again.steps.begin(), found.steps.begin(), found.steps.end());
+  again.verdict.simulations += found.verdict.simulations;
+  again.verdict.seconds += found.verdict.seconds;
+  return again;
 }
 
 plant::PlantFile extended_plant(const Experiment& experiment, const Hypothesis& hypothesis) {

@@ -18,7 +18,8 @@ constexpr double deviations = 2.0;
 // A model with its unknowns moved as far as the trials kept back ask for and the fit allows.
 struct Moved {
   Eigen::VectorXd residual;
-  double cost = 0.0;  // minus the log predictive density, but for a constant
+  double square = 0.0;  // what it leaves, weighed by its predictive covariance
+  double cost = 0.0;    // minus the log predictive density, but for a constant
 };
 
 Moved moved(const KeptBack& model, double fitted_dispersion, double dispersion) {
@@ -31,9 +32,9 @@ Moved moved(const KeptBack& model, double fitted_dispersion, double dispersion) 
   const auto log_det = [](const Eigen::LLT<Eigen::MatrixXd>& root) {
     return 2.0 * root.matrixLLT().diagonal().array().log().sum();
   };
-  Moved result{model.residual - model.jacobian * step, 0.0};
-  result.cost = 0.5 * (result.residual.squaredNorm() / dispersion + step.dot(information * step) +
-                       log_det(after) - log_det(before));
+  Moved result{model.residual - model.jacobian * step};
+  result.square = result.residual.squaredNorm() / dispersion + step.dot(information * step);
+  result.cost = 0.5 * (result.square + log_det(after) - log_det(before));
   return result;
 }
 
@@ -55,6 +56,10 @@ KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptio
   for (int p = 0; p < model.hypothesis.size(); ++p)
     result.prior[p] = std::pow(model.hypothesis.free[p].width(), -2);
   return result;
+}
+
+double kept_back_excess(const KeptBack& model, int samples, double dispersion) {
+  return moved(model, dispersion, dispersion).square / std::max(1, samples);
 }
 
 std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,

@@ -29,6 +29,11 @@ struct KeptBack {
 /// `check` names the trials kept back.
 KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check);
 
+/// The mean square, in that of the noise (`dispersion`), of what a model leaves of these `samples`
+/// kept back, weighed by the noise's covariance and what its unknowns' own adds: 1 with a standard
+/// deviation of sqrt(2/samples) where it is right.
+double kept_back_excess(const KeptBack& model, int samples, double dispersion);
+
 /// Each model's log predictive density less the base's: normal, with the noise's covariance and
 /// what the unknowns' own adds (Bernardo and Smith 1994, section 5.1), so that a valley of the fit
 /// (modulus and density of a free vibration) neither helps nor harms a model. `dispersion` is the

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double enough_evidence = 8.0;  // nats, as a named cause must be worth
 constexpr double clear_margin = 5.0;     // nats, of a sensor over a force
+constexpr double as_well_within = 3.0;   // nats: odds of 20 to 1
 constexpr std::size_t most_places = 14;
 constexpr std::ptrdiff_t most_loud = 3;  // places where laws are tried, besides two of each curve
 constexpr std::size_t most_refits = 5;
@@ -244,7 +245,32 @@ class Inference {
       result_.what = "No law of the library follows it";
       describe_history(loudest, {});
     }
-    if (result_.found) result_.where = "A force acts on " + place_text(*result_.place);
+    if (!result_.found) return;
+    find_elsewhere();
+    result_.where = where_text();
+  }
+
+  // How well the data know the place: along its curve, and on which one.
+  void find_elsewhere() {
+    const Hypothesis& model = result_.fit.hypothesis;
+    for (int p = 0; p < model.size(); ++p)
+      if (model.free[p].name == "at" && model.effects[model.free[p].effect].name == missing_force &&
+          std::isfinite(result_.fit.standard_error[p]))
+        result_.place_error = result_.fit.standard_error[p];
+    std::set<std::string> known{result_.place->curve};
+    for (const ForceTerm& term : result_.terms)
+      if (term.evidence > result_.evidence - as_well_within &&
+          known.insert(term.force.place->curve).second)
+        result_.elsewhere.push_back(*term.force.place);
+  }
+
+  std::string where_text() const {
+    std::string where =
+        "A force acts on " + result_.place->curve + text(" at %.2g", result_.place->at) +
+        (result_.place_error > 0.0 ? text(" ± %.1g", result_.place_error) : "") + " of its length";
+    for (const plant::CurvePlace& other : result_.elsewhere)
+      where += (&other == result_.elsewhere.data() ? "; one on " : " or on ") + place_text(other);
+    return where + (result_.elsewhere.empty() ? "" : " would explain the data as well");
   }
 
   const Place& nearest(const plant::CurvePlace& at) const {

@@ -15,6 +15,9 @@ struct MissingForce {
   bool found = false;
   /// Where it acts; nothing where it is the instrument's, or where no place fits.
   std::optional<plant::CurvePlace> place;
+  double place_error = 0.0;  ///< 1, standard deviation of place->at; 0: not known
+  /// On other curves, where a law explains the data as well.
+  std::vector<plant::CurvePlace> elsewhere;
   /// "string", "stop", "attraction to a point", "periodic push", "constant push", "drag at a
   /// point", "friction at a point", "jolt", "push that begins during a trial"; "sensor" where
   /// markers seem to move that the plant does not; "force of no known law".

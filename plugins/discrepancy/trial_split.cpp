@@ -1,5 +1,6 @@
 #include "discrepancy/trial_split.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -47,6 +48,22 @@ TrialSplit split_trials(const Experiment& experiment) {
   for (const int t : open) (kept[t] ? split.check : split.fit).push_back(t);
   if (split.fit.empty()) std::swap(split.fit, split.check);
   return split;
+}
+
+bool exchange_trials(Experiment& experiment, const TrialSplit& split, int objecting) {
+  std::vector<Trial>& trials = experiment.trials;
+  const bool stated = std::ranges::any_of(
+      trials, [](const Trial& trial) { return trial.use != Trial::Use::unset; });
+  if (stated || split.fit.size() < 2) return false;
+  const auto same = std::find_if(split.fit.rbegin(), split.fit.rend(), [&](int t) {
+    return kind_of(trials[t]) == kind_of(trials[objecting]);
+  });
+  const int instead = same == split.fit.rend() ? split.fit.back() : *same;
+  for (const int t : split.fit) trials[t].use = Trial::Use::fit;
+  for (const int t : split.check) trials[t].use = Trial::Use::check;
+  trials[objecting].use = Trial::Use::fit;
+  trials[instead].use = Trial::Use::check;
+  return true;
 }
 
 }  // namespace pedicel::discrepancy

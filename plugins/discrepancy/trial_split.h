@@ -14,4 +14,9 @@ struct TrialSplit {
 };
 TrialSplit split_trials(const Experiment& experiment);
 
+/// States another split: the trial kept back `objecting` is fitted, and in its place the last of
+/// the fitted ones, of its kind if there is one, is kept back. False where the experiment itself
+/// states what a trial is for, or none is left to keep back: nothing is changed.
+bool exchange_trials(Experiment& experiment, const TrialSplit& split, int objecting);
+
 }  // namespace pedicel::discrepancy

@@ -56,6 +56,16 @@ TEST(HeldOut, AValleyOfTheFitNeitherHelpsNorHarms) {
   EXPECT_NEAR(gain(10.0), -1250.0 / 10001.0 - 0.5 * std::log(10001.0), 1e-2);
 }
 
+// Noise of unit variance alone is 1; 40 noise units in all along what no unknown moves are 40^2
+// more over all samples; along an unknown that the fit left open to ten deviations next to nothing.
+TEST(HeldOut, ExcessLeavesOutWhatTheUnknownsMayTake) {
+  const auto excess = [](const KeptBack& model) { return kept_back_excess(model, samples, 1.0); };
+  EXPECT_NEAR(excess(model(noise(), 1e-3)), 1.0, 1e-9);
+  EXPECT_NEAR(excess(model(noise() + shape(0, 40.0), 1e-3)), 1.0 + 1600.0 / samples, 1e-6);
+  EXPECT_NEAR(excess(model(noise() + shape(1, 40.0), 10.0)), 1.0 + 1600.0 / samples / 1e4, 1e-6);
+  EXPECT_NEAR(kept_back_excess(model(2.0 * noise(), 1e-3), samples, 4.0), 1.0, 1e-9);
+}
+
 // Both miss the same by far more than noise: what they differ in counts in units of that.
 TEST(HeldOut, WhatNoModelExplainsIsNoise) {
   const Eigen::VectorXd missed = 7.0 * noise();

@@ -60,5 +60,25 @@ TEST(TrialSplit, FitsSomethingEvenWhereAllIsToBeChecked) {
   EXPECT_TRUE(s.check.empty());
 }
 
+// What objects is fitted, and the last of its kind kept back in its place.
+TEST(TrialSplit, ExchangesATrialThatObjects) {
+  Experiment experiment;
+  experiment.trials = {release(), push(), release(), release(), push(), push()};
+  ASSERT_TRUE(exchange_trials(experiment, split_trials(experiment), 2));
+  const TrialSplit s = split_trials(experiment);
+  EXPECT_EQ(s.fit, (Indices{0, 1, 2, 5}));
+  EXPECT_EQ(s.check, (Indices{3, 4}));
+  EXPECT_FALSE(exchange_trials(experiment, s, 3)) << "the split is stated now";
+}
+
+TEST(TrialSplit, KeepsWhatIsStatedOrCannotBeExchanged) {
+  Experiment stated;
+  stated.trials = {release(), release(Trial::Use::check), push()};
+  EXPECT_FALSE(exchange_trials(stated, split_trials(stated), 1));
+  Experiment single;
+  single.trials = {release(), push(), release()};
+  EXPECT_FALSE(exchange_trials(single, {{0}, {1, 2}}, 1));
+}
+
 }  // namespace
 }  // namespace pedicel::discrepancy
