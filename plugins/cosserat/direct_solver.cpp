@@ -68,12 +68,13 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
                         ThreadPool& pool) {
   begin(steps, dt, gravity, pool);
   solve(steps, dt, pool);
-  pool.for_each(size(), [&](int p) {
+  const auto is_stuck = [&](int p) {
     const Plant& plant = plants_[p];
-    if (!is_part_ && (steps[p].report.errors & not_converged) && plant.presses &&
-        !plant.contacts.only_with_itself())
-      take_in_parts(p, steps[p], dt, gravity);
-  });
+    return (steps[p].report.errors & not_converged) && plant.presses &&
+           !plant.contacts.only_with_itself();
+  };
+  for (int p = 0; p < size() && !is_part_; ++p)
+    if (is_stuck(p)) take_in_parts(p, steps[p], dt, gravity);
   end(steps, dt, pool);
 }
 

@@ -142,5 +142,55 @@ TEST(ContactTerms, AMovingSurfaceCarriesThePlant) {
   }
 }
 
+// Something that is found on one side of the tip and then on the other: no step converges.
+class Flicker : public ContactSource {
+ public:
+  std::vector<std::pair<double, double>> covered;
+
+  void cover(double from, double to) override { covered.emplace_back(from, to); }
+  void find(const RodModel& model, const RodState&, double,
+            std::vector<ContactPoint>& found) override {
+    side_ = -side_;
+    ContactPoint point;
+    point.shape = static_cast<int>(model.shapes.size()) - 1;
+    point.radius = PeerCantilever::radius;
+    point.normal_W = side_ * Vec3::UnitY();
+    point.gap = -0.02;
+    point.stiffness = 20.0;
+    found.push_back(point);
+  }
+
+ private:
+  double side_ = 1.0;
+};
+
+// Such a step is taken again in two halves: what touches covers half of its way in each and all of
+// it afterwards, the clamp moves evenly, time ends where it should, and the forces told are those
+// of both halves, each with half of the spring.
+TEST(ContactTerms, AStepThatDoesNotConvergeIsTakenInHalves) {
+  Simulation sim(PeerCantilever::model(5));
+  Flicker source;
+  sim.contacts.push_back(&source);
+  constexpr double dt = 1.0 / 240.0;
+  sim.step(dt, gravity);
+  sim.state.root.position.x() += 1e-3;
+  source.covered.clear();
+  const StepReport report = sim.step(dt, gravity);
+  EXPECT_TRUE(report.errors & not_converged);
+  const std::vector<std::pair<double, double>> halves{{0.0, 0.5}, {0.5, 1.0}, {0.0, 1.0}};
+  EXPECT_EQ(source.covered, halves);
+  EXPECT_DOUBLE_EQ(sim.state.time, 2 * dt);
+  EXPECT_DOUBLE_EQ(sim.state.root.position.x(), 1e-3);
+  EXPECT_DOUBLE_EQ(sim.state.previous_root.position.x(), 1e-3);
+  ASSERT_EQ(sim.solver->contact_forces().size(), 2u);
+  for (const ContactForce& force : sim.solver->contact_forces())
+    EXPECT_DOUBLE_EQ(force.point.stiffness, 10.0);
+  // Alone again, its steps are whole ones and converge.
+  sim.contacts.clear();
+  for (int i = 0; i < 120; ++i) sim.step(dt, gravity);
+  EXPECT_EQ(sim.step(dt, gravity).errors, static_cast<unsigned>(none));
+  EXPECT_EQ(source.covered.size(), halves.size());
+}
+
 }  // namespace
 }  // namespace pedicel::cosserat::cases
