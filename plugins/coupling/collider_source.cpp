@@ -39,6 +39,8 @@ bool ColliderSource::is_ignored(int shape, int collider) const {
   return std::binary_search(ignored_.begin(), ignored_.end(), std::pair(shape, collider));
 }
 
+// What gives way (two-way coupling) does so in each part as over the whole step: too far rather
+// than not far enough, which could push it and the plant to and fro.
 void ColliderSource::cover(double from, double to) {
   covered_.clear();
   if (from == 0.0 && to == 1.0) return;

@@ -68,13 +68,14 @@ class Procedure {
   void decide() {
     look();
     const bool wrong = result_.before.raised || is_pulled(result_.base.hypothesis);
-    if (!wrong) look_at_check_trials();
+    if (!wrong && !stopped()) look_at_check_trials();
     if (objecting_ >= 0) {
       Experiment other = given_;
       const TrialSplit split{result_.fit_trials, result_.check_trials};
       if (exchange_trials(other, split, objecting_)) {
         log_.note("It is fitted in place of another one, and all begins anew.");
         exchanged_ = std::move(other);
+        result_.exchanged = experiment().trials[objecting_].name;
         return;
       }
     }
@@ -508,6 +509,7 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options
   Diagnosis found = first.run();
   if (!first.exchanged()) return found;
   Diagnosis again = Procedure(*first.exchanged(), options).run();
+  again.exchanged = found.exchanged;
   again.steps.insert(again.steps.begin(), found.steps.begin(), found.steps.end());
   again.verdict.simulations += found.verdict.simulations;
   again.verdict.seconds += found.verdict.seconds;

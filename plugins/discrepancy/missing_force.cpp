@@ -235,6 +235,7 @@ class Inference {
       result_.share = share_of(model_.cost - result_.fit.cost);
       result_.what = "It fits best as this: " + describe(force);
       describe_history(nearest(*force.place), force);
+      find_elsewhere();
       check();
     } else if (loudest.free.evidence >= enough_evidence) {
       result_.found = true;
@@ -245,9 +246,7 @@ class Inference {
       result_.what = "No law of the library follows it";
       describe_history(loudest, {});
     }
-    if (!result_.found) return;
-    find_elsewhere();
-    result_.where = where_text();
+    if (result_.found) result_.where = where_text();
   }
 
   // How well the data know the place: along its curve, and on which one.

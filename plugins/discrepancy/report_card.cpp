@@ -158,12 +158,18 @@ void add_card(io::HtmlReport& page, const ReportData& report,
   page.begin_card();
   page.note(headline(v), v.outcome == Outcome::adequate || v.outcome == Outcome::named);
   page.paragraph(certainty_text(d));
+  if (!d.exchanged.empty())
+    page.paragraph("Nothing is wrong in the trials that were to be fitted; \"" + d.exchanged +
+                   "\", which was to be kept back, is not explained by them. So it was fitted, and "
+                   "another one kept back.");
   if (concluded(v) && !v.remainder.empty())
     page.paragraph("Still unexplained: " + v.remainder + (v.remainder.ends_with('.') ? "" : "."));
   if (report.predicted && concluded(v)) add_symptom(page, report, pairs);
   add_causes(page, v);
   const std::string gain = gain_text(d);
-  if (concluded(v) && !gain.empty()) {
+  // What is not a finding gains nothing: the extended model is then that of a name taken back.
+  const bool taken_back = v.outcome == Outcome::unknown && v.causes.empty();
+  if (concluded(v) && !taken_back && !gain.empty()) {
     page.subheading("What it gains");
     page.paragraph(gain);
   }

@@ -124,7 +124,7 @@ class Maker {
       const std::string& name = order().hidden[i];
       int draws = 0;  // a string may hang where the plant never goes
       while (!hide_one(draw(name)))
-        if (++draws == most_draws) throw std::runtime_error(case_.name + ": no trace of " + name);
+        if (++draws == most_draws) throw NoTrace(case_.name + ": no trace of " + name);
     }
   }
 

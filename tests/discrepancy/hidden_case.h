@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,12 @@ struct HiddenCase {
   std::filesystem::path folder;            ///< once it is written
 };
 
-/// Simulates a case. The same seed and order give the same bits.
+/// Where what is to be hidden leaves no trace in the data, however it is drawn.
+struct NoTrace : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Simulates a case. The same seed and order give the same bits. Throws NoTrace.
 HiddenCase make_case(std::uint64_t seed, const CaseOrder& order);
 
 /// Writes `folder`/NAME, an experiment that gives nothing away, and `folder`/NAME.truth.json.

@@ -89,14 +89,14 @@ class Bench {
       write_score_report(out_, scores_, a_.seed);
       if (!a_.keep) fs::remove_all(run.hidden.folder);
       say(run.score);
-    } catch (const io::WriteError& error) {
-      const std::lock_guard lock(mutex_);
-      fault_ = error.what();
-    } catch (const std::exception& error) {  // drawn in vain: what is hidden leaves no trace
+    } catch (const NoTrace& error) {
       const std::lock_guard lock(mutex_);
       ++finished_;
-      std::printf("case %d cannot be made: %s\n", number, error.what());
+      std::printf("case %d is left out: %s\n", number, error.what());
       std::fflush(stdout);
+    } catch (const std::exception& error) {
+      const std::lock_guard lock(mutex_);
+      fault_ = error.what();
     }
   }
 

@@ -17,8 +17,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include "core/random.h"
 #include "cosserat/rod_system.h"
@@ -109,9 +111,17 @@ class Crossing {
   bool touched_ = false;
 };
 
+// 150 seeds, and others that go through where no step is taken in halves (of the needle's 150, 1048
+// does).
+std::vector<unsigned> seeds(unsigned first, std::initializer_list<unsigned> others) {
+  std::vector<unsigned> all(others);
+  for (unsigned i = 0; i < 150; ++i) all.push_back(first + i);
+  return all;
+}
+
 TEST(Tunnel, NoRodGoesThroughAThinPlate) {
   int touched = 0, failed = 0;
-  for (unsigned seed = 1; seed <= 150; ++seed) {
+  for (const unsigned seed : seeds(1, {263, 345, 1021, 1471})) {
     Random random(seed);
     const Vec3 size(0.06, 0.06, std::pow(10.0, random.uniform(-3.7, -2.3)));  // 0.2 to 5 mm
     // Level, so that it does not come down on the clamp, which cannot give way.
@@ -165,8 +175,8 @@ bool crossed_axis(const Vec3& a_before, const Vec3& b_before, const Vec3& a, con
 
 TEST(Tunnel, NoRodGoesThroughANeedle) {
   int touched = 0, failed = 0;
-  for (unsigned seed = 1; seed <= 150; ++seed) {
-    Random random(1000 + seed);
+  for (const unsigned seed : seeds(1001, {})) {
+    Random random(seed);
     const double thickness = std::pow(10.0, random.uniform(-3.7, -2.3)), length = 0.1;
     Vec3 direction = random_direction(random);
     direction.z() *= 0.3;
@@ -184,7 +194,7 @@ TEST(Tunnel, NoRodGoesThroughANeedle) {
     }
     touched += crossing.touched();
     failed += passed;
-    if (passed) std::cout << "went through: seed " << 1000 + seed << "\n";
+    if (passed) std::cout << "went through: seed " << seed << "\n";
   }
   EXPECT_GT(touched, 80);
   EXPECT_EQ(failed, 0);
