@@ -371,13 +371,13 @@ class Procedure {
   // Several causes are none where one force from outside the list explains as much of the fitted
   // trials, nor is one that does so at the end of what its numbers may be; any other single cause
   // is none where a force explains clearly more. That holds for the trials kept back, too. What
-  // causes explain to the last, and loudly, they do not by chance.
+  // one cause explains to the last, and loudly, it does not by chance.
   void ask_for_one_force() {
     const bool several = findings_.chain.size() > 1;
     const bool alone = !several && !stands_at_bound(findings_.chain.front());
-    double evidence = 0.0;
-    for (const Candidate& found : findings_.chain) evidence += found.evidence - found.held_out.gain;
-    if (!result_.after.raised && evidence > beyond_doubt) return;
+    const Candidate& first = findings_.chain.front();
+    const double evidence = first.evidence - first.held_out.gain;
+    if (!several && !result_.after.raised && evidence > beyond_doubt) return;
     MissingForce force = missing_force();
     if (!force.found || force.fit.why == "not run") return;
     // With the noise as it was read last.

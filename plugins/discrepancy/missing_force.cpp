@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -206,23 +207,62 @@ class Inference {
   }
 
   void refit() {
-    for (ForceTerm term : worth_refitting()) {
-      const FitSummary found = refitted(term.force);
-      term.gain = (model_.cost - found.cost) / scales_.dispersion;
-      // One more: its place along the curve.
-      term.evidence = term.gain - cost_of(term.parameters + 1, scales_.samples, scales_.choices);
-      term.force = found.hypothesis.effects.back();
-      note("Refitted: " + describe(term.force) + " at " + place_text(*term.force.place) +
-           text(", evidence %.4g", term.evidence));
-      const bool better = result_.terms.empty() || term.evidence > result_.evidence;
-      result_.terms.push_back(term);
-      if (!better) continue;
-      result_.evidence = term.evidence;
-      result_.fit = found;
+    for (const ForceTerm& term : worth_refitting()) refit(term);
+    if (result_.terms.empty()) return;
+    const ForceTerm best = *std::ranges::max_element(result_.terms, {}, &ForceTerm::evidence);
+    if (const std::optional<ForceTerm> near = with_near_end(best)) refit(*near);
+    std::ranges::stable_sort(result_.terms, std::greater(), &ForceTerm::evidence);
+  }
+
+  void refit(ForceTerm term) {
+    const FitSummary found = refitted(term.force);
+    term.gain = (model_.cost - found.cost) / scales_.dispersion;
+    // One more: its place along the curve.
+    term.evidence = term.gain - cost_of(term.parameters + 1, scales_.samples, scales_.choices);
+    term.force = found.hypothesis.effects.back();
+    note("Refitted: " + describe(term.force) + " at " + place_text(*term.force.place) +
+         text(", evidence %.4g", term.evidence));
+    const bool better = result_.terms.empty() || term.evidence > result_.evidence;
+    result_.terms.push_back(term);
+    if (!better) return;
+    result_.evidence = term.evidence;
+    result_.fit = found;
+  }
+
+  // What pulls towards a far end is a stop or a constant push; its own kind, with an end that is
+  // near, is tried there, too, so that it can be said whether the data tell them apart.
+  std::optional<ForceTerm> with_near_end(const ForceTerm& term) const {
+    const std::string kind = kind_with_near_end(kind_of(term.force));
+    const auto tried = [&](const ForceTerm& t) {
+      return kind_of(t.force) == kind && t.force.place->curve == term.force.place->curve;
+    };
+    if (kind.empty() || std::ranges::any_of(result_.terms, tried)) return {};
+    ForceTerm near = term;
+    near.force = near_end(term.force, nearest(*term.force.place), 0.6 * scales_.length);
+    near.parameters = kind == "string" ? 5 : 3;
+    return near;
+  }
+
+  static std::string kind_with_near_end(const std::string& kind) {
+    return kind == "stop" ? "string" : kind == "constant" ? "spring" : "";
+  }
+
+  static plant::Effect near_end(plant::Effect force, const Place& place, double distance) {
+    if (kind_of(force) == "constant") {
+      const Vec3 push(force.numbers.at("force").data());
+      const Vec3 about = place.path.position.front().row(0).transpose();
+      const Vec3 tangent = place.space.axes[0].cross(place.space.axes[1]);
+      const Vec3 towards = push.normalized();
+      force.numbers.erase("force");
+      force.numbers["about"] = {about.x(), about.y(), about.z()};
+      force.numbers["towards"] = {towards.x(), towards.y(), towards.z()};
+      force.numbers["tilt"] = {0.0, 0.0};
+      force.numbers["axis"] = {tangent.x(), tangent.y(), tangent.z()};
+      force.numbers["stiffness"] = {push.norm() / distance};
     }
-    std::ranges::stable_sort(result_.terms, [](const ForceTerm& a, const ForceTerm& b) {
-      return a.evidence > b.evidence;
-    });
+    force.words["kind"] = kind_with_near_end(kind_of(force));
+    force.numbers["distance"] = {distance};
+    return force;
   }
 
   void conclude() {
@@ -236,6 +276,7 @@ class Inference {
       result_.what = "It fits best as this: " + describe(force);
       describe_history(nearest(*force.place), force);
       find_elsewhere();
+      find_other_kinds();
       check();
     } else if (loudest.free.evidence >= enough_evidence) {
       result_.found = true;
@@ -255,12 +296,24 @@ class Inference {
     for (int p = 0; p < model.size(); ++p)
       if (model.free[p].name == "at" && model.effects[model.free[p].effect].name == missing_force &&
           std::isfinite(result_.fit.standard_error[p]))
-        result_.place_error = result_.fit.standard_error[p];
+        result_.place_error = model.free[p].scale * result_.fit.standard_error[p];
     std::set<std::string> known{result_.place->curve};
     for (const ForceTerm& term : result_.terms)
       if (term.evidence > result_.evidence - as_well_within &&
           known.insert(term.force.place->curve).second)
         result_.elsewhere.push_back(*term.force.place);
+  }
+
+  void find_other_kinds() {
+    const ForceTerm& best = result_.terms.front();
+    std::set<std::string> known{result_.kind};
+    for (const ForceTerm& term : result_.terms) {
+      const bool near_end = kind_of(term.force) == kind_with_near_end(kind_of(best.force));
+      const bool as_well = near_end ? term.gain > best.gain - as_well_within
+                                    : term.evidence > best.evidence - as_well_within;
+      if (as_well && known.insert(plain_kind(term.force)).second)
+        result_.other_kinds.push_back(plain_kind(term.force));
+    }
   }
 
   std::string where_text() const {
@@ -372,7 +425,10 @@ std::string MissingForce::sentence() const {
   if (!found) return "";
   std::string all =
       text("%.0f %% of what the model left above the noise is this. ", 100.0 * share) + where + ".";
-  if (!kind.empty()) all += " Kind: " + kind + ".";
+  if (!kind.empty()) all += " Kind: " + kind;
+  for (const std::string& other : other_kinds) all += " or " + other;
+  if (!other_kinds.empty()) all += ", which these data cannot tell apart";
+  if (!kind.empty()) all += ".";
   if (!what.empty()) all += " " + what + ".";
   std::string course = when.empty() || how.empty() ? when + how : when + "; " + how;
   if (!course.empty()) {

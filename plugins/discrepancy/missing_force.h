@@ -22,6 +22,9 @@ struct MissingForce {
   /// point", "friction at a point", "jolt", "push that begins during a trial"; "sensor" where
   /// markers seem to move that the plant does not; "force of no known law".
   std::string kind;
+  /// Other kinds that explain the data as well: within odds of 20 to 1, or as what `kind` is where
+  /// its other end is far away (a stop: a string; a constant push: an attraction).
+  std::vector<std::string> other_kinds;
   std::string where, when, how, what;  ///< sentences
   double evidence = 0.0;               ///< nats above the model, less what its numbers cost
   double share = 0.0;            ///< of what the model left above the noise on the fitted trials

@@ -32,13 +32,23 @@ constexpr double near = 0.1;  // of a curve
 bool right_place(const Score& s) {
   return s.force_away && *s.force_away <= near;
 }
-bool right_kind(const Score& s) {
+// Whether the place's interval, two deviations either way, or another curve that is said holds it.
+bool holds_place(const Score& s) {
+  return right_place(s) || s.force_elsewhere ||
+         (s.force_away && s.force_error && *s.force_away <= 2.0 * *s.force_error);
+}
+std::string kind_of(const Score& s) {
   static const std::map<std::string, std::string> kinds{{"string", "string"},
                                                         {"stake", "stop"},
                                                         {"push", "periodic push"},
                                                         {"attraction", "attraction to a point"}};
-  const auto kind = kinds.find(s.hidden.front());
-  return kind != kinds.end() && kind->second == s.force_kind;
+  return kinds.at(s.hidden.front());
+}
+bool right_kind(const Score& s) {
+  return kind_of(s) == s.force_kind;
+}
+bool holds_kind(const Score& s) {
+  return right_kind(s) || std::ranges::find(s.other_kinds, kind_of(s)) != s.other_kinds.end();
 }
 bool hides_known(const Score& s) {
   return is(s, "effect") || is(s, "pair") || is(s, "look_alike");
@@ -167,7 +177,13 @@ void add_outside_rows(const Counter& count, std::vector<TableRow>& rows) {
                         "70 %", "95 %"));
   rows.push_back(row_of("- the right place, within a tenth of the curve",
                         count(outside, right_place), "60 %", "85 %"));
+  rows.push_back(row_of(
+      "- the place, within two of the deviations that it is said with, or another curve that "
+      "is said to do as well",
+      count(outside, holds_place)));
   rows.push_back(row_of("- the right kind", count(outside, right_kind), "50 %", "75 %"));
+  rows.push_back(
+      row_of("- the right kind, or said not to be told from it", count(outside, holds_kind)));
   rows.push_back(row_of("- a name with confidence",
                         count(outside, [](const Score& s) { return s.call == Call::wrong; })));
   rows.push_back(

@@ -181,6 +181,9 @@ std::string to_line(const Score& s) {
                              {"lead", number(s.lead.value_or(NAN))},
                              {"force_kind", s.force_kind},
                              {"force_away", number(s.force_away.value_or(NAN))},
+                             {"force_error", number(s.force_error.value_or(NAN))},
+                             {"force_elsewhere", s.force_elsewhere},
+                             {"other_kinds", s.other_kinds},
                              {"plant", s.plant},
                              {"pack", s.pack},
                              {"coloured", s.coloured},
@@ -213,6 +216,9 @@ Score from_line(const std::string& line) {
   if (!json.at("gain_share").is_null()) s.gain_share = number_of(json.at("gain_share"));
   if (!json.at("lead").is_null()) s.lead = number_of(json.at("lead"));
   if (!json.at("force_away").is_null()) s.force_away = number_of(json.at("force_away"));
+  if (!json.at("force_error").is_null()) s.force_error = number_of(json.at("force_error"));
+  json.at("force_elsewhere").get_to(s.force_elsewhere);
+  json.at("other_kinds").get_to(s.other_kinds);
   json.at("force_kind").get_to(s.force_kind);
   const auto call = std::ranges::find(call_names, json.at("call").get<std::string>());
   if (call == call_names.end()) throw std::invalid_argument("no such call");

@@ -54,7 +54,12 @@ struct Score {
   std::string force_kind;
   /// How far from the hidden one, as a share of their curve; absent on another curve.
   std::optional<double> force_away;
-  double alarm = 0.0;  ///< largest directed statistic less its level
+  /// The deviation that its place was said with, as a share of the curve; absent where there is
+  /// none.
+  std::optional<double> force_error;
+  bool force_elsewhere = false;          ///< the hidden one's curve is said to do as well
+  std::vector<std::string> other_kinds;  ///< that the data are said not to tell from `force_kind`
+  double alarm = 0.0;                    ///< largest directed statistic less its level
   long simulations = 0;
   double seconds = 0.0;
   std::string fault;  ///< why there is no verdict; empty: there is one

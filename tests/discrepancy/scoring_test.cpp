@@ -235,6 +235,11 @@ std::vector<Score> some_scores() {
     s.force_away = away;
     return s;
   };
+  const auto unsure = [](Score s) {
+    s.force_error = 0.16;
+    s.other_kinds = {"string"};
+    return s;
+  };
   const HiddenCase quiet = case_of(Kind::null, {}), wind = case_of(Kind::effect, {"wind"});
   return {
       numbered(score(quiet, verdict_of(Outcome::adequate), {}), 0),
@@ -246,9 +251,10 @@ std::vector<Score> some_scores() {
       numbered(placed(score(case_of(Kind::outside, {"stake"}), verdict_of(Outcome::unknown), {}),
                       "stop", 0.04),
                5),
-      numbered(placed(score(case_of(Kind::outside, {"string"}), verdict_of(Outcome::unknown), {}),
-                      "stop", 0.3),
-               6)};
+      numbered(
+          unsure(placed(score(case_of(Kind::outside, {"string"}), verdict_of(Outcome::unknown), {}),
+                        "stop", 0.3)),
+          6)};
 }
 
 TEST(ScoreTable, CountsEveryKindAmongItsOwn) {
@@ -268,6 +274,12 @@ TEST(ScoreTable, CountsEveryKindAmongItsOwn) {
   EXPECT_DOUBLE_EQ(row(rows, "outside the list: said unknown").value, 1.0);
   EXPECT_DOUBLE_EQ(row(rows, "- the right place, within a tenth of the curve").value, 0.5);
   EXPECT_DOUBLE_EQ(row(rows, "- the right kind").value, 0.5);
+  EXPECT_DOUBLE_EQ(row(rows, "- the right kind, or said not to be told from it").value, 1.0);
+  EXPECT_DOUBLE_EQ(row(rows,
+                       "- the place, within two of the deviations that it is said with, or "
+                       "another curve that is said to do as well")
+                       .value,
+                   1.0);
   EXPECT_TRUE(std::isnan(row(rows, "two effects, both named").value));
   EXPECT_NE(markdown(rows).find("| 33.3 % |"), std::string::npos);
 }
@@ -291,6 +303,7 @@ TEST(ScoreFile, ResumesAfterAStopInTheMiddleOfALine) {
   std::vector<Score> scores = some_scores();
   scores[2].gain_share = 0.93;
   scores[2].lead = 12.5;
+  scores[5].force_elsewhere = true;
   scores[2].sizes = {{"wind", 0.04, 1, 1, std::nan("")}};
   for (const Score& s : scores) append_score(file, s);
   std::ofstream(file, std::ios::app) << "{\"case\": 9, \"se";

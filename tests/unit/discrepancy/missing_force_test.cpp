@@ -87,7 +87,8 @@ void expect_found(const MissingForce& found, const std::string& kind, double pla
   EXPECT_EQ(found.place->curve, "stem");
   EXPECT_NEAR(found.place->at, place, 0.15);
   EXPECT_GT(found.place_error, 0.0);
-  EXPECT_LT(std::abs(found.place->at - place), 4.0 * found.place_error) << found.sentence();
+  EXPECT_LT(found.place_error, 0.25);
+  EXPECT_LT(std::abs(found.place->at - place), 3.0 * found.place_error) << found.sentence();
   EXPECT_NE(found.sentence().find(" ± "), std::string::npos) << found.sentence();
   EXPECT_TRUE(found.elsewhere.empty());
   // The law that made the data must leave noise alone: chi-square of about 3700 samples.
