@@ -5,11 +5,14 @@
 #include <cstdio>
 
 #include "app/parallel_worlds.h"
+#include "app/plant_overrides.h"
 #include "core/check.h"
 #include "core/random.h"
 #include "discrepancy/simulator.h"
 #include "io/yaml.h"
 #include "plant/effects.h"
+#include "plant/mtg_reader.h"
+#include "world/scene_reader.h"
 
 namespace pedicel::app {
 
@@ -25,16 +28,45 @@ Experiment read_experiment(const std::string& path) {
   return std::move(*experiment);
 }
 
+/// The one that is asked for; of a single one, that.
+const world::ScenePlant& plant_of(const world::Scene& scene, const std::string& name) {
+  std::string names;
+  for (const world::ScenePlant& plant : scene.plants) {
+    if (plant.name == name || (name.empty() && scene.plants.size() == 1)) return plant;
+    names += (names.empty() ? "" : ", ") + plant.name;
+  }
+  throw UsageError("observe " + scene.file.string() + ": " +
+                   (name.empty() ? "no single plant" : "no plant \"" + name + "\"") +
+                   ", expected --plant with one of: " + names);
+}
+
+/// A scene's plant as the scene changes it; where it stands and what touches it is the
+/// experiment's.
+plant::PlantFile scene_plant(const world::ScenePlant& wanted, Diagnostics& diagnostics) {
+  if (wanted.source == world::ScenePlant::Source::built_in)
+    throw UsageError("observe: plant \"" + wanted.name +
+                     "\" is built in, expected one that is read from a file");
+  std::optional<plant::PlantFile> plant = wanted.source == world::ScenePlant::Source::mtg
+                                              ? plant::read_mtg(wanted.file, {}, diagnostics)
+                                              : plant::read_plant_file(wanted.file, diagnostics);
+  if (plant) apply_plant_overrides(*plant, wanted.set, diagnostics);
+  if (!plant || diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  return std::move(*plant);
+}
+
 /// The plant to simulate, in the place of the one that `experiment` has.
-void take_plant(const std::filesystem::path& model, Experiment& experiment) {
+void take_plant(const ObserveArguments& a, Experiment& experiment) {
+  const std::filesystem::path model = a.model;
   Diagnostics diagnostics;
   std::string format = "pedicel-experiment";
   if (!std::filesystem::is_directory(model)) {
     const io::YamlNode root = io::load_yaml(model, diagnostics);
     format = root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
   }
+  if (!a.plant.empty() && format != "pedicel-scene")
+    throw UsageError("--plant: " + a.model + " is no scene, expected *.scene.yaml");
   if (format == "pedicel-experiment") {
-    Experiment other = read_experiment(model.string());
+    Experiment other = read_experiment(a.model);
     experiment.plant = std::move(other.plant);
     experiment.plant_path = other.plant_path;
   } else if (format == "pedicel-plant") {
@@ -42,10 +74,15 @@ void take_plant(const std::filesystem::path& model, Experiment& experiment) {
     if (!plant) throw InvalidFile(diagnostics);
     experiment.plant = std::move(*plant);
     experiment.plant_path = model;
+  } else if (format == "pedicel-scene") {
+    const std::optional<world::Scene> scene = world::read_scene(model, diagnostics);
+    if (!scene) throw InvalidFile(diagnostics);
+    const world::ScenePlant& wanted = plant_of(*scene, a.plant);
+    experiment.plant = scene_plant(wanted, diagnostics);
+    experiment.plant_path = wanted.file;
   } else {
-    throw UsageError("observe " + model.string() + ": format is \"" + format +
-                     "\", expected pedicel-plant or pedicel-experiment (a scene's robot cannot be "
-                     "observed yet)");
+    throw UsageError("observe " + a.model + ": format is \"" + format +
+                     "\", expected pedicel-plant, pedicel-scene or pedicel-experiment");
   }
 }
 
@@ -90,8 +127,9 @@ void simulate(const ObserveArguments& a, Experiment& experiment) {
 }  // namespace
 
 void add_observe_options(CLI::App& observe, ObserveArguments& a) {
-  observe.add_option("model", a.model, "plant file, or experiment whose plant is meant")
+  observe.add_option("model", a.model, "plant file, or scene or experiment whose plant is meant")
       ->required();
+  observe.add_option("--plant", a.plant, "name of the scene's plant, where it has several");
   observe.add_option("--like", a.like, "experiment whose drives, markers and times are repeated")
       ->required();
   observe.add_option("--out", a.out, "folder to write")->required();
@@ -116,7 +154,7 @@ void add_observe_options(CLI::App& observe, ObserveArguments& a) {
 
 int observe_verb(const ObserveArguments& a) {
   Experiment experiment = read_experiment(a.like);
-  take_plant(a.model, experiment);
+  take_plant(a, experiment);
   experiment.noise = {};
   if (a.noise_position > 0.0) experiment.noise.position_std = a.noise_position;
   if (a.noise_force > 0.0) experiment.noise.force_std = a.noise_force;

@@ -15,7 +15,8 @@ namespace pedicel::app {
 
 /// What the command line says of `pedicel observe`.
 struct ObserveArguments {
-  std::string model;            ///< a plant file, or an experiment whose plant is meant
+  std::string model;            ///< a plant file, or a scene or experiment whose plant is meant
+  std::string plant;            ///< name of the scene's plant; empty: its only one
   std::string like;             ///< the experiment to repeat
   std::string out;              ///< folder
   std::uint64_t seed = 1;       ///< of the noise
@@ -31,9 +32,10 @@ struct ObserveArguments {
 void add_observe_options(CLI::App& observe, ObserveArguments& arguments);
 
 /// Simulates the trials of `like` with another plant and writes what its instruments would have
-/// reported as an experiment folder: the plant file given, with its effects, and the drives,
-/// markers, sample times and gaps of `like`. Returns the exit code. Throws InvalidFile, UsageError,
-/// UnstableWorld, io::WriteError.
+/// reported as an experiment folder: the plant given, with its effects, and the drives, markers,
+/// sample times and gaps of `like`. A scene's plant is taken with the scene's `set:`; its place and
+/// gravity are those of `like`, and its robot is not there. Returns the exit code. Throws
+/// InvalidFile, UsageError, UnstableWorld, io::WriteError.
 int observe_verb(const ObserveArguments& arguments);
 
 /// Adds noise of the given marginal standard deviation to each column, white or AR(1); gaps stay.

@@ -7,6 +7,8 @@
 
 #include "app/validate.h"
 #include "core/check.h"
+#include "io/atomic_file.h"
+#include "io/csv.h"
 #include "support/temporary_folder.h"
 #include "unit/discrepancy/beam_experiment.h"
 
@@ -63,6 +65,41 @@ TEST_F(Observe, SetEffectsAreSimulatedAndNotWritten) {
   const auto soft = observe("soft");
   EXPECT_TRUE(soft.plant.effects.empty());
   EXPECT_LT(soft.trials[0].force.value(0, 0), 0.9 * plain.trials[0].force.value(0, 0));
+}
+
+// A scene's plant, as the scene changes it: twice the modulus, twice the force (the spring that
+// holds the tip is far stiffer than the stem).
+TEST_F(Observe, TakesAPlantOfAScene) {
+  plant::PlantFile stem = discrepancy::testing::plant_of({});
+  const double modulus = stem.material.youngs_modulus.value();
+  plant::write_plant_file(folder_ / "stem.plant.yaml", stem);
+  const auto write_scene = [&](const std::string& plants) {
+    io::write_file_atomically(folder_ / "a.scene.yaml",
+                              "format: pedicel-scene\nversion: 1\nname: a\npurpose: p\nsee: s\n"
+                              "duration: 1\nplants:\n" +
+                                  plants);
+    arguments_.model = (folder_ / "a.scene.yaml").string();
+  };
+  const std::string plain = "  - {name: plain, file: stem.plant.yaml}\n";
+  const std::string stiff =
+      "  - {name: stiff, file: stem.plant.yaml, position: [1, 0, 0], "
+      "set: {material.youngs_modulus: " +
+      io::format_number(2.0 * modulus) + "}}\n";
+  write_scene(plain);
+  const auto soft = observe("soft");
+  write_scene(plain + stiff);
+  EXPECT_THROW(observe_verb(arguments_), UsageError);
+  arguments_.plant = "other";
+  EXPECT_THROW(observe_verb(arguments_), UsageError);
+  arguments_.plant = "stiff";
+  const auto found = observe("stiff");
+  EXPECT_EQ(found.plant.material.youngs_modulus, 2.0 * modulus);
+  const auto force = [](const discrepancy::Experiment& e) { return e.trials[0].force.value(0, 0); };
+  const double k = discrepancy::testing::Beam().tip_stiffness();
+  const auto series = [](double stiffness) { return 1.0 / (1.0 / 50.0 + 1.0 / stiffness); };
+  EXPECT_NEAR(force(found) / force(soft), series(2.0 * k) / series(k), 0.01);
+  arguments_.model = (folder_ / "stem.plant.yaml").string();
+  EXPECT_THROW(observe_verb(arguments_), UsageError);  // --plant without a scene
 }
 
 TEST_F(Observe, RefusesWhatItCannotTake) {
