@@ -71,10 +71,10 @@ void DiagnosisPart::draw_card(Ui& ui) {
   paragraph(card_.headline, &colour);
   ImGui::PopFont();
   note(card_.certainty);
-  if (!card_.remainder.empty()) paragraph("Still unexplained: " + card_.remainder + ".");
+  if (!card_.remainder.empty()) paragraph(card_.remainder);
   draw_causes(ui);
   if (!card_.gain.empty()) {
-    heading(ui, "What it gains");
+    heading(ui, card_.outcome == "unknown" ? "What is left" : "What it gains");
     paragraph(card_.gain);
   }
   draw_rivals(ui);

@@ -64,7 +64,7 @@ DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis) {
   card.certainty = discrepancy::certainty_text(diagnosis);
   card.next = next_step(verdict);
   if (verdict.outcome == Outcome::bad_data || verdict.outcome == Outcome::numerical) return card;
-  card.remainder = verdict.remainder;
+  card.remainder = discrepancy::remainder_text(verdict);
   for (const auto& cause : verdict.causes) card.causes.push_back(cause_of(cause));
   card.gain = discrepancy::gain_text(diagnosis);
   card.rivals = rivals_of(diagnosis);

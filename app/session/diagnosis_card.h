@@ -21,7 +21,7 @@ struct DiagnosisCard {
 
   bool good = false;  ///< adequate or named: something may be concluded
   std::string outcome, headline, certainty;
-  std::string remainder;  ///< what is still unexplained; may be empty
+  std::string remainder;  ///< what is still unexplained, as sentences; may be empty
   std::vector<Cause> causes;
   std::string gain;
   std::vector<Rival> rivals;

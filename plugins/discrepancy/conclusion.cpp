@@ -137,7 +137,9 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
       0.5 *
       std::pow(std::max(diagnosis.after.statistic, other.shows() ? other.deviations : 0.0), 2);
   const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
-  if (much || missed > most_missed * gain) verdict.outcome = Outcome::unknown;
+  if (!much && missed <= most_missed * gain) return;
+  verdict.outcome = Outcome::unknown;
+  verdict.remainder = "known causes leave " + verdict.remainder;
 }
 
 // Those that the data cannot tell from the best are causes, too; the others are rivals.

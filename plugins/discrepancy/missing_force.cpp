@@ -424,7 +424,8 @@ class Inference {
 std::string MissingForce::sentence() const {
   if (!found) return "";
   std::string all =
-      text("%.0f %% of what the model left above the noise is this. ", 100.0 * share) + where + ".";
+      where + ". " +
+      text("It explains %.0f %% of what the refitted model leaves above the noise.", 100.0 * share);
   if (!kind.empty()) all += " Kind: " + kind;
   for (const std::string& other : other_kinds) all += " or " + other;
   if (!other_kinds.empty()) all += ", which these data cannot tell apart";

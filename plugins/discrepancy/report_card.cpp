@@ -19,14 +19,28 @@ bool concluded(const Verdict& v) {
   return v.outcome != Outcome::bad_data && v.outcome != Outcome::numerical;
 }
 
-std::vector<SketchMark> marks_of(const ReportData& report) {
-  const Verdict& v = report.diagnosis.verdict;
+// Where a force acts, one deviation either way, and where else it may; else where most is left.
+std::vector<SketchMark> marks_of_unknown(const ReportData& report) {
+  const MissingForce& force = report.diagnosis.force;
   std::vector<SketchMark> marks;
-  // Modulus, density and damping belong to all of the plant already.
-  for (std::size_t c = 0; c < v.causes.size() && c < mark_colours.size(); ++c)
-    marks.push_back(mark_of(report.experiment, v.causes[c], mark_colours[c]));
-  if (v.outcome != Outcome::unknown) return marks;
-  marks.clear();
+  if (force.found && force.place) {
+    SketchMark here;
+    here.label = "a force acts here";
+    here.colour = mark_colours[0];
+    here.places = {*force.place};
+    plant::CurvePlace from = *force.place;
+    from.at = std::max(0.0, force.place->at - force.place_error);
+    here.stretch = {from, std::min(1.0, force.place->at + force.place_error)};
+    marks.push_back(here);
+    for (const plant::CurvePlace& other : force.elsewhere) {
+      SketchMark there;
+      there.label = "or here";
+      there.colour = mark_colours[1];
+      there.places = {other};
+      marks.push_back(there);
+    }
+    return marks;
+  }
   const auto loud = worst(report, extended);
   const auto markers = static_cast<int>(report.experiment.markers.size());
   if (loud && loud->column < 3 * markers) {
@@ -37,6 +51,15 @@ std::vector<SketchMark> marks_of(const ReportData& report) {
     marks.push_back(mark);
   }
   return marks;
+}
+
+std::vector<SketchMark> marks_of(const ReportData& report) {
+  const Verdict& v = report.diagnosis.verdict;
+  std::vector<SketchMark> marks;
+  // Modulus, density and damping belong to all of the plant already.
+  for (std::size_t c = 0; c < v.causes.size() && c < mark_colours.size(); ++c)
+    marks.push_back(mark_of(report.experiment, v.causes[c], mark_colours[c]));
+  return v.outcome == Outcome::unknown ? marks_of_unknown(report) : marks;
 }
 
 std::string after_text(const SymptomPair& pair) {
@@ -162,15 +185,13 @@ void add_card(io::HtmlReport& page, const ReportData& report,
     page.paragraph("Nothing is wrong in the trials that were to be fitted; \"" + d.exchanged +
                    "\", which was to be kept back, is not explained by them. So it was fitted, and "
                    "another one kept back.");
-  if (concluded(v) && !v.remainder.empty())
-    page.paragraph("Still unexplained: " + v.remainder + (v.remainder.ends_with('.') ? "" : "."));
+  const std::string remainder = remainder_text(v);
+  if (concluded(v) && !remainder.empty()) page.paragraph(remainder);
   if (report.predicted && concluded(v)) add_symptom(page, report, pairs);
   add_causes(page, v);
   const std::string gain = gain_text(d);
-  // What is not a finding gains nothing: the extended model is then that of a name taken back.
-  const bool taken_back = v.outcome == Outcome::unknown && v.causes.empty();
-  if (concluded(v) && !taken_back && !gain.empty()) {
-    page.subheading("What it gains");
+  if (concluded(v) && !gain.empty()) {
+    page.subheading(v.outcome == Outcome::unknown ? "What is left" : "What it gains");
     page.paragraph(gain);
   }
   add_rivals(page, d);

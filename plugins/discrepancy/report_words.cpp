@@ -104,6 +104,12 @@ std::string why_it_lost(const Candidate& candidate, const Diagnosis& d) {
   return text;
 }
 
+std::string remainder_text(const Verdict& v) {
+  if (v.remainder.empty()) return "";
+  return (v.outcome == Outcome::unknown ? "What is known of it: " : "Still unexplained: ") +
+         v.remainder + (v.remainder.ends_with('.') ? "" : ".");
+}
+
 std::string gain_text(const Diagnosis& d) {
   const Errors& check = d.verdict.check;
   const Errors& errors = check.refitted ? check : d.verdict.fit;
@@ -111,7 +117,10 @@ std::string gain_text(const Diagnosis& d) {
   std::vector<std::string> names;
   for (const int t : check.refitted ? d.check_trials : d.fit_trials)
     names.push_back(d.admission.experiment.trials[t].name);
-  const bool found = d.best.hypothesis.effects.size() > d.base.hypothesis.effects.size();
+  // What is not a finding gains nothing: the extended model is then that of a name taken back.
+  const bool taken_back = d.verdict.outcome == Outcome::unknown && d.verdict.causes.empty();
+  const bool found =
+      !taken_back && d.best.hypothesis.effects.size() > d.base.hypothesis.effects.size();
   std::string text = check.refitted ? "On the trials kept back (" + joined(names, " and ") + ") "
                                     : "No trial was kept back; on the fitted ones ";
   text += "the residual is " + short_number(*errors.refitted) +

@@ -22,6 +22,9 @@ std::string parameters_text(const Candidate& candidate);
 /// Why a candidate lost against the best of the ranking, in words.
 std::string why_it_lost(const Candidate& candidate, const Diagnosis& diagnosis);
 
+/// What is still unexplained, or what is known of something unknown, as sentences; may be empty.
+std::string remainder_text(const Verdict& verdict);
+
 /// The gain on the trials kept back against the noise floor, one or two sentences.
 std::string gain_text(const Diagnosis& diagnosis);
 

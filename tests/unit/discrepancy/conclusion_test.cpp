@@ -227,7 +227,7 @@ TEST(Conclusion, IsUnknownWhereTooMuchIsLeft) {
   c.diagnosis.ranking[0].fit.cost = (0.5 + 0.3) * c.findings.samples();
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::unknown);
-  EXPECT_EQ(v.remainder, "20 % of what the refitted model left above the noise");
+  EXPECT_EQ(v.remainder, "known causes leave 20 % of what the refitted model left above the noise");
   Verdict told = v;
   name_nothing(told);
   EXPECT_TRUE(told.causes.empty());

@@ -78,13 +78,31 @@ TEST(Report, EachOutcomeHasItsOwnCard) {
   EXPECT_THAT(ambiguous, HasSubstr("Pull stem at 0.8 along x by 40 mm and let go."));
   EXPECT_THAT(ambiguous, HasSubstr("What each explanation predicts for it: m3.x"));
   EXPECT_THAT(page_of(Outcome::unknown), HasSubstr(">largest residual<"));
-  EXPECT_THAT(page_of(Outcome::unknown), HasSubstr("31 % of what the refitted model left"));
+  EXPECT_THAT(page_of(Outcome::unknown),
+              HasSubstr("What is known of it: 31 % of what the refitted model left."));
   const std::string adequate = page_of(Outcome::adequate);
   EXPECT_THAT(adequate, HasSubstr("Nothing is missing at this noise"));
   EXPECT_THAT(adequate, Not(HasSubstr("extended model")));
   const std::string bad = page_of(Outcome::bad_data);
   EXPECT_THAT(bad, HasSubstr("trial &quot;weights&quot; has no data"));
   EXPECT_THAT(bad, Not(HasSubstr("<svg")));
+}
+
+// The place of a force is shown, and where else it may act; a name that was taken back gains
+// nothing.
+TEST(Report, ForceOfUnknownKindHasItsPlaceInTheDrawing) {
+  Diagnosis d = made_diagnosis(Outcome::unknown);
+  d.force.found = true;
+  d.force.place = plant::CurvePlace{"stem", 0.6, {}};
+  d.force.place_error = 0.1;
+  d.force.elsewhere = {plant::CurvePlace{"stem", 0.2, {}}};
+  d.verdict.gain = -4.6;
+  const std::string page = report_text(d.admission.experiment, d);
+  EXPECT_THAT(page, HasSubstr(">a force acts here<"));
+  EXPECT_THAT(page, HasSubstr(">or here<"));
+  EXPECT_THAT(page, Not(HasSubstr(">largest residual<")));
+  EXPECT_THAT(page, Not(HasSubstr("That removes")));
+  EXPECT_THAT(page, HasSubstr("<h3>What is left</h3>"));
 }
 
 /// The open element that a closing one does not match, or what is left open; empty where all nest.
