@@ -217,8 +217,11 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   judge_remainder(findings, diagnosis);
   show_decoys(findings, diagnosis);
   show_trials_left_out(findings, verdict.causes.front());
-  // A cause that does nothing for trials that it was not fitted to is none.
-  if (verdict.outcome == Outcome::named && !findings.chain.front().held_out.carries_over()) {
+  // What does nothing for trials that it was not fitted to is no cause. The first of several was
+  // judged while the others were missing there.
+  const HeldOut& held_out =
+      findings.chain.size() > 1 ? findings.held_out : findings.chain.front().held_out;
+  if (verdict.outcome == Outcome::named && !held_out.carries_over()) {
     verdict.outcome = Outcome::unknown;
     verdict.remainder = "what was fitted does not carry over to the trials kept back";
   }

@@ -340,6 +340,7 @@ class Procedure {
 
   void conclude_all() {
     log_.say("writing the verdict", 0.95);
+    if (findings_.chain.size() > 1) findings_.held_out = held_out_together();
     // What is left of the best model is the best sample of the noise.
     if (!findings_.chain.empty()) setup_->renew_noise(result_.best.hypothesis);
     predict();
@@ -366,6 +367,18 @@ class Procedure {
     report_parameters(findings_, result_);
     report_hidden(causes_, result_);
     choose_next();
+  }
+
+  // What several causes do together for the trials kept back.
+  HeldOut held_out_together() {
+    if (result_.check_trials.empty()) return {};
+    Evaluator evaluator = setup_->evaluator();
+    FitOptions check = fit_options();
+    check.trials = result_.check_trials;
+    const KeptBack base = kept_back(evaluator, result_.base, check);
+    const std::array extended{kept_back(evaluator, result_.best, check)};
+    const double dispersion = std::max(1.0, 2.0 * result_.best.cost / setup_->samples());
+    return held_out(base, extended, setup_->data().samples(check.trials), dispersion).front();
   }
 
   // Several causes are none where one force from outside the list explains as much of the fitted

@@ -17,6 +17,7 @@ struct Findings {
   const DataSet* data = nullptr;
   std::vector<int> fit_trials;
   std::vector<Candidate> chain;     ///< causes found so far, in the order they were added
+  HeldOut held_out;                 ///< of all of them together, where they are several
   std::vector<Symptom> symptoms;    ///< of the refitted model
   Eigen::VectorXd parameter_shift;  ///< of the baseline's unknowns, by our own error
   /// Of modulus, density and damping, those that the data do not allow to be nominal.

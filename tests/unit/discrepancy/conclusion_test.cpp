@@ -246,6 +246,22 @@ TEST(Conclusion, IsUnknownWhereACauseDoesNotCarryOver) {
   EXPECT_EQ(d.concluded().outcome, Outcome::named);
 }
 
+// The first of two causes looks wrong there as long as the other one is missing: together they
+// count.
+TEST(Conclusion, SeveralCausesCarryOverTogether) {
+  Case c;
+  c.diagnosis.ranking[0].held_out = {-50.0, 200.0};
+  const Candidate first = c.diagnosis.ranking[0];
+  c.findings.chain = {first, first};
+  c.findings.chain[1].cause = "latency";
+  c.diagnosis.ranking[0].fit.hypothesis.add(hypothesis_of("latency", "delay", 0.01, "s"));
+  c.diagnosis.ranking[0].fit.standard_error = Eigen::Vector3d(0.01, 0.02, 0.1);
+  c.findings.held_out = {200.0, 200.0};
+  EXPECT_EQ(c.concluded().outcome, Outcome::named);
+  c.findings.held_out = {-50.0, 200.0};
+  EXPECT_EQ(c.concluded().outcome, Outcome::unknown);
+}
+
 // What is in the data grows with time; the cause that was fitted dies out, and gains less than the
 // same run backwards. Where it is the other way round, the decoys are told and lose.
 TEST(Conclusion, IsUnknownWhereADecoyDoesAsWell) {
