@@ -67,8 +67,8 @@ TEST_F(Observe, SetEffectsAreSimulatedAndNotWritten) {
   EXPECT_LT(soft.trials[0].force.value(0, 0), 0.9 * plain.trials[0].force.value(0, 0));
 }
 
-// A scene's plant, as the scene changes it: twice the modulus, twice the force (the spring that
-// holds the tip is far stiffer than the stem).
+// A scene's plant, as the scene changes it: twice the modulus makes it twice as stiff, in series
+// with the spring that holds it.
 TEST_F(Observe, TakesAPlantOfAScene) {
   plant::PlantFile stem = discrepancy::testing::plant_of({});
   const double modulus = stem.material.youngs_modulus.value();

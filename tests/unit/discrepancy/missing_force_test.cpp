@@ -116,7 +116,9 @@ TEST(MissingForce, String) {
                      return 0.15 * std::max(0.0, away.norm() - 0.105) * away.normalized();
                    })},
                2);
-  expect_found(bent.infer(), "string", 0.7);
+  const MissingForce found = bent.infer();
+  expect_found(found, "string", 0.7);
+  EXPECT_TRUE(found.other_kinds.empty()) << found.sentence();
 }
 
 // A stop 3 mm beside the stem, on one side.
@@ -128,7 +130,11 @@ TEST(MissingForce, Stop) {
                      return 0.15 * std::max(0.0, -0.003 - n.dot(x)) * n;
                    })},
                3);
-  expect_found(bent.infer(), "stop", 0.7);
+  const MissingForce found = bent.infer();
+  expect_found(found, "stop", 0.7);
+  // It is a string to a far point as well.
+  EXPECT_EQ(found.other_kinds, std::vector<std::string>{"string"});
+  EXPECT_NE(found.sentence().find("Kind: stop or string, which"), std::string::npos);
 }
 
 // 0.6 mN at 1.7 Hz.

@@ -97,12 +97,14 @@ TEST(Report, ForceOfUnknownKindHasItsPlaceInTheDrawing) {
   d.force.place_error = 0.1;
   d.force.elsewhere = {plant::CurvePlace{"stem", 0.2, {}}};
   d.verdict.gain = -4.6;
+  d.exchanged = "push";
   const std::string page = report_text(d.admission.experiment, d);
   EXPECT_THAT(page, HasSubstr(">a force acts here<"));
   EXPECT_THAT(page, HasSubstr(">or here<"));
   EXPECT_THAT(page, Not(HasSubstr(">largest residual<")));
   EXPECT_THAT(page, Not(HasSubstr("That removes")));
   EXPECT_THAT(page, HasSubstr("<h3>What is left</h3>"));
+  EXPECT_THAT(page, HasSubstr("&quot;push&quot;, which was to be kept back"));
 }
 
 /// The open element that a closing one does not match, or what is left open; empty where all nest.
