@@ -8,9 +8,9 @@
 namespace pedicel::app {
 
 double resident_bytes() {
-  long pages_total = 0, pages_resident = 0;
-  std::ifstream("/proc/self/statm") >> pages_total >> pages_resident;
-  return static_cast<double>(pages_resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  long total = 0, resident = 0, of_files = 0;  // pages
+  std::ifstream("/proc/self/statm") >> total >> resident >> of_files;
+  return static_cast<double>(resident - of_files) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 double peak_megabytes() {

@@ -2,7 +2,7 @@
 
 namespace pedicel::app {
 
-/// Resident memory of this process now, bytes.
+/// Resident memory of this process now, bytes, without what it maps from files: its code.
 double resident_bytes();
 
 /// The most that it ever was, MiB.

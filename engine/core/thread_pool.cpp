@@ -1,5 +1,7 @@
 #include "core/thread_pool.h"
 
+#include <algorithm>
+
 #include "core/check.h"
 
 namespace pedicel {
@@ -13,11 +15,11 @@ void pause() {
 #endif
 }
 
-// A tenth of a millisecond or two: about as long as one thread of a step waits for another. True as
-// soon as `ready` is.
+// Some half a millisecond: longer than one thread of a step waits for another. True as soon as
+// `ready` is.
 template <class Ready>
 bool becomes_ready_soon(const Ready& ready) {
-  for (int i = 0; i < 4096; ++i) {
+  for (int i = 0; i < 8192; ++i) {
     if (ready()) return true;
     pause();
     if (i % 512 == 511) std::this_thread::yield();
@@ -27,9 +29,9 @@ bool becomes_ready_soon(const Ready& ready) {
 
 }  // namespace
 
-ThreadPool::ThreadPool(int threads) {
+ThreadPool::ThreadPool(int threads) : begun_(std::max(0, threads)) {
   if (threads < 1) throw UsageError("threads = " + std::to_string(threads) + ": must be >= 1");
-  for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  for (int i = 1; i < threads; ++i) workers_.emplace_back([this, i] { work(i); });
 }
 
 ThreadPool::~ThreadPool() {
@@ -49,21 +51,31 @@ void ThreadPool::run(int count, Call call, const void* object) {
   count_ = count;
   call_ = call;
   object_ = object;
-  next_.store(0, std::memory_order_relaxed);
+  for (int i = 0; i < threads(); ++i) begun_[i].store(i >= count, std::memory_order_relaxed);
+  next_.store(threads(), std::memory_order_relaxed);
   busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
   generation_.fetch_add(1, std::memory_order_release);
   {
     std::lock_guard lock(mutex_);  // whoever is falling asleep has either seen the call or waits
   }
   wake_.notify_all();
-  for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count;) call(object, i);
+  take_tasks(0);
   const auto done = [this] { return busy_.load(std::memory_order_acquire) == 0; };
   if (becomes_ready_soon(done)) return;
   std::unique_lock lock(mutex_);
   done_.wait(lock, done);
 }
 
-void ThreadPool::work() {
+void ThreadPool::take_tasks(int thread) {
+  const auto begin = [this](int i) {
+    if (!begun_[i].exchange(true, std::memory_order_relaxed)) call_(object_, i);
+  };
+  begin(thread);
+  for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) call_(object_, i);
+  for (int i = 0; i < threads(); ++i) begin(i);
+}
+
+void ThreadPool::work(int thread) {
   unsigned seen = 0;
   const auto called = [&] {
     return stop_.load(std::memory_order_acquire) ||
@@ -76,7 +88,7 @@ void ThreadPool::work() {
     }
     if (stop_) return;
     ++seen;
-    for (int i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) call_(object_, i);
+    take_tasks(thread);
     if (busy_.fetch_sub(1, std::memory_order_acq_rel) > 1) continue;
     std::lock_guard lock(mutex_);
     done_.notify_one();

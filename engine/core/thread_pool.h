@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -11,8 +10,10 @@ namespace pedicel {
 
 /// Runs independent tasks on a fixed number of threads. Which thread takes which task is not
 /// fixed, so tasks must not depend on each other: then any number of threads gives the same bits.
-/// Threads wait for the next call awake for some hundred microseconds, since waking one costs as
-/// much as a small task, and sleep after that.
+/// Task i of the first threads() is thread i's unless another one is idle before it comes to it:
+/// what the same task of an earlier call worked on mostly still lies in that core's cache. Threads
+/// wait for the next call awake for half a millisecond or so, since waking one costs as much as a
+/// small task, and sleep after that.
 class ThreadPool {
  public:
   /// `threads` counts the caller; 1 runs everything in the caller's thread.
@@ -34,12 +35,14 @@ class ThreadPool {
  private:
   using Call = void (*)(const void*, int);
   void run(int count, Call call, const void* object);
-  void work();
+  void work(int thread);
+  void take_tasks(int thread);
 
   std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable wake_, done_;
-  std::atomic<int> next_{0};
+  std::vector<std::atomic<bool>> begun_;  // by thread, its own task
+  std::atomic<int> next_{0};              // of the other tasks
   std::atomic<int> busy_{0};
   std::atomic<unsigned> generation_{0};
   std::atomic<bool> stop_{false};

@@ -180,6 +180,12 @@ void CapsulePairs::add(const CapsulePairs& from, std::size_t pair) {
   gap.push_back(from.gap[pair]);
 }
 
+void CapsulePairs::append(const CapsulePairs& measured) {
+  a.insert(a.end(), measured.a.begin(), measured.a.end());
+  b.insert(b.end(), measured.b.begin(), measured.b.end());
+  gap.insert(gap.end(), measured.gap.begin(), measured.gap.end());
+}
+
 NearestFractions nearest_fractions(const Vec3& start_a, const Vec3& along_a, const Vec3& start_b,
                                    const Vec3& along_b) {
   const double aa = along_a.squaredNorm(), bb = along_b.squaredNorm(), ab = along_a.dot(along_b);

@@ -43,6 +43,7 @@ struct CapsulePairs {
   void resize(std::size_t count);
   void add(int first, int second);
   void add(const CapsulePairs& from, std::size_t pair);  // measured: with the gap
+  void append(const CapsulePairs& measured);             // likewise
 };
 
 /// Sets at_a, at_b and gap of all pairs, several at a time: nearest_fractions() up to rounding.

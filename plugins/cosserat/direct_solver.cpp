@@ -47,6 +47,7 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
     any_loops_ = any_loops_ || plants_.back().loops;
   }
   states_.resize(plants_.size());
+  iterates_.resize(plants_.size());
   working_.resize(plants_.size());
   searching_.resize(plants_.size());
 }
@@ -144,36 +145,29 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
   std::vector<char>& fast = searching_;
   for (int p = 0; p < size(); ++p) fast[p] = rows_.change(p).turn > straight_turn;
   if (!any(fast)) return;
-  const auto evaluate = [&] {
-    rows_.set_active(fast);
-    root_outward(pool, [&](int group) { rows_.move(group, true); });
+  rows_.set_active(fast);
+  for (int p = 0; p < size(); ++p) {
+    Plant& plant = plants_[p];
+    rows_.set_share(p, 0.0);
+    iterates_[p] = fast[p] && plant.touched ? &plant.iterate : nullptr;
+  }
+  const auto potential = [&](int p, const RodState& state) {
+    if (!plants_[p].touched) return rows_.energy(p);
+    return rows_.energy(p) + plants_[p].attachments.potential(*steps[p].model, state);
   };
-  for (int p = 0; p < size(); ++p) rows_.set_share(p, 0.0);
-  evaluate();
+  root_outward(pool, [&](int group) { rows_.evaluate_start(group); });
+  for (int p = 0; p < size(); ++p)
+    if (fast[p]) plants_[p].energy = potential(p, *steps[p].state);
+  root_outward(pool, [&](int group) {
+    rows_.move(group, true);
+    rows_.write_iterate(group, iterates_);
+  });
   for (int p = 0; p < size(); ++p) {
     if (!fast[p]) continue;
-    plants_[p].energy = potential(p, *steps[p].model);
-    rows_.hold(p);
-  }
-  evaluate();
-  for (int p = 0; p < size(); ++p)
-    if (fast[p] && potential(p, *steps[p].model) < plants_[p].energy) fast[p] = 2;
-  std::vector<char>& continued = working_;  // all of these packs, and then what is to be held
-  for (int p = 0; p < size(); ++p) continued[p] = fast[p] != 0;
-  rows_.set_active(continued);
-  root_outward(pool, [&](int group) { rows_.prepare(group, {}); });
-  for (int p = 0; p < size(); ++p) {
-    if (fast[p] == 2) rows_.hold(p);
+    plants_[p].iterate_is_here = potential(p, plants_[p].iterate) < plants_[p].energy;
+    if (!plants_[p].iterate_is_here) rows_.hold(p);
     fast[p] = 0;
   }
-}
-
-// At the iterate whose energy move() has left.
-double DirectSolver::potential(int index, const RodModel& model) {
-  Plant& plant = plants_[index];
-  if (!plant.touched) return rows_.energy(index);
-  rows_.write_iterate(index, plant.iterate);
-  return rows_.energy(index) + plant.attachments.potential(model, plant.iterate);
 }
 
 void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
@@ -207,13 +201,16 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
   int count = 0;
   for (int p = 0; p < size(); ++p) count += wanted(p) ? 1 : 0;
   if (count == 0) return;
+  for (int p = 0; p < size(); ++p)
+    iterates_[p] = wanted(p) && !plants_[p].iterate_is_here ? &plants_[p].iterate : nullptr;
+  if (std::any_of(iterates_.begin(), iterates_.end(), [](const RodState* s) { return s; }))
+    root_outward(pool, [&](int group) { rows_.write_iterate(group, iterates_); });
   // Where there is but one plant, its sources may use the threads.
   ThreadPool* const inner = count == 1 ? &pool : nullptr;
   const auto linearise = [&](int p) {
     if (!wanted(p)) return;
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
-    if (!plant.iterate_is_here) rows_.write_iterate(p, plant.iterate);
     for (ContactSource* source : steps[p].contacts) source->use(inner);
     plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
     for (ContactSource* source : steps[p].contacts) source->use(nullptr);
@@ -250,10 +247,14 @@ void DirectSolver::search(std::span<PlantStep> steps, ThreadPool& pool) {
   for (int p = 0; p < size(); ++p) {
     if (working_[p]) start_search(p, steps[p].report);
     rows_.set_share(p, working_[p] ? plants_[p].share : 0.0);
+    iterates_[p] = searching_[p] && plants_[p].touched ? &plants_[p].iterate : nullptr;
   }
   for (bool keep = true; any(searching_); keep = false) {
     rows_.set_active(searching_);
-    root_outward(pool, [&](int group) { rows_.move(group, keep); });
+    root_outward(pool, [&](int group) {
+      rows_.move(group, keep);
+      rows_.write_iterate(group, iterates_);
+    });
     pool.for_each(size(), [&](int p) {
       if (searching_[p]) try_share(p, *steps[p].model, steps[p].report);
     });
@@ -277,7 +278,6 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
   Plant& plant = plants_[index];
   double found = rows_.energy(index);
   if (plant.touched) {
-    rows_.write_iterate(index, plant.iterate);
     const double pressed = plant.contacts.potential(model, plant.iterate);
     plant.presses = plant.presses || pressed > 0.0;
     found += plant.attachments.potential(model, plant.iterate) + pressed;
@@ -379,7 +379,9 @@ void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Ve
 }
 
 void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
-  root_outward(pool, [&](int group) { rows_.finish(group); });
+  for (int p = 0; p < size(); ++p)  // what steps in parts leave is not in the rows
+    if (plants_[p].in_parts || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
+  root_outward(pool, [&](int group) { rows_.finish(group, states_); });
   pool.for_each(size(), [&](int p) {
     Plant& plant = plants_[p];
     RodState& state = *steps[p].state;
@@ -390,12 +392,11 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
       state.previous_dt = 0.0;
       return;
     }
-    if (plant.in_parts) {  // what it left is not in the rows
+    if (plant.in_parts) {
       state.previous_dt = 0.0;
       state.time += dt;
       return;
     }
-    rows_.write_end(p, state);
     if (report.errors != none) report.element = rows_.largest_change(p, state.size());
     plant.contacts.finish(*steps[p].model, state);
     report.contacts = static_cast<int>(plant.contacts.forces().size());

@@ -89,7 +89,6 @@ class DirectSolver : public RodSolver {
   void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
   void begin_memory(int index, const RodModel& model, RodState& state) const;
   void choose_start(std::span<PlantStep> steps, ThreadPool& pool);
-  double potential(int index, const RodModel& model);
   void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void solve_loops(int index, const RodModel& model);
@@ -107,8 +106,8 @@ class DirectSolver : public RodSolver {
   RodRows rows_;
   std::vector<Plant> plants_;
   // By plant.
-  std::vector<const RodState*> states_;
-  std::vector<char> working_, searching_;  // Newton, its line search: not done yet
+  std::vector<RodState*> states_, iterates_;  // nullptr where not to be written
+  std::vector<char> working_, searching_;     // Newton, its line search: not done yet
   bool any_loops_ = false;
   bool settling_ = false;
   bool is_part_ = false;              // takes the steps of another one in parts

@@ -32,13 +32,17 @@ LaneLayout::LaneLayout(std::span<const RodModel* const> plants, int threads, boo
 
 void LaneLayout::add_chains(const RodModel& model, int plant) {
   const int n = model.size();
-  std::vector<int> height(n, 1), next(n, -1);  // elements on the longest path; the child on it
+  std::vector<int> height(n, 1),
+      next(n, -1);  // elements on the longest path; the child to go on to
+  const auto rank = [&](int parent, int child) {
+    return std::pair(model.elements[child].organ == model.elements[parent].organ, height[child]);
+  };
   for (int e = n - 1; e >= 0; --e) {
     const int p = model.elements[e].parent;
-    if (p < 0 || height[e] + 1 < height[p]) continue;
+    if (p < 0) continue;
+    height[p] = std::max(height[p], height[e] + 1);
     // Of equal ones the first child goes on: it is the last to come by here.
-    height[p] = height[e] + 1;
-    next[p] = e;
+    if (next[p] < 0 || rank(p, e) >= rank(p, next[p])) next[p] = e;
   }
   std::vector<int> chain_of(n, -1);
   std::vector<int>& own = chains_of_plant_.emplace_back();
@@ -143,22 +147,24 @@ void LaneLayout::pack(std::vector<int> chains, const std::vector<bool>& keeps) {
   };
   std::sort(chains.begin(), chains.end(), [&](int a, int b) { return key(a) < key(b); });
   for (std::size_t i = 0; i < chains.size();) {
-    const int first = chains[i];
-    std::vector<int> lanes(lane_count, -1);
+    const int first = chains[i], begin = rows();
+    std::array<int, lane_count> nothing;
+    nothing.fill(-1);
+    elements_.resize(begin + 1 + chains_[first].elements.size(), nothing);
     for (int lane = 0; lane < lane_count && i < chains.size(); ++lane, ++i) {
       const int c = chains[i];
       Chain& chain = chains_[c];
       if (chain.level != chains_[first].level || kept(c) != kept(first)) break;
-      lanes[lane] = c;
       chain.pack = packs();
       chain.lane = lane;
-      for (std::size_t k = 0; k < chain.elements.size(); ++k)
-        slots_[chain.plant][chain.elements[k]] = {rows_ + 1 + static_cast<int>(k), lane};
+      int row = begin;
+      for (const int e : chain.elements) {
+        slots_[chain.plant][e] = {++row, lane};
+        elements_[row][lane] = e;
+      }
     }
     keeps_blocks_.push_back(kept(first));
-    rows_ += 1 + static_cast<int>(chains_[first].elements.size());
-    first_row_.push_back(rows_);
-    chain_of_lane_.push_back(std::move(lanes));
+    first_row_.push_back(rows());
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,9 @@ struct Slot {
   int row = -1, lane = 0;
 };
 
-/// A path of elements, each the parent of the next: where a plant forks, the child with the longest
-/// path below it goes on and the others start chains of their own.
+/// A path of elements, each the parent of the next: where a plant forks, the child of the same
+/// organ goes on, else the one with the longest path below it, and the others start chains of their
+/// own. So equal branches are equal chains, and a stem does not go on into the last of them.
 struct Chain {
   int plant = 0;
   std::vector<int> elements;  // from the root outward
@@ -35,15 +37,15 @@ class LaneLayout {
   /// `threads` >= 1. With `keep_blocks` no plant is eliminated row by row.
   LaneLayout(std::span<const RodModel* const> plants, int threads, bool keep_blocks);
 
-  int rows() const { return rows_; }
+  int rows() const { return static_cast<int>(elements_.size()); }
   const std::vector<Chain>& chains() const { return chains_; }
   /// Chains in the order of their first elements.
   std::span<const int> chains_of_plant(int plant) const { return chains_of_plant_[plant]; }
   Slot slot(int plant, int element) const { return slots_[plant][element]; }
 
-  /// What stands in a lane of a pack (an index into chains()); -1: nothing.
-  int chain(int pack, int lane) const { return chain_of_lane_[pack][lane]; }
-  int packs() const { return static_cast<int>(chain_of_lane_.size()); }
+  /// Which elements, of the plants of its lanes, stand in a row; -1: none.
+  const std::array<int, lane_count>& elements(int row) const { return elements_[row]; }
+  int packs() const { return static_cast<int>(keeps_blocks_.size()); }
   int first_row(int pack) const { return first_row_[pack]; }
   int end_row(int pack) const { return first_row_[pack + 1]; }
   /// Packs of plants with loops hold nothing else: they are not eliminated row by row.
@@ -62,10 +64,9 @@ class LaneLayout {
   std::vector<Chain> chains_;
   std::vector<std::vector<int>> chains_of_plant_;
   std::vector<std::vector<Slot>> slots_;
-  std::vector<std::vector<int>> chain_of_lane_;
+  std::vector<std::array<int, lane_count>> elements_;  // by row
   std::vector<int> first_row_{0}, group_begin_{0};
   std::vector<bool> keeps_blocks_;
-  int rows_ = 0;
 };
 
 }  // namespace pedicel::cosserat

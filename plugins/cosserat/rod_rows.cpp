@@ -171,40 +171,41 @@ void RodRows::set_active(std::span<const char> plants) {
 }
 
 void RodRows::read_states(int pack, std::span<const RodState* const> states) {
-  std::vector<PoseRow>& start = scratch_->start;
-  std::vector<RateRow>& rate = scratch_->rate;
+  const int begin = packs_[pack].begin;
   for (int lane = 0; lane < lane_count; ++lane) {
-    int row = packs_[pack].begin;
-    const int c = layout_.chain(pack, lane);
-    if (c >= 0) {
-      const Chain& chain = layout_.chains()[c];
-      const RodState& state = *states[chain.plant];
-      const int anchor = anchors_[pack][lane].element;
-      // Strains of the start are against the clamp of the start.
-      if (anchor < 0)
-        put(start[row], lane, state.previous_root.position, state.previous_root.rotation);
-      else
-        put(start[row], lane, state.position[anchor], state.orientation[anchor]);
-      for (const int e : chain.elements) {
-        ++row;
-        put(start[row], lane, state.position[e], state.orientation[e]);
-        put(rate[row].velocity, lane, state.velocity[e]);
-        put(rate[row].angular_velocity, lane, state.angular_velocity[e]);
-        if (extended_[chain.plant].branches > 0) read_memory(chain.plant, state, e, row, lane);
-        if (state.alive[e] || element_[row].alive[lane] == 0.0) continue;
-        // It came off: nothing ties it to its parent any more.
-        element_[row].alive[lane] = 0.0;
-        put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
-        put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
-        if (!extension_.empty()) extension_[row].drag[lane] = 0.0;
+    const auto [plant, parent] = anchors_[pack][lane];
+    PoseRow& start = scratch_->start[begin];
+    if (plant < 0)
+      put(start, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
+    else if (parent < 0)  // strains of the start are against the clamp of the start
+      put(start, lane, states[plant]->previous_root.position,
+          states[plant]->previous_root.rotation);
+    else
+      put(start, lane, states[plant]->position[parent], states[plant]->orientation[parent]);
+  }
+  for (int row = begin + 1; row < packs_[pack].end; ++row) {
+    PoseRow& start = scratch_->start[row];
+    RateRow& rate = scratch_->rate[row];
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const int e = layout_.elements(row)[lane];
+      if (e < 0) {  // whatever the scratch held must not reach a lane's sums
+        put(start, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
+        put(rate.velocity, lane, Vec3(0, 0, 0));
+        put(rate.angular_velocity, lane, Vec3(0, 0, 0));
+        continue;
       }
-      ++row;
-    }
-    // Whatever the scratch held must not reach a lane's sums.
-    for (; row < packs_[pack].end; ++row) {
-      put(start[row], lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
-      put(rate[row].velocity, lane, Vec3(0, 0, 0));
-      put(rate[row].angular_velocity, lane, Vec3(0, 0, 0));
+      const int plant = anchors_[pack][lane].plant;
+      const RodState& state = *states[plant];
+      put(start, lane, state.position[e], state.orientation[e]);
+      put(rate.velocity, lane, state.velocity[e]);
+      put(rate.angular_velocity, lane, state.angular_velocity[e]);
+      if (extended_[plant].branches > 0) read_memory(plant, state, e, row, lane);
+      if (state.alive[e] || element_[row].alive[lane] == 0.0) continue;
+      // It came off: nothing ties it to its parent any more.
+      element_[row].alive[lane] = 0.0;
+      put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
+      put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
+      if (!extension_.empty()) extension_[row].drag[lane] = 0.0;
     }
   }
 }
@@ -213,15 +214,15 @@ void RodRows::prepare(int group, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
   for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
     if (!packs_[p].active) continue;
-    if (!states.empty()) read_states(p, states);
+    read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
-    place_anchors(p);
+    place_anchors(p, scratch_->iterate);
   }
 }
 
-// The parents' iterates into a pack's first row: theirs must have been moved already.
-void RodRows::place_anchors(int pack) {
-  PoseRow& row = scratch_->iterate[packs_[pack].begin];
+// The parents' poses into a pack's first row: theirs must have been moved already.
+void RodRows::place_anchors(int pack, std::vector<PoseRow>& poses) const {
+  PoseRow& row = poses[packs_[pack].begin];
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto [plant, parent] = anchors_[pack][lane];
     if (plant < 0) {
@@ -230,7 +231,7 @@ void RodRows::place_anchors(int pack) {
       put(row, lane, roots_[plant].position, roots_[plant].rotation);
     } else {
       const Slot slot = layout_.slot(plant, parent);
-      const PoseRow& from = scratch_->iterate[slot.row];
+      const PoseRow& from = poses[slot.row];
       for (int i = 0; i < 3; ++i) row.position[i][lane] = from.position[i][slot.lane];
       for (int i = 0; i < 4; ++i) row.orientation[i][lane] = from.orientation[i][slot.lane];
     }
@@ -248,6 +249,17 @@ void RodRows::change_anchors(int pack) {
   }
 }
 
+// Nothing needs the clamps of the start any more: prepare() has taken the strains against them.
+void RodRows::evaluate_start(int group) {
+  RowArrays rows = arrays();
+  rows.iterate = rows.start;
+  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
+    if (!packs_[p].active) continue;
+    place_anchors(p, scratch_->start);
+    cosserat::move(rows, packs_[p], true);
+  }
+}
+
 void RodRows::hold(int plant) {
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
@@ -257,7 +269,8 @@ void RodRows::hold(int plant) {
     };
     for (const int e : chain.elements) copy(layout_.slot(plant, e).row);
   }
-  for (const int c : layout_.chains_of_plant(plant)) place_anchors(layout_.chains()[c].pack);
+  for (const int c : layout_.chains_of_plant(plant))
+    place_anchors(layout_.chains()[c].pack, scratch_->iterate);
 }
 
 void RodRows::read_iterate(int plant, const RodState& state) {
@@ -265,19 +278,30 @@ void RodRows::read_iterate(int plant, const RodState& state) {
     const Slot slot = layout_.slot(plant, e);
     put(scratch_->iterate[slot.row], slot.lane, state.position[e], state.orientation[e]);
   }
-  for (const int c : layout_.chains_of_plant(plant)) place_anchors(layout_.chains()[c].pack);
+  for (const int c : layout_.chains_of_plant(plant))
+    place_anchors(layout_.chains()[c].pack, scratch_->iterate);
 }
 
-void RodRows::write_iterate(int plant, RodState& state) const {
-  for (const int c : layout_.chains_of_plant(plant)) {
-    const Chain& chain = layout_.chains()[c];
-    const PoseRow* row = &scratch_->iterate[packs_[chain.pack].begin];
-    for (const int e : chain.elements) {
-      ++row;
-      state.position[e] = vector_at(row->position, chain.lane);
-      state.orientation[e] = rotation_at(row->orientation, chain.lane);
+// write(state, element, row, lane) for all whose plant has a state, row by row, as the rows lie: a
+// lane at a time would fetch each of them eight times.
+template <class Write>
+void RodRows::for_each_element(int pack, std::span<RodState* const> states,
+                               const Write& write) const {
+  for (int row = packs_[pack].begin + 1; row < packs_[pack].end; ++row) {
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const int e = layout_.elements(row)[lane];
+      if (e < 0) continue;
+      if (RodState* const state = states[anchors_[pack][lane].plant]) write(*state, e, row, lane);
     }
   }
+}
+
+void RodRows::write_iterate(int group, std::span<RodState* const> states) const {
+  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p)
+    for_each_element(p, states, [&](RodState& state, int e, int row, int lane) {
+      state.position[e] = vector_at(scratch_->iterate[row].position, lane);
+      state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
+    });
 }
 
 void RodRows::clear_extras() {
@@ -387,38 +411,39 @@ void RodRows::move(int group, bool keep) {
   const RowArrays rows = arrays();
   for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
     if (!packs_[p].active) continue;
-    place_anchors(p);
+    place_anchors(p, scratch_->iterate);
     cosserat::move(rows, packs_[p], keep);
   }
 }
 
-void RodRows::finish(int group) {
+void RodRows::finish(int group, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
-  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p)
+  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p) {
     cosserat::finish(rows, packs_[p], previous_rate_.data());
-}
-
-void RodRows::write_end(int plant, RodState& state) const {
-  for (const int c : layout_.chains_of_plant(plant)) {
-    const Chain& chain = layout_.chains()[c];
-    const int lane = chain.lane;
-    int row = packs_[chain.pack].begin;
-    for (const int e : chain.elements) {
-      ++row;
-      if (!state.alive[e]) continue;
-      state.position[e] = vector_at(scratch_->iterate[row].position, lane);
-      state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
-      state.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
-      state.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
-      const int branches = extended_[plant].branches;
-      for (int j = 0; j < branches; ++j)
-        state.joint_memory[e * branches + j] =
-            vector_at(branch_[row * branches_a_row_ + j].value, lane);
-    }
+    write_end(p, states);
   }
 }
 
+void RodRows::write_end(int pack, std::span<RodState* const> states) const {
+  for_each_element(pack, states, [&](RodState& state, int e, int row, int lane) {
+    if (!state.alive[e]) return;
+    state.position[e] = vector_at(scratch_->iterate[row].position, lane);
+    state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
+    state.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
+    state.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
+    const int branches = extended_[anchors_[pack][lane].plant].branches;
+    for (int j = 0; j < branches; ++j)
+      state.joint_memory[e * branches + j] =
+          vector_at(branch_[row * branches_a_row_ + j].value, lane);
+  });
+}
+
 void RodRows::end_step() {
+  if (scratch_.use_count() == 1) {  // what a step leaves there is nobody else's
+    scratch_->start.swap(previous_);
+    scratch_->rate.swap(previous_rate_);
+    return;
+  }
   std::copy_n(scratch_->start.begin(), layout_.rows(), previous_.begin());
   std::copy_n(scratch_->rate.begin(), layout_.rows(), previous_rate_.begin());
 }

@@ -66,12 +66,15 @@ class RodRows {
   void set_active(std::span<const char> plants);
 
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
-  /// then says how far that turns an element. Without states: again, from those read last.
+  /// then says how far that turns an element.
   void prepare(int group, std::span<const RodState* const> states);
+  /// Sets energy(): what the step's start would have, with the clamps where they end.
+  void evaluate_start(int group);
   /// Makes the step's start the iterate of a plant.
   void hold(int plant);
   void read_iterate(int plant, const RodState& state);
-  void write_iterate(int plant, RodState& state) const;
+  /// Writes the group's share of the plants' iterates to the states that are given.
+  void write_iterate(int group, std::span<RodState* const> states) const;
 
   /// Newton's system at the iterate, reduced to y and factors (trees) or left as blocks (loops).
   /// What springs and contacts add must have been given since the last call.
@@ -88,9 +91,9 @@ class RodRows {
   void set_share(int plant, double share);
   void move(int group, bool keep);
 
-  /// Ends the step: velocities. Then end_step() makes this step the past.
-  void finish(int group);
-  void write_end(int plant, RodState& state) const;
+  /// Ends the step: velocities, written to the plants' states, with the iterate, where there is
+  /// one. Then end_step() makes this step the past.
+  void finish(int group, std::span<RodState* const> states);
   void end_step();
 
   /// Of the last eliminate() or move(), J.
@@ -130,7 +133,10 @@ class RodRows {
   void mark_extended(int plant, const RodModel& model);
   void read_memory(int plant, const RodState& state, int element, int row, int lane);
   void read_states(int pack, std::span<const RodState* const> states);
-  void place_anchors(int pack);
+  void write_end(int pack, std::span<RodState* const> states) const;
+  template <class Write>
+  void for_each_element(int pack, std::span<RodState* const> states, const Write& write) const;
+  void place_anchors(int pack, std::vector<PoseRow>& poses) const;
   void change_anchors(int pack);
 
   LaneLayout layout_;

@@ -37,7 +37,8 @@ SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& setti
   for (Capsules* capsules : {&start_, &now_}) capsules->resize(count);
   for (std::vector<double>* values : {&way_, &reach_, &far_.budget, &near_.budget})
     values->assign(count, 0.0);
-  for (const Element& element : model.elements) parent_.push_back(element.parent);
+  for (const CollisionShape& shape : model.shapes)
+    lineage_.push_back(lineage(model, shape.element));
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const CollisionShape& shape = model.shapes[i];
@@ -50,11 +51,9 @@ SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& setti
   begin_step(model, drawn, 0.0);
   now_ = start_;
   measure_ways();
+  first_excluded_.assign(count + 1, 0);
   collect_far(model);
-  for (std::size_t i = 0; i < far_.pairs.size(); ++i)
-    if (far_.pairs.gap[i] < settings_.margin)
-      excluded_.emplace_back(far_.pairs.a[i], far_.pairs.b[i]);
-  std::sort(excluded_.begin(), excluded_.end());
+  exclude_touching();
   collect_far(model);
   work_ = {};
 }

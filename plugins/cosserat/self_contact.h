@@ -69,6 +69,12 @@ class SelfContact : public ContactSource {
   const Work& work() const { return work_; }
 
  private:
+  // A shape's element and those that it hangs on; -1: none.
+  struct Lineage {
+    int element = -1, parent = -1, grandparent = -1;
+    bool is_near(const Lineage& other) const;
+  };
+  static Lineage lineage(const RodModel& model, int element);
   // Pairs that hold while no end of a capsule has moved by more than its `budget` from `reference`.
   struct List {
     CapsulePairs pairs;
@@ -81,7 +87,8 @@ class SelfContact : public ContactSource {
   void collect_near(const RodModel& model);
   bool far_list_holds();
   void collect_far(const RodModel& model);
-  void leave_out_neighbours(const RodModel& model);
+  void exclude_touching();
+  bool is_left_out(const RodModel& model, int a, int b) const;
   double moved_apart(int a, int b) const;
   void touch_some(const RodModel& model, const RodState& state, double dt, std::size_t first,
                   std::size_t end, std::vector<ContactPoint>& found) const;
@@ -95,17 +102,19 @@ class SelfContact : public ContactSource {
   SelfContactSettings settings_;
   PartedLoop loop_;
   std::array<std::vector<ContactPoint>, PartedLoop::most_parts> found_;  // scratch
-  std::vector<int> parent_;                                              // of the elements
+  std::vector<Lineage> lineage_;                                         // of the shapes
   double extent_ = 0.0;                        // m, mean length of a shape
   std::vector<std::pair<int, int>> excluded_;  // shapes, ascending
+  std::vector<int> first_excluded_;            // by shape, in excluded_
   Capsules start_, now_;                       // the shapes, at the step's start and at the iterate
   std::vector<double> way_;                    // m, by shape: of an end in this step, at most
   std::vector<double> reach_;                  // m, by shape: of the way still open to it
   List far_, near_;                            // near_ is ascending; far_'s gaps: at its reference
   bool near_list_made_ = false;                // in this step
   CapsulePairs measured_;                      // scratch
-  std::vector<std::pair<int, int>> candidates_;  // scratch
-  std::vector<Eigen::AlignedBox3d> boxes_;       // scratch, m, W
+  std::array<CapsulePairs, PartedLoop::most_parts> sieved_, kept_;  // scratch
+  std::vector<std::pair<int, int>> candidates_;                     // scratch
+  std::vector<Eigen::AlignedBox3d> boxes_;                          // scratch, m, W
   OverlappingBoxes overlapping_;
   PairSort sort_;
   Work work_;

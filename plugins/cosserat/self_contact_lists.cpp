@@ -1,7 +1,7 @@
 // The lists of pairs that SelfContact keeps.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <numeric>
 
 #include "cosserat/self_contact.h"
 
@@ -26,24 +26,18 @@ double squared_way(const Capsules& now, const Capsules& before, std::size_t i) {
   return std::max(near, far);
 }
 
-// At most two joints apart: parent, grandparent, or sibling.
-bool is_near_in_tree(const std::vector<int>& parents, int a, int b) {
-  const auto parent = [&](int e) { return e < 0 ? -1 : parents[e]; };
-  if (a == b || parent(a) == parent(b)) return true;
-  return parent(a) == b || parent(b) == a || parent(parent(a)) == b || parent(parent(b)) == a;
-}
-
-bool is_near_in_graph(const RodModel& model, const std::vector<int>& parents, int a, int b) {
-  if (is_near_in_tree(parents, a, b)) return true;
-  const auto joined = [&](int x, int y, const Weld& weld) {
-    return (x == weld.a && is_near_in_tree(parents, weld.b, y)) ||
-           (x == weld.b && is_near_in_tree(parents, weld.a, y));
-  };
-  return std::any_of(model.welds.begin(), model.welds.end(),
-                     [&](const Weld& weld) { return joined(a, b, weld) || joined(b, a, weld); });
-}
-
 }  // namespace
+
+SelfContact::Lineage SelfContact::lineage(const RodModel& model, int element) {
+  const auto parent = [&](int e) { return e < 0 ? -1 : model.elements[e].parent; };
+  return {element, parent(element), parent(parent(element))};
+}
+
+// At most two joints apart: parent, grandparent, or sibling.
+bool SelfContact::Lineage::is_near(const Lineage& other) const {
+  return element == other.element || parent == other.parent || parent == other.element ||
+         other.parent == element || grandparent == other.element || other.grandparent == element;
+}
 
 void SelfContact::place(const RodModel& model, const RodState& state, Capsules& capsules) const {
   const std::size_t count = model.shapes.size();
@@ -128,28 +122,43 @@ void SelfContact::collect_far(const RodModel& model) {
     boxes_[i].max().array() += wide;
   }
   overlapping_.find(boxes_, candidates_, loop_);
-  measured_.resize(candidates_.size());
-  for (std::size_t i = 0; i < candidates_.size(); ++i)
-    std::tie(measured_.a[i], measured_.b[i]) = candidates_[i];
-  measure(now_, measured_, loop_);
-  sift(measured_, settings_.margin, far_.budget, far_.pairs);
-  leave_out_neighbours(model);
+  const int parts = loop_.parts(candidates_.size(), worth_waking);
+  loop_.run(candidates_.size(), parts, [&](int part, std::size_t first, std::size_t end) {
+    CapsulePairs& pairs = sieved_[part];
+    pairs.clear();
+    for (std::size_t i = first; i < end; ++i) {
+      const auto [a, b] = candidates_[i];
+      if (!is_left_out(model, a, b)) pairs.add(a, b);
+    }
+    measure(now_, pairs);
+    sift(pairs, settings_.margin, far_.budget, kept_[part]);
+  });
+  far_.pairs.clear();
+  for (int part = 0; part < parts; ++part) far_.pairs.append(kept_[part]);
 }
 
-// Shapes that are near in the tree, and those that nearly touch as drawn.
-void SelfContact::leave_out_neighbours(const RodModel& model) {
-  CapsulePairs& pairs = far_.pairs;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const int a = pairs.a[i], b = pairs.b[i];
-    if (is_near_in_graph(model, parent_, model.shapes[a].element, model.shapes[b].element) ||
-        std::binary_search(excluded_.begin(), excluded_.end(), std::pair(a, b)))
-      continue;
-    pairs.a[kept] = a;
-    pairs.b[kept] = b;
-    pairs.gap[kept++] = pairs.gap[i];
-  }
-  pairs.resize(kept);
+// What nearly touches as drawn, by the far list there.
+void SelfContact::exclude_touching() {
+  for (std::size_t i = 0; i < far_.pairs.size(); ++i)
+    if (far_.pairs.gap[i] < settings_.margin)
+      excluded_.emplace_back(far_.pairs.a[i], far_.pairs.b[i]);
+  std::sort(excluded_.begin(), excluded_.end());
+  for (const auto& [a, b] : excluded_) ++first_excluded_[a + 1];
+  std::partial_sum(first_excluded_.begin(), first_excluded_.end(), first_excluded_.begin());
+}
+
+// Shapes that are near in the tree, or across a weld, and those that nearly touch as drawn.
+bool SelfContact::is_left_out(const RodModel& model, int a, int b) const {
+  if (lineage_[a].is_near(lineage_[b])) return true;
+  for (int i = first_excluded_[a]; i < first_excluded_[a + 1]; ++i)
+    if (excluded_[i].second == b) return true;
+  const auto joined = [&](const Lineage& x, const Lineage& y, const Weld& weld) {
+    return (x.element == weld.a && lineage(model, weld.b).is_near(y)) ||
+           (x.element == weld.b && lineage(model, weld.a).is_near(y));
+  };
+  return std::any_of(model.welds.begin(), model.welds.end(), [&](const Weld& weld) {
+    return joined(lineage_[a], lineage_[b], weld) || joined(lineage_[b], lineage_[a], weld);
+  });
 }
 
 // How far two capsules have moved against each other in this step, at most, wherever on them.

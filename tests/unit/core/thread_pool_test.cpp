@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <barrier>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "core/check.h"
@@ -52,6 +54,22 @@ TEST(ThreadPool, ManyShortRoundsStayInStep) {
     pool.for_each(8, [&](int i) { ++values[static_cast<std::size_t>(i)]; });
     ASSERT_THAT(values, testing::Each(round)) << "after round " << round;
   }
+}
+
+// While all tasks of a round run at once, none can be idle and take another one's.
+TEST(ThreadPool, AThreadKeepsItsTask) {
+  constexpr int threads = 3;
+  ThreadPool pool(threads);
+  std::vector<std::thread::id> ran_by(threads);
+  for (int round = 0; round < 300; ++round) {
+    std::barrier all_begun(threads);
+    pool.for_each(threads, [&](int i) {
+      all_begun.arrive_and_wait();
+      if (round == 0) ran_by[i] = std::this_thread::get_id();
+      EXPECT_EQ(ran_by[i], std::this_thread::get_id()) << "round " << round;
+    });
+  }
+  EXPECT_EQ(ran_by[0], std::this_thread::get_id());
 }
 
 TEST(ThreadPool, PoolsComeAndGo) {

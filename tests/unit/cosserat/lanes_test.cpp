@@ -69,7 +69,7 @@ TEST(LaneLayout, BranchesComeBeforeWhatCarriesThem) {
 TEST(LaneLayout, FillsLanesWithEqualPlantsAndEqualBranches) {
   std::vector<RodModel> forest;
   for (int p = 0; p < plant::forest_size; ++p) forest.push_back(plant::forest_plant(p));
-  // 38 x 59 elements; chains of 25, 8 and 2: 5 x 25 + 19 x 8 + 5 x 2 rows, one more a pack.
+  // 38 stems of 19 and 190 branches of 8: 5 x 19 + 24 x 8 rows, one more a pack.
   EXPECT_EQ(LaneLayout(pointers(forest), 1, false).rows(), 287 + 29);
 }
 
@@ -79,6 +79,12 @@ TEST(LaneLayout, OneLargePlantIsSharedOutByItsBranches) {
   ASSERT_EQ(layout.groups(), 3);  // two and what carries them
   for (int group = 0; group < 3; ++group)
     EXPECT_LT(layout.group_begin(group), layout.group_end(group));
+  // Only the trunk is on top: its last branch, with a longer path below it, is not part of it.
+  ASSERT_EQ(layout.group_end(2) - layout.group_begin(2), 1);
+  const int trunk = layout.group_begin(2);
+  EXPECT_EQ(layout.end_row(trunk) - layout.first_row(trunk), 1 + 42);
+  // 132 twigs of 10, 22 branches of 40.
+  EXPECT_EQ(LaneLayout(pointers(tree), 1, false).rows(), 42 + 3 * 40 + 17 * 10 + 21);
 }
 
 // The rows' elimination against the block system, which is tested against dense matrices.
