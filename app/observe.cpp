@@ -102,6 +102,8 @@ void keep_gaps(const discrepancy::Samples& measured, Eigen::MatrixXd& predicted)
 }
 
 void simulate(const ObserveArguments& a, Experiment& experiment) {
+  // Fruits come off by the plant's own thresholds, not when the other one's did.
+  for (Trial& trial : experiment.trials) trial.events.clear();
   discrepancy::Variant variant;
   for (const std::string& text : a.set) variant.effects.push_back(parse_effect(text));
   discrepancy::Simulator simulator(experiment, {a.distance, a.dt}, a.threads);
@@ -116,7 +118,7 @@ void simulate(const ObserveArguments& a, Experiment& experiment) {
     keep_gaps(trial.markers, found[t].markers);
     trial.markers.value = std::move(found[t].markers);
     add_noise(trial.markers, a.noise_position, a.noise_colour, a.seed + 2 * t);
-    trial.events.clear();
+    trial.events = std::move(found[t].events);
     if (trial.force.size() == 0) continue;
     keep_gaps(trial.force, found[t].force);
     trial.force.value = std::move(found[t].force);

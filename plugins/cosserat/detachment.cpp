@@ -84,7 +84,6 @@ void lighten(RodModel& model, RodState& state, int e) {
   const double com_before = model.elements[e].com_back;
   lump_inertia(model, e, state.fruit_gone);
   state.velocity[e] += q * omega.cross(Vec3(0, 0, com_before - model.elements[e].com_back));
-  state.previous_dt = 0.0;  // the past belongs to another body: the next step is first order
 }
 
 }  // namespace
@@ -94,19 +93,26 @@ double margin_used(const RodModel& model, const RodState& state, int fruit) {
   return margins(model, state, model.fruits[fruit]).used;
 }
 
+void take_off(RodModel& model, RodState& state, int fruit) {
+  const int e = model.fruits[fruit].element;
+  const bool with_stub = is_tip(model, state, model.fruits[fruit]);
+  state.fruit_gone[fruit] = true;
+  // What pulled is gone at once: a second-order step would take the velocity's bend for curvature,
+  // and be of first order for good.
+  state.previous_dt = 0.0;
+  if (with_stub)
+    state.alive[e] = 0;
+  else
+    lighten(model, state, e);
+}
+
 void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events) {
   for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
-    const int e = model.fruits[f].element;
-    if (state.fruit_gone[f] || !state.alive[e]) continue;
+    if (state.fruit_gone[f] || !state.alive[model.fruits[f].element]) continue;
     const Margins m = margins(model, state, model.fruits[f]);
     if (m.used < 1.0) continue;
-    const DetachEvent event = record(model, state, f, m);
-    events.push_back(event);
-    state.fruit_gone[f] = true;
-    if (event.stub_length > 0.0)
-      state.alive[e] = 0;
-    else
-      lighten(model, state, e);
+    events.push_back(record(model, state, f, m));
+    take_off(model, state, f);
   }
 }
 

@@ -35,6 +35,9 @@ struct DetachEvent {
 /// `events`.
 void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events);
 
+/// Takes a fruit off that is still on, whatever its joint carries.
+void take_off(RodModel& model, RodState& state, int fruit);
+
 /// How near a fruit is to coming off: the largest ratio of a strain or load to its threshold, or
 /// the sum of its law (1 breaks).
 double margin_used(const RodModel& model, const RodState& state, int fruit);

@@ -142,12 +142,32 @@ void check_units(Admission& admission) {
                       std::to_string(size) + " m: expected metres in the plant's own frame";
 }
 
+// When a fruit came off is known to a sample, and a plant that was let go moves far within one:
+// what follows does not say how it swings to the accuracy of its markers.
+bool leave_out_after_break(Trial& trial) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const MeasuredEvent& event : trial.events)
+    if (event.is_detachment()) first = std::min(first, event.time);
+  bool any = false;
+  for (Samples* samples : {&trial.markers, &trial.force})
+    for (int i = 0; i < samples->size(); ++i) {
+      const double interval =
+          samples->time[std::min(i + 1, samples->size() - 1)] - samples->time[std::max(i - 1, 0)];
+      if (samples->time[i] < first - 0.75 * interval) continue;
+      samples->value.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      any = true;
+    }
+  return any;
+}
+
 }  // namespace
 
 Admission admit(const Experiment& experiment) {
   Admission admission;
   admission.experiment = experiment;
   for (Trial& trial : admission.experiment.trials) {
+    if (leave_out_after_break(trial))
+      admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
     const int before = count_finite(trial.markers.value);
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     admission.swaps += put_back_labels(trial.markers.value);

@@ -298,6 +298,39 @@ void conclude_outliers(Diagnosis& diagnosis) {
   verdict.outcome = Outcome::named;
 }
 
+void conclude_detachment(Diagnosis& diagnosis) {
+  const StalkStrength& strength = diagnosis.strength;
+  if (!strength.needs_law()) return;
+  Verdict& verdict = diagnosis.verdict;
+  const std::string sentence = strength.sentence();
+  if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) {
+    verdict.remainder += (verdict.remainder.empty() ? "" : ". ") + sentence;
+    return;
+  }
+  NamedCause cause;
+  cause.name = "detachment_law";
+  plant::Effect effect;
+  effect.name = cause.name;
+  const BreakLaw& law = strength.law->law;
+  const std::array names{"force", "moment", "torsion"};
+  const std::array units{"N", "N m", "N m"};
+  for (int i = 0; i < 3; ++i) {
+    const double scale = law.scale[stalk_force + i];
+    if (!std::isfinite(scale)) continue;
+    const double factor = std::exp(interval95 * strength.law->error[stalk_force + i]);
+    cause.parameters[names[i]] = {{scale, scale / factor, scale * factor, units[i]}};
+    effect.numbers[names[i]] = {scale};
+  }
+  const Estimate exponent{law.exponent, law.exponent, law.exponent, "1"};
+  cause.parameters["exponents"] = {exponent, exponent, exponent};
+  effect.numbers["exponents"] = {law.exponent, law.exponent, law.exponent};
+  cause.because = sentence;
+  cause.evidence = strength.evidence;
+  verdict.causes.push_back(cause);
+  verdict.outcome = Outcome::named;
+  diagnosis.best.hypothesis.effects.push_back(effect);
+}
+
 void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
   const FitSummary& fit = diagnosis.best;
   const plant::MaterialValues& material = diagnosis.admission.experiment.plant.material;

@@ -21,6 +21,10 @@ void name_nothing(Verdict& verdict);
 /// Wild samples were left out before the fit; they are named beside what else was found.
 void conclude_outliers(Diagnosis& diagnosis);
 
+/// A law of detachment in place of the file's thresholds, where the diagnosis's `strength` needs
+/// one: a cause beside what else was found, and an effect of the best model.
+void conclude_detachment(Diagnosis& diagnosis);
+
 /// Modulus, density and damping of the best model, in their own units.
 void report_parameters(const Findings& findings, Diagnosis& diagnosis);
 

@@ -364,6 +364,7 @@ class Procedure {
       ask_for_one_force();
     }
     conclude_outliers(result_);
+    judge_stalks();
     report_parameters(findings_, result_);
     report_hidden(causes_, result_);
     choose_next();
@@ -452,6 +453,36 @@ class Procedure {
     const Alarm alarm = judged(left, force.fit);
     log_.note(text("With that force the largest directed statistic is %.3g, level %.3g.",
                    alarm.statistic, alarm.level));
+  }
+
+  // What the stalks bore and broke at, by the best model, against the file's thresholds.
+  void judge_stalks() {
+    if (!records_detachments(experiment()) || stopped()) return;
+    const Variant variant = result_.best.hypothesis.variant();
+    // The moment under a fruit depends on how far below it the next joint is: here as where the
+    // law will be used, with the plant file's own nodes.
+    Numerics own = result_.numerics;
+    own.distance = experiment().plant.distance;
+    own.junction = 0.0;
+    Simulator simulator(experiment(), own, 1, options_.stop);
+    std::vector<StalkLoads> stalks;
+    std::vector<BreakLaw> thresholds;
+    std::vector<double> intervals;
+    for (int t = 0; t < static_cast<int>(experiment().trials.size()); ++t) {
+      const std::vector<double>& time = experiment().trials[t].markers.time;
+      for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
+      std::ranges::move(simulator.stalk_loads(variant, t), std::back_inserter(stalks));
+      for (const plant::PlantFruit& fruit : experiment().plant.fruits)
+        thresholds.push_back(break_law_of(experiment().plant, fruit));
+    }
+    result_.verdict.simulations += simulator.simulations();
+    if (intervals.empty()) return;
+    std::ranges::nth_element(intervals, intervals.begin() + intervals.size() / 2);
+    // Seen with the next sample at the earliest.
+    const double window = 2.0 * intervals[intervals.size() / 2];
+    result_.strength = judge_strength(std::move(stalks), std::move(thresholds), window);
+    log_.note(result_.strength.summary());
+    conclude_detachment(result_);
   }
 
   void choose_next() {

@@ -11,6 +11,7 @@
 #include "discrepancy/missing_force.h"
 #include "discrepancy/next_experiment.h"
 #include "discrepancy/numerics.h"
+#include "discrepancy/stalk_strength.h"
 #include "discrepancy/statistics.h"
 #include "discrepancy/verdict.h"
 
@@ -46,6 +47,7 @@ struct Diagnosis {
   /// [model][trial]; of `extended` as refitted where no cause was found.
   std::array<std::vector<Prediction>, model_count> predictions;
   MissingForce force;              ///< where the outcome is unknown
+  StalkStrength strength;          ///< where it was recorded when fruits came off
   NextExperiment next;             ///< empty where there is none
   std::vector<std::string> steps;  ///< what was done, one sentence each
   bool stopped = false;            ///< the caller asked for it, and the rest is not complete

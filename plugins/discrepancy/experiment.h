@@ -58,6 +58,8 @@ struct Samples {
 struct MeasuredEvent {
   double time = 0.0;
   std::string event, what;  ///< "detached", "fruit_1"
+
+  bool is_detachment() const { return event == "detached"; }
 };
 
 /// One run of the experiment: what was done, and what was measured.
@@ -98,6 +100,10 @@ struct Experiment {
   std::vector<plant::Effect> effects;  ///< at the sensor or the grip, known in every trial
   std::vector<Trial> trials;
 };
+
+/// Whether it was recorded when fruits came off, in any trial: then those that no trial names
+/// stayed on.
+bool records_detachments(const Experiment& experiment);
 
 /// Reads an experiment folder (or its experiment.yaml). Every fault goes to `diagnostics` with
 /// file, line and column; nothing comes back where there is one.

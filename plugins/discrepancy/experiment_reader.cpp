@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -227,7 +228,7 @@ class Reader {
                              "a force was measured where nothing is held, expected a hold");
     }
     if (std::filesystem::exists(folder / "events.csv"))
-      trial.events = read_events(folder / "events.csv", diagnostics_);
+      trial.events = read_events(folder / "events.csv", experiment_.plant, diagnostics_);
   }
 
   const YamlNode& node_;
@@ -238,6 +239,12 @@ class Reader {
 };
 
 }  // namespace
+
+bool records_detachments(const Experiment& experiment) {
+  return std::ranges::any_of(experiment.trials, [](const Trial& trial) {
+    return std::ranges::any_of(trial.events, &MeasuredEvent::is_detachment);
+  });
+}
 
 std::optional<Experiment> read_experiment(const std::filesystem::path& path,
                                           Diagnostics& diagnostics) {

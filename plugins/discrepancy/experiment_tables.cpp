@@ -1,5 +1,6 @@
 #include "discrepancy/experiment_tables.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -159,7 +160,10 @@ Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics) 
 }
 
 std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
-                                       Diagnostics& diagnostics) {
+                                       const plant::PlantFile& plant, Diagnostics& diagnostics) {
+  const auto is_fruit = [&](const std::string& name) {
+    return std::ranges::any_of(plant.fruits, [&](const auto& f) { return f.name == name; });
+  };
   std::istringstream text(io::read_file(file));
   std::vector<MeasuredEvent> events;
   std::string line;
@@ -185,6 +189,10 @@ std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
     } else {
       event.event = line.substr(first + 1, second - first - 1);
       event.what = line.substr(second + 1);
+      if (event.is_detachment() && !is_fruit(event.what))
+        diagnostics.error({file.string(), number, static_cast<int>(second) + 2},
+                          "what: \"" + event.what + "\" is no fruit of plant \"" + plant.name +
+                              "\", expected the name of one that detached");
       events.push_back(std::move(event));
     }
   }

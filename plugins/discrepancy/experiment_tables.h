@@ -23,7 +23,8 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
 Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics);
 
 /// time,event,what
-std::vector<MeasuredEvent> read_events(const std::filesystem::path& file, Diagnostics& diagnostics);
+std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
+                                       const plant::PlantFile& plant, Diagnostics& diagnostics);
 
 std::string path_text(const Path& path);
 std::string markers_text(const Samples& samples, std::span<const Marker> markers);

@@ -57,6 +57,7 @@ void Grip::add_supports(double begin, double t, std::vector<cosserat::Support>& 
 Vec3 Grip::force(const cosserat::RodState& state, double begin, double t) const {
   if (held_.empty() || !(begin < held_.front().hold->release - rounding)) return Vec3::Zero();
   const cosserat::Support spring = support(held_.front(), begin, t);
+  if (!state.alive[spring.element]) return Vec3::Zero();  // it holds a fruit that came off
   const Vec3 axis = state.orientation[spring.element] * Vec3::UnitZ();
   const Vec3 point = state.position[spring.element] - spring.back * axis;
   return spring.position_stiffness * (spring.position - point);

@@ -20,8 +20,9 @@ struct Motion {
   /// s, of each row of `force`. A time stands twice where the force jumps; the second row holds
   /// from then on.
   std::vector<double> force_time;
-  Rows force;           ///< rows x 3, N, W: the first hold's pull on the plant
-  bool healthy = true;  ///< false: the simulation failed where the rows end
+  Rows force;                         ///< rows x 3, N, W: the first hold's pull on the plant
+  std::vector<MeasuredEvent> events;  ///< fruits that came off
+  bool healthy = true;                ///< false: the simulation failed where the rows end
 };
 
 /// What the instruments report of it.

@@ -148,6 +148,25 @@ void add_data(io::HtmlReport& page, const Experiment& given, const Diagnosis& d)
   if (!a.remarks.empty()) page.list(a.remarks);
 }
 
+void add_detachments(io::HtmlReport& page, const StalkStrength& strength) {
+  if (strength.stalks.empty()) return;
+  page.heading("When fruits came off");
+  page.paragraph(strength.summary());
+  page.paragraph(
+      "Loads of the stalks by the best model, the largest until the fruit came off or the "
+      "trial ended, in units of what the thresholds or the law let them bear.");
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < strength.stalks.size(); ++i) {
+    const StalkLoads& stalk = strength.stalks[i];
+    rows.push_back(
+        {stalk.trial, stalk.fruit,
+         std::isfinite(stalk.came_off) ? short_number(stalk.came_off) : "stayed on",
+         short_number(strength.thresholds[i].most(stalk, stalk.came_off)),
+         strength.law ? short_number(strength.law->law.most(stalk, stalk.came_off)) : ""});
+  }
+  page.table({"trial", "fruit", "came off (s)", "load over thresholds", "load over the law"}, rows);
+}
+
 void add_noise(io::HtmlReport& page, const Diagnosis& d) {
   page.heading("Noise and numerics");
   const auto row = [](const std::string& name, const Noise& noise, double scale,
@@ -204,6 +223,7 @@ std::string report_text(const Experiment& experiment, const Diagnosis& diagnosis
   }
   add_ranking(page, diagnosis);
   if (report.predicted) add_gain(page, diagnosis);
+  add_detachments(page, diagnosis.strength);
   add_data(page, experiment, diagnosis);
   if (v.outcome != Outcome::bad_data) {
     add_noise(page, diagnosis);

@@ -188,7 +188,7 @@ struct Simulator::Impl {
     Observed seen =
         observe(motion, experiment.markers, wanted.effects, trial.markers.time, trial.force.time);
     Prediction out{std::move(seen.markers), std::move(seen.force), std::move(seen.marker_velocity),
-                   motion.healthy};
+                   motion.healthy, motion.events};
     const double last = request.until + 1.0e-9;
     const auto cut = [&](const std::vector<double>& time, Eigen::MatrixXd& rows) {
       const auto kept = std::upper_bound(time.begin(), time.end(), last) - time.begin();
@@ -244,7 +244,7 @@ struct Simulator::Impl {
         Eigen::MatrixXd::Constant(trial.markers.value.rows(), trial.markers.value.cols(), nan);
     const Eigen::MatrixXd force =
         Eigen::MatrixXd::Constant(trial.force.value.rows(), trial.force.value.cols(), nan);
-    return {markers, force, markers, false};
+    return {markers, force, markers, false, {}};
   }
 
   const Experiment& experiment;
@@ -278,6 +278,22 @@ Eigen::MatrixXd Simulator::tracking_forces(const Variant& variant, int trial, do
       run_trial(impl_->maker, impl_->experiment, one, plan, {&member, 1}, impl_->stop).front());
   ++impl_->simulations;
   return tracking_at_samples(result, one.markers);
+}
+
+std::vector<StalkLoads> Simulator::stalk_loads(const Variant& variant, int trial) {
+  const Trial& one = impl_->experiment.trials[trial];
+  RunMember member;
+  member.effects = effects_of(impl_->experiment, {&variant, trial});
+  member.forces = variant.forces;
+  member.records_stalks = true;
+  const StepPlan plan = impl_->plan(trial, member.effects, one.duration());
+  RunResult result = std::move(
+      run_trial(impl_->maker, impl_->experiment, one, plan, {&member, 1}, impl_->stop).front());
+  ++impl_->simulations;
+  for (StalkLoads& stalk : result.stalks)
+    for (const MeasuredEvent& event : one.events)  // at the trial's very end, too
+      if (event.is_detachment() && event.what == stalk.fruit) stalk.came_off = event.time;
+  return std::move(result.stalks);
 }
 
 const Experiment& Simulator::experiment() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "discrepancy/experiment.h"
+#include "discrepancy/stalk_loads.h"
 
 namespace pedicel::discrepancy {
 
@@ -44,6 +45,9 @@ struct Prediction {
   /// Of the plant itself, without the sensor's effects, for plots: velocity of the markers, m/s.
   Eigen::MatrixXd marker_velocity;
   bool healthy = true;  ///< false: the simulation failed; the rest is NaN from there on
+  /// Fruits that came off: when the experiment recorded it where it did so, else when a threshold
+  /// was passed.
+  std::vector<MeasuredEvent> events;
 };
 
 /// Simulates an experiment's trials with many variants of the model side by side: up to eight equal
@@ -73,6 +77,9 @@ class Simulator {
   /// would have to give the model, so that it follows the data: rows as the trial's marker samples,
   /// 3 columns a marker. Where a marker is not seen its spring is off.
   Eigen::MatrixXd tracking_forces(const Variant& variant, int trial, double stiffness);
+
+  /// What the stalks of the fruits carried in a trial, in the order of the plant file's fruits.
+  std::vector<StalkLoads> stalk_loads(const Variant& variant, int trial);
 
   const Experiment& experiment() const;
   const Numerics& numerics() const;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cosserat/detachment.h"
 #include "cosserat/rod_system.h"
 #include "discrepancy/equilibrium.h"
 #include "discrepancy/grip.h"
@@ -10,6 +11,8 @@
 namespace pedicel::discrepancy {
 
 namespace {
+
+constexpr double same_time = 1.0e-9;  // s
 
 /// Newton's, of a step. Measured on releases of a stem of 0.6 m with two branches (90 elements,
 /// steps of 1/960 s): 1e-7 leaves the markers within 5 um of the converged steps (rms 0.5 um), 1e-6
@@ -65,6 +68,13 @@ class Member {
     motion.velocity.resize(steps + 1, 3 * count);
     motion.turn.resize(steps + 1, 4 * count);
     if (tracking_.active()) result_.tracking.resize(steps + 1, 3 * count);
+    if (records_detachments(experiment)) hold_fruits();
+    if (given.records_stalks)
+      for (const cosserat::Fruit& fruit : model_.fruits) {
+        StalkLoads& stalk = result_.stalks.emplace_back();
+        stalk.trial = trial.name;
+        stalk.fruit = fruit.name;
+      }
   }
 
   /// At rest at time 0, in `rods` as its next plant. False where there is no equilibrium.
@@ -88,6 +98,7 @@ class Member {
   /// What acts from `begin` to `end` (s).
   void drive(cosserat::RodSystem& rods, int plant, double begin, double end, bool jumps) {
     cosserat::RodState& state = rods.edit_state(plant);
+    take_off_fruits(rods, plant, begin);
     if (jumps) {
       state.previous_dt = 0.0;
       record_force(state, begin, begin);
@@ -111,6 +122,25 @@ class Member {
     }
     record_force(state, begin, t);
     if (tracking_.active()) tracking_.record(model_, state, t, result_.tracking.row(row));
+    for (std::size_t f = 0; f < result_.stalks.size(); ++f)
+      if (!state.fruit_gone[f]) record_stalk(state, t, static_cast<int>(f));
+  }
+
+  /// After a step, in which fruits came off: there the force has jumped.
+  void record(const cosserat::RodState& state, std::span<const cosserat::DetachEvent> events,
+              int row, double begin, double t) {
+    if (events.empty()) {
+      record(state, row, begin, t);
+      return;
+    }
+    cosserat::RodState before = state;
+    for (const cosserat::DetachEvent& event : events) {
+      before.alive[model_.fruits[event.fruit].element] = 1;
+      before.fruit_gone[event.fruit] = 0;
+    }
+    record(before, row, begin, t);
+    record_force(state, t, t);
+    for (const cosserat::DetachEvent& event : events) came_off(event.fruit, t);
   }
 
   void fail() { result_.motion.healthy = false; }
@@ -123,6 +153,42 @@ class Member {
   }
 
  private:
+  // They come off when they were seen to.
+  void hold_fruits() {
+    for (int f = 0; f < static_cast<int>(model_.fruits.size()); ++f) {
+      model_.fruits[f].thresholds = {};
+      model_.fruits[f].law = {};
+      for (const MeasuredEvent& event : trial_.events)
+        if (event.is_detachment() && event.what == model_.fruits[f].name)
+          seen_.emplace_back(event.time, f);
+    }
+  }
+
+  void take_off_fruits(cosserat::RodSystem& rods, int plant, double t) {
+    for (const auto& [time, fruit] : seen_) {
+      const cosserat::RodState& state = rods.state(plant);
+      if (time > t + same_time || state.fruit_gone[fruit]) continue;
+      if (!state.alive[model_.fruits[fruit].element]) continue;
+      cosserat::take_off(rods.edit_model(plant), rods.edit_state(plant), fruit);
+      came_off(fruit, t);
+    }
+  }
+
+  void came_off(int fruit, double t) {
+    result_.motion.events.push_back({t, "detached", model_.fruits[fruit].name});
+    if (!result_.stalks.empty()) result_.stalks[fruit].came_off = t;
+  }
+
+  void record_stalk(const cosserat::RodState& state, double t, int fruit) {
+    const int e = model_.fruits[fruit].element;
+    const cosserat::Strain strain = cosserat::strain_of(model_, state, e);
+    const cosserat::JointLoad load = cosserat::joint_load(model_, state, e);
+    StalkLoads& stalk = result_.stalks[fruit];
+    stalk.time.push_back(t);
+    stalk.load.push_back({strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
+                          load.moment.head<2>().norm(), std::abs(load.moment.z())});
+  }
+
   void record_force(const cosserat::RodState& state, double begin, double t) {
     result_.motion.force_time.push_back(t);
     pulls_.push_back(grip_.force(state, begin, t));
@@ -161,6 +227,7 @@ class Member {
   std::vector<plant::PlacedPoint> markers_, load_places_, force_places_;
   std::vector<Quat> drawn_;  // W to E, of the markers' elements
   std::vector<Vec3> pulls_;
+  std::vector<std::pair<double, int>> seen_;  // s, and the fruit that came off then
   RunResult result_;
 };
 
@@ -182,6 +249,8 @@ Eigen::MatrixXd tracking_at_samples(const RunResult& result, const Samples& mark
 
 std::vector<double> jumps_of(const Trial& trial, std::span<const plant::Effect> effects) {
   std::vector<double> times = slip_times(effects);
+  for (const MeasuredEvent& event : trial.events)
+    if (event.is_detachment()) times.push_back(event.time);
   for (const Hold& hold : trial.holds) times.push_back(hold.release);
   for (const TimedLoad& load : trial.loads) times.insert(times.end(), {load.from, load.to});
   return times;
@@ -209,7 +278,7 @@ std::vector<RunResult> run_trial(const PlantMaker& maker, const Experiment& expe
         member.fail();
         --working;
       } else {
-        member.record(rods.state(p), k + 1, begin, end);
+        member.record(rods.state(p), rods.detached(p), k + 1, begin, end);
       }
     }
   }

@@ -5,7 +5,7 @@ import io
 import json
 
 COLUMNS = ["peer", "scheme", "dt, s", "forest, 1 thread", "forest, 2 threads", "tree, 1 thread",
-           "tip error, 20 / 40 elements", "first frequency", "numerical damping", "forest's droop",
+           "tree, 2 threads", "tip error, 20 / 40 elements", "first frequency", "numerical damping", "forest's droop",
            "peak memory"]
 
 
@@ -42,7 +42,7 @@ def cells(figures):
         return head + ["not installed: left out"] + [""] * (len(COLUMNS) - 4)
     return head + [
         factor(figures["rtf_forest_1"]), factor(figures["rtf_forest_2"]),
-        factor(figures["rtf_tree_1"]),
+        factor(figures["rtf_tree_1"]), factor(figures["rtf_tree_2"]),
         f"{percent(figures['tip_error_20'])} / {percent(figures['tip_error_40'])}",
         percent(figures["frequency_error"]),
         percent(figures["damping_ratio"]),
@@ -61,7 +61,8 @@ def notes(rows, machine):
         "droop: mean over the forest's 228 ends, -4.62 mm (-4.65 mm where rods also stretch, as "
         "Pedicel's do).",
         "Frequency and damping at the row's step; \"none\": it does not oscillate. With two "
-        "threads a peer has half of the plants in a world of their own each. Empty: not within "
+        "threads a peer has half of the plants in a world of their own each, so one tree stays with one. "
+        "Empty: not within "
         f"{machine['cap']} s of wall time, or not stable.",
     ]
     for row in rows:

@@ -194,6 +194,8 @@ const Case table_cases[] = {
      "t/events.csv:2:1: error: expected three cells"},
     {"events_time", "t/events.csv", "time,event,what\nnow,detached,f\n",
      "t/events.csv:2:1: error: time: \"now\" is not a finite number"},
+    {"events_fruit", "t/events.csv", "time,event,what\n1,detached,pear\n",
+     "t/events.csv:2:12: error: what: \"pear\" is no fruit of plant"},
 };
 INSTANTIATE_TEST_SUITE_P(Tables, ExperimentRefusal, ::testing::ValuesIn(table_cases),
                          [](const auto& one) { return one.param.name; });

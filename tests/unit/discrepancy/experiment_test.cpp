@@ -34,6 +34,12 @@ Experiment full_experiment() {
   trial.markers.value.setRandom();
   trial.markers.value.row(2).head<3>().setConstant(NAN);
   trial.force.value.row(1).setConstant(NAN);
+  plant::PlantFruit fruit;
+  fruit.name = "fruit_1";
+  fruit.place = on_stem(1.0);
+  fruit.radius = 0.01;
+  fruit.density = 900.0;
+  experiment.plant.fruits = {fruit};
   trial.events = {{0.11, "detached", "fruit_1"}};
   Trial quiet = trial;
   quiet.name = "two";

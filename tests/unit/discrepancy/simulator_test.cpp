@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/check.h"
 #include "unit/discrepancy/beam_experiment.h"
 
@@ -196,6 +198,40 @@ TEST(Simulator, WhatCannotBeSimulatedIsRefused) {
   const Variant variant{{effect("no_such_effect", "x", {1.0})}, {}};
   const Simulator::Request request{&variant, 0};
   EXPECT_THROW(simulator.run({&request, 1}), UsageError);
+}
+
+// 0.1 N of a fruit of 10 g at the tip of a stem that leans out level, and a threshold of 0.05 N: at
+// rest it would come off at once; where it was recorded, it does so then and not before.
+TEST(Simulator, FruitsComeOffWhenItWasRecorded) {
+  Experiment experiment = experiment_of({}, 0.5);
+  experiment.plant.curves[0].points = {Vec3(0, 0, 0), Vec3(0.4, 0, 0)};
+  plant::PlantFruit fruit;
+  fruit.name = "fruit";
+  fruit.place = on_stem(1.0);
+  fruit.radius = 0.013;
+  fruit.density = 0.01 / (4.0 / 3.0 * M_PI * std::pow(fruit.radius, 3));
+  fruit.detach.force = 0.05;
+  experiment.plant.fruits = {fruit};
+  experiment.trials[0].gravity = Vec3(0, 0, -9.81);
+  const Prediction by_threshold = predict(experiment);
+  ASSERT_EQ(by_threshold.events.size(), 1u);
+  EXPECT_LT(by_threshold.events[0].time, 0.01);
+
+  experiment.trials[0].events = {{0.25, "detached", "fruit"}};
+  const Prediction recorded = predict(experiment);
+  ASSERT_EQ(recorded.events.size(), 1u);
+  EXPECT_DOUBLE_EQ(recorded.events[0].time, 0.25);
+  EXPECT_EQ(recorded.events[0].what, "fruit");
+  EXPECT_NEAR(recorded.markers(24, 2), recorded.markers(0, 2), 1e-6);  // at rest until then
+  EXPECT_GT(recorded.markers(35, 2), recorded.markers(0, 2) + 0.002);  // the middle springs up
+
+  Simulator simulator(experiment, {0.02, 1.0 / 480}, 1);
+  const std::vector<StalkLoads> stalks = simulator.stalk_loads({}, 0);
+  ASSERT_EQ(stalks.size(), 1u);
+  EXPECT_DOUBLE_EQ(stalks[0].came_off, 0.25);
+  EXPECT_DOUBLE_EQ(stalks[0].time.back(), 0.25);
+  // The tip's element and its fruit hang on the joint: 10 g and 1/20 of a stem of 9 g.
+  EXPECT_NEAR(stalks[0].load.front()[stalk_force], 9.81 * 0.0104, 0.003);
 }
 
 // The bits of an answer depend on nothing but the request: alone, among others, on two threads,
