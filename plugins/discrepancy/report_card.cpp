@@ -71,7 +71,9 @@ std::string after_text(const SymptomPair& pair) {
 void add_symptom(io::HtmlReport& page, const ReportData& report,
                  const std::vector<SymptomPair>& pairs) {
   const SymptomPair* pair = leading_symptom(report, pairs);
+  const StalkStrength& strength = report.diagnosis.strength;
   page.subheading("What is seen");
+  if (strength.needs_law()) page.paragraph(strength.sentence());
   if (pair) {
     page.paragraph(pair->before.sentence);
     if (report.extended)
@@ -79,7 +81,7 @@ void add_symptom(io::HtmlReport& page, const ReportData& report,
           "With what was found added to the model (" + symptom_title(pair->before.name) +
           "): " + with_error(pair->before.value, pair->before.standard_error, pair->before.unit) +
           " before, " + after_text(*pair) + " after.");
-  } else {
+  } else if (!strength.needs_law()) {
     page.paragraph("No single symptom leaves the noise.");
   }
   std::vector<std::string> plots;

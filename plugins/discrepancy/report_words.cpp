@@ -165,7 +165,8 @@ std::string certainty_text(const Diagnosis& d) {
       d.before.raised
           ? "The loudest of the directed tests stands at " + short_number(d.before.statistic) +
                 " (pure noise exceeds " + short_number(d.before.level) + " once in 200 times)."
-          : "None of the directed tests leaves what noise alone does (largest " +
+          : "None of the directed tests of motion and force leaves what noise alone does "
+            "(largest " +
                 short_number(d.before.statistic) + ", level " + short_number(d.before.level) + ").";
   if (v.outcome == Outcome::named && !v.causes.empty()) {
     text += " The evidence for " + v.causes.front().name + " is " +

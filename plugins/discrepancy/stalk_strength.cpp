@@ -214,7 +214,8 @@ class LawFit {
     return fitted;
   }
 
-  FittedLaw best() const {
+  /// Absent where no stalk that broke bore anything.
+  std::optional<FittedLaw> best() const {
     std::optional<FittedLaw> best;
     for (int terms = 1; terms < 8; ++terms)
       for (const double exponent : exponents) {
@@ -223,7 +224,7 @@ class LawFit {
         const std::optional<FittedLaw> found = fit(terms, exponent);
         if (found && (!best || found->evidence > best->evidence)) best = found;
       }
-    return best.value_or(FittedLaw{});
+    return best;
   }
 
  private:
@@ -364,7 +365,9 @@ std::string StalkStrength::sentence() const {
 }
 
 std::string StalkStrength::summary() const {
-  if (!law) return sentence() + text(" That is too few for a law: %g are.", least_broken);
+  if (broken < least_broken)
+    return sentence() + text(" That is too few for a law: %g are needed.", least_broken);
+  if (!law) return sentence() + " By the model their stalks bore nothing.";
   return sentence() +
          text(
              " The events speak for it by %.3g nats, and by %.3g where each is foretold by the "
@@ -393,6 +396,7 @@ StalkStrength judge_strength(std::vector<StalkLoads> stalks, std::vector<BreakLa
   const double without =
       thresholds_at_best.likelihood(against) - 0.5 * std::log(double(readings.size()));
   strength.law = LawFit(readings).best();
+  if (!strength.law) return strength;
   strength.evidence = strength.law->evidence - without;
   if (strength.evidence > enough_evidence)
     strength.foretold = foretold_by_others(strength.law->law, readings, against);

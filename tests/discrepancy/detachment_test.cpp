@@ -1,11 +1,13 @@
 // Fruits pulled off at several angles: whole diagnoses of data in which they come off by the plant
 // file's threshold, or by a law that it lacks.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.h"
 #include "discrepancy/diagnosis.h"
+#include "discrepancy/report.h"
 #include "discrepancy/simulator.h"
 
 namespace pedicel::discrepancy {
@@ -122,6 +124,8 @@ TEST(Detachment, ALawInPlaceOfTheThresholdIsNamed) {
   EXPECT_EQ(cause.name, "detachment_law");
   ASSERT_TRUE(cause.parameters.contains("moment")) << cause.because;
   EXPECT_NEAR(cause.parameters.at("moment").front().value, 0.018, 0.002);
+  EXPECT_THAT(report_text(found.admission.experiment, found),
+              testing::HasSubstr("<p>6 fruits came off at"));
   // The extended plant has it.
   const plant::PlantFile extended =
       extended_plant(found.admission.experiment, found.best.hypothesis);

@@ -92,7 +92,7 @@ TEST(StalkStrength, FewBreaksMakeNoLaw) {
   const StalkStrength found = judge_strength(pulls(3.0, 0.02, 0.0, 3), thresholds(1.0, 3), window);
   EXPECT_FALSE(found.law);
   EXPECT_FALSE(found.needs_law());
-  EXPECT_THAT(found.summary(), testing::HasSubstr("too few for a law: 4 are"));
+  EXPECT_THAT(found.summary(), testing::HasSubstr("too few for a law: 4 are needed"));
 }
 
 // Stalks that bore their trials speak, too: without them a weak law would do as well.
@@ -102,6 +102,14 @@ TEST(StalkStrength, StalksThatHeldCount) {
   for (int i = 0; i < 6; ++i) stalks.push_back(ramp(0.9, 0.0, never));  // up to 2.7 N
   const StalkStrength both = judge_strength(stalks, thresholds(1.5, 12), window);
   EXPECT_GT(both.evidence, alone.evidence + 6.0);
+}
+
+TEST(StalkStrength, StalksThatBoreNothingMakeNoLaw) {
+  std::vector<StalkLoads> stalks;
+  for (int i = 0; i < 5; ++i) stalks.push_back(ramp(0.0, 0.0, 1.0));
+  const StalkStrength found = judge_strength(stalks, thresholds(3.0, 5), window);
+  EXPECT_FALSE(found.law);
+  EXPECT_FALSE(found.needs_law());
 }
 
 // What counts is the largest load until then, not that of the moment.
