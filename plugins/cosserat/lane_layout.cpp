@@ -32,8 +32,8 @@ LaneLayout::LaneLayout(std::span<const RodModel* const> plants, int threads, boo
 
 void LaneLayout::add_chains(const RodModel& model, int plant) {
   const int n = model.size();
-  std::vector<int> height(n, 1),
-      next(n, -1);  // elements on the longest path; the child to go on to
+  std::vector<int> height(n, 1);  // elements on the longest path
+  std::vector<int> next(n, -1);   // the child that the chain goes on to
   const auto rank = [&](int parent, int child) {
     return std::pair(model.elements[child].organ == model.elements[parent].organ, height[child]);
   };
