@@ -166,10 +166,10 @@ Admission admit(const Experiment& experiment) {
   Admission admission;
   admission.experiment = experiment;
   for (Trial& trial : admission.experiment.trials) {
-    if (leave_out_after_break(trial))
-      admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
     const int before = count_finite(trial.markers.value);
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
+    if (leave_out_after_break(trial))
+      admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
     admission.swaps += put_back_labels(trial.markers.value);
     for (Samples* samples : {&trial.markers, &trial.force}) {
       const std::vector<char> spared = beside_jumps(trial, samples->time);

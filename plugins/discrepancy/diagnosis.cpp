@@ -478,8 +478,8 @@ class Procedure {
     result_.verdict.simulations += simulator.simulations();
     if (intervals.empty()) return;
     std::ranges::nth_element(intervals, intervals.begin() + intervals.size() / 2);
-    // Seen with the next sample at the earliest.
-    const double window = 2.0 * intervals[intervals.size() / 2];
+    // Seen with the next sample.
+    const double window = intervals[intervals.size() / 2];
     result_.strength = judge_strength(std::move(stalks), std::move(thresholds), window);
     log_.note(result_.strength.summary());
     conclude_detachment(result_);

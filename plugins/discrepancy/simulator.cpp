@@ -222,6 +222,16 @@ struct Simulator::Impl {
     return out;
   }
 
+  /// The whole of one trial, with what the member wants beside the variant.
+  RunResult run_alone(const Variant& variant, int trial, RunMember member) {
+    const Trial& one = experiment.trials[trial];
+    member.effects = effects_of(experiment, {&variant, trial});
+    member.forces = variant.forces;
+    const StepPlan steps = plan(trial, member.effects, one.duration());
+    ++simulations;
+    return std::move(run_trial(maker, experiment, one, steps, {&member, 1}, stop).front());
+  }
+
   // Before any thread begins, where nothing may throw. False where effects that a plant can have
   // one by one leave nothing of it together.
   bool check(const Job& job) const {
@@ -268,30 +278,19 @@ std::vector<Prediction> Simulator::run(std::span<const Request> requests) {
 }
 
 Eigen::MatrixXd Simulator::tracking_forces(const Variant& variant, int trial, double stiffness) {
-  const Trial& one = impl_->experiment.trials[trial];
   RunMember member;
-  member.effects = effects_of(impl_->experiment, {&variant, trial});
-  member.forces = variant.forces;
   member.tracking_stiffness = stiffness;
-  const StepPlan plan = impl_->plan(trial, member.effects, one.duration());
-  const RunResult result = std::move(
-      run_trial(impl_->maker, impl_->experiment, one, plan, {&member, 1}, impl_->stop).front());
-  ++impl_->simulations;
-  return tracking_at_samples(result, one.markers);
+  return tracking_at_samples(impl_->run_alone(variant, trial, member),
+                             impl_->experiment.trials[trial].markers);
 }
 
 std::vector<StalkLoads> Simulator::stalk_loads(const Variant& variant, int trial) {
-  const Trial& one = impl_->experiment.trials[trial];
   RunMember member;
-  member.effects = effects_of(impl_->experiment, {&variant, trial});
-  member.forces = variant.forces;
   member.records_stalks = true;
-  const StepPlan plan = impl_->plan(trial, member.effects, one.duration());
-  RunResult result = std::move(
-      run_trial(impl_->maker, impl_->experiment, one, plan, {&member, 1}, impl_->stop).front());
-  ++impl_->simulations;
+  RunResult result = impl_->run_alone(variant, trial, member);
   for (StalkLoads& stalk : result.stalks)
-    for (const MeasuredEvent& event : one.events)  // at the trial's very end, too
+    for (const MeasuredEvent& event :
+         impl_->experiment.trials[trial].events)  // at the trial's very end, too
       if (event.is_detachment() && event.what == stalk.fruit) stalk.came_off = event.time;
   return std::move(result.stalks);
 }

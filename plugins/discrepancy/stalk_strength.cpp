@@ -211,6 +211,8 @@ class LawFit {
     fitted.evidence = fitted.likelihood - choices -
                       0.5 * likelihood.NumParameters() * std::log(double(readings_.size()));
     set_errors(likelihood, found.unknowns, fitted);
+    for (const int term : likelihood.terms())
+      fitted.error[term] = std::hypot(fitted.error[term], timing_error(fitted.law));
     return fitted;
   }
 
@@ -248,6 +250,20 @@ class LawFit {
         (0.5 * (hessian + hessian.transpose())).completeOrthogonalDecomposition().pseudoInverse();
     for (std::size_t k = 0; k < likelihood.terms().size(); ++k)
       fitted.error[likelihood.terms()[k]] = std::sqrt(std::max(0.0, covariance(k + 1, k + 1)));
+  }
+
+  // How late in their windows breaks happen may be the same for all of them: half of what the load
+  // gains in one, as the deviation of an even distribution.
+  double timing_error(const BreakLaw& law) const {
+    double sum = 0.0;
+    int count = 0;
+    for (const Reading& reading : readings_) {
+      const double borne = most(law, reading.borne);
+      if (!reading.broke || borne <= 0.0) continue;
+      sum += 0.5 * std::log(most(law, reading.reached) / borne);
+      ++count;
+    }
+    return count > 0 ? sum / count / std::sqrt(3.0) : 0.0;
   }
 
   std::vector<Reading> readings_;

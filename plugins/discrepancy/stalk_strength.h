@@ -26,13 +26,16 @@ struct BreakLaw {
   double most(const StalkLoads& stalk, double until) const;
 };
 
-/// The thresholds of a fruit, or the detachment law that the plant file has in place of them.
+/// The thresholds of a fruit, or the detachment law that the plant file has in place of them (of
+/// unequal exponents the largest stands for all).
 BreakLaw break_law_of(const plant::PlantFile& plant, const plant::PlantFruit& fruit);
 
 /// A law of breaking as fitted to events by maximum likelihood.
 struct FittedLaw {
   BreakLaw law;
-  StalkNumbers error{};     ///< standard deviations of the logarithms of the scales
+  /// Standard deviations of the logarithms of the scales; when in its window a break happens is
+  /// part of them.
+  StalkNumbers error{};
   double likelihood = 0.0;  ///< log probability of the events
   double evidence = 0.0;    ///< less half the logarithm of the stalks a free number (BIC)
 };

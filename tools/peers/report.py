@@ -5,8 +5,8 @@ import io
 import json
 
 COLUMNS = ["peer", "scheme", "dt, s", "forest, 1 thread", "forest, 2 threads", "tree, 1 thread",
-           "tree, 2 threads", "tip error, 20 / 40 elements", "first frequency", "numerical damping", "forest's droop",
-           "peak memory"]
+           "tree, 2 threads", "tip error, 20 / 40 elements", "first frequency",
+           "numerical damping", "forest's droop", "peak memory"]
 
 
 def factor(value):
@@ -61,8 +61,8 @@ def notes(rows, machine):
         "droop: mean over the forest's 228 ends, -4.62 mm (-4.65 mm where rods also stretch, as "
         "Pedicel's do).",
         "Frequency and damping at the row's step; \"none\": it does not oscillate. With two "
-        "threads a peer has half of the plants in a world of their own each, so one tree stays with one. "
-        "Empty: not within "
+        "threads a peer has half of the plants in a world of their own each, so one tree stays "
+        "with one. Empty: not within "
         f"{machine['cap']} s of wall time, or not stable.",
     ]
     for row in rows:
