@@ -13,6 +13,11 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Shares of the compliance of a branch's first half segment, of what the joint below it has more:
+// with a solver that gives it the branch's whole segment, on a mesh of half the file's spacing (and
+// 10 %); and the most that a fit may find.
+constexpr double most_by_convention = 0.55, most_give = 1.5;
+
 class Candidates {
  public:
   Candidates(const Experiment& experiment, const Scales& scales)
@@ -295,7 +300,8 @@ Hypothesis junction_freedom(const Experiment& experiment) {
   for (const plant::BuiltPlant::Span& span : built->spans) {
     const cosserat::Element& element = built->model.elements[span.element];
     if (std::exchange(seen[span.curve], 1) || element.parent < 0) continue;
-    const double softest = element.bend_stiffness.head<2>().mean() / 0.75;
+    const cosserat::Section& section = element.section;
+    const double softest = (section.bend1 + section.bend2) / (most_give * element.length);
     all.add(Start("attachment_compliance")
                 .place(experiment.plant.curves[span.curve].name, 0.0)
                 .positive("stiffness", 4.0 * softest, softest, 1e3 * softest)
@@ -303,6 +309,21 @@ Hypothesis junction_freedom(const Experiment& experiment) {
   }
   all.name.clear();
   return all;
+}
+
+bool is_by_convention(const FitSummary& model, int count) {
+  double weights = 0.0, sum = 0.0, squares = 0.0;
+  for (int p = model.hypothesis.size() - count; p < model.hypothesis.size(); ++p) {
+    const double share = most_give * model.hypothesis.free[p].low / model.hypothesis.value(p);
+    // The unknown is a logarithm.
+    const double weight = std::pow(share * model.standard_error[p], -2);
+    weights += weight;
+    sum += weight * share;
+    squares += weight * share * share;
+  }
+  const double mean = sum / weights, freedom = count - 1.0;
+  return mean - 2.0 / std::sqrt(weights) <= most_by_convention &&
+         (count < 2 || squares - sum * mean <= freedom + 3.0 * std::sqrt(2.0 * freedom));
 }
 
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales) {

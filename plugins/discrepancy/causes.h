@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "discrepancy/fit.h"
 #include "discrepancy/hypothesis.h"
 #include "discrepancy/scales.h"
 
@@ -22,10 +23,15 @@ Hypothesis baseline();
 /// The share of the mesh's error, free (hypothesis.h).
 Hypothesis mesh_freedom();
 
-/// A little give at every branch's junction, free up to three quarters of what the plant file's own
-/// mesh puts into that joint: what two meshes, or two ways to lead a branch into its stem, differ
-/// by. An effect below that is below what the file resolves. Empty where there are no branches.
+/// A little give at every branch's junction, for what two ways to lead a branch into its stem
+/// differ by. Empty where there are no branches.
 Hypothesis junction_freedom(const Experiment& experiment);
+
+/// Whether what such junctions give, the last `count` numbers of a model that was fitted with them,
+/// may come from another solver's way: the same share of the branch's own first segment at all of
+/// them, and no more than a mesh of half the plant file's spacing makes of it. Softer joints, or
+/// one of several, are a finding.
+bool is_by_convention(const FitSummary& model, int count);
 
 /// Every known effect that the experiment could show.
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales);

@@ -16,7 +16,6 @@ namespace {
 // Of the noise variance, an excess that is no sign of a missing effect.
 constexpr double small_excess = 0.01;
 constexpr double most_missed = 0.1;  // of what all causes found gain on all trials, by what is left
-constexpr double clear_margin = 3.0;    // nats by which a rival must lose: 20 to 1
 constexpr double margin_share = 0.005;  // and of the gain: our model errors scale with it
 constexpr double most_margin = 10.0;    // nats, of that
 constexpr double turned = 5.0;          // nats for a rival when a trial is left out
@@ -73,19 +72,27 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
   verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
   if (verdict.causes.size() != 1) return;
   const double evidence = verdict.causes.front().evidence;
-  for (const FitSummary& instead : needed.instead) {
+  for (const auto& [instead, behind] : needed.instead) {
     const std::string& name = instead.hypothesis.name;
+    diagnosis.steps.push_back(name + " in place of " + needed.names.front() +
+                              text(" explains the data %.3g nats ", std::abs(behind)) +
+                              (behind < 0.0 ? "better." : "worse."));
     if (instead.hypothesis.factor_on(name) >= 0) {
-      verdict.causes.push_back(parameter_cause(findings, instead, name, evidence));
+      verdict.causes.push_back(parameter_cause(findings, instead, name, evidence - behind));
     } else {
       Candidate other;
       other.cause = name;
-      other.evidence = evidence;
+      other.evidence = evidence - behind;
       const int last = static_cast<int>(instead.hypothesis.effects.size()) - 1;
       verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
     }
-    verdict.outcome = Outcome::ambiguous;
   }
+  if (needed.better()) {
+    std::ranges::stable_sort(verdict.causes, std::ranges::greater{}, &NamedCause::evidence);
+    const double least = verdict.causes.front().evidence - clear_odds;
+    std::erase_if(verdict.causes, [&](const NamedCause& c) { return c.evidence < least; });
+  }
+  if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
 }
 
 // A rival that has the best one as a special case, and needs more parameters to do no better, is
@@ -146,7 +153,7 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
 void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
   Verdict& verdict = diagnosis.verdict;
   const Candidate& best = diagnosis.ranking.front();
-  const double margin = clear_margin + std::min(margin_share * best.gain, most_margin);
+  const double margin = clear_odds + std::min(margin_share * best.gain, most_margin);
   for (std::size_t i = 1; i < diagnosis.ranking.size(); ++i) {
     const Candidate& rival = diagnosis.ranking[i];
     const double behind = best.evidence - rival.evidence;

@@ -11,6 +11,7 @@
 #include "discrepancy/coarse_model.h"
 #include "discrepancy/conclusion.h"
 #include "discrepancy/diagnosis_log.h"
+#include "discrepancy/evidence.h"
 #include "discrepancy/fit_setup.h"
 #include "discrepancy/held_out.h"
 #include "discrepancy/promise.h"
@@ -23,10 +24,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Nats that a named cause must be worth: an effect of twice the size that could just be seen (10
-// noise units in all) is worth 50 less up to 20 for its parameters, and a third of it may lie in
-// the trials kept back; two honest solvers differ by up to 15.
-constexpr double enough_evidence = 18.0;
 constexpr double numerical_limit = 0.5;  // of the noise, RMS
 // Of the gain of a cause, what another of its family must bring to be one.
 constexpr double family_share = 0.5;
@@ -224,7 +221,7 @@ class Procedure {
     const Alarm alarm = judged(directions, found);
     log_.fit("With junctions that give a little", found, setup_->samples());
     log_.directions(directions, alarm);
-    if (alarm.raised) return false;
+    if (alarm.raised || !is_by_convention(found, junctions.size())) return false;
     log_.note("What is left is below what the plant file's mesh resolves at the junctions.");
     model = std::move(found);
     return true;
@@ -250,7 +247,7 @@ class Procedure {
       if (result_.ranking[i].whole)
         log_.fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit,
                  setup_->samples());
-    if (result_.ranking.empty() || result_.ranking.front().evidence < enough_evidence) return;
+    if (result_.ranking.empty() || result_.ranking.front().evidence < worth_naming) return;
     result_.best = result_.ranking.front().fit;
     findings_.chain = {result_.ranking.front()};
   }
@@ -297,8 +294,8 @@ class Procedure {
 
   // The trials kept back may ask for what those fitted to hardly show: that is no finding.
   bool is_another_cause(const Candidate& next) const {
-    const double least = std::max(enough_evidence, least_share * findings_.chain.front().gain);
-    if (next.evidence < enough_evidence || next.gain < least || !next.held_out.carries_over())
+    const double least = std::max(worth_naming, least_share * findings_.chain.front().gain);
+    if (next.evidence < worth_naming || next.gain < least || !next.held_out.carries_over())
       return false;
     if (!has_a_size(next.fit, static_cast<int>(result_.best.hypothesis.effects.size())))
       return false;
@@ -343,14 +340,15 @@ class Procedure {
     if (findings_.chain.size() > 1) findings_.held_out = held_out_together();
     // What is left of the best model is the best sample of the noise.
     if (!findings_.chain.empty()) setup_->renew_noise(result_.best.hypothesis);
-    predict();
-    measure_errors(findings_, result_);
-    findings_.symptoms = symptoms(experiment(), setup_->data(), result_.predictions[refitted]);
     if (findings_.chain.empty()) {
       Evaluator evaluator = setup_->evaluator();
       findings_.needed =
           needed_parameters(evaluator, result_.base, causes_, fit_options(), result_.check_trials);
+      if (const FitSummary* law = findings_.needed.better()) result_.best = *law;
     }
+    predict();
+    measure_errors(findings_, result_);
+    findings_.symptoms = symptoms(experiment(), setup_->data(), result_.predictions[refitted]);
     conclude(findings_, result_);
     if (objecting_ >= 0) {
       name_nothing(result_.verdict);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "discrepancy/evidence.h"
 #include "discrepancy/profile.h"
 
 namespace pedicel::discrepancy {
@@ -9,9 +10,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 // Nats: 3.5 standard deviations, because three parameters share the few false alarms allowed.
-constexpr double least_cost = 0.5 * 3.5 * 3.5;
-constexpr double objection = 3.0;     // nats
-constexpr double clear_margin = 5.0;  // nats by which another one must be worse
+constexpr double needed_cost = 0.5 * 3.5 * 3.5;
+constexpr double objection = 3.0;  // nats
 
 // At its nominal value for good.
 Hypothesis without(const Hypothesis& model, int parameter) {
@@ -63,6 +63,11 @@ std::vector<Hypothesis> damped_by(const Cause& law, const FitSummary& model) {
 
 }  // namespace
 
+const FitSummary* NeededParameters::better() const {
+  const auto best = std::ranges::min_element(instead, {}, &Instead::behind);
+  return best != instead.end() && best->behind < -worth_naming ? &best->model : nullptr;
+}
+
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
                                    const std::vector<Cause>& causes, const FitOptions& options,
                                    const std::vector<int>& check) {
@@ -72,7 +77,7 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
     const int p = needed.model.hypothesis.factor_on(name);
     if (p < 0) continue;
     FitSummary found = fit(evaluator, without(needed.model.hypothesis, p), options);
-    if (found.cost - needed.model.cost > least_cost)
+    if (found.cost - needed.model.cost > needed_cost)
       needed.names.push_back(name);
     else
       needed.model = std::move(found);
@@ -81,8 +86,8 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
   const auto ask = [&](const std::vector<Hypothesis>& starts) {
     if (starts.empty()) return;
     FitSummary found = fit(evaluator, starts[scan(evaluator, starts, options).best], options);
-    if (objective(found) - objective(needed.model) < clear_margin)
-      needed.instead.push_back(std::move(found));
+    const double behind = objective(found) - objective(needed.model);
+    if (behind < clear_odds) needed.instead.push_back({std::move(found), behind});
   };
   if (needed.names.size() != 1) return needed;
   ask(exchanged(base, needed.model));

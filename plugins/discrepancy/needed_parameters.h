@@ -15,7 +15,15 @@ struct NeededParameters {
   /// What could differ in place of one that is needed: density of modulus, or the other way round
   /// (of a free swing the data see their ratio alone), another law of damping of the damping time
   /// (where one mode swings). The fits with these, named.
-  std::vector<FitSummary> instead;
+  struct Instead {
+    FitSummary model;
+    double behind = 0.0;  ///< nats by which it explains the data worse than what is needed
+  };
+  std::vector<Instead> instead;
+
+  /// The best of these, where it explains so much more that it is worth a name: there is nothing
+  /// left for what is needed to stand for. Else null.
+  const FitSummary* better() const;
 };
 
 /// Each in turn is put back to its nominal value and everything else refitted; it is needed where

@@ -39,6 +39,20 @@ TrueError true_error(const HiddenCase& hidden, const Diagnosis& diagnosis) {
   return truth;
 }
 
+// Where one parameter was needed, or what may stand for it, and no candidate was refitted.
+std::optional<double> lead_among(const discrepancy::Verdict& verdict, const std::string& name) {
+  using discrepancy::NamedCause;
+  const auto truth = std::ranges::find(verdict.causes, name, &NamedCause::name);
+  if (verdict.outcome != discrepancy::Outcome::ambiguous || truth == verdict.causes.end())
+    return {};
+  std::optional<double> lead;
+  for (const NamedCause& other : verdict.causes) {
+    const double here = truth->evidence - other.evidence;
+    if (other.name != name) lead = std::min(lead.value_or(here), here);
+  }
+  return lead;
+}
+
 // Score::lead. A cause that has the truth as a special case, or turned into it, is no other one.
 std::optional<double> lead_of(const HiddenCase& hidden, const Diagnosis& diagnosis) {
   using discrepancy::Candidate;
@@ -46,7 +60,7 @@ std::optional<double> lead_of(const HiddenCase& hidden, const Diagnosis& diagnos
   const std::string& name = hidden.causes.front().name;
   const auto truth = std::ranges::find_if(
       diagnosis.ranking, [&](const Candidate& c) { return c.whole && c.cause == name; });
-  if (truth == diagnosis.ranking.end()) return {};
+  if (truth == diagnosis.ranking.end()) return lead_among(diagnosis.verdict, name);
   const auto& special = discrepancy::special_cases();
   std::optional<double> lead;
   for (const Candidate& rival : diagnosis.ranking) {

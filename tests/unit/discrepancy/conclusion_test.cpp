@@ -319,8 +319,8 @@ TEST(Conclusion, OfAParameterThatAnotherOneCouldStandForIsAmbiguous) {
   Case c;
   c.diagnosis.before.raised = false;
   c.diagnosis.ranking.clear();
-  c.findings.needed.instead = {c.diagnosis.base};
-  Hypothesis& instead = c.findings.needed.instead[0].hypothesis;
+  c.findings.needed.instead = {{c.diagnosis.base, 2.5}};
+  Hypothesis& instead = c.findings.needed.instead[0].model.hypothesis;
   instead = hypothesis_of("density", "factor", 1.0 / 1.2, "1");
   instead.name = "density";
   const Verdict v = c.concluded();
@@ -329,6 +329,26 @@ TEST(Conclusion, OfAParameterThatAnotherOneCouldStandForIsAmbiguous) {
   EXPECT_EQ(v.causes[0].name, "youngs_modulus");
   EXPECT_EQ(v.causes[1].name, "density");
   EXPECT_NEAR(v.causes[1].parameters.at("factor")[0].value, 1.0 / 1.2, 1e-12);
+  EXPECT_NEAR(v.causes[0].evidence - v.causes[1].evidence, 2.5, 1e-9);
+}
+
+// 30 nats better than the parameter: worth a name of its own; 10 nats are not.
+TEST(Conclusion, ALawThatExplainsFarMoreThanTheParameterIsNamedAlone) {
+  for (const double better : {30.0, 10.0}) {
+    Case c;
+    c.diagnosis.before.raised = false;
+    c.diagnosis.ranking.clear();
+    c.findings.needed.instead = {{c.diagnosis.base, -better}};
+    Hypothesis& instead = c.findings.needed.instead[0].model.hypothesis;
+    instead = hypothesis_of("mass_damping", "rate", 3.0, "1/s");
+    instead.name = "mass_damping";
+    const Verdict v = c.concluded();
+    if (better == 30.0)
+      EXPECT_THAT(names(v), ElementsAre("mass_damping"));
+    else
+      EXPECT_THAT(names(v), ElementsAre("youngs_modulus", "mass_damping"));
+    EXPECT_EQ(v.outcome, better == 30.0 ? Outcome::named : Outcome::ambiguous);
+  }
 }
 
 // Its error says so, but the others can stand for it.
