@@ -6,12 +6,12 @@
 
 #include "app/parallel_worlds.h"
 #include "app/plant_overrides.h"
+#include "app/scene_plants.h"
 #include "core/check.h"
 #include "core/random.h"
 #include "discrepancy/simulator.h"
 #include "io/yaml.h"
 #include "plant/effects.h"
-#include "plant/mtg_reader.h"
 #include "world/scene_reader.h"
 
 namespace pedicel::app {
@@ -46,9 +46,10 @@ plant::PlantFile scene_plant(const world::ScenePlant& wanted, Diagnostics& diagn
   if (wanted.source == world::ScenePlant::Source::built_in)
     throw UsageError("observe: plant \"" + wanted.name +
                      "\" is built in, expected one that is read from a file");
-  std::optional<plant::PlantFile> plant = wanted.source == world::ScenePlant::Source::mtg
-                                              ? plant::read_mtg(wanted.file, {}, diagnostics)
-                                              : plant::read_plant_file(wanted.file, diagnostics);
+  std::optional<plant::PlantFile> plant = read_scene_plant(wanted, diagnostics);
+  if (!plant && !diagnostics.has_errors())
+    throw UsageError("observe: plant \"" + wanted.name + "\": " + wanted.file.string() +
+                     " is not there, expected a plant file or an MTG");
   if (plant) apply_plant_overrides(*plant, wanted.set, diagnostics);
   if (!plant || diagnostics.has_errors()) throw InvalidFile(diagnostics);
   return std::move(*plant);
@@ -79,7 +80,7 @@ void take_plant(const ObserveArguments& a, Experiment& experiment) {
     if (!scene) throw InvalidFile(diagnostics);
     const world::ScenePlant& wanted = plant_of(*scene, a.plant);
     experiment.plant = scene_plant(wanted, diagnostics);
-    experiment.plant_path = wanted.file;
+    experiment.plant_path = source_of(wanted);
   } else {
     throw UsageError("observe " + a.model + ": format is \"" + format +
                      "\", expected pedicel-plant, pedicel-scene or pedicel-experiment");

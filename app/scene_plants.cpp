@@ -14,15 +14,11 @@ using world::ScenePlant;
 
 std::optional<plant::PlantFile> read_file(const ScenePlant& wanted, Diagnostics& diagnostics,
                                           std::vector<std::string>& notes) {
-  const bool there = std::filesystem::exists(wanted.file);
-  if (there && wanted.source == ScenePlant::Source::mtg)
-    return plant::read_mtg(wanted.file, {}, diagnostics);
-  if (there || !wanted.optional) return plant::read_plant_file(wanted.file, diagnostics);
-  notes.push_back(wanted.name + ": " + wanted.file.string() + " is not there" +
-                  (wanted.fallback.empty() ? "; the scene runs without it"
-                                           : "; taken instead: " + wanted.fallback.string()));
-  if (wanted.fallback.empty()) return std::nullopt;
-  return plant::read_plant_file(wanted.fallback, diagnostics);
+  if (source_of(wanted) != wanted.file)
+    notes.push_back(wanted.name + ": " + wanted.file.string() + " is not there" +
+                    (wanted.fallback.empty() ? "; the scene runs without it"
+                                             : "; taken instead: " + wanted.fallback.string()));
+  return read_scene_plant(wanted, diagnostics);
 }
 
 ScenePlantModel reference_plant(const ScenePlant& wanted, int index, Diagnostics& diagnostics) {
@@ -120,6 +116,19 @@ class Builder {
 };
 
 }  // namespace
+
+std::filesystem::path source_of(const ScenePlant& plant) {
+  return plant.optional && !std::filesystem::exists(plant.file) ? plant.fallback : plant.file;
+}
+
+std::optional<plant::PlantFile> read_scene_plant(const ScenePlant& plant,
+                                                 Diagnostics& diagnostics) {
+  const std::filesystem::path source = source_of(plant);
+  if (source.empty()) return std::nullopt;
+  if (source == plant.file && plant.source == ScenePlant::Source::mtg)
+    return plant::read_mtg(source, {}, diagnostics);
+  return plant::read_plant_file(source, diagnostics);
+}
 
 std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
                                           const SimulationOptions& options,

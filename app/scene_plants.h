@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,14 @@ struct ScenePlantModel {
   cosserat::RodModel model;
   PlantInfo info;
 };
+
+/// The file that a scene's plant is read from: an absent optional one's fallback, which may be
+/// empty.
+std::filesystem::path source_of(const world::ScenePlant& plant);
+
+/// Reads that file, a plant's or an MTG; nothing where it is faulty, or absent and optional.
+std::optional<plant::PlantFile> read_scene_plant(const world::ScenePlant& plant,
+                                                 Diagnostics& diagnostics);
 
 /// Builds every plant of a scene: from plant files, MTG files and built-in reference plants, with
 /// the scene's `set:` overrides, repeated where it says so. Faults go to `diagnostics`; what is

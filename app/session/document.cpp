@@ -1,5 +1,6 @@
 #include "session/document.h"
 
+#include "app/scene_plants.h"
 #include "core/check.h"
 #include "core/state_hash.h"
 #include "plant/mtg_reader.h"
@@ -32,8 +33,7 @@ void read_plants(Document& document, Diagnostics& diagnostics) {
   for (const world::ScenePlant& entry : document.scene->plants) {
     DocumentPlant one{entry, nullptr};
     const bool is_file = entry.source != world::ScenePlant::Source::built_in;
-    const auto& path =
-        std::filesystem::exists(entry.file) || !entry.optional ? entry.file : entry.fallback;
+    const std::filesystem::path path = app::source_of(entry);
     if (is_file && !path.empty())
       if (auto file = read_plant(path, diagnostics))
         one.file = std::make_shared<const plant::PlantFile>(std::move(*file));

@@ -1,3 +1,4 @@
+#include "app/scene_plants.h"
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "session/journal.h"
@@ -35,15 +36,10 @@ void write_with_backup(const std::filesystem::path& path, const std::string& tex
   io::write_file_atomically(path, text);
 }
 
-/// The file that a plant was read from.
-std::filesystem::path source_of(const world::ScenePlant& entry) {
-  return std::filesystem::exists(entry.file) || !entry.optional ? entry.file : entry.fallback;
-}
-
 /// Whether there is nothing of a plant to be saved: no stems, or still as its file says.
 bool is_as_read(const DocumentPlant& one) {
   if (!one.file || one.file->curves.empty()) return true;
-  const std::filesystem::path source = source_of(one.entry);
+  const std::filesystem::path source = app::source_of(one.entry);
   if (source.empty() || !std::filesystem::exists(source)) return false;
   Diagnostics diagnostics;
   const auto there = read_plant(source, diagnostics);

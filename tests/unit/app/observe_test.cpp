@@ -98,6 +98,12 @@ TEST_F(Observe, TakesAPlantOfAScene) {
   const double k = discrepancy::testing::Beam().tip_stiffness();
   const auto series = [](double stiffness) { return 1.0 / (1.0 / 50.0 + 1.0 / stiffness); };
   EXPECT_NEAR(force(found) / force(soft), series(2.0 * k) / series(k), 0.01);
+  // An absent optional file gives way to its fallback, as in a run.
+  const std::string absent = "  - {name: stiff, file: none.plant.yaml, optional: true";
+  write_scene(absent + ", fallback: stem.plant.yaml}\n");
+  EXPECT_EQ(observe("fallback").plant.material.youngs_modulus, modulus);
+  write_scene(absent + "}\n");
+  EXPECT_THROW(observe_verb(arguments_), UsageError);
   arguments_.model = (folder_ / "stem.plant.yaml").string();
   EXPECT_THROW(observe_verb(arguments_), UsageError);  // --plant without a scene
 }
