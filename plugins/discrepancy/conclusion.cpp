@@ -59,6 +59,20 @@ NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
   return cause;
 }
 
+// The best of the causes, and what loses against it by less than the odds.
+void take_better(const std::string& parameter, Verdict& verdict) {
+  std::ranges::stable_sort(verdict.causes, std::ranges::greater{}, &NamedCause::evidence);
+  const double best = verdict.causes.front().evidence;
+  std::erase_if(verdict.causes, [&](const NamedCause& other) {
+    const double behind = best - other.evidence;
+    if (behind > clear_odds) verdict.rivals.push_back({other.name, behind});
+    return behind > clear_odds;
+  });
+  const auto lost = std::ranges::find(verdict.rivals, parameter, &Rival::name);
+  verdict.causes.front().because += " Another " + parameter + " alone would explain the data " +
+                                    text("%.3g nats worse.", lost->behind);
+}
+
 // Modulus, density or damping, where nothing else is wrong and 1 is far out; with the intervals of
 // the fit that leaves all of them free.
 void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
@@ -87,11 +101,7 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
       verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
     }
   }
-  if (needed.better()) {
-    std::ranges::stable_sort(verdict.causes, std::ranges::greater{}, &NamedCause::evidence);
-    const double least = verdict.causes.front().evidence - clear_odds;
-    std::erase_if(verdict.causes, [&](const NamedCause& c) { return c.evidence < least; });
-  }
+  if (needed.better()) take_better(needed.names.front(), verdict);
   if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
 }
 

@@ -343,11 +343,17 @@ TEST(Conclusion, ALawThatExplainsFarMoreThanTheParameterIsNamedAlone) {
     instead = hypothesis_of("mass_damping", "rate", 3.0, "1/s");
     instead.name = "mass_damping";
     const Verdict v = c.concluded();
-    if (better == 30.0)
+    if (better == 30.0) {
+      EXPECT_EQ(v.outcome, Outcome::named);
       EXPECT_THAT(names(v), ElementsAre("mass_damping"));
-    else
+      ASSERT_EQ(v.rivals.size(), 1u);
+      EXPECT_NEAR(v.rivals[0].behind, 30.0, 1e-9);
+      EXPECT_NE(v.causes[0].because.find("Another youngs_modulus"), std::string::npos);
+    } else {
+      EXPECT_EQ(v.outcome, Outcome::ambiguous);
       EXPECT_THAT(names(v), ElementsAre("youngs_modulus", "mass_damping"));
-    EXPECT_EQ(v.outcome, better == 30.0 ? Outcome::named : Outcome::ambiguous);
+      EXPECT_TRUE(v.rivals.empty());
+    }
   }
 }
 
