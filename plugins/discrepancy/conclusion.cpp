@@ -84,7 +84,10 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
       verdict.causes.push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
   }
   verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
-  if (verdict.causes.size() != 1) return;
+  if (verdict.causes.size() != 1) {
+    diagnosis.best = diagnosis.base;  // nothing to be better than
+    return;
+  }
   const double evidence = verdict.causes.front().evidence;
   for (const auto& [instead, behind] : needed.instead) {
     const std::string& name = instead.hypothesis.name;

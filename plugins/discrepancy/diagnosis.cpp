@@ -29,7 +29,8 @@ constexpr double numerical_limit = 0.5;  // of the noise, RMS
 constexpr double family_share = 0.5;
 constexpr double least_share = 0.01;  // of the gain of the first cause, what another must bring
 constexpr int most_causes = 3;
-constexpr double beyond_doubt = 300.0;  // nats
+// Nats that one cause, and several together, do not explain to the last by chance.
+constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
 // Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
 constexpr double least_objection = 6.0, small_objection = 0.1;
 // What one force may gain less than several causes: nats, or a share of theirs.
@@ -382,14 +383,16 @@ class Procedure {
 
   // Several causes are none where one force from outside the list explains as much of the fitted
   // trials, nor is one that does so at the end of what its numbers may be; any other single cause
-  // is none where a force explains clearly more. That holds for the trials kept back, too. What
-  // one cause explains to the last, and loudly, it does not by chance.
+  // is none where a force explains clearly more. That holds for the trials kept back, too. What is
+  // explained to the last, and loudly, is not by chance.
   void ask_for_one_force() {
     const bool several = findings_.chain.size() > 1;
     const bool alone = !several && !stands_at_bound(findings_.chain.front());
     const Candidate& first = findings_.chain.front();
-    const double evidence = first.evidence - first.held_out.gain;
-    if (!several && !result_.after.raised && evidence > beyond_doubt) return;
+    double explained = first.evidence - first.held_out.gain;
+    for (std::size_t c = 1; c < findings_.chain.size(); ++c) explained += findings_.chain[c].gain;
+    if (!result_.after.raised && explained > (several ? beyond_doubt_together : beyond_doubt))
+      return;
     MissingForce force = missing_force();
     if (!force.found || force.fit.why == "not run") return;
     // With the noise as it was read last.
