@@ -14,4 +14,10 @@ namespace pedicel::discrepancy {
 Hypothesis baseline_start(Evaluator& evaluator, const FitOptions& options,
                           std::vector<std::string>& unseen);
 
+/// Adds those of the `unseen` to a baseline, at their nominal values, that these data see plainly
+/// after all: the noise was read from the data themselves, where a slow misfit may have passed for
+/// noise with a long memory, and was read anew since. False where there are none.
+bool add_plainly_seen(Evaluator& evaluator, const FitOptions& options,
+                      std::vector<std::string>& unseen, Hypothesis& base);
+
 }  // namespace pedicel::discrepancy

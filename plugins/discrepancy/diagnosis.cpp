@@ -117,6 +117,12 @@ class Procedure {
     log_.fit("Baseline", result_.base, setup_->samples());
     refine();
     setup_->renew_noise(result_.base.hypothesis);
+    Evaluator again = setup_->evaluator();
+    if (add_plainly_seen(again, fit_options(), result_.unseen, result_.base.hypothesis)) {
+      log_.note("With the noise as it is read now these data see more of the parameters.");
+      refit_base();
+      setup_->renew_noise(result_.base.hypothesis);
+    }
     refit_base();
     log_.noise(setup_->data());
     log_.fit("Baseline", result_.base, setup_->samples());
