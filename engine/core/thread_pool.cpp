@@ -8,26 +8,26 @@ namespace pedicel {
 
 namespace {
 
-// Leaves the core's other thread and the memory bus alone for a moment.
-void pause() {
-#if defined(__x86_64__)
-  __builtin_ia32_pause();
-#endif
-}
-
 // Some half a millisecond: longer than one thread of a step waits for another. True as soon as
 // `ready` is.
 template <class Ready>
 bool becomes_ready_soon(const Ready& ready) {
-  for (int i = 0; i < 8192; ++i) {
+  for (unsigned turn = 0; turn < 8192; ++turn) {
     if (ready()) return true;
-    pause();
-    if (i % 512 == 511) std::this_thread::yield();
+    wait_a_moment(turn);
   }
   return false;
 }
 
 }  // namespace
+
+// Leaves the core's other thread and the memory bus alone, and lets others have the core at times.
+void wait_a_moment(unsigned turn) {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+  if (turn % 512 == 511) std::this_thread::yield();
+}
 
 ThreadPool::ThreadPool(int threads) : begun_(std::max(0, threads)) {
   if (threads < 1) throw UsageError("threads = " + std::to_string(threads) + ": must be >= 1");

@@ -8,6 +8,15 @@
 
 namespace pedicel {
 
+/// One turn of a loop that waits awake, the `turn`th.
+void wait_a_moment(unsigned turn);
+
+/// Waits awake until `ready()`: for what another thread is about to finish.
+template <class Ready>
+void await(const Ready& ready) {
+  for (unsigned turn = 0; !ready(); ++turn) wait_a_moment(turn);
+}
+
 /// Runs independent tasks on a fixed number of threads. Which thread takes which task is not
 /// fixed, so tasks must not depend on each other: then any number of threads gives the same bits.
 /// Task i of the first threads() is thread i's unless another one is idle before it comes to it:

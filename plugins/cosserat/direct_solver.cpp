@@ -79,13 +79,6 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
   end(steps, dt, pool);
 }
 
-// task(group): what carries others first, then the groups side by side.
-template <class Task>
-void DirectSolver::root_outward(ThreadPool& pool, const Task& task) {
-  if (rows_.has_top()) task(rows_.groups());
-  pool.for_each(rows_.groups(), task);
-}
-
 void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& gravity,
                          ThreadPool& pool) {
   rows_.set_gravity(gravity);
@@ -113,7 +106,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
   }
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
-  root_outward(pool, [&](int group) { rows_.prepare(group, states_); });
+  rows_.prepare(pool, states_);
   if (std::any_of(plants_.begin(), plants_.end(), [](const Plant& p) { return p.touched; })) {
     pool.for_each(size(), [&](int p) {
       if (!plants_[p].touched) return;
@@ -155,13 +148,10 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
     if (!plants_[p].touched) return rows_.energy(p);
     return rows_.energy(p) + plants_[p].attachments.potential(*steps[p].model, state);
   };
-  root_outward(pool, [&](int group) { rows_.evaluate_start(group); });
+  rows_.evaluate_start(pool);
   for (int p = 0; p < size(); ++p)
     if (fast[p]) plants_[p].energy = potential(p, *steps[p].state);
-  root_outward(pool, [&](int group) {
-    rows_.move(group, true);
-    rows_.write_iterate(group, iterates_);
-  });
+  rows_.move(pool, true, iterates_);
   for (int p = 0; p < size(); ++p) {
     if (!fast[p]) continue;
     plants_[p].iterate_is_here = potential(p, plants_[p].iterate) < plants_[p].energy;
@@ -172,22 +162,18 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
 
 void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   std::fill(working_.begin(), working_.end(), 1);
-  // Where nothing has to happen between them, a group is eliminated and substituted in one go.
-  const bool at_once = !rows_.has_top() && !any_loops_;
   while (any(working_)) {
     rows_.set_active(working_);
     linearise_touched(steps, dt, pool);
-    if (!at_once) {
-      pool.for_each(rows_.groups(), [&](int group) { rows_.eliminate(group); });
-      if (rows_.has_top()) rows_.eliminate(rows_.groups());
+    if (any_loops_) {
+      rows_.eliminate(pool);
       pool.for_each(size(), [&](int p) {
         if (working_[p] && plants_[p].loops) solve_loops(p, *steps[p].model);
       });
+      rows_.substitute(pool);
+    } else {
+      rows_.eliminate_and_substitute(pool);
     }
-    root_outward(pool, [&](int group) {
-      if (at_once) rows_.eliminate(group);
-      rows_.substitute(group);
-    });
     search(steps, pool);
     for (int p = 0; p < size(); ++p)
       if (working_[p] && is_done(plants_[p], steps[p].report)) working_[p] = 0;
@@ -204,7 +190,7 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
   for (int p = 0; p < size(); ++p)
     iterates_[p] = wanted(p) && !plants_[p].iterate_is_here ? &plants_[p].iterate : nullptr;
   if (std::any_of(iterates_.begin(), iterates_.end(), [](const RodState* s) { return s; }))
-    root_outward(pool, [&](int group) { rows_.write_iterate(group, iterates_); });
+    rows_.write_iterate(pool, iterates_);
   // Where there is but one plant, its sources may use the threads.
   ThreadPool* const inner = count == 1 ? &pool : nullptr;
   const auto linearise = [&](int p) {
@@ -251,10 +237,7 @@ void DirectSolver::search(std::span<PlantStep> steps, ThreadPool& pool) {
   }
   for (bool keep = true; any(searching_); keep = false) {
     rows_.set_active(searching_);
-    root_outward(pool, [&](int group) {
-      rows_.move(group, keep);
-      rows_.write_iterate(group, iterates_);
-    });
+    rows_.move(pool, keep, iterates_);
     pool.for_each(size(), [&](int p) {
       if (searching_[p]) try_share(p, *steps[p].model, steps[p].report);
     });
@@ -381,7 +364,7 @@ void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Ve
 void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   for (int p = 0; p < size(); ++p)  // what steps in parts leave is not in the rows
     if (plants_[p].in_parts || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
-  root_outward(pool, [&](int group) { rows_.finish(group, states_); });
+  rows_.finish(pool, states_);
   pool.for_each(size(), [&](int p) {
     Plant& plant = plants_[p];
     RodState& state = *steps[p].state;

@@ -98,8 +98,6 @@ class DirectSolver : public RodSolver {
   bool is_done(Plant& plant, StepReport& report) const;
   void take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity);
   void end(std::span<PlantStep> steps, double dt, ThreadPool& pool);
-  template <class Task>
-  void root_outward(ThreadPool& pool, const Task& task);
   int size() const { return static_cast<int>(plants_.size()); }
 
   RodSettings settings_;

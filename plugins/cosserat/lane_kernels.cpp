@@ -654,10 +654,12 @@ void move_pack(const RowArrays& rows, Pack& pack, bool keep) {
     V energy = set(0.0);
     Pose parent = load_pose(rows.iterate[pack.begin], lane);
     for (int row = pack.begin + 1; row < pack.end; ++row) {
-      const Pose base = load_pose(keep ? rows.iterate[row] : rows.base[row], lane);
-      if (keep) store_pose(base, rows.base[row], lane);
+      FactorRow& factor = rows.factor[row];
+      PoseRow& kept = factor.base;
+      const Pose base = load_pose(keep ? rows.iterate[row] : kept, lane);
+      if (keep) store_pose(base, kept, lane);
       V d[6];
-      load_change(rows.factor[row], lane, d);
+      load_change(factor, lane, d);
       Pose moved;
       moved.position =
           select(moves, add_scaled(base.position, share, V3{d[0], d[1], d[2]}), base.position);

@@ -31,8 +31,9 @@ void substitute(const RowArrays& rows, Pack& pack);
 /// `turn`, `shift`, `change` of a solution that is in `factor` already.
 void measure_change(const RowArrays& rows, Pack& pack);
 
-/// iterate = base moved by `share` of the change; `keep` first makes base the iterate. The pack's
-/// first row must hold the parents' new poses. Sets `energy` to the potential there.
+/// iterate = base moved by `share` of the change; `keep` first makes base the iterate, which ends
+/// the use of the factors (FactorRow). The pack's first row must hold the parents' new poses. Sets
+/// `energy` to the potential there.
 void move(const RowArrays& rows, Pack& pack, bool keep);
 
 /// Velocities that the scheme gives to the end of the step, into `rate` (strains are left).

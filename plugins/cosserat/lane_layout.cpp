@@ -7,33 +7,15 @@ namespace pedicel::cosserat {
 
 namespace {
 
-constexpr int smallest_share = 400;  // elements: less is not worth waking a thread for
+// Elements of a plant that several threads may share, and how many stems at most are few: more of
+// them fill lanes side by side.
+constexpr int large_plant = 800, few_stems = lane_count / 2;
 
-// Chains that must stay with one thread, a chain after the one that it starts from.
-struct Part {
-  std::vector<int> chains;
-  int elements = 0;
-};
-
-}  // namespace
-
-LaneLayout::LaneLayout(std::span<const RodModel* const> plants, int threads, bool keep_blocks) {
-  std::vector<bool> keeps;
-  for (int p = 0; p < static_cast<int>(plants.size()); ++p) {
-    add_chains(*plants[p], p);
-    slots_.emplace_back(plants[p]->elements.size());
-    keeps.push_back(keep_blocks || !plants[p]->welds.empty());
-  }
-  for (const std::vector<int>& group : share_out(threads)) {
-    pack(group, keeps);
-    group_begin_.push_back(packs());
-  }
-}
-
-void LaneLayout::add_chains(const RodModel& model, int plant) {
+// The child that an element's chain goes on to; -1: none.
+std::vector<int> next_of_chains(const RodModel& model) {
   const int n = model.size();
   std::vector<int> height(n, 1);  // elements on the longest path
-  std::vector<int> next(n, -1);   // the child that the chain goes on to
+  std::vector<int> next(n, -1);
   const auto rank = [&](int parent, int child) {
     return std::pair(model.elements[child].organ == model.elements[parent].organ, height[child]);
   };
@@ -44,102 +26,116 @@ void LaneLayout::add_chains(const RodModel& model, int plant) {
     // Of equal ones the first child goes on: it is the last to come by here.
     if (next[p] < 0 || rank(p, e) >= rank(p, next[p])) next[p] = e;
   }
-  std::vector<int> chain_of(n, -1);
-  std::vector<int>& own = chains_of_plant_.emplace_back();
-  for (int e = 0; e < n; ++e) {
+  return next;
+}
+
+// In the order of their first elements; parents are indices here.
+std::vector<Chain> chains_of(const RodModel& model, const std::vector<int>& next) {
+  std::vector<int> chain_of(model.size(), -1);
+  std::vector<Chain> chains;
+  for (int e = 0; e < model.size(); ++e) {
     const int p = model.elements[e].parent;
     if (p >= 0 && next[p] == e) continue;
     Chain chain;
-    chain.plant = plant;
     chain.parent = p < 0 ? -1 : chain_of[p];
     for (int i = e; i >= 0; i = next[i]) {
-      chain_of[i] = static_cast<int>(chains_.size());
+      chain_of[i] = static_cast<int>(chains.size());
       chain.elements.push_back(i);
     }
-    own.push_back(static_cast<int>(chains_.size()));
-    chains_.push_back(std::move(chain));
+    chains.push_back(std::move(chain));
   }
-  for (auto it = own.rbegin(); it != own.rend(); ++it) {
-    const Chain& chain = chains_[*it];
-    if (chain.parent >= 0)
-      chains_[chain.parent].level = std::max(chains_[chain.parent].level, chain.level + 1);
+  for (auto chain = chains.rbegin(); chain != chains.rend(); ++chain)
+    if (chain->parent >= 0)
+      chains[chain->parent].level = std::max(chains[chain->parent].level, chain->level + 1);
+  return chains;
+}
+
+// A stem of few lanes that is computed in one go keeps threads waiting until its last branch is
+// done. In pieces that carry a pack of branches each it is computed while others still are.
+void cut_few_stems(const RodModel& model, const std::vector<Chain>& chains,
+                   std::vector<int>& next) {
+  std::vector<int> on(model.size()), of_level(1);  // chains
+  for (const Chain& chain : chains) {
+    const int parent = model.elements[chain.elements.front()].parent;
+    if (parent >= 0) ++on[parent];
+    if (chain.level >= static_cast<int>(of_level.size())) of_level.resize(chain.level + 1);
+    ++of_level[chain.level];
+  }
+  for (const Chain& chain : chains) {
+    if (of_level[chain.level] > few_stems) continue;
+    int carried = 0;
+    for (std::size_t i = 0; i < chain.elements.size(); ++i) {
+      const int here = on[chain.elements[i]];
+      if (carried > 0 && carried + here > lane_count) {
+        next[chain.elements[i - 1]] = -1;
+        carried = 0;
+      }
+      carried += here;
+    }
   }
 }
 
-std::vector<std::vector<int>> LaneLayout::share_out(int threads) const {
-  const auto length = [&](int c) { return static_cast<int>(chains_[c].elements.size()); };
-  std::vector<Part> parts;
-  int total = 0;
-  for (const std::vector<int>& chains : chains_of_plant_) {
-    Part part{chains, 0};
-    for (const int c : chains) part.elements += length(c);
-    total += part.elements;
-    parts.push_back(std::move(part));
-  }
-  const int wanted = std::clamp(total / smallest_share, 1, threads);
+}  // namespace
 
-  // Largest first, each to the thread with the least so far.
-  const auto shared = [&](std::vector<Part>& all) {
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Part& a, const Part& b) { return a.elements > b.elements; });
-    std::vector<Part> groups(wanted);
-    for (const Part& part : all) {
-      Part& least =
-          *std::min_element(groups.begin(), groups.end(),
-                            [](const auto& a, const auto& b) { return a.elements < b.elements; });
-      least.chains.insert(least.chains.end(), part.chains.begin(), part.chains.end());
-      least.elements += part.elements;
+LaneLayout::LaneLayout(std::span<const RodModel* const> plants, bool keep_blocks) {
+  std::vector<bool> keeps;
+  for (const RodModel* const plant : plants) {
+    std::vector<int> next = next_of_chains(*plant);
+    std::vector<Chain> chains = chains_of(*plant, next);
+    if (plant->size() >= large_plant) {
+      cut_few_stems(*plant, chains, next);
+      chains = chains_of(*plant, next);
     }
-    return groups;
-  };
-  const auto longest = [](const std::vector<Part>& groups) {
-    int most = 0;
-    for (const Part& group : groups) most = std::max(most, group.elements);
-    return most;
-  };
-
-  // The largest part gives its stems to the top as long as that pays: the top runs alone, mostly
-  // with one lane of eight in use.
-  std::vector<int> top;
-  int top_elements = 0;
-  std::vector<Part> groups = shared(parts);
-  while (wanted > 1) {
-    const Part& largest = parts.front();
-    std::vector<Part> split(parts.begin() + 1, parts.end());
-    std::vector<int> stems, part_of(chains_.size(), -1);
-    int stem_elements = 0;
-    for (const int c : largest.chains) {  // a chain stands after the one that it starts from
-      const int parent = chains_[c].parent;
-      if (parent < 0 || std::find(top.begin(), top.end(), parent) != top.end()) {
-        stems.push_back(c);
-        stem_elements += length(c);
-        continue;
-      }
-      if (part_of[parent] < 0) {
-        part_of[c] = static_cast<int>(split.size());
-        split.emplace_back();
-      } else {
-        part_of[c] = part_of[parent];
-      }
-      split[part_of[c]].chains.push_back(c);
-      split[part_of[c]].elements += length(c);
-    }
-    const int before = longest(groups) + lane_count * top_elements;
-    std::vector<Part> regrouped = shared(split);
-    if (longest(regrouped) + lane_count * (top_elements + stem_elements) >= before) break;
-    top.insert(top.end(), stems.begin(), stems.end());
-    top_elements += stem_elements;
-    parts = std::move(split);
-    groups = std::move(regrouped);
+    slots_.emplace_back(plant->elements.size());
+    keeps.push_back(keep_blocks || !plant->welds.empty());
+    add_chains(std::move(chains));
   }
+  pack(keeps);
+}
 
-  std::vector<std::vector<int>> result;
-  for (Part& group : groups) result.push_back(std::move(group.chains));
-  result.push_back(std::move(top));
+// Those of the next plant.
+void LaneLayout::add_chains(std::vector<Chain> chains) {
+  const int first = static_cast<int>(chains_.size());
+  const int plant = static_cast<int>(chains_of_plant_.size());
+  std::vector<int>& own = chains_of_plant_.emplace_back(chains.size());
+  std::iota(own.begin(), own.end(), first);
+  for (Chain& chain : chains) {
+    chain.plant = plant;
+    if (chain.parent >= 0) chain.parent += first;
+    chains_.push_back(std::move(chain));
+  }
+}
+
+std::vector<std::vector<int>> LaneLayout::packs_on() const {
+  std::vector<std::vector<int>> result(packs());
+  for (const Chain& chain : chains_)
+    if (chain.parent >= 0) result[chains_[chain.parent].pack].push_back(chain.pack);
+  for (std::vector<int>& on : result) {
+    std::sort(on.begin(), on.end());
+    on.erase(std::unique(on.begin(), on.end()), on.end());
+  }
   return result;
 }
 
-void LaneLayout::pack(std::vector<int> chains, const std::vector<bool>& keeps) {
+void LaneLayout::place(std::span<const int> packs) {
+  std::vector<int> shift(packs.size());
+  std::vector<std::array<int, lane_count>> elements;
+  elements.reserve(elements_.size());
+  for (const int p : packs) {
+    shift[p] = static_cast<int>(elements.size()) - first_row_[p];
+    elements.insert(elements.end(), elements_.begin() + first_row_[p],
+                    elements_.begin() + end_row_[p]);
+    first_row_[p] += shift[p];
+    end_row_[p] += shift[p];
+  }
+  elements_ = std::move(elements);
+  for (const Chain& chain : chains_)
+    for (const int e : chain.elements) slots_[chain.plant][e].row += shift[chain.pack];
+}
+
+void LaneLayout::pack(const std::vector<bool>& keeps) {
+  std::vector<int> chains(chains_.size());
+  std::iota(chains.begin(), chains.end(), 0);
   const auto kept = [&](int c) { return static_cast<bool>(keeps[chains_[c].plant]); };
   const auto key = [&](int c) {
     const Chain& chain = chains_[c];
@@ -164,7 +160,8 @@ void LaneLayout::pack(std::vector<int> chains, const std::vector<bool>& keeps) {
       }
     }
     keeps_blocks_.push_back(kept(first));
-    first_row_.push_back(rows());
+    first_row_.push_back(begin);
+    end_row_.push_back(rows());
   }
 }
 

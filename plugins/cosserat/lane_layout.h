@@ -16,7 +16,8 @@ struct Slot {
 
 /// A path of elements, each the parent of the next: where a plant forks, the child of the same
 /// organ goes on, else the one with the longest path below it, and the others start chains of their
-/// own. So equal branches are equal chains, and a stem does not go on into the last of them.
+/// own. So equal branches are equal chains, and a stem does not go on into the last of them. The
+/// few long stems of a large plant are cut, each piece a chain that starts from the one below.
 struct Chain {
   int plant = 0;
   std::vector<int> elements;  // from the root outward
@@ -27,15 +28,12 @@ struct Chain {
 
 /// Which element stands in which row and lane. Chains of the same level, of any plant, stand side
 /// by side in packs of up to eight; a plant of one stem and five equal branches thus fills six
-/// lanes, and a row of equal plants fills all.
-///
-/// For threads the packs fall into groups that depend on nothing but the last one, `top`: whole
-/// plants where they can be shared out evenly, else the branches of the largest, with the stems
-/// that carry them on top. What an element gets does not depend on its place here.
+/// lanes, and a row of equal plants fills all. What an element gets does not depend on its place
+/// here, and how a plant is cut depends on nothing but the plant.
 class LaneLayout {
  public:
-  /// `threads` >= 1. With `keep_blocks` no plant is eliminated row by row.
-  LaneLayout(std::span<const RodModel* const> plants, int threads, bool keep_blocks);
+  /// With `keep_blocks` no plant is eliminated row by row.
+  LaneLayout(std::span<const RodModel* const> plants, bool keep_blocks);
 
   int rows() const { return static_cast<int>(elements_.size()); }
   const std::vector<Chain>& chains() const { return chains_; }
@@ -45,27 +43,27 @@ class LaneLayout {
 
   /// Which elements, of the plants of its lanes, stand in a row; -1: none.
   const std::array<int, lane_count>& elements(int row) const { return elements_[row]; }
+  /// Branches stand before what carries them.
   int packs() const { return static_cast<int>(keeps_blocks_.size()); }
   int first_row(int pack) const { return first_row_[pack]; }
-  int end_row(int pack) const { return first_row_[pack + 1]; }
+  int end_row(int pack) const { return end_row_[pack]; }
   /// Packs of plants with loops hold nothing else: they are not eliminated row by row.
   bool keeps_blocks(int pack) const { return keeps_blocks_[pack]; }
-
-  /// Packs of a group, branches before what carries them. The last group is `top`.
-  int groups() const { return static_cast<int>(group_begin_.size()) - 1; }
-  int group_begin(int group) const { return group_begin_[group]; }
-  int group_end(int group) const { return group_begin_[group + 1]; }
+  /// For each pack, those whose chains start from its own.
+  std::vector<std::vector<int>> packs_on() const;
+  /// Lays the rows of the packs out in this order: those of one thread side by side, or what a core
+  /// fetches ahead belongs to another one.
+  void place(std::span<const int> packs);
 
  private:
-  void add_chains(const RodModel& model, int plant);
-  std::vector<std::vector<int>> share_out(int threads) const;
-  void pack(std::vector<int> chains, const std::vector<bool>& keeps);
+  void add_chains(std::vector<Chain> chains);
+  void pack(const std::vector<bool>& keeps);
 
   std::vector<Chain> chains_;
   std::vector<std::vector<int>> chains_of_plant_;
   std::vector<std::vector<Slot>> slots_;
   std::vector<std::array<int, lane_count>> elements_;  // by row
-  std::vector<int> first_row_{0}, group_begin_{0};
+  std::vector<int> first_row_, end_row_;               // by pack
   std::vector<bool> keeps_blocks_;
 };
 

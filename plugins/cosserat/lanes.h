@@ -75,9 +75,15 @@ inline constexpr int triangle6 = 21, block_size = triangle6 + 6;
 /// diagonal), W = L^-1 coupling by columns (its upper right quarter is zero), y = L^-1 right side,
 /// and then the solution. Where a row is not eliminated here (plants with loops): the block itself,
 /// the coupling (two symmetric quarters and the lower left one), what the parent's right side gets,
-/// the right side.
+/// the right side. The line search needs the solution alone: the iterate that it begins from, its
+/// base, takes the place of W.
 struct alignas(64) FactorRow {
-  Lanes diagonal[triangle6], coupling[27], right[6];
+  Lanes diagonal[triangle6];
+  union {
+    Lanes coupling[27];
+    PoseRow base;
+  };
+  Lanes right[6];
 };
 
 /// What goes into one element's block from outside its row: a branch that starts at it, or springs
@@ -115,7 +121,7 @@ struct alignas(64) Pack {
 /// Where the rows are; indices are rows.
 struct RowArrays {
   const ElementRow* element = nullptr;
-  PoseRow *start = nullptr, *iterate = nullptr, *base = nullptr;
+  PoseRow *start = nullptr, *iterate = nullptr;
   const PoseRow* previous = nullptr;
   RateRow* rate = nullptr;
   const RateRow* previous_rate = nullptr;

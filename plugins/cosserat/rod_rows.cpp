@@ -43,6 +43,16 @@ PoseRow identity_row() {
   return row;
 }
 
+constexpr int smallest_share = 400;  // elements: less is not worth waking a thread for
+
+TaskGraph graph_of(const LaneLayout& layout, std::span<const RodModel* const> plants, int threads) {
+  std::vector<double> rows;
+  for (int p = 0; p < layout.packs(); ++p) rows.push_back(layout.end_row(p) - layout.first_row(p));
+  int elements = 0;
+  for (const RodModel* const plant : plants) elements += plant->size();
+  return {layout.packs_on(), rows, std::clamp(elements / smallest_share, 1, threads)};
+}
+
 constexpr int at(int i, int j) {  // in a lower triangle by rows
   return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
 }
@@ -51,7 +61,8 @@ constexpr int at(int i, int j) {  // in a lower triangle by rows
 
 RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks,
                  std::shared_ptr<RowScratch> scratch)
-    : layout_(plants, threads, keep_blocks),
+    : layout_(plants, keep_blocks),
+      graph_(graph_of(layout_, plants, threads)),
       packs_(layout_.packs()),
       element_(layout_.rows(), empty_row()),
       previous_(layout_.rows(), identity_row()),
@@ -62,12 +73,15 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
       first_extra_(layout_.rows(), -1),
       anchors_(layout_.packs()),
       roots_(plants.size()) {
+  std::vector<int> order;
+  for (int thread = 0; thread < graph_.threads(); ++thread)
+    order.insert(order.end(), graph_.tasks_of(thread).begin(), graph_.tasks_of(thread).end());
+  layout_.place(order);
   const auto grow = [&](auto& rows) {
     if (static_cast<int>(rows.size()) < layout_.rows()) rows.resize(layout_.rows());
   };
   grow(scratch_->start);
   grow(scratch_->iterate);
-  grow(scratch_->base);
   grow(scratch_->rate);
   grow(scratch_->term);
   grow(scratch_->factor);
@@ -99,7 +113,6 @@ RowArrays RodRows::arrays() {
   rows.element = element_.data();
   rows.start = scratch_->start.data();
   rows.iterate = scratch_->iterate.data();
-  rows.base = scratch_->base.data();
   rows.previous = previous_.data();
   rows.rate = scratch_->rate.data();
   rows.previous_rate = previous_rate_.data();
@@ -210,14 +223,15 @@ void RodRows::read_states(int pack, std::span<const RodState* const> states) {
   }
 }
 
-void RodRows::prepare(int group, std::span<const RodState* const> states) {
+void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
-  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
-    if (!packs_[p].active) continue;
+  graph_.each(pool, [&](int p) {
+    if (!packs_[p].active) return;
     read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
-    place_anchors(p, scratch_->iterate);
-  }
+  });
+  for (int p = 0; p < layout_.packs(); ++p)
+    if (packs_[p].active) place_anchors(p, scratch_->iterate);
 }
 
 // The parents' poses into a pack's first row: theirs must have been moved already.
@@ -250,14 +264,14 @@ void RodRows::change_anchors(int pack) {
 }
 
 // Nothing needs the clamps of the start any more: prepare() has taken the strains against them.
-void RodRows::evaluate_start(int group) {
+void RodRows::evaluate_start(ThreadPool& pool) {
   RowArrays rows = arrays();
   rows.iterate = rows.start;
-  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
-    if (!packs_[p].active) continue;
+  graph_.outward(pool, [&](int p) {
+    if (!packs_[p].active) return;
     place_anchors(p, scratch_->start);
     cosserat::move(rows, packs_[p], true);
-  }
+  });
 }
 
 void RodRows::hold(int plant) {
@@ -287,6 +301,10 @@ void RodRows::read_iterate(int plant, const RodState& state) {
 template <class Write>
 void RodRows::for_each_element(int pack, std::span<RodState* const> states,
                                const Write& write) const {
+  const auto has_state = [&](const Anchor& anchor) {
+    return anchor.plant >= 0 && states[anchor.plant];
+  };
+  if (!std::ranges::any_of(anchors_[pack], has_state)) return;
   for (int row = packs_[pack].begin + 1; row < packs_[pack].end; ++row) {
     for (int lane = 0; lane < lane_count; ++lane) {
       const int e = layout_.elements(row)[lane];
@@ -296,12 +314,15 @@ void RodRows::for_each_element(int pack, std::span<RodState* const> states,
   }
 }
 
-void RodRows::write_iterate(int group, std::span<RodState* const> states) const {
-  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p)
-    for_each_element(p, states, [&](RodState& state, int e, int row, int lane) {
-      state.position[e] = vector_at(scratch_->iterate[row].position, lane);
-      state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
-    });
+void RodRows::write_pack(int pack, std::span<RodState* const> states) const {
+  for_each_element(pack, states, [&](RodState& state, int e, int row, int lane) {
+    state.position[e] = vector_at(scratch_->iterate[row].position, lane);
+    state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
+  });
+}
+
+void RodRows::write_iterate(ThreadPool& pool, std::span<RodState* const> states) {
+  graph_.each(pool, [&](int p) { write_pack(p, states); });
 }
 
 void RodRows::clear_extras() {
@@ -326,15 +347,17 @@ void RodRows::add_extras(int plant, const DiagonalBlocks& blocks) {
   for (std::size_t i = 0; i < extras_.size(); ++i) extras_[i].values = extra_values_[i].data();
 }
 
-void RodRows::eliminate(int group) {
+void RodRows::eliminate_pack(const RowArrays& rows, int pack) {
+  if (!packs_[pack].active) return;
+  if (layout_.keeps_blocks(pack))
+    linearise(rows, packs_[pack]);
+  else
+    linearise_and_eliminate(rows, packs_[pack]);
+}
+
+void RodRows::eliminate(ThreadPool& pool) {
   const RowArrays rows = arrays();
-  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p) {
-    if (!packs_[p].active) continue;
-    if (layout_.keeps_blocks(p))
-      linearise(rows, packs_[p]);
-    else
-      linearise_and_eliminate(rows, packs_[p]);
-  }
+  graph_.inward(pool, [&](int p) { eliminate_pack(rows, p); });
 }
 
 void RodRows::copy_blocks(int plant, BlockSystem& system) const {
@@ -387,17 +410,25 @@ void RodRows::set_change(int plant, const BlockSystem& solved) {
   }
 }
 
-void RodRows::substitute(int group) {
-  const RowArrays rows = arrays();
-  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
-    if (!packs_[p].active) continue;
-    if (layout_.keeps_blocks(p)) {
-      measure_change(rows, packs_[p]);
-    } else {
-      change_anchors(p);
-      cosserat::substitute(rows, packs_[p]);
-    }
+void RodRows::substitute_pack(const RowArrays& rows, int pack) {
+  if (!packs_[pack].active) return;
+  if (layout_.keeps_blocks(pack)) {
+    measure_change(rows, packs_[pack]);
+  } else {
+    change_anchors(pack);
+    cosserat::substitute(rows, packs_[pack]);
   }
+}
+
+void RodRows::substitute(ThreadPool& pool) {
+  const RowArrays rows = arrays();
+  graph_.outward(pool, [&](int p) { substitute_pack(rows, p); });
+}
+
+void RodRows::eliminate_and_substitute(ThreadPool& pool) {
+  const RowArrays rows = arrays();
+  graph_.inward_and_outward(
+      pool, [&](int p) { eliminate_pack(rows, p); }, [&](int p) { substitute_pack(rows, p); });
 }
 
 void RodRows::set_share(int plant, double share) {
@@ -407,21 +438,22 @@ void RodRows::set_share(int plant, double share) {
   }
 }
 
-void RodRows::move(int group, bool keep) {
+void RodRows::move(ThreadPool& pool, bool keep, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
-  for (int p = layout_.group_end(group) - 1; p >= layout_.group_begin(group); --p) {
-    if (!packs_[p].active) continue;
+  graph_.outward(pool, [&](int p) {
+    if (!packs_[p].active) return;
     place_anchors(p, scratch_->iterate);
     cosserat::move(rows, packs_[p], keep);
-  }
+    write_pack(p, states);
+  });
 }
 
-void RodRows::finish(int group, std::span<RodState* const> states) {
+void RodRows::finish(ThreadPool& pool, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
-  for (int p = layout_.group_begin(group); p < layout_.group_end(group); ++p) {
+  graph_.each(pool, [&](int p) {
     cosserat::finish(rows, packs_[p], previous_rate_.data());
     write_end(p, states);
-  }
+  });
 }
 
 void RodRows::write_end(int pack, std::span<RodState* const> states) const {

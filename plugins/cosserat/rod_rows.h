@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/task_graph.h"
 #include "cosserat/block_system.h"
 #include "cosserat/diagonal_blocks.h"
 #include "cosserat/lane_layout.h"
@@ -24,7 +25,7 @@ struct RodHistory {
 /// What a step needs and leaves nothing in: RodRows that are never stepped at once may share it,
 /// and then stay in a core's cache.
 struct RowScratch {
-  std::vector<PoseRow> start, iterate, base;
+  std::vector<PoseRow> start, iterate;
   std::vector<RateRow> rate;
   std::vector<TermRow> term;
   std::vector<FactorRow> factor;
@@ -33,17 +34,14 @@ struct RowScratch {
 /// The incremental potential of some plants over one step, without loads, supports, welds and
 /// contact, in rows of eight elements (lanes.h): its value, its gradient with a positive definite
 /// Hessian (Gauss-Newton plus the tension's geometric stiffness), and the solution of Newton's
-/// system. The order of calls is DirectSolver's. Calls with a `group` may run at once on different
-/// groups below groups(); the group groups() carries the others and runs alone: last in
-/// eliminate(), first elsewhere.
+/// system. The order of calls is DirectSolver's. Calls with a pool share the packs out to its
+/// threads: branches before what carries them in eliminate(), after it elsewhere.
 class RodRows {
  public:
-  /// With `keep_blocks` trees are treated as plants with loops are.
+  /// With `keep_blocks` trees are treated as plants with loops are. `threads` is how many the packs
+  /// are shared out to.
   RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks = false,
           std::shared_ptr<RowScratch> scratch = nullptr);
-
-  int groups() const { return layout_.groups() - 1; }
-  bool has_top() const { return layout_.group_begin(groups()) < layout_.group_end(groups()); }
 
   /// Reads the constants of a plant (again).
   void read_model(int plant, const RodModel& model);
@@ -67,33 +65,35 @@ class RodRows {
 
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
   /// then says how far that turns an element.
-  void prepare(int group, std::span<const RodState* const> states);
+  void prepare(ThreadPool& pool, std::span<const RodState* const> states);
   /// Sets energy(): what the step's start would have, with the clamps where they end.
-  void evaluate_start(int group);
+  void evaluate_start(ThreadPool& pool);
   /// Makes the step's start the iterate of a plant.
   void hold(int plant);
   void read_iterate(int plant, const RodState& state);
-  /// Writes the group's share of the plants' iterates to the states that are given.
-  void write_iterate(int group, std::span<RodState* const> states) const;
+  /// Writes the plants' iterates to the states that are given (others: nullptr).
+  void write_iterate(ThreadPool& pool, std::span<RodState* const> states);
 
   /// Newton's system at the iterate, reduced to y and factors (trees) or left as blocks (loops).
   /// What springs and contacts add must have been given since the last call.
-  void eliminate(int group);
+  void eliminate(ThreadPool& pool);
   void clear_extras();
   void add_extras(int plant, const DiagonalBlocks& blocks);
   /// The blocks of a plant with loops.
   void copy_blocks(int plant, BlockSystem& system) const;
   void set_change(int plant, const BlockSystem& solved);
-  void substitute(int group);
+  void substitute(ThreadPool& pool);
+  /// Both in one go, where nothing has to happen between them.
+  void eliminate_and_substitute(ThreadPool& pool);
 
   /// Moves the iterate from where the line search began by `share` of the change, by lane.
-  /// `keep` first makes the iterate that beginning.
+  /// `keep` first makes the iterate that beginning. Writes the iterates as write_iterate() does.
   void set_share(int plant, double share);
-  void move(int group, bool keep);
+  void move(ThreadPool& pool, bool keep, std::span<RodState* const> states);
 
   /// Ends the step: velocities, written to the plants' states, with the iterate, where there is
   /// one. Then end_step() makes this step the past.
-  void finish(int group, std::span<RodState* const> states);
+  void finish(ThreadPool& pool, std::span<RodState* const> states);
   void end_step();
 
   /// Of the last eliminate() or move(), J.
@@ -133,6 +133,9 @@ class RodRows {
   void mark_extended(int plant, const RodModel& model);
   void read_memory(int plant, const RodState& state, int element, int row, int lane);
   void read_states(int pack, std::span<const RodState* const> states);
+  void eliminate_pack(const RowArrays& rows, int pack);
+  void substitute_pack(const RowArrays& rows, int pack);
+  void write_pack(int pack, std::span<RodState* const> states) const;
   void write_end(int pack, std::span<RodState* const> states) const;
   template <class Write>
   void for_each_element(int pack, std::span<RodState* const> states, const Write& write) const;
@@ -140,6 +143,7 @@ class RodRows {
   void change_anchors(int pack);
 
   LaneLayout layout_;
+  TaskGraph graph_;  // of the packs
   std::vector<Pack> packs_;
   std::vector<ElementRow> element_;
   std::vector<PoseRow> previous_;

@@ -35,34 +35,41 @@ std::vector<const RodModel*> pointers(const std::vector<RodModel>& plants) {
 
 TEST(LaneLayout, EveryElementHasOneSlotUnderItsParents) {
   const std::vector<RodModel> plants = garden();
-  for (const int threads : {1, 2, 3}) {
-    const LaneLayout layout(pointers(plants), threads, false);
-    std::set<std::pair<int, int>> taken;
-    for (std::size_t p = 0; p < plants.size(); ++p)
-      for (int e = 0; e < plants[p].size(); ++e) {
-        const Slot slot = layout.slot(static_cast<int>(p), e);
-        EXPECT_TRUE(taken.emplace(slot.row, slot.lane).second);
-        EXPECT_LT(slot.row, layout.rows());
-      }
-    for (const Chain& chain : layout.chains())
-      for (std::size_t i = 1; i < chain.elements.size(); ++i) {
-        const RodModel& model = plants[chain.plant];
-        EXPECT_EQ(model.elements[chain.elements[i]].parent, chain.elements[i - 1]);
-        EXPECT_EQ(layout.slot(chain.plant, chain.elements[i]).row,
-                  layout.slot(chain.plant, chain.elements[i - 1]).row + 1);
-      }
+  const LaneLayout layout(pointers(plants), false);
+  std::set<std::pair<int, int>> taken;
+  for (std::size_t p = 0; p < plants.size(); ++p)
+    for (int e = 0; e < plants[p].size(); ++e) {
+      const Slot slot = layout.slot(static_cast<int>(p), e);
+      EXPECT_TRUE(taken.emplace(slot.row, slot.lane).second);
+      EXPECT_LT(slot.row, layout.rows());
+    }
+  for (const Chain& chain : layout.chains()) {
+    const RodModel& model = plants[chain.plant];
+    const int parent = model.elements[chain.elements.front()].parent;
+    ASSERT_EQ(parent < 0, chain.parent < 0);
+    if (parent >= 0) {
+      const Chain& from = layout.chains()[chain.parent];
+      EXPECT_EQ(layout.slot(chain.plant, parent).row - layout.first_row(from.pack),
+                1 + (std::ranges::find(from.elements, parent) - from.elements.begin()));
+    }
+    for (std::size_t i = 1; i < chain.elements.size(); ++i) {
+      EXPECT_EQ(model.elements[chain.elements[i]].parent, chain.elements[i - 1]);
+      EXPECT_EQ(layout.slot(chain.plant, chain.elements[i]).row,
+                layout.slot(chain.plant, chain.elements[i - 1]).row + 1);
+    }
   }
 }
 
 // Packs are eliminated in order: a chain's pack must come before that of the chain it starts from.
 TEST(LaneLayout, BranchesComeBeforeWhatCarriesThem) {
   const std::vector<RodModel> plants = garden();
-  for (const int threads : {1, 2, 3}) {
-    const LaneLayout layout(pointers(plants), threads, false);
-    for (const Chain& chain : layout.chains()) {
-      if (chain.parent < 0) continue;
-      EXPECT_LT(chain.pack, layout.chains()[chain.parent].pack);
-    }
+  const LaneLayout layout(pointers(plants), false);
+  const std::vector<std::vector<int>> on = layout.packs_on();
+  for (const Chain& chain : layout.chains()) {
+    if (chain.parent < 0) continue;
+    const int from = layout.chains()[chain.parent].pack;
+    EXPECT_LT(chain.pack, from);
+    EXPECT_EQ(std::ranges::count(on[from], chain.pack), 1);
   }
 }
 
@@ -70,21 +77,41 @@ TEST(LaneLayout, FillsLanesWithEqualPlantsAndEqualBranches) {
   std::vector<RodModel> forest;
   for (int p = 0; p < plant::forest_size; ++p) forest.push_back(plant::forest_plant(p));
   // 38 stems of 19 and 190 branches of 8: 5 x 19 + 24 x 8 rows, one more a pack.
-  EXPECT_EQ(LaneLayout(pointers(forest), 1, false).rows(), 287 + 29);
+  EXPECT_EQ(LaneLayout(pointers(forest), false).rows(), 287 + 29);
 }
 
-TEST(LaneLayout, OneLargePlantIsSharedOutByItsBranches) {
+// Its last branch, with a longer path below it, is no part of the trunk, and each piece of the
+// trunk carries one pack of branches.
+TEST(LaneLayout, CutsTheTrunkOfALargePlantAlone) {
   const std::vector<RodModel> tree = {plant::hanging_tree()};
-  const LaneLayout layout(pointers(tree), 2, false);
-  ASSERT_EQ(layout.groups(), 3);  // two and what carries them
-  for (int group = 0; group < 3; ++group)
-    EXPECT_LT(layout.group_begin(group), layout.group_end(group));
-  // Only the trunk is on top: its last branch, with a longer path below it, is not part of it.
-  ASSERT_EQ(layout.group_end(2) - layout.group_begin(2), 1);
-  const int trunk = layout.group_begin(2);
-  EXPECT_EQ(layout.end_row(trunk) - layout.first_row(trunk), 1 + 42);
-  // 132 twigs of 10, 22 branches of 40.
-  EXPECT_EQ(LaneLayout(pointers(tree), 1, false).rows(), 42 + 3 * 40 + 17 * 10 + 21);
+  LaneLayout layout(pointers(tree), false);
+  // 132 twigs of 10, 22 branches of 40, a trunk of 42 in three pieces; one more row a pack.
+  EXPECT_EQ(layout.rows(), 17 * 10 + 3 * 40 + 42 + 17 + 3 + 3);
+  const std::vector<std::vector<int>> on = layout.packs_on();
+  ASSERT_EQ(on.size(), 23u);
+  EXPECT_EQ(on[20], (std::vector<int>{19}));
+  EXPECT_EQ(on[21], (std::vector<int>{18, 20}));
+  EXPECT_EQ(on[22], (std::vector<int>{17, 21}));
+}
+
+TEST(LaneLayout, RowsLieInTheOrderThatIsAskedFor) {
+  const std::vector<RodModel> tree = {plant::hanging_tree()};
+  LaneLayout layout(pointers(tree), false);
+  std::vector<int> order(layout.packs());
+  for (int p = 0; p < layout.packs(); ++p) order[p] = p % 2 == 0 ? p : layout.packs() - 1 - p;
+  layout.place(order);
+  int row = 0;
+  for (const int p : order) {
+    EXPECT_EQ(layout.first_row(p), row);
+    row = layout.end_row(p);
+  }
+  EXPECT_EQ(row, layout.rows());
+  for (const Chain& chain : layout.chains())
+    for (std::size_t i = 0; i < chain.elements.size(); ++i) {
+      const Slot slot = layout.slot(0, chain.elements[i]);
+      EXPECT_EQ(slot.row, layout.first_row(chain.pack) + 1 + static_cast<int>(i));
+      EXPECT_EQ(layout.elements(slot.row)[slot.lane], chain.elements[i]);
+    }
 }
 
 // The rows' elimination against the block system, which is tested against dense matrices.
@@ -106,13 +133,10 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
       rows.set_scheme(0, dt, dt, state.root);
       rows.set_history(0, history);
       const std::array states{&state};
-      if (rows.has_top()) rows.prepare(rows.groups(), states);
-      for (int g = 0; g < rows.groups(); ++g) rows.prepare(g, states);
+      ThreadPool pool(threads);
+      rows.prepare(pool, states);
       rows.read_iterate(0, state);
-      for (int g = 0; g < rows.groups(); ++g) rows.eliminate(g);
-      if (rows.has_top()) rows.eliminate(rows.groups());
-      if (rows.has_top()) rows.substitute(rows.groups());
-      for (int g = 0; g < rows.groups(); ++g) rows.substitute(g);
+      rows.eliminate_and_substitute(pool);
       ASSERT_TRUE(rows.healthy(0));
       double largest = 0.0, worst = 0.0;
       for (int e = 0; e < model.size(); ++e) {

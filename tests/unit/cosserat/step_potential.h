@@ -23,14 +23,14 @@ class StepPotential {
     rows_.set_scheme(0, input.dt, history == nullptr ? 0.0 : input.dt, start.root);
     if (extended) rows_.set_extensions(0, *extended, start.time, input.dt, false);
     if (history) rows_.set_history(0, *history);
-    rows_.prepare(0, std::array{&start});
+    rows_.prepare(alone_, std::array{&start});
     attachments_.prepare(start, input.loads);
   }
 
   /// Gradient and Hessian into `system`; returns the potential, J.
   double linearise(const RodModel& model, const RodState& state, BlockSystem& system) {
     rows_.read_iterate(0, state);
-    rows_.eliminate(0);
+    rows_.eliminate(alone_);
     rows_.copy_blocks(0, system);
     extras_.clear();
     const double energy = attachments_.linearise(model, state, extras_);
@@ -46,11 +46,12 @@ class StepPotential {
   double potential(const RodModel& model, const RodState& state) {
     rows_.read_iterate(0, state);
     rows_.set_share(0, 0.0);
-    rows_.move(0, true);
+    rows_.move(alone_, true, std::array<RodState*, 1>{});
     return rows_.energy(0) + attachments_.potential(model, state);
   }
 
  private:
+  ThreadPool alone_{1};
   RodRows rows_;
   Attachments attachments_;
   DiagonalBlocks extras_;

@@ -1,0 +1,101 @@
+#include "core/task_graph.h"
+
+#include <algorithm>
+#include <numeric>
+#include <queue>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/check.h"
+
+namespace pedicel {
+
+namespace {
+
+using Lists = std::vector<std::vector<int>>;
+
+struct Schedule {
+  Lists shares;      // by thread
+  double end = 0.0;  // when the last task is done
+};
+
+// List scheduling (Graham 1969, SIAM Journal on Applied Mathematics 17): whoever is free takes, of
+// what is ready, what comes first by `rank`.
+Schedule schedule(const Lists& needs, const Lists& needed_by, const std::vector<double>& cost,
+                  const std::vector<int>& rank, int threads) {
+  const int n = static_cast<int>(needs.size());
+  Schedule result;
+  result.shares.resize(threads);
+  using Ranked = std::pair<int, int>;  // rank, task
+  std::priority_queue<Ranked, std::vector<Ranked>, std::greater<>> ready;
+  std::vector<int> missing(n);
+  for (int i = 0; i < n; ++i) {
+    missing[i] = static_cast<int>(needs[i].size());
+    if (missing[i] == 0) ready.emplace(rank[i], i);
+  }
+  using Running = std::tuple<double, int, int>;  // end, thread, task
+  std::priority_queue<Running, std::vector<Running>, std::greater<>> running;
+  std::priority_queue<int, std::vector<int>, std::greater<>> idle;
+  for (int thread = 0; thread < threads; ++thread) idle.push(thread);
+  while (!ready.empty() || !running.empty()) {
+    for (; !ready.empty() && !idle.empty(); ready.pop(), idle.pop()) {
+      const int task = ready.top().second, thread = idle.top();
+      result.shares[thread].push_back(task);
+      running.emplace(result.end + cost[task], thread, task);
+    }
+    const auto [end, thread, task] = running.top();
+    running.pop();
+    result.end = end;
+    idle.push(thread);
+    for (const int other : needed_by[task])
+      if (--missing[other] == 0) ready.emplace(rank[other], other);
+  }
+  return result;
+}
+
+}  // namespace
+
+TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int threads)
+    : inward_(needs.size()), outward_(needs.size()) {
+  if (threads < 1) throw UsageError("threads = " + std::to_string(threads) + ": must be >= 1");
+  const int n = static_cast<int>(needs.size());
+  Lists needed_by(n);
+  for (int i = 0; i < n; ++i)
+    for (const int other : needs[i]) needed_by[other].push_back(i);
+  const auto flatten = [](const std::vector<std::vector<int>>& lists) {
+    FlatLists flat;
+    flat.begin.push_back(0);
+    for (const std::vector<int>& list : lists) {
+      flat.items.insert(flat.items.end(), list.begin(), list.end());
+      flat.begin.push_back(static_cast<int>(flat.items.size()));
+    }
+    return flat;
+  };
+  needs_ = flatten(needs);
+  needed_by_ = flatten(needed_by);
+
+  // The task that most hangs on first, which is best where one way through the graph is long; or
+  // all that needs nothing first, then what needs that and so on, which leaves no thread without
+  // work where there are few long tasks at the end.
+  std::vector<double> hangs_on(n, 0.0);  // cost of the longest way from the task to the end
+  for (int i = n - 1; i >= 0; --i) {
+    for (const int other : needed_by[i]) hangs_on[i] = std::max(hangs_on[i], hangs_on[other]);
+    hangs_on[i] += cost[i];
+  }
+  std::vector<int> level(n, 0), order(n), rank(n);
+  for (int i = 0; i < n; ++i)
+    for (const int other : needs[i]) level[i] = std::max(level[i], level[other] + 1);
+  std::iota(order.begin(), order.end(), 0);
+  const auto scheduled = [&] {
+    for (int k = 0; k < n; ++k) rank[order[k]] = k;
+    return schedule(needs, needed_by, cost, rank, threads);
+  };
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](int i) { return hangs_on[i]; });
+  Schedule by_way = scheduled();
+  std::ranges::stable_sort(order, std::ranges::less{}, [&](int i) { return level[i]; });
+  Schedule by_level = scheduled();
+  shares_ = std::move((by_level.end < by_way.end ? by_level : by_way).shares);
+}
+
+}  // namespace pedicel

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include "core/thread_pool.h"
+
+namespace pedicel {
+
+/// Tasks some of which need others done first, as a tree's branches come before its stem, or, the
+/// other way round, the stem before its branches. Each thread has its own tasks, shared out
+/// beforehand, so that what they work on stays in that core's cache. A thread that needs what
+/// nobody has begun, or has come to its end, does others' tasks, too: any number of threads gets
+/// through.
+class TaskGraph {
+ public:
+  /// `needs[i]`: the tasks below i that task i needs; `cost[i]` > 0, in any unit; `threads` >= 1.
+  TaskGraph(const std::vector<std::vector<int>>& needs, const std::vector<double>& cost,
+            int threads);
+
+  int size() const { return static_cast<int>(needs_.begin.size()) - 1; }
+  /// The share of each thread, in order.
+  std::span<const int> tasks_of(int thread) const { return shares_[thread]; }
+  int threads() const { return static_cast<int>(shares_.size()); }
+
+  /// task(i) for all, in any order.
+  template <class Task>
+  void each(ThreadPool& pool, const Task& task) {
+    const unsigned round = ++round_;
+    pool.for_each(threads(), [&](int thread) {
+      own_first(thread, [&](int i) {
+        do_once(
+            inward_[i], round, [] {}, [&] { task(i); });
+      });
+    });
+  }
+
+  /// task(i) for all, each after those that it needs.
+  template <class Task>
+  void inward(ThreadPool& pool, const Task& task) {
+    const unsigned round = ++round_;
+    pool.for_each(threads(), [&](int thread) {
+      own_first(thread, [&](int i) { do_inward(i, round, task); });
+    });
+  }
+
+  /// The other way round: each before those that it needs.
+  template <class Task>
+  void outward(ThreadPool& pool, const Task& task) {
+    const unsigned round = ++round_;
+    pool.for_each(threads(), [&](int thread) {
+      own_last(thread, [&](int i) {
+        do_outward(
+            i, round, [](int) {}, task);
+      });
+    });
+  }
+
+  /// Both in one go: outward(i) after inward() of i and of all that i is needed by.
+  template <class Inward, class Outward>
+  void inward_and_outward(ThreadPool& pool, const Inward& in, const Outward& out) {
+    const unsigned round = ++round_;
+    pool.for_each(threads(), [&](int thread) {
+      own_first(thread, [&](int i) { do_inward(i, round, in); });
+      own_last(thread, [&](int i) {
+        const auto before = [&](int task) {
+          do_inward(task, round, in);
+          await_end(inward_[task], round);
+        };
+        do_outward(i, round, before, out);
+      });
+    });
+  }
+
+ private:
+  struct FlatLists {  // the list of i: items[begin[i]] to items[begin[i + 1]]
+    std::vector<int> begin, items;
+    std::span<const int> of(int i) const {
+      return {items.data() + begin[i], items.data() + begin[i + 1]};
+    }
+  };
+  // In which round a task was last begun, and done.
+  struct Mark {
+    std::atomic<unsigned> begun{0}, done{0};
+  };
+
+  // All tasks, a thread's own ones first.
+  template <class Do>
+  void own_first(int thread, const Do& todo) const {
+    for (int k = 0; k < threads(); ++k)
+      for (const int i : shares_[(thread + k) % threads()]) todo(i);
+  }
+  // Likewise from the last to the first.
+  template <class Do>
+  void own_last(int thread, const Do& todo) const {
+    for (int k = 0; k < threads(); ++k) {
+      const std::vector<int>& share = shares_[(thread + k) % threads()];
+      for (auto i = share.rbegin(); i != share.rend(); ++i) todo(*i);
+    }
+  }
+
+  // Does a task after those that it needs, if nobody has begun it.
+  template <class First, class Task>
+  static void do_once(Mark& mark, unsigned round, const First& first, const Task& task) {
+    if (mark.begun.load(std::memory_order_relaxed) == round ||
+        mark.begun.exchange(round, std::memory_order_relaxed) == round)
+      return;
+    first();
+    task();
+    mark.done.store(round, std::memory_order_release);
+  }
+  // Nobody waits in a circle: who waits for a task stands behind one that needs it.
+  static void await_end(const Mark& mark, unsigned round) {
+    await([&] { return mark.done.load(std::memory_order_acquire) == round; });
+  }
+  template <class Task>
+  void do_inward(int i, unsigned round, const Task& task) {
+    const auto others = [&] {
+      for (const int other : needs_.of(i)) do_inward(other, round, task);
+      for (const int other : needs_.of(i)) await_end(inward_[other], round);
+    };
+    do_once(inward_[i], round, others, [&] { task(i); });
+  }
+  template <class First, class Task>
+  void do_outward(int i, unsigned round, const First& first, const Task& task) {
+    const auto others = [&] {
+      first(i);
+      for (const int other : needed_by_.of(i)) do_outward(other, round, first, task);
+      for (const int other : needed_by_.of(i)) await_end(outward_[other], round);
+    };
+    do_once(outward_[i], round, others, [&] { task(i); });
+  }
+
+  FlatLists needs_, needed_by_;
+  std::vector<std::vector<int>> shares_;
+  std::vector<Mark> inward_, outward_;
+  unsigned round_ = 0;
+};
+
+}  // namespace pedicel

@@ -1,0 +1,119 @@
+// Tasks that need others: every one once, after what it needs, on any number of threads, and in as
+// little time as list scheduling promises.
+#include "core/task_graph.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "core/check.h"
+#include "core/random.h"
+
+namespace pedicel {
+namespace {
+
+using Needs = std::vector<std::vector<int>>;
+
+// Each of n tasks needs up to three of those before it.
+Needs random_needs(int n, std::uint64_t seed) {
+  Random random(seed);
+  Needs needs(n);
+  for (int i = 1; i < n; ++i)
+    for (int k = 0; k < i % 4; ++k) {
+      const int other = static_cast<int>(random.uniform(0.0, 1.0) * i);
+      if (!testing::Value(needs[i], testing::Contains(other))) needs[i].push_back(other);
+    }
+  return needs;
+}
+
+// When tasks began and ended, by one clock for all threads.
+struct Times {
+  explicit Times(int n) : runs(n), begun(n), ended(n) {}
+  void run(int i) {
+    begun[i] = ++clock;
+    ++runs[i];
+    if (i % 16 == 0) std::this_thread::yield();
+    ended[i] = ++clock;
+  }
+  std::atomic<int> clock{0};
+  std::vector<std::atomic<int>> runs, begun, ended;
+};
+
+TEST(TaskGraph, EveryTaskRunsOnceAfterWhatItNeeds) {
+  constexpr int n = 200;
+  for (const int threads : {1, 2, 3, 5}) {
+    for (const int pool_threads : {1, 2, 4}) {  // more shares than threads, too
+      const Needs needs = random_needs(n, 7 * threads);
+      TaskGraph graph(needs, std::vector<double>(n, 1.0), threads);
+      ThreadPool pool(pool_threads);
+      for (int round = 0; round < 50; ++round) {
+        Times in(n), out(n), there(n), back(n);
+        graph.inward(pool, [&](int i) { in.run(i); });
+        graph.outward(pool, [&](int i) { out.run(i); });
+        graph.inward_and_outward(
+            pool, [&](int i) { there.run(i); }, [&](int i) { back.run(i); });
+        for (int i = 0; i < n; ++i) {
+          for (const Times* times : {&in, &out, &there, &back}) ASSERT_EQ(times->runs[i], 1);
+          for (const int other : needs[i]) {
+            ASSERT_LT(in.ended[other], in.begun[i]);
+            ASSERT_LT(there.ended[other], there.begun[i]);
+            ASSERT_LT(out.ended[i], out.begun[other]);
+            ASSERT_LT(back.ended[i], back.begun[other]);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Outward after inward, of the task itself as well: what it leaves is what the other one reads.
+TEST(TaskGraph, GoesBackOverWhatIsDone) {
+  constexpr int n = 300;
+  const Needs needs = random_needs(n, 3);
+  std::vector<std::vector<int>> needed_by(n);
+  for (int i = 0; i < n; ++i)
+    for (const int other : needs[i]) needed_by[other].push_back(i);
+  std::vector<double> expected_sum(n, 1.0), expected(n);
+  for (int i = 0; i < n; ++i)
+    for (const int other : needs[i]) expected_sum[i] += 0.3 * expected_sum[other];
+  for (int i = n - 1; i >= 0; --i) {
+    expected[i] = expected_sum[i];
+    for (const int other : needed_by[i]) expected[i] += 0.3 * expected[other];
+  }
+  for (const int threads : {1, 2, 4}) {
+    TaskGraph graph(needs, std::vector<double>(n, 1.0), threads);
+    ThreadPool pool(threads);
+    for (int round = 0; round < 200; ++round) {
+      std::vector<double> sum(n, 1.0), value(n);
+      graph.inward_and_outward(
+          pool,
+          [&](int i) {
+            for (const int other : needs[i]) sum[i] += 0.3 * sum[other];
+          },
+          [&](int i) {
+            value[i] = sum[i];
+            for (const int other : needed_by[i]) value[i] += 0.3 * value[other];
+          });
+      ASSERT_EQ(value, expected) << threads << " threads, round " << round;
+    }
+  }
+}
+
+// A stem of three pieces with three branches of 40 (the hanging tree without its twigs): two
+// branches side by side, then the last one beside the pieces that carry the others.
+TEST(TaskGraph, SharesOutByWhatHangsOnATask) {
+  const Needs needs = {{}, {}, {}, {2}, {1, 3}, {0, 4}};
+  const std::vector<double> cost = {40, 40, 40, 14, 14, 14};
+  const TaskGraph graph(needs, cost, 2);
+  EXPECT_THAT(graph.tasks_of(0), testing::ElementsAre(2, 0, 5));
+  EXPECT_THAT(graph.tasks_of(1), testing::ElementsAre(1, 3, 4));
+}
+
+TEST(TaskGraph, NeedsAThread) {
+  EXPECT_THAT([] { TaskGraph graph({}, {}, 0); },
+              testing::ThrowsMessage<UsageError>(testing::StrEq("threads = 0: must be >= 1")));
+}
+
+}  // namespace
+}  // namespace pedicel
