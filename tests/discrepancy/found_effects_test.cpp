@@ -3,12 +3,13 @@
 // that hides it at 8 to 16 times the smallest identifiable size in a pack of three trials, or,
 // where there is none, at 4 to 8 times, the first twenty names but for the known misses; of the
 // packs `push` and `weights` the first null case with white and with coloured noise; the first
-// look-alike and the first stranger with three trials.
+// look-alike and the first stranger with three trials. One more from another seed.
 #include <gtest/gtest.h>
 
 #include <ostream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "discrepancy/case_run.h"
 #include "support/temporary_folder.h"
@@ -84,6 +85,18 @@ TEST_P(FoundEffects, ComesOutAsItShould) {
       << "called " << name_of(run.score.call) << "; again: hidden_effects --seed " << seed
       << " --case " << GetParam().number << "\n"
       << run.notes;
+}
+
+// A modulus that falls by a third of a stem in free vibration: modulus and density take up all but
+// a hundredth of it, and a fit from the size that the rest asks for stopped a third of the way, 84
+// nats behind a weak stretch.
+TEST(FoundEffect, GradientAtTheFarEndOfItsValley) {
+  const TemporaryFolder folder;
+  const CaseOrder& order = case_orders()[408];
+  ASSERT_EQ(order.hidden, std::vector<std::string>{"stiffness_gradient"});
+  const CaseRun run = run_case(14, order, {folder / "", 1, nullptr});
+  EXPECT_EQ(run.score.call, Call::right) << run.notes;
+  EXPECT_EQ(run.score.sizes.size(), 1u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hidden, FoundEffects, ::testing::ValuesIn(chosen_cases()), title);
