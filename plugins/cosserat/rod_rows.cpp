@@ -230,6 +230,7 @@ void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states)
     read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
   });
+  // Not in the loop above: there nothing has to wait for its parents.
   for (int p = 0; p < layout_.packs(); ++p)
     if (packs_[p].active) place_anchors(p, scratch_->iterate);
 }
