@@ -27,7 +27,8 @@ namespace {
 constexpr double numerical_limit = 0.5;  // of the noise, RMS
 // Of the gain of a cause, what another of its family must bring to be one.
 constexpr double family_share = 0.5;
-constexpr double least_share = 0.01;  // of the gain of the first cause, what another must bring
+constexpr double least_share = 0.01;   // of the gain of the first cause, what another must bring
+constexpr double beyond_linear = 4.0;  // times that a cause may gain what its direction promises
 constexpr int most_causes = 3;
 // Nats that one cause, and several together, do not explain to the last by chance.
 constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
@@ -267,7 +268,8 @@ class Procedure {
       std::vector<Direction> directions = directions_at(result_.best);
       result_.after = judged(directions, result_.best);
       log_.directions(directions, result_.after);
-      if (!result_.after.raised) return;
+      small_rest_ = result_.after.raised && is_small(result_.after);
+      if (!result_.after.raised || small_rest_) return;
       if (could_be_junctions(result_.after) && quiet_with_junctions(result_.best)) {
         result_.after.raised = false;
         return;
@@ -285,6 +287,18 @@ class Procedure {
     coarse_at(result_.best);
     std::vector<Direction> directions = directions_at(result_.best);
     result_.after = judged(directions, result_.best);
+    small_rest_ = is_small(result_.after);
+  }
+
+  // Least gain of another cause, beside that of the first.
+  double least_gain() const {
+    return std::max(worth_naming, least_share * findings_.chain.front().gain);
+  }
+
+  // Whether what is left promises too little for another cause.
+  bool is_small(const Alarm& alarm) const {
+    const double promised = 0.5 * alarm.statistic * alarm.statistic;  // were the model linear
+    return !alarm.leftover.shows() && beyond_linear * promised < least_gain();
   }
 
   // Whether the data tell how large the effects from `first` on are: to a factor of e, one
@@ -301,8 +315,7 @@ class Procedure {
 
   // The trials kept back may ask for what those fitted to hardly show: that is no finding.
   bool is_another_cause(const Candidate& next) const {
-    const double least = std::max(worth_naming, least_share * findings_.chain.front().gain);
-    if (next.evidence < worth_naming || next.gain < least || !next.held_out.carries_over())
+    if (next.evidence < worth_naming || next.gain < least_gain() || !next.held_out.carries_over())
       return false;
     if (!has_a_size(next.fit, static_cast<int>(result_.best.hypothesis.effects.size())))
       return false;
@@ -397,7 +410,8 @@ class Procedure {
     const Candidate& first = findings_.chain.front();
     double explained = first.evidence - first.held_out.gain;
     for (std::size_t c = 1; c < findings_.chain.size(); ++c) explained += findings_.chain[c].gain;
-    if (!result_.after.raised && explained > (several ? beyond_doubt_together : beyond_doubt))
+    if ((!result_.after.raised || small_rest_) &&
+        explained > (several ? beyond_doubt_together : beyond_doubt))
       return;
     MissingForce force = missing_force();
     if (!force.found || force.fit.why == "not run") return;
@@ -549,7 +563,8 @@ class Procedure {
   std::vector<Evaluator> coarse_workers_;
   long coarse_simulations_ = 0;  // of coarse models that are gone
   Findings findings_;
-  int objecting_ = -1;  // the trial kept back that the refitted model misses most
+  int objecting_ = -1;       // the trial kept back that the refitted model misses most
+  bool small_rest_ = false;  // what the causes found leave alarms, but is nothing beside them
   std::optional<Experiment> exchanged_;
 };
 

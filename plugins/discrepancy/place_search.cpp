@@ -1,6 +1,7 @@
 #include "discrepancy/place_search.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "discrepancy/profile.h"
@@ -9,15 +10,41 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr std::array shifts{-0.3, -0.1, -0.04, 0.04, 0.1, 0.3};  // of the curve
-constexpr int most_rounds = 3, round_iterations = 10;
+// Of the curve, or of the time in which it may have happened. Where a slip moves everything at once
+// its time does nothing between two samples: the nearest shifts are about as long as a sample.
+constexpr std::array place_shifts{0.04, 0.1, 0.3};
+constexpr std::array moment_shifts{0.002, 0.005, 0.015, 0.04, 0.1, 0.3};
+constexpr int place_rounds = 3, moment_rounds = 6, round_iterations = 10;
 constexpr double worth_a_fit = 1.0;  // nats
 
-int place_of(const Hypothesis& model) {
+bool is_moment(const FreeParameter& parameter) {
+  return parameter.name == "time" && !parameter.logarithmic;  // a time constant is logarithmic
+}
+
+int slid_parameter(const Hypothesis& model) {
   const int last = static_cast<int>(model.effects.size()) - 1;
   for (int p = 0; p < model.size(); ++p)
-    if (model.free[p].effect == last && model.free[p].name == "at") return p;
+    if (model.free[p].effect == last && (model.free[p].name == "at" || is_moment(model.free[p])))
+      return p;
   return -1;
+}
+
+// The same model with that parameter elsewhere, on either side, within its bounds.
+std::vector<Hypothesis> moved(const Hypothesis& model, int parameter) {
+  const FreeParameter& free = model.free[parameter];
+  const bool moment = is_moment(free);
+  const std::span<const double> shifts =
+      moment ? std::span<const double>(moment_shifts) : std::span<const double>(place_shifts);
+  const double whole = moment ? free.high - free.low : 1.0;
+  std::vector<Hypothesis> there;
+  for (const double shift : shifts)
+    for (const double side : {-1.0, 1.0}) {
+      const double at = model.value(parameter) + side * shift * whole;
+      if (at < free.low || at > free.high) continue;
+      there.push_back(model);
+      there.back().set_value(parameter, at);
+    }
+  return there;
 }
 
 // Least squares of a residual and of what is known beforehand by all unknowns but one.
@@ -54,28 +81,23 @@ class Others {
 }  // namespace
 
 FitSummary slide_along(Evaluator& evaluator, FitSummary found, const FitOptions& options) {
-  const int place = place_of(found.hypothesis);
-  if (place < 0 || found.jacobian.size() == 0) return found;
+  const int parameter = slid_parameter(found.hypothesis);
+  if (parameter < 0 || found.jacobian.size() == 0) return found;
+  const int rounds = is_moment(found.hypothesis.free[parameter]) ? moment_rounds : place_rounds;
   FitOptions few = options;
   few.iterations = round_iterations;
-  for (int round = 0; round < most_rounds; ++round) {
-    std::vector<Hypothesis> there;
-    for (const double shift : shifts) {
-      const double at = found.hypothesis.value(place) + shift;
-      if (at < found.hypothesis.free[place].low || at > found.hypothesis.free[place].high) continue;
-      there.push_back(found.hypothesis);
-      there.back().set_value(place, at);
-    }
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Hypothesis> there = moved(found.hypothesis, parameter);
     if (there.empty()) break;
     const Eigen::MatrixXd residuals = evaluator.residuals(there, options);
-    const Others others(found, place);
+    const Others others(found, parameter);
     double least = objective(found) - worth_a_fit;
     const Hypothesis* best = nullptr;
     for (std::size_t i = 0; i < there.size(); ++i) {
-      const Others::Moved moved = others.move(residuals.col(static_cast<Eigen::Index>(i)));
-      if (!(moved.cost < least)) continue;
-      least = moved.cost;
-      there[i].set_unknowns(there[i].unknowns() + moved.step);
+      const Others::Moved after = others.move(residuals.col(static_cast<Eigen::Index>(i)));
+      if (!(after.cost < least)) continue;
+      least = after.cost;
+      there[i].set_unknowns(there[i].unknowns() + after.step);
       best = &there[i];
     }
     if (!best) break;
