@@ -84,14 +84,6 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
   return best;
 }
 
-// What changes along the curves moves frequencies as modulus and density do. They take up all but a
-// hundredth of it: the size that the rest asks for is worth little, and from there the valley to
-// the right one is too narrow to go along.
-bool is_graded(const Cause& cause) {
-  const Hypothesis& start = cause.starts.front();
-  return start.size() == 1 && start.free.front().name == "gradient";
-}
-
 // Calls task(evaluator, i) for i below count, each on one worker.
 template <class Task>
 void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& options, double from,
@@ -219,11 +211,6 @@ class Refits {
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     candidate.fit = slide_along(evaluator, best_fit(evaluator, base_, starts, few), few);
-    if (is_graded(causes_[i])) {
-      for (const Hypothesis& start : causes_[i].starts)
-        keep_better(candidate.fit, fit_growing(evaluator, joined(base_.hypothesis, start, false),
-                                               few, growing_horizons));
-    }
     for (const Direction& start : ways_back(candidate.cause))
       if (auto found = walk_back(evaluator, base_, start, few))
         keep_better(candidate.fit, std::move(*found));

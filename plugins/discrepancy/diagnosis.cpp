@@ -27,9 +27,6 @@ namespace {
 constexpr double numerical_limit = 0.5;  // of the noise, RMS
 // Of the gain of a cause, what another of its family must bring to be one.
 constexpr double family_share = 0.5;
-// Of what a cause changes (noise units), the part to which two honest solvers agree. Measured on a
-// weak segment that changes all by 245 units: 7 of them are left.
-constexpr double agreed = 0.03;
 constexpr double beyond_linear = 4.0;  // times that a cause may gain what its direction promises
 constexpr int most_causes = 3;
 // Nats that one cause, and several together, do not explain to the last by chance.
@@ -270,8 +267,7 @@ class Procedure {
       std::vector<Direction> directions = directions_at(result_.best);
       result_.after = judged(directions, result_.best);
       log_.directions(directions, result_.after);
-      small_rest_ = result_.after.raised && is_small(result_.after);
-      if (!result_.after.raised || small_rest_) return;
+      if (!result_.after.raised || is_small(result_.after)) return;
       if (could_be_junctions(result_.after) && quiet_with_junctions(result_.best)) {
         result_.after.raised = false;
         return;
@@ -289,20 +285,13 @@ class Procedure {
     coarse_at(result_.best);
     std::vector<Direction> directions = directions_at(result_.best);
     result_.after = judged(directions, result_.best);
-    small_rest_ = is_small(result_.after);
   }
 
-  // Of another cause: it must change more than what was found may leave. A gain is half the square
-  // of a change.
-  double least_gain() const {
-    const double found = std::sqrt(2.0 * findings_.chain.front().gain);
-    return 0.5 * std::pow(std::sqrt(2.0 * worth_naming) + agreed * found, 2);
-  }
-
-  // Whether what is left promises too little for another cause.
+  // Whether what is left alarms, but promises too little for another cause.
   bool is_small(const Alarm& alarm) const {
     const double promised = 0.5 * alarm.statistic * alarm.statistic;  // were the model linear
-    return !alarm.leftover.shows() && beyond_linear * promised < least_gain();
+    return !alarm.leftover.shows() &&
+           beyond_linear * promised < least_gain_beside(findings_.chain.front().gain);
   }
 
   // Whether the data tell how large the effects from `first` on are: to a factor of e, one
@@ -319,7 +308,9 @@ class Procedure {
 
   // The trials kept back may ask for what those fitted to hardly show: that is no finding.
   bool is_another_cause(const Candidate& next) const {
-    if (next.evidence < worth_naming || next.gain < least_gain() || !next.held_out.carries_over())
+    if (next.evidence < worth_naming ||
+        next.gain < least_gain_beside(findings_.chain.front().gain) ||
+        !next.held_out.carries_over())
       return false;
     if (!has_a_size(next.fit, static_cast<int>(result_.best.hypothesis.effects.size())))
       return false;
@@ -414,7 +405,7 @@ class Procedure {
     const Candidate& first = findings_.chain.front();
     double explained = first.evidence - first.held_out.gain;
     for (std::size_t c = 1; c < findings_.chain.size(); ++c) explained += findings_.chain[c].gain;
-    if ((!result_.after.raised || small_rest_) &&
+    if ((!result_.after.raised || is_small(result_.after)) &&
         explained > (several ? beyond_doubt_together : beyond_doubt))
       return;
     MissingForce force = missing_force();
@@ -567,8 +558,7 @@ class Procedure {
   std::vector<Evaluator> coarse_workers_;
   long coarse_simulations_ = 0;  // of coarse models that are gone
   Findings findings_;
-  int objecting_ = -1;       // the trial kept back that the refitted model misses most
-  bool small_rest_ = false;  // what the causes found leave alarms, but is nothing beside them
+  int objecting_ = -1;  // the trial kept back that the refitted model misses most
   std::optional<Experiment> exchanged_;
 };
 

@@ -88,8 +88,8 @@ TEST_P(FoundEffects, ComesOutAsItShould) {
 }
 
 // A modulus that falls by a third of a stem in free vibration: modulus and density take up all but
-// a hundredth of it, and a fit from the size that the rest asks for stopped a third of the way, 84
-// nats behind a weak stretch.
+// a hundredth of it, and with rough derivatives a fit from the size that the rest asks for stopped
+// a third of the way, 84 nats behind a weak stretch.
 TEST(FoundEffect, GradientAtTheFarEndOfItsValley) {
   const TemporaryFolder folder;
   const CaseOrder& order = case_orders()[408];

@@ -87,5 +87,14 @@ TEST(Evidence, ACauseThatEndsWhereAnotherBeginsIsThatOne) {
   EXPECT_EQ(limit_of(2.0, 501.0), "");
 }
 
+// Beside nothing it is what any cause must be worth. Measured where 112 elements were pulled by
+// tens of times the noise: a weak segment that brought 30,126 nats left 26 that are none; a soft
+// foot of 87,792 left a drag of 673 that is one.
+TEST(Evidence, AnotherCauseMustBringMoreThanTwoSolversDifferBy) {
+  EXPECT_DOUBLE_EQ(least_gain_beside(0.0), worth_naming);
+  EXPECT_GT(least_gain_beside(30126.0), 2.0 * 26.0);
+  EXPECT_LT(least_gain_beside(87792.0), 0.5 * 673.0);
+}
+
 }  // namespace
 }  // namespace pedicel::discrepancy
