@@ -33,6 +33,10 @@ constexpr int most_causes = 3;
 constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
 // Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
 constexpr double least_objection = 6.0, small_objection = 0.1;
+// The best known cause is a poor one where it leaves so much (mean square in noise units), and
+// explains so little of what is wrong or stands at the end of what its numbers may be. A force from
+// outside the list takes its place that leaves so much less.
+constexpr double much_left = 2.0, poor_share = 0.3, left_by_force = 1.0 / 3.0;
 // What one force may gain less than several causes: nats, or a share of theirs.
 constexpr double force_margin = 5.0, force_share = 0.05;
 
@@ -255,8 +259,33 @@ class Procedure {
         log_.fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit,
                  setup_->samples());
     if (result_.ranking.empty() || result_.ranking.front().evidence < worth_naming) return;
+    if (is_poor(result_.ranking.front()) && one_force_does_more()) return;
     result_.best = result_.ranking.front().fit;
     findings_.chain = {result_.ranking.front()};
+  }
+
+  // Of what is wrong, what a model explains.
+  double share_explained(const FitSummary& model) const {
+    const double noise = 0.5 * setup_->samples();
+    return (result_.base.cost - model.cost) / std::max(1.0, result_.base.cost - noise);
+  }
+
+  bool is_poor(const Candidate& best) const {
+    return 2.0 * best.fit.cost > much_left * setup_->samples() &&
+           (share_explained(best.fit) < poor_share || stands_at_bound(best));
+  }
+
+  // Further causes on top of a poor one would but imitate what no known cause is, slowly.
+  bool one_force_does_more() {
+    const Candidate& best = result_.ranking.front();
+    const double left = 1.0 - share_explained(best.fit);
+    log_.note("The best known cause, " + best.cause +
+              text(", leaves %.2g %% of what is wrong.", 100.0 * left));
+    MissingForce force = missing_force(0.6);
+    if (!force.found || force.fit.why == "not run" || 1.0 - force.share > left_by_force * left)
+      return false;
+    force_ = std::move(force);
+    return true;
   }
 
   // Adds causes while something is left.
@@ -355,7 +384,7 @@ class Procedure {
     if (findings_.chain.size() > 1) findings_.held_out = held_out_together();
     // What is left of the best model is the best sample of the noise.
     if (!findings_.chain.empty()) setup_->renew_noise(result_.best.hypothesis);
-    if (findings_.chain.empty()) {
+    if (findings_.chain.empty() && !force_) {
       Evaluator evaluator = setup_->evaluator();
       findings_.needed =
           needed_parameters(evaluator, result_.base, causes_, fit_options(), result_.check_trials);
@@ -372,7 +401,7 @@ class Procedure {
                                   experiment().trials[objecting_].name +
                                   ", which is kept back: fit it, too";
     } else if (result_.verdict.outcome == Outcome::unknown) {
-      tell_of_force(missing_force());
+      tell_of_force(force_ ? std::move(*force_) : missing_force(0.96));
     } else if (!findings_.chain.empty()) {
       ask_for_one_force();
     }
@@ -408,7 +437,7 @@ class Procedure {
     if ((!result_.after.raised || is_small(result_.after)) &&
         explained > (several ? beyond_doubt_together : beyond_doubt))
       return;
-    MissingForce force = missing_force();
+    MissingForce force = missing_force(0.96);
     if (!force.found || force.fit.why == "not run") return;
     // With the noise as it was read last.
     Evaluator evaluator = setup_->evaluator();
@@ -439,10 +468,11 @@ class Procedure {
   }
 
   // Where, when and of what kind the force is that no cause stands for.
-  MissingForce missing_force() {
-    log_.say("looking for a force that is missing", 0.96);
-    coarse_at(result_.base);
-    Evaluator evaluator = coarse_->evaluator();
+  MissingForce missing_force(double from) {
+    log_.say("looking for a force that is missing", from);
+    // The fine one: a force moves the model so far from the base that a coarse one, which agrees
+    // with it there alone, misleads about the place.
+    Evaluator evaluator = setup_->evaluator();
     // The noise was read anew since the base was fitted.
     const FitSummary base = fit(evaluator, result_.base.hypothesis, fit_options());
     MissingForceOptions options;
@@ -558,7 +588,8 @@ class Procedure {
   std::vector<Evaluator> coarse_workers_;
   long coarse_simulations_ = 0;  // of coarse models that are gone
   Findings findings_;
-  int objecting_ = -1;  // the trial kept back that the refitted model misses most
+  std::optional<MissingForce> force_;  // where it takes the place of poor causes
+  int objecting_ = -1;                 // the trial kept back that the refitted model misses most
   std::optional<Experiment> exchanged_;
 };
 

@@ -24,6 +24,10 @@ constexpr std::size_t most_refits = 5;
 constexpr double refit_within = 30.0;  // nats of linear response, and
 constexpr double refit_share = 0.3;    // of the best one's: large forces are not linear
 constexpr std::size_t kinds = 11;
+// A string's numbers stand for one another: a refit could go along its valley for long.
+constexpr int most_iterations = 30;
+constexpr double rough_step = 0.2;     // nats, of 3 that tell kinds and places apart
+constexpr double response_mesh = 2.0;  // times the evaluator's: responses are differences, and many
 
 /// A place with what was found there.
 struct Place {
@@ -40,7 +44,7 @@ class Inference {
         options_(options),
         experiment_(evaluator.data().experiment()),
         responses_(experiment_, evaluator.data(), model, options.fit,
-                   evaluator.simulator().numerics().distance, options.threads,
+                   response_mesh * evaluator.simulator().numerics().distance, options.threads,
                    evaluator.simulator().stop()) {
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
@@ -156,19 +160,30 @@ class Inference {
 
   static const std::string& kind_of(const plant::Effect& force) { return force.words.at("kind"); }
 
-  // The best place of every kind, as long as it is not far behind; of the best kind, the best place
-  // on every curve. Simple laws first.
+  // What refits of one kind find for the other, too.
+  static std::string family_of(const plant::Effect& force) {
+    const std::string kind = plain_kind(force);
+    return kind == "string" ? "stop" : kind;
+  }
+
+  // The best place of every kind, as long as it is not far behind; then, of the best kind, the best
+  // place on every other curve. Simple laws first.
   std::vector<ForceTerm> worth_refitting() const {
+    if (terms_.empty()) return {};
+    const plant::Effect& first = terms_.front().force;
+    const double best = terms_.front().evidence;
+    const double least =
+        std::max(0.5 * enough_evidence, std::min(best - refit_within, (1.0 - refit_share) * best));
     std::vector<ForceTerm> chosen;
-    std::set<std::pair<std::string, std::string>> known;
-    for (const ForceTerm& term : terms_) {
-      const double best = terms_.front().evidence;
-      if (term.evidence < std::min(best - refit_within, (1.0 - refit_share) * best)) break;
-      if (term.evidence < 0.5 * enough_evidence || chosen.size() >= most_refits) break;
-      const bool best_kind = kind_of(term.force) == kind_of(terms_.front().force);
-      const std::string curve = best_kind ? term.force.place->curve : "";
-      if (known.insert({kind_of(term.force), curve}).second) chosen.push_back(term);
-    }
+    const auto take = [&](const ForceTerm& term, std::set<std::string>& known,
+                          const std::string& what) {
+      if (term.evidence > least && chosen.size() < most_refits && known.insert(what).second)
+        chosen.push_back(term);
+    };
+    std::set<std::string> families, curves{first.place->curve};
+    for (const ForceTerm& term : terms_) take(term, families, family_of(term.force));
+    for (const ForceTerm& term : terms_)
+      if (kind_of(term.force) == kind_of(first)) take(term, curves, term.force.place->curve);
     std::ranges::stable_sort(
         chosen, [](const ForceTerm& a, const ForceTerm& b) { return a.parameters < b.parameters; });
     return chosen;
@@ -203,7 +218,10 @@ class Inference {
             string.numbers["distance"] = {distance * scales_.length};
             starts.push_back(with(string));
           }
-    return fit(evaluator_, starts[scan(evaluator_, starts, options_.fit).best], options_.fit);
+    FitOptions few = options_.fit;
+    few.iterations = std::min(most_iterations, few.iterations);
+    few.least_step = rough_step;
+    return fit(evaluator_, starts[scan(evaluator_, starts, few).best], few);
   }
 
   void refit() {

@@ -1,4 +1,5 @@
-// hidden_effects [--seed S] [--count N] [--first N] [--case N...] [--threads T] [--out DIR]
+// hidden_effects [--seed S] [--count N] [--first N] [--case N...] [--size X] [--threads T]
+//                [--out DIR]
 // Makes hidden cases, diagnoses them and scores the verdicts, several cases side by side, one
 // thread each. Cases whose score stands in DIR/results.jsonl are not done again.
 #include <CLI/CLI.hpp>
@@ -32,6 +33,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   int count = static_cast<int>(case_orders().size()), first = 0, threads = 0;
   std::vector<int> cases;
+  double size = 0.0;  // times the smallest identifiable; 0: the list's
   std::string out = "out/hidden_effects";
   bool keep = false;
 };
@@ -79,7 +81,9 @@ class Bench {
   void one(int number) {
     try {
       const CaseRunOptions options{out_ / "cases", 1, &stop_requested};
-      const CaseRun run = run_case(a_.seed, case_orders()[number], options);
+      CaseOrder order = case_orders()[number];
+      if (a_.size > 0.0) order.size = a_.size;
+      const CaseRun run = run_case(a_.seed, order, options);
       if (stop_requested) return;
       const std::lock_guard lock(mutex_);
       io::write_file_atomically(out_ / "notes" / (run.hidden.name + ".txt"), run.notes);
@@ -135,6 +139,10 @@ int main(int argc, char** argv) {
   app.add_option("--first", a.first, "number of the first one")->check(CLI::Range(0, most - 1));
   app.add_option("--case", a.cases, "these numbers of `hidden_case --list` only")
       ->check(CLI::Range(0, most - 1));
+  app.add_option("--size", a.size,
+                 "hide everything at this many times the smallest identifiable size, not at the "
+                 "list's own: 100 for what one sees with bare eyes")
+      ->check(CLI::PositiveNumber);
   app.add_option("--threads", a.threads, "cases side by side (default: all cores)")
       ->check(CLI::Range(1, 1024));
   app.add_option("--out", a.out, "folder of the results")->capture_default_str();
