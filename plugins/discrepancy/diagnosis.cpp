@@ -33,10 +33,9 @@ constexpr int most_causes = 3;
 constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
 // Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
 constexpr double least_objection = 6.0, small_objection = 0.1;
-// The best known cause is a poor one where it leaves so much (mean square in noise units), and
-// explains so little of what is wrong or stands at the end of what its numbers may be. A force from
-// outside the list takes its place that leaves so much less.
-constexpr double much_left = 2.0, poor_share = 0.3, left_by_force = 1.0 / 3.0;
+// Where the best known cause leaves so much (mean square in noise units) a force from outside the
+// list is asked for. It takes the place of known causes where it leaves so much less.
+constexpr double much_left = 4.0, left_by_force = 1.0 / 3.0;
 // What one force may gain less than several causes: nats, or a share of theirs.
 constexpr double force_margin = 5.0, force_share = 0.05;
 
@@ -259,33 +258,24 @@ class Procedure {
         log_.fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit,
                  setup_->samples());
     if (result_.ranking.empty() || result_.ranking.front().evidence < worth_naming) return;
-    if (is_poor(result_.ranking.front()) && one_force_does_more()) return;
+    if (leaves_much(result_.ranking.front().fit) && one_force_does_more()) return;
     result_.best = result_.ranking.front().fit;
     findings_.chain = {result_.ranking.front()};
   }
 
-  // Of what is wrong, what a model explains.
-  double share_explained(const FitSummary& model) const {
-    const double noise = 0.5 * setup_->samples();
-    return (result_.base.cost - model.cost) / std::max(1.0, result_.base.cost - noise);
+  bool leaves_much(const FitSummary& model) const {
+    return 2.0 * model.cost > much_left * setup_->samples();
   }
 
-  bool is_poor(const Candidate& best) const {
-    return 2.0 * best.fit.cost > much_left * setup_->samples() &&
-           (share_explained(best.fit) < poor_share || stands_at_bound(best));
-  }
-
-  // Further causes on top of a poor one would but imitate what no known cause is, slowly.
+  // More known causes would but imitate what none of them is, slowly.
   bool one_force_does_more() {
     const Candidate& best = result_.ranking.front();
-    const double left = 1.0 - share_explained(best.fit);
+    const double noise = 0.5 * setup_->samples();
+    const double left = (best.fit.cost - noise) / std::max(1.0, result_.base.cost - noise);
     log_.note("The best known cause, " + best.cause +
               text(", leaves %.2g %% of what is wrong.", 100.0 * left));
-    MissingForce force = missing_force(0.6);
-    if (!force.found || force.fit.why == "not run" || 1.0 - force.share > left_by_force * left)
-      return false;
-    force_ = std::move(force);
-    return true;
+    const MissingForce& force = missing_force(0.6);
+    return force.found && force.fit.why != "not run" && 1.0 - force.share < left_by_force * left;
   }
 
   // Adds causes while something is left.
@@ -401,7 +391,7 @@ class Procedure {
                                   experiment().trials[objecting_].name +
                                   ", which is kept back: fit it, too";
     } else if (result_.verdict.outcome == Outcome::unknown) {
-      tell_of_force(force_ ? std::move(*force_) : missing_force(0.96));
+      tell_of_force();
     } else if (!findings_.chain.empty()) {
       ask_for_one_force();
     }
@@ -437,15 +427,15 @@ class Procedure {
     if ((!result_.after.raised || is_small(result_.after)) &&
         explained > (several ? beyond_doubt_together : beyond_doubt))
       return;
-    MissingForce force = missing_force(0.96);
+    const MissingForce& force = missing_force(0.96);
     if (!force.found || force.fit.why == "not run") return;
     // With the noise as it was read last.
     Evaluator evaluator = setup_->evaluator();
-    const std::vector<Hypothesis> models{result_.base.hypothesis, result_.best.hypothesis};
-    const Eigen::MatrixXd left = evaluator.residuals(models, fit_options());
-    const double without = 0.5 * left.col(0).squaredNorm();
-    const double by_causes = without - 0.5 * left.col(1).squaredNorm();
-    const double by_force = without - force.fit.cost;
+    const std::vector<Hypothesis> models{result_.base.hypothesis, result_.best.hypothesis,
+                                         force.fit.hypothesis};
+    const Eigen::VectorXd cost =
+        0.5 * evaluator.residuals(models, fit_options()).colwise().squaredNorm();
+    const double by_causes = cost[0] - cost[1], by_force = cost[0] - cost[2];
     log_.note(text("One force gains %.4g nats, what was found %.4g.", by_force, by_causes));
     const double margin = std::max(force_margin, force_share * by_causes);
     if (by_force < by_causes + (alone ? margin : -margin)) return;
@@ -457,7 +447,7 @@ class Procedure {
         : alone ? "one force explains more than any known cause"
                 : "one force explains as much as a known cause that stands at the end of what its "
                   "numbers may be";
-    tell_of_force(std::move(force));
+    tell_of_force();
   }
 
   static bool stands_at_bound(const Candidate& found) {
@@ -468,10 +458,12 @@ class Procedure {
   }
 
   // Where, when and of what kind the force is that no cause stands for.
-  MissingForce missing_force(double from) {
+  const MissingForce& missing_force(double from) {
+    if (force_) return *force_;
     log_.say("looking for a force that is missing", from);
-    // The fine one: a force moves the model so far from the base that a coarse one, which agrees
-    // with it there alone, misleads about the place.
+    coarse_at(result_.base);
+    // Refits are fine ones: a force moves the model so far from the base that a coarse one, which
+    // agrees with it there alone, misleads about the place.
     Evaluator evaluator = setup_->evaluator();
     // The noise was read anew since the base was fitted.
     const FitSummary base = fit(evaluator, result_.base.hypothesis, fit_options());
@@ -479,15 +471,15 @@ class Procedure {
     options.fit = fit_options();
     options.check = result_.check_trials;
     options.threads = options_.threads;
+    options.response_distance = coarse_->numerics().distance;
     options.note = [this](const std::string& sentence) { log_.note(sentence); };
-    MissingForce force = infer_missing_force(evaluator, base, options);
-    result_.verdict.simulations += force.simulations;
-    return force;
+    force_ = infer_missing_force(evaluator, base, options);
+    result_.verdict.simulations += force_->simulations;
+    return *force_;
   }
 
-  void tell_of_force(MissingForce found) {
-    result_.force = std::move(found);
-    const MissingForce& force = result_.force;
+  void tell_of_force() {
+    const MissingForce& force = result_.force = missing_force(0.96);
     name_nothing(result_.verdict);
     std::string& remainder = result_.verdict.remainder;
     if (!remainder.empty()) remainder += ". ";
@@ -588,7 +580,7 @@ class Procedure {
   std::vector<Evaluator> coarse_workers_;
   long coarse_simulations_ = 0;  // of coarse models that are gone
   Findings findings_;
-  std::optional<MissingForce> force_;  // where it takes the place of poor causes
+  std::optional<MissingForce> force_;  // once it was asked for
   int objecting_ = -1;                 // the trial kept back that the refitted model misses most
   std::optional<Experiment> exchanged_;
 };

@@ -26,8 +26,6 @@ constexpr double refit_share = 0.3;    // of the best one's: large forces are no
 constexpr std::size_t kinds = 11;
 // A string's numbers stand for one another: a refit could go along its valley for long.
 constexpr int most_iterations = 30;
-constexpr double rough_step = 0.2;     // nats, of 3 that tell kinds and places apart
-constexpr double response_mesh = 2.0;  // times the evaluator's: responses are differences, and many
 
 /// A place with what was found there.
 struct Place {
@@ -44,8 +42,9 @@ class Inference {
         options_(options),
         experiment_(evaluator.data().experiment()),
         responses_(experiment_, evaluator.data(), model, options.fit,
-                   response_mesh * evaluator.simulator().numerics().distance, options.threads,
-                   evaluator.simulator().stop()) {
+                   options.response_distance > 0.0 ? options.response_distance
+                                                   : evaluator.simulator().numerics().distance,
+                   options.threads, evaluator.simulator().stop()) {
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
       scales_.length = std::max(scales_.length, drawn_length(curve));
@@ -220,7 +219,6 @@ class Inference {
           }
     FitOptions few = options_.fit;
     few.iterations = std::min(most_iterations, few.iterations);
-    few.least_step = rough_step;
     return fit(evaluator_, starts[scan(evaluator_, starts, few).best], few);
   }
 

@@ -41,6 +41,9 @@ struct MissingForceOptions {
   FitOptions fit;          ///< its trials are those that `model` was fitted to
   std::vector<int> check;  ///< trials kept back
   int threads = 1;
+  /// m between nodes where linear responses are simulated, which are many and are differences; 0:
+  /// as in the evaluator.
+  double response_distance = 0.0;
   std::function<void(const std::string&)> note;  ///< each finding, as a sentence
 };
 

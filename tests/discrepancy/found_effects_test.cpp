@@ -99,6 +99,23 @@ TEST(FoundEffect, GradientAtTheFarEndOfItsValley) {
   EXPECT_EQ(run.score.sizes.size(), 1u);
 }
 
+// A string 200 times the smallest that can be seen: no known cause comes near it, and three of them
+// on top of each other were searched for at length. The coarse simulator put it at 0.14 of the
+// stem.
+TEST(FoundEffect, StringThatNoKnownCauseComesNear) {
+  const TemporaryFolder folder;
+  CaseOrder order = case_orders()[13];
+  ASSERT_EQ(order.hidden, std::vector<std::string>{"string"});
+  order.size = 200.0;
+  const CaseRun run = run_case(21, order, {folder / "", 1, nullptr});
+  EXPECT_EQ(run.score.call, Call::right) << run.notes;
+  EXPECT_NE(run.notes.find("The best known cause"), std::string::npos) << run.notes;
+  const std::set<std::string> kinds{"string", "stop"};  // a far string is a stop
+  EXPECT_TRUE(kinds.contains(run.score.force_kind)) << run.score.force_kind;
+  ASSERT_TRUE(run.score.force_error);
+  EXPECT_LT(*run.score.force_error, 0.1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Hidden, FoundEffects, ::testing::ValuesIn(chosen_cases()), title);
 
 }  // namespace
