@@ -112,8 +112,8 @@ TEST(FoundEffect, StringThatNoKnownCauseComesNear) {
   EXPECT_NE(run.notes.find("The best known cause"), std::string::npos) << run.notes;
   const std::set<std::string> kinds{"string", "stop"};  // a far string is a stop
   EXPECT_TRUE(kinds.contains(run.score.force_kind)) << run.score.force_kind;
-  ASSERT_TRUE(run.score.force_error);
-  EXPECT_LT(*run.score.force_error, 0.1);
+  ASSERT_TRUE(run.score.force_away);
+  EXPECT_LT(*run.score.force_away, 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hidden, FoundEffects, ::testing::ValuesIn(chosen_cases()), title);
