@@ -272,10 +272,14 @@ class Procedure {
     const Candidate& best = result_.ranking.front();
     const double noise = 0.5 * setup_->samples();
     const double left = (best.fit.cost - noise) / std::max(1.0, result_.base.cost - noise);
-    log_.note("The best known cause, " + best.cause +
-              text(", leaves %.2g %% of what is wrong.", 100.0 * left));
+    const std::string sentence = "the best known cause, " + best.cause +
+                                 text(", leaves %.2g %% of what is wrong", 100.0 * left);
+    log_.note("One force is asked for: " + sentence + ".");
     const MissingForce& force = missing_force(0.6);
-    return force.found && force.fit.why != "not run" && 1.0 - force.share < left_by_force * left;
+    if (!force.found || force.fit.why == "not run" || 1.0 - force.share > left_by_force * left)
+      return false;
+    instead_of_ = sentence;
+    return true;
   }
 
   // Adds causes while something is left.
@@ -374,7 +378,7 @@ class Procedure {
     if (findings_.chain.size() > 1) findings_.held_out = held_out_together();
     // What is left of the best model is the best sample of the noise.
     if (!findings_.chain.empty()) setup_->renew_noise(result_.best.hypothesis);
-    if (findings_.chain.empty() && !force_) {
+    if (findings_.chain.empty() && instead_of_.empty()) {
       Evaluator evaluator = setup_->evaluator();
       findings_.needed =
           needed_parameters(evaluator, result_.base, causes_, fit_options(), result_.check_trials);
@@ -391,6 +395,7 @@ class Procedure {
                                   experiment().trials[objecting_].name +
                                   ", which is kept back: fit it, too";
     } else if (result_.verdict.outcome == Outcome::unknown) {
+      if (!instead_of_.empty()) result_.verdict.remainder = instead_of_ + ", one force far less";
       tell_of_force();
     } else if (!findings_.chain.empty()) {
       ask_for_one_force();
@@ -581,6 +586,7 @@ class Procedure {
   long coarse_simulations_ = 0;  // of coarse models that are gone
   Findings findings_;
   std::optional<MissingForce> force_;  // once it was asked for
+  std::string instead_of_;             // the known cause whose place it takes, in words
   int objecting_ = -1;                 // the trial kept back that the refitted model misses most
   std::optional<Experiment> exchanged_;
 };

@@ -109,7 +109,7 @@ TEST(FoundEffect, StringThatNoKnownCauseComesNear) {
   order.size = 200.0;
   const CaseRun run = run_case(21, order, {folder / "", 1, nullptr});
   EXPECT_EQ(run.score.call, Call::right) << run.notes;
-  EXPECT_NE(run.notes.find("The best known cause"), std::string::npos) << run.notes;
+  EXPECT_NE(run.verdict.remainder.find("the best known cause, "), std::string::npos) << run.notes;
   const std::set<std::string> kinds{"string", "stop"};  // a far string is a stop
   EXPECT_TRUE(kinds.contains(run.score.force_kind)) << run.score.force_kind;
   ASSERT_TRUE(run.score.force_away);

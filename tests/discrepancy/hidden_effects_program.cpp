@@ -49,6 +49,8 @@ class Bench {
  public:
   explicit Bench(const Arguments& a) : a_(a), out_(a.out), results_(out_ / "results.jsonl") {
     scores_ = read_scores(results_, a.seed);
+    // Lines of another size may stand in the same file.
+    std::erase_if(scores_, [&](const Score& s) { return s.times != order(s.number).size; });
     std::set<int> done;
     for (const Score& s : scores_) done.insert(s.number);
     std::vector<int> wanted = a.cases;
@@ -77,13 +79,17 @@ class Bench {
   }
 
  private:
+  CaseOrder order(int number) const {
+    CaseOrder order = case_orders()[number];
+    if (a_.size > 0.0 && order.size > 0.0) order.size = a_.size;
+    return order;
+  }
+
   // Must not throw: it runs in the pool.
   void one(int number) {
     try {
       const CaseRunOptions options{out_ / "cases", 1, &stop_requested};
-      CaseOrder order = case_orders()[number];
-      if (a_.size > 0.0) order.size = a_.size;
-      const CaseRun run = run_case(a_.seed, order, options);
+      const CaseRun run = run_case(a_.seed, order(number), options);
       if (stop_requested) return;
       const std::lock_guard lock(mutex_);
       io::write_file_atomically(out_ / "notes" / (run.hidden.name + ".txt"), run.notes);
