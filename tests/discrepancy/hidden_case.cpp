@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "discrepancy/sensor_noise.h"
+
 namespace pedicel::hidden {
 
 namespace {
@@ -254,9 +256,9 @@ class Maker {
     for (const TrialPlan& t : case_.trials) {
       Record r = run_trial(subject_, t, case_.setting.markers, fine_);
       case_.clean.push_back(r);
-      add_noise(r.markers, case_.noise.position_std, case_.noise.rho);
-      add_noise(r.force, case_.noise.force_std, 0.0);
-      add_outliers(r.markers);
+      add_noise(r.markers, case_.noise.position_std, case_.noise.rho, random_);
+      add_noise(r.force, case_.noise.force_std, 0.0, random_);
+      add_outliers(r.markers, case_.causes, case_.noise.position_std, random_);
       case_.records.push_back(std::move(r));
     }
   }
@@ -267,31 +269,6 @@ class Maker {
     for (TrialPlan& t : case_.trials)
       for (reference::HoldPlan& hold : t.holds)
         for (Vec3& p : hold.path.position) p += shift;
-  }
-
-  void add_noise(Eigen::MatrixXd& samples, double std, double rho) {
-    const double fresh = std * std::sqrt(1 - rho * rho);
-    for (int c = 0; c < samples.cols(); ++c) {
-      double n = std * random_.normal();
-      for (int i = 0; i < samples.rows(); ++i) {
-        if (i > 0) n = rho * n + fresh * random_.normal();
-        samples(i, c) += n;
-      }
-    }
-  }
-
-  // A marker that is taken for something else: 15 to 40 times the noise away, one sample long.
-  void add_outliers(Eigen::MatrixXd& markers) {
-    for (const plant::Effect& e : case_.causes) {
-      if (e.name != "outliers") continue;
-      for (int i = 0; i < markers.rows(); ++i)
-        for (int m = 0; m < markers.cols() / 3; ++m) {
-          if (random_.uniform() >= e.number("fraction")) continue;
-          Vec3 away(random_.normal(), random_.normal(), random_.normal());
-          away *= random_.uniform(15, 40) * case_.noise.position_std / std::max(away.norm(), 0.1);
-          markers.block<1, 3>(i, 3 * m) += away.transpose();
-        }
-    }
   }
 
   Random random_;

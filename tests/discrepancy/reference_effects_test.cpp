@@ -338,6 +338,16 @@ TEST(ReferenceEffects, GripsGiveAndSlip) {
 
 // What no name stands for: a slack string does nothing and a taut one pulls, a stake stops, an
 // attraction draws near; each in balance with the hinge, K phi = force x L.
+// Pulled along itself a stem gives F L / EA, in series with the grip's 1/k: F = d / (1/k + L/EA).
+TEST(ReferenceEffects, StemsGiveAlongThemselves) {
+  const double EA = E * M_PI * r * r, k = EA / L / 3, d = 1e-4;
+  TrialPlan t = turned(0.02, [](double) { return 0.0; });
+  t.holds[0].stiffness = k;
+  for (Vec3& p : t.holds[0].path.position) p.z() += d;
+  const Record record = run_trial(hinge({}, 1.0), t, tip, {0.25 * L, 0.005});
+  EXPECT_NEAR(record.force(2, 2), d / (1 / k + L / EA), 1e-9);
+}
+
 TEST(ReferenceEffects, Strangers) {
   TrialPlan t;
   t.gravity.setZero();

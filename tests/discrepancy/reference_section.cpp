@@ -35,6 +35,7 @@ SectionValues section_values(const plant::SectionShape& shape, double radius, do
   v.bend1 = youngs_modulus * s.i1;
   v.bend2 = youngs_modulus * s.i2;
   v.twist = youngs_modulus / (2 * (1 + poisson_ratio)) * s.torsion;
+  v.stretch = youngs_modulus * s.area;
   v.mass = density * s.area;
   v.inertia1 = density * s.i1;
   v.inertia2 = density * s.i2;

@@ -9,6 +9,7 @@ namespace pedicel::reference {
 struct SectionValues {
   double bend1 = 0.0, bend2 = 0.0;        ///< N m2, bending about the axes
   double twist = 0.0;                     ///< N m2
+  double stretch = 0.0;                   ///< N, EA
   double mass = 0.0;                      ///< kg/m
   double inertia1 = 0.0, inertia2 = 0.0;  ///< kg m, rho I about the axes
 };

@@ -255,6 +255,7 @@ class Builder {
       k = soft.inverse();
     }
     s.joint.stiffness = k;
+    s.stretch = s.length * softening(s.curve, s.arc_near, s.arc_far, effects) / values(s).stretch;
   }
 
   // Bending towards `direction` turns about the axis square to it and to the stem.

@@ -45,6 +45,7 @@ struct Segment {
   double mass = 0.0;            ///< kg
   double centre = 0.0;          ///< m from the joint
   Vec3 inertia = Vec3::Zero();  ///< kg m2, about the joint, along its own axes
+  double stretch = 0.0;         ///< m/N, its length over EA: known, but rigid in motion
   Joint joint;
   Quat drawn;  ///< to W, as drawn
   int curve = 0;
