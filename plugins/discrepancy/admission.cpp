@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "discrepancy/trial_run.h"
 #include "plant/plant_builder.h"
@@ -55,9 +56,10 @@ std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& ti
   return beside;
 }
 
-// The worst first: a wild sample makes its neighbours look wild. `spared` stay.
-int take_out_wild(Eigen::Ref<Eigen::VectorXd> x, const std::vector<char>& spared) {
-  int count = 0;
+// Rows of the wild ones, which are taken out, the worst first: a wild sample makes its neighbours
+// look wild. `spared` stay.
+std::vector<int> take_out_wild(Eigen::Ref<Eigen::VectorXd> x, const std::vector<char>& spared) {
+  std::vector<int> rows;
   while (true) {
     const std::vector<double> distance = from_neighbours(x);
     int worst = -1;
@@ -70,10 +72,23 @@ int take_out_wild(Eigen::Ref<Eigen::VectorXd> x, const std::vector<char>& spared
       most = share;
       worst = i;
     }
-    if (worst < 0) return count;
+    if (worst < 0) return rows;
     x[worst] = nothing;
-    ++count;
+    rows.push_back(worst);
   }
+}
+
+// A point that is wild along one axis was not seen at all: its other numbers would pass for noise.
+int take_out_wild_points(Eigen::Ref<Eigen::MatrixXd> xyz, const std::vector<char>& spared) {
+  std::set<int> wild_rows;
+  for (Eigen::Index c = 0; c < xyz.cols(); ++c)
+    for (const int row : take_out_wild(xyz.col(c), spared)) wild_rows.insert(row);
+  for (const int row : wild_rows) xyz.row(row).setConstant(nothing);
+  return static_cast<int>(wild_rows.size());
+}
+
+int count_points(const Eigen::MatrixXd& xyz) {
+  return static_cast<int>((!xyz.array().isNaN()).rowwise().any().count());
 }
 
 int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {
@@ -177,7 +192,10 @@ Admission admit(const Experiment& experiment) {
         admission.samples += count_finite(samples->value.col(c));
         // A force that is exactly zero after the release is what the format asks for.
         if (samples == &trial.markers) admission.stuck += take_out_stuck(samples->value.col(c));
-        admission.outliers += take_out_wild(samples->value.col(c), spared);
+      }
+      for (Eigen::Index c = 0; c + 3 <= samples->value.cols(); c += 3) {
+        admission.points += count_points(samples->value.middleCols(c, 3));
+        admission.outliers += take_out_wild_points(samples->value.middleCols(c, 3), spared);
       }
     }
     if (count_finite(trial.markers.value) + count_finite(trial.force.value) == 0)

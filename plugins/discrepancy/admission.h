@@ -10,12 +10,14 @@ namespace pedicel::discrepancy {
 /// What was wrong with the data before any physics, and the data without it.
 struct Admission {
   Experiment experiment;  ///< wrong samples taken out, swapped labels put back
-  int samples = 0, outliers = 0, stuck = 0, swaps = 0, missing = 0;
+  int samples = 0, stuck = 0, swaps = 0, missing = 0;
+  int points = 0,
+      outliers = 0;  ///< a marker's place or a force at one time: all of them, wild ones
   std::vector<std::string> remarks;  ///< one sentence each
   std::string refusal;               ///< why the data cannot be used; empty: they can
 
   double outlier_fraction() const {
-    return samples > 0 ? static_cast<double>(outliers) / samples : 0.0;
+    return points > 0 ? static_cast<double>(outliers) / points : 0.0;
   }
 };
 

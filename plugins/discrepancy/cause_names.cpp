@@ -57,7 +57,7 @@ std::string plain_name(const std::string& cause) {
       {"weak_segment", "a weak stretch"},
       {"stiffness_gradient", "a modulus that changes along the curves"},
       {"material_nonlinearity", "a material that is not linear"},
-      {"anisotropy", "bending that is softer in one direction"},
+      {"anisotropy", "bending that is softer in one direction than across it"},
       {"mass_damping", "damping proportional to mass"},
       {"structural_damping", "damping that does not depend on the rate"},
       {"internal_friction", "friction inside the stem"},

@@ -90,9 +90,10 @@ class Candidates {
       nonlinear.push_back(Start("material_nonlinearity")
                               .fixed("k0", {scales_.curvature})
                               .signed_number("coefficient", b, 0.2, -20.0, 20.0));
+    // Stiffer one way is softer across it only in a single straight stem: branches tell them apart.
     for (int i = 0; i < 4; ++i)
       anisotropy.push_back(Start("anisotropy")
-                               .positive("ratio", 0.8, 0.05, 1.0)
+                               .positive("ratio", 0.8, 0.05, 20.0)
                                .heading(0.25 * i * std::numbers::pi));
     add("material_nonlinearity", nonlinear);
     add("anisotropy", anisotropy);

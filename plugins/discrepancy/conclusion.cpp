@@ -31,7 +31,7 @@ constexpr double least_parameter_change = 0.0015;
 // Wild samples that are worth a name: so many, and of all samples (a swing that starts within a
 // sample makes a few).
 constexpr int least_outliers = 12;
-constexpr double least_outlier_share = 0.0015;
+constexpr double least_outlier_share = 0.0045;
 
 // How far a factor that is needed is from 1 in its deviations; 0 where our own errors may have
 // moved it so far.
@@ -300,8 +300,7 @@ void name_nothing(Verdict& verdict) {
 
 void conclude_outliers(Diagnosis& diagnosis) {
   const Admission& admission = diagnosis.admission;
-  if (admission.outliers <
-      std::max<double>(least_outliers, least_outlier_share * admission.samples))
+  if (admission.outliers < std::max<double>(least_outliers, least_outlier_share * admission.points))
     return;
   Verdict& verdict = diagnosis.verdict;
   // Among rivals, or where nothing is known, they would read as one more explanation.
@@ -309,7 +308,7 @@ void conclude_outliers(Diagnosis& diagnosis) {
   NamedCause cause;
   cause.name = "outliers";
   const double count = admission.outliers, fraction = admission.outlier_fraction();
-  const double error = interval95 * std::sqrt(count) / admission.samples;
+  const double error = interval95 * std::sqrt(count) / admission.points;
   cause.parameters["fraction"] = {
       {fraction, std::max(0.0, fraction - error), fraction + error, "1"}};
   cause.because = std::to_string(admission.outliers) +

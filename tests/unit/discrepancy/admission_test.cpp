@@ -48,12 +48,16 @@ TEST(Admission, TakesOutWildSamplesAndNoOthers) {
   std::vector<std::pair<int, int>> wild;
   for (int i = 0; i < 10; ++i) wild.push_back({20 + 38 * i, random.integer(0, 17)});
   for (const auto& [row, column] : wild) markers.value(row, column) += 0.05;
+  // Along two axes at once: still one point.
+  markers.value(wild[3].first, wild[3].second / 3 * 3 + (wild[3].second + 1) % 3) -= 0.04;
   const Admission admission = admit(made.experiment);
   EXPECT_EQ(admission.outliers, 10);
   const Eigen::MatrixXd& kept = admission.experiment.trials[1].markers.value;
-  for (const auto& [row, column] : wild) EXPECT_TRUE(std::isnan(kept(row, column))) << row;
-  EXPECT_EQ(kept.array().isNaN().count(), 10);
-  EXPECT_NEAR(admission.outlier_fraction(), 10.0 / admission.samples, 1e-12);
+  for (const auto& [row, column] : wild)
+    EXPECT_TRUE(kept.row(row).segment(column / 3 * 3, 3).array().isNaN().all()) << row;
+  EXPECT_EQ(kept.array().isNaN().count(), 30);
+  EXPECT_EQ(admission.points, 6 * (301 + 401 + 351) + 351);
+  EXPECT_NEAR(admission.outlier_fraction(), 10.0 / admission.points, 1e-12);
   ASSERT_EQ(admission.remarks.size(), 1u);
   EXPECT_EQ(admission.remarks[0], "10 samples are far from their neighbours and were left out");
 }

@@ -32,7 +32,7 @@ struct Case {
 
   Case() {
     diagnosis.admission.experiment = made.experiment;
-    diagnosis.admission.samples = 5000;
+    diagnosis.admission.points = 5000;
     diagnosis.fit_trials = findings.fit_trials = {0, 1};
     diagnosis.check_trials = {2};
     findings.data = &data;
