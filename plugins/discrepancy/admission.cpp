@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "discrepancy/trial_run.h"
 #include "plant/plant_builder.h"
@@ -14,8 +13,9 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr int reach = 20;      // samples on either side that say what scatter is usual
-constexpr double wild = 10.0;  // times that scatter
+constexpr int reach = 20;                // samples on either side that say what scatter is usual
+constexpr double wild = 10.0;            // times that scatter
+constexpr double normal_scale = 1.4826;  // deviation of a normal distribution over its median
 constexpr int stuck_samples = 20;
 
 double median(std::vector<double>& values) {
@@ -56,35 +56,40 @@ std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& ti
   return beside;
 }
 
-// Rows of the wild ones, which are taken out, the worst first: a wild sample makes its neighbours
-// look wild. `spared` stay.
-std::vector<int> take_out_wild(Eigen::Ref<Eigen::VectorXd> x, const std::vector<char>& spared) {
-  std::vector<int> rows;
-  while (true) {
-    const std::vector<double> distance = from_neighbours(x);
-    int worst = -1;
-    double most = wild * 1.4826;  // turns a median into the deviation of a normal distribution
-    for (int i = 0; i < static_cast<int>(distance.size()); ++i) {
-      if (!std::isfinite(distance[i]) || distance[i] == 0.0) continue;
-      if (spared[i]) continue;
-      const double share = distance[i] / scatter_near(distance, i);
-      if (share <= most || !std::isfinite(share)) continue;
-      most = share;
-      worst = i;
-    }
-    if (worst < 0) return rows;
-    x[worst] = nothing;
-    rows.push_back(worst);
+// The squares of those distances over the scatter, summed over the axes: a wild point is far out in
+// some direction, which need not be an axis. One axis may scatter little by chance, being judged by
+// a few neighbours; no instrument sees one twice as well as the other two.
+std::vector<double> wildness(const Eigen::Ref<const Eigen::MatrixXd>& xyz) {
+  std::array<std::vector<double>, 3> distance;
+  for (int c = 0; c < 3; ++c) distance[c] = from_neighbours(xyz.col(c));
+  std::vector<double> sum(static_cast<std::size_t>(xyz.rows()), 0.0);
+  for (int i = 0; i < static_cast<int>(sum.size()); ++i) {
+    std::array<double, 3> scatter;
+    for (int c = 0; c < 3; ++c) scatter[c] = scatter_near(distance[c], i);
+    std::array<double, 3> sorted = scatter;
+    std::ranges::sort(sorted);
+    const double least = std::isfinite(sorted[1]) ? 0.5 * sorted[1] : 0.0;
+    for (int c = 0; c < 3; ++c)
+      if (std::isfinite(distance[c][i]) && distance[c][i] > 0.0)
+        sum[i] += std::pow(distance[c][i] / (normal_scale * std::max(scatter[c], least)), 2);
   }
+  return sum;
 }
 
-// A point that is wild along one axis was not seen at all: its other numbers would pass for noise.
+// The worst first: a wild point makes its neighbours look wild. All its numbers go. `spared` stay.
 int take_out_wild_points(Eigen::Ref<Eigen::MatrixXd> xyz, const std::vector<char>& spared) {
-  std::set<int> wild_rows;
-  for (Eigen::Index c = 0; c < xyz.cols(); ++c)
-    for (const int row : take_out_wild(xyz.col(c), spared)) wild_rows.insert(row);
-  for (const int row : wild_rows) xyz.row(row).setConstant(nothing);
-  return static_cast<int>(wild_rows.size());
+  for (int count = 0;; ++count) {
+    const std::vector<double> wildest = wildness(xyz);
+    int worst = -1;
+    double most = wild * wild;
+    for (int i = 0; i < static_cast<int>(wildest.size()); ++i) {
+      if (spared[i] || !(wildest[i] > most) || !std::isfinite(wildest[i])) continue;
+      most = wildest[i];
+      worst = i;
+    }
+    if (worst < 0) return count;
+    xyz.row(worst).setConstant(nothing);
+  }
 }
 
 int count_points(const Eigen::MatrixXd& xyz) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace pedicel::discrepancy {
 
@@ -108,6 +109,25 @@ Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wan
   step[density] -= beyond;
   step[modulus] = std::clamp(step[modulus] - beyond, low[modulus], high[modulus]);
   return step;
+}
+
+std::optional<Hypothesis> twin_of(const Hypothesis& fitted) {
+  const int last = static_cast<int>(fitted.effects.size()) - 1;
+  if (last < 0 || fitted.effects[last].name != "anisotropy") return {};
+  Hypothesis twin = fitted;
+  double ratio = 1.0;
+  for (int p = 0; p < fitted.size(); ++p) {
+    if (fitted.free[p].effect != last) continue;
+    if (fitted.free[p].name == "heading") {
+      twin.set_value(p, fitted.value(p) + 0.5 * std::numbers::pi);
+    } else {
+      ratio = fitted.value(p);
+      twin.set_value(p, 1.0 / ratio);
+    }
+  }
+  const int modulus = fitted.factor_on("youngs_modulus");
+  if (modulus >= 0) twin.set_value(modulus, ratio * fitted.value(modulus));
+  return twin.bounded();
 }
 
 bool has_place(const Hypothesis& hypothesis) {

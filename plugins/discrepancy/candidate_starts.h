@@ -44,6 +44,11 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
 std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitted,
                                   const Cause& cause);
 
+/// What a fit may miss because it says nearly the same in other words: an anisotropy of an upright
+/// stem turned by a right angle, its ratio the other way round and the modulus stiffer by it. Of
+/// branches it is another plant, behind a ridge. Nothing for other causes.
+std::optional<Hypothesis> twin_of(const Hypothesis& fitted);
+
 /// The best of all starts of a cause as they are, where it does better than the base: what is large
 /// no linear model sees.
 std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,

@@ -211,6 +211,8 @@ class Refits {
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     candidate.fit = slide_along(evaluator, best_fit(evaluator, base_, starts, few), few);
+    if (const auto twin = twin_of(candidate.fit.hypothesis))
+      keep_better(candidate.fit, fit(evaluator, *twin, few, base_.jacobian));
     for (const Direction& start : ways_back(candidate.cause))
       if (auto found = walk_back(evaluator, base_, start, few))
         keep_better(candidate.fit, std::move(*found));

@@ -61,18 +61,21 @@ NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
   return cause;
 }
 
-// The best of the causes, and what loses against it by less than the odds.
-void take_better(const std::string& parameter, Verdict& verdict) {
+// Likeliest first, without what loses: a law against another one by the odds of all rivals, the
+// plain parameter only where the law is worth a name beside it.
+void keep_likely(const std::string& parameter, Verdict& verdict) {
   std::ranges::stable_sort(verdict.causes, std::ranges::greater{}, &NamedCause::evidence);
   const double best = verdict.causes.front().evidence;
   std::erase_if(verdict.causes, [&](const NamedCause& other) {
     const double behind = best - other.evidence;
-    if (behind > clear_odds) verdict.rivals.push_back({other.name, behind});
-    return behind > clear_odds;
+    const bool loses = behind > (other.name == parameter ? worth_naming : clear_odds);
+    if (loses) verdict.rivals.push_back({other.name, behind});
+    return loses;
   });
   const auto lost = std::ranges::find(verdict.rivals, parameter, &Rival::name);
-  verdict.causes.front().because += " Another " + parameter + " alone would explain the data " +
-                                    text("%.3g nats worse.", lost->behind);
+  if (lost != verdict.rivals.end())
+    verdict.causes.front().because += " Another " + parameter + " alone would explain the data " +
+                                      text("%.3g nats worse.", lost->behind);
 }
 
 // Modulus, density or damping, where nothing else is wrong and 1 is far out; with the intervals of
@@ -106,7 +109,7 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
       verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
     }
   }
-  if (needed.better()) take_better(needed.names.front(), verdict);
+  keep_likely(needed.names.front(), verdict);
   if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
 }
 

@@ -29,6 +29,7 @@ constexpr double numerical_limit = 0.5;  // of the noise, RMS
 constexpr double family_share = 0.5;
 constexpr double beyond_linear = 4.0;  // times that a cause may gain what its direction promises
 constexpr int most_causes = 3;
+constexpr std::size_t most_rivals = 4;  // that another trial should part
 // Nats that one cause, and several together, do not explain to the last by chance.
 constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
 // Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
@@ -533,12 +534,8 @@ class Procedure {
     if (verdict.outcome == Outcome::ambiguous) {
       log_.say("choosing the next experiment", 0.97);
       std::vector<Hypothesis> rivals;
-      for (const Candidate& candidate : result_.ranking)
-        for (const NamedCause& cause : verdict.causes)
-          if (cause.name == candidate.cause && rivals.size() < 4) {
-            rivals.push_back(candidate.fit.hypothesis);
-            rivals.back().name = candidate.cause;
-          }
+      for (const NamedCause& cause : verdict.causes)
+        if (rivals.size() < most_rivals) rivals.push_back(model_of(cause.name));
       result_.next =
           next_experiment(experiment(), setup_->data(), rivals,
                           {result_.numerics, options_.threads, options_.stop}, verdict.simulations);
@@ -546,6 +543,18 @@ class Procedure {
       result_.next = next_look(experiment(), setup_->data(), result_.predictions[refitted]);
     }
     verdict.next_experiment = result_.next.sentence;
+  }
+
+  // Refitted with a cause that the verdict lists: a candidate, or what may stand for a parameter.
+  Hypothesis model_of(const std::string& cause) const {
+    const FitSummary* found = &findings_.needed.model;
+    for (const Candidate& candidate : result_.ranking)
+      if (candidate.cause == cause) found = &candidate.fit;
+    for (const NeededParameters::Instead& other : findings_.needed.instead)
+      if (other.model.hypothesis.name == cause) found = &other.model;
+    Hypothesis model = found->hypothesis;
+    model.name = cause;
+    return model;
   }
 
   void predict() {

@@ -26,6 +26,21 @@ double hat(double t, double middle, double interval) {
   return std::max(0.0, 1.0 - std::abs(t - middle) / interval);
 }
 
+// The mean of what there is within so many seconds; 0 where nothing is.
+Eigen::MatrixXd smoothed(const Eigen::MatrixXd& x, const std::vector<double>& time, double within) {
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  for (Eigen::Index row = 0, from = 0, to = 0; row < x.rows(); ++row) {
+    while (time[from] < time[row] - within) ++from;
+    while (to < x.rows() && time[to] <= time[row] + within) ++to;
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      const auto near = x.col(c).segment(from, to - from).array();
+      const double count = static_cast<double>(near.isFinite().count());
+      if (count > 0.0) mean(row, c) = near.isFinite().select(near, 0.0).sum() / count;
+    }
+  }
+  return mean;
+}
+
 }  // namespace
 
 ForceResponses::ForceResponses(const Experiment& experiment, const DataSet& data,
@@ -218,8 +233,9 @@ ForcePath ForceResponses::path(const ForceSpace& space, const Eigen::VectorXd& h
     const Eigen::Index rows = plain_[k].markers.rows();
     const Eigen::VectorXd moved =
         space.motion[k] * history.segment(knots.first, space.motion[k].cols());
-    const Eigen::MatrixXd x =
-        plain_[k].markers.middleCols(3 * space.marker, 3) + moved.reshaped(rows, 3);
+    Eigen::MatrixXd x = plain_[k].markers.middleCols(3 * space.marker, 3) + moved.reshaped(rows, 3);
+    const Samples& seen = experiment_.trials[knots.trial].markers;
+    x += smoothed(seen.value.middleCols(3 * space.marker, 3) - x, time, 0.5 * knots.interval);
     Eigen::MatrixXd position(knots.count, 3), velocity(knots.count, 3);
     for (int i = 0; i < knots.count; ++i) {
       const double t = std::min(i * knots.interval, time.back());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "discrepancy/evidence.h"
@@ -24,8 +25,12 @@ constexpr std::size_t most_refits = 5;
 constexpr double refit_within = 30.0;  // nats of linear response, and
 constexpr double refit_share = 0.3;    // of the best one's: large forces are not linear
 constexpr std::size_t kinds = 11;
+constexpr double beyond_belief = 4.0;  // deviations of what is known of a factor beforehand
 // A string's numbers stand for one another: a refit could go along its valley for long.
 constexpr int most_iterations = 30;
+constexpr double place_share = 0.1;  // of the evidence, by which another place may be worse
+constexpr std::size_t most_looks = 6;
+constexpr int look_iterations = 5;
 
 /// A place with what was found there.
 struct Place {
@@ -40,11 +45,7 @@ class Inference {
       : evaluator_(evaluator),
         model_(model),
         options_(options),
-        experiment_(evaluator.data().experiment()),
-        responses_(experiment_, evaluator.data(), model, options.fit,
-                   options.response_distance > 0.0 ? options.response_distance
-                                                   : evaluator.simulator().numerics().distance,
-                   options.threads, evaluator.simulator().stop()) {
+        experiment_(evaluator.data().experiment()) {
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
       scales_.length = std::max(scales_.length, drawn_length(curve));
@@ -55,6 +56,7 @@ class Inference {
   }
 
   MissingForce run() {
+    choose_centre();
     look_at_places();
     const bool of_sensor = look_at_sensor();
     if (of_sensor) {
@@ -64,7 +66,7 @@ class Inference {
       refit();
       conclude();
     }
-    result_.simulations = responses_.simulations();
+    result_.simulations = responses_->simulations();
     return std::move(result_);
   }
 
@@ -88,13 +90,52 @@ class Inference {
 
   double noise_cost() const { return 0.5 * scales_.samples; }
 
+  // Where no number of the plant can stand for a force, it pulls them far away all the same: the
+  // plant as it was believed to be answers more like the real one then.
+  void choose_centre() {
+    centre_ = model_;
+    if (is_beyond_belief(model_)) {
+      note("The refitted plant is beyond belief: forces act on the one that was believed in.");
+      FitOptions none = options_.fit;
+      none.iterations = 0;
+      centre_ = fit(evaluator_, as_believed(model_.hypothesis), none);
+    }
+    const Simulator& simulator = evaluator_.simulator();
+    const double distance = options_.response_distance > 0.0 ? options_.response_distance
+                                                             : simulator.numerics().distance;
+    responses_ =
+        std::make_unique<ForceResponses>(experiment_, evaluator_.data(), centre_, options_.fit,
+                                         distance, options_.threads, simulator.stop());
+  }
+
+  static bool is_factor(const FreeParameter& free) {
+    return free.name == "factor" && free.prior > 0.0;
+  }
+
+  static bool is_beyond_belief(const FitSummary& model) {
+    for (int p = 0; p < model.hypothesis.size(); ++p) {
+      const FreeParameter& free = model.hypothesis.free[p];
+      if (!is_factor(free)) continue;
+      const double far = std::abs(std::log(model.hypothesis.value(p) / free.prior_centre));
+      const bool at_bound = std::ranges::find(model.at_bound, p) != model.at_bound.end();
+      if (at_bound || far > beyond_belief * free.prior) return true;
+    }
+    return false;
+  }
+
+  static Hypothesis as_believed(Hypothesis model) {
+    for (int p = 0; p < model.size(); ++p)
+      if (is_factor(model.free[p])) model.set_value(p, model.free[p].prior_centre);
+    return model;
+  }
+
   void look_at_places() {
     double most = 0.0;
     for (const int marker : markers()) {
       Place place;
-      place.space = responses_.force_at(marker);
+      place.space = responses_->force_at(marker);
       place.free = free_history(place.space);
-      place.path = responses_.path(place.space, place.free.value);
+      place.path = responses_->path(place.space, place.free.value);
       most = std::max(most, place.free.gain);
       places_.push_back(std::move(place));
     }
@@ -103,7 +144,7 @@ class Inference {
     for (const Place& place : places_)
       note("A free force at " + place_text(place.space.place) +
            text(": evidence %.4g", place.free.evidence));
-    scales_.dispersion = std::max(1.0, (model_.cost - most) / noise_cost());
+    scales_.dispersion = std::max(1.0, (centre_.cost - most) / noise_cost());
     scales_.choices = kinds * std::max<std::size_t>(1, places_.size());
   }
 
@@ -117,7 +158,7 @@ class Inference {
       groups.push_back({m});
     }
     for (const std::vector<int>& group : groups) {
-      const double evidence = free_history(responses_.displacement_of(group)).evidence;
+      const double evidence = free_history(responses_->displacement_of(group)).evidence;
       if (evidence <= sensor_evidence_) continue;
       sensor_evidence_ = evidence;
       sensor_ = group;
@@ -134,7 +175,7 @@ class Inference {
     result_.where = sensor_.size() > 1 ? "All markers move alike: the camera's frame or the base"
                                        : "Marker \"" + experiment_.markers[sensor_.front()].name +
                                              "\" moves on its own: the marker, not the plant";
-    const FreeForce free = free_history(responses_.displacement_of(sensor_));
+    const FreeForce free = free_history(responses_->displacement_of(sensor_));
     result_.share = share_of(free.gain);
   }
 
@@ -189,7 +230,7 @@ class Inference {
   }
 
   Hypothesis with(const plant::Effect& force) const {
-    Hypothesis start = model_.hypothesis;
+    Hypothesis start = centre_.hypothesis;
     const Place& place = nearest(*force.place);
     if (start.size() > 0)  // which have taken what they could of the force
       start.set_unknowns(start.unknowns() +
@@ -199,9 +240,31 @@ class Inference {
     return start;
   }
 
-  // From the best of a few starts: what looks like a stop may be a string to a point at any
-  // distance.
-  FitSummary refitted(const plant::Effect& force) {
+  // From the best of a few starts in each place where the same law does about as well: what is
+  // stiff has ridges between places. A few iterations tell which one goes on.
+  FitSummary refitted(const ForceTerm& term) {
+    FitOptions few = options_.fit;
+    few.iterations = std::min(most_iterations, few.iterations);
+    std::vector<plant::Effect> places{term.force};
+    for (const ForceTerm& other : terms_)
+      if (kind_of(other.force) == kind_of(term.force) && !(other.force.place == term.force.place) &&
+          other.force.place->curve == term.force.place->curve &&
+          other.evidence > (1.0 - place_share) * term.evidence && places.size() < most_looks)
+        places.push_back(other.force);
+    if (places.size() == 1) return fit(evaluator_, best_start(term.force), few);
+    FitOptions look = few;
+    look.iterations = std::min(look_iterations, few.iterations);
+    FitSummary best;
+    for (const plant::Effect& force : places) {
+      FitSummary found = fit(evaluator_, best_start(force), look);
+      if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
+    }
+    few.iterations -= look.iterations;
+    return few.iterations > 0 ? discrepancy::refit(evaluator_, best, few) : best;
+  }
+
+  // What looks like a stop may be a string to a point at any distance.
+  Hypothesis best_start(const plant::Effect& force) {
     std::vector<Hypothesis> starts;
     for (const double factor : {1.0, 0.5, 2.0}) {
       plant::Effect scaled = force;
@@ -217,21 +280,19 @@ class Inference {
             string.numbers["distance"] = {distance * scales_.length};
             starts.push_back(with(string));
           }
-    FitOptions few = options_.fit;
-    few.iterations = std::min(most_iterations, few.iterations);
-    return fit(evaluator_, starts[scan(evaluator_, starts, few).best], few);
+    return starts[scan(evaluator_, starts, options_.fit).best];
   }
 
   void refit() {
     for (const ForceTerm& term : worth_refitting()) refit(term);
     if (result_.terms.empty()) return;
     const ForceTerm best = *std::ranges::max_element(result_.terms, {}, &ForceTerm::evidence);
-    if (const std::optional<ForceTerm> near = with_near_end(best)) refit(*near);
+    if (const std::optional<ForceTerm> other = with_other_end(best)) refit(*other);
     std::ranges::stable_sort(result_.terms, std::greater(), &ForceTerm::evidence);
   }
 
   void refit(ForceTerm term) {
-    const FitSummary found = refitted(term.force);
+    const FitSummary found = refitted(term);
     term.gain = (model_.cost - found.cost) / scales_.dispersion;
     // One more: its place along the curve.
     term.evidence = term.gain - cost_of(term.parameters + 1, scales_.samples, scales_.choices);
@@ -246,17 +307,24 @@ class Inference {
   }
 
   // What pulls towards a far end is a stop or a constant push; its own kind, with an end that is
-  // near, is tried there, too, so that it can be said whether the data tell them apart.
-  std::optional<ForceTerm> with_near_end(const ForceTerm& term) const {
-    const std::string kind = kind_with_near_end(kind_of(term.force));
+  // near, is tried there, too, so that it can be said whether the data tell them apart. So is a
+  // stop in place of a string, which has more numbers.
+  std::optional<ForceTerm> with_other_end(const ForceTerm& term) const {
+    const bool is_string = kind_of(term.force) == "string";
+    const std::string kind = is_string ? "stop" : kind_with_near_end(kind_of(term.force));
     const auto tried = [&](const ForceTerm& t) {
       return kind_of(t.force) == kind && t.force.place->curve == term.force.place->curve;
     };
     if (kind.empty() || std::ranges::any_of(result_.terms, tried)) return {};
-    ForceTerm near = term;
-    near.force = near_end(term.force, nearest(*term.force.place), 0.6 * scales_.length);
-    near.parameters = kind == "string" ? 5 : 3;
-    return near;
+    ForceTerm other = term;
+    if (is_string) {
+      other.force.words["kind"] = kind;
+      other.force.numbers.erase("distance");
+    } else {
+      other.force = near_end(term.force, nearest(*term.force.place), 0.6 * scales_.length);
+    }
+    other.parameters = kind == "string" ? 5 : 3;
+    return other;
   }
 
   static std::string kind_with_near_end(const std::string& kind) {
@@ -294,12 +362,12 @@ class Inference {
       find_elsewhere();
       find_other_kinds();
       check();
-    } else if (loudest.free.evidence >= enough_evidence) {
+    } else if (loudest.free.evidence - (centre_.cost - model_.cost) >= enough_evidence) {
       result_.found = true;
       result_.kind = "force of no known law";
       result_.place = loudest.space.place;
-      result_.evidence = loudest.free.evidence;
-      result_.share = share_of(loudest.free.gain);
+      result_.evidence = loudest.free.evidence - (centre_.cost - model_.cost);
+      result_.share = share_of(loudest.free.gain - (centre_.cost - model_.cost));
       result_.what = "No law of the library follows it";
       describe_history(loudest, {});
     }
@@ -426,7 +494,8 @@ class Inference {
   const FitSummary& model_;
   const MissingForceOptions& options_;
   const Experiment& experiment_;
-  ForceResponses responses_;
+  FitSummary centre_;  ///< the model about which forces act: `model_`, or what it was pulled from
+  std::unique_ptr<ForceResponses> responses_;
   LibraryScales scales_;
   std::vector<Place> places_;
   std::vector<int> sensor_;

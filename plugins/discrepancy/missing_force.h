@@ -49,7 +49,7 @@ struct MissingForceOptions {
 
 /// Infers the force that a fitted model lacks. Every marker is a place it may act at: the histories
 /// of such a force are estimated from the linear response of the model (ForceSpace), and along the
-/// motion that follows from them every law of the library is tried. The best laws are put into the
+/// measured motion there every law of the library is tried. The best laws are put into the
 /// model and refitted with it, their place along the curve included; what the refits gain decides.
 /// Simulates about 100 variants a marker and trial.
 MissingForce infer_missing_force(Evaluator& evaluator, const FitSummary& model,

@@ -65,7 +65,7 @@ std::vector<Hypothesis> damped_by(const Cause& law, const FitSummary& model) {
 
 const FitSummary* NeededParameters::better() const {
   const auto best = std::ranges::min_element(instead, {}, &Instead::behind);
-  return best != instead.end() && best->behind < -worth_naming ? &best->model : nullptr;
+  return best != instead.end() && best->behind < 0.0 ? &best->model : nullptr;
 }
 
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,

@@ -21,8 +21,7 @@ struct NeededParameters {
   };
   std::vector<Instead> instead;
 
-  /// The best of these, where it explains so much more that it is worth a name: there is nothing
-  /// left for what is needed to stand for. Else null.
+  /// The best of these, where it explains the data better than what is needed; else null.
   const FitSummary* better() const;
 };
 

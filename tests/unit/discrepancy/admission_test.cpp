@@ -62,6 +62,19 @@ TEST(Admission, TakesOutWildSamplesAndNoOthers) {
   EXPECT_EQ(admission.remarks[0], "10 samples are far from their neighbours and were left out");
 }
 
+// 11 deviations along each axis are 19 in all: no axis alone is beyond the limit of 10 deviations
+// of what a sample has against its neighbours, 13.9 of its own.
+TEST(Admission, TakesOutPointsThatAreWildAskew) {
+  MadeData made = noisy();
+  Samples& markers = made.experiment.trials[1].markers;
+  for (int i = 0; i < 10; ++i)
+    markers.value.block<1, 3>(20 + 38 * i, 3 * (i % 6)).array() +=
+        (i % 2 ? 11.0 : -11.0) * MadeData::position_std;
+  const Admission admission = admit(made.experiment);
+  EXPECT_EQ(admission.outliers, 10);
+  EXPECT_EQ(admission.experiment.trials[1].markers.value.array().isNaN().count(), 30);
+}
+
 TEST(Admission, PutsBackExchangedLabels) {
   MadeData made = noisy();
   Eigen::MatrixXd& value = made.experiment.trials[0].markers.value;

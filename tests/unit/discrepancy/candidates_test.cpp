@@ -111,6 +111,30 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
   EXPECT_LT(std::ranges::max(promise_of(nothing.causes, directions)), 5.0);
 }
 
+// Of a single upright stem the twin is the same plant: EI along the direction and across it are
+// what they were. Only the stretch differs, by a part of (r/L)^2.
+TEST(Candidates, TwinOfAnAnisotropyIsTheSameUprightStem) {
+  Hidden hidden({});
+  Hypothesis model = hidden.base.hypothesis;
+  for (const Cause& cause : hidden.causes)
+    if (cause.name == "anisotropy") model.add(cause.starts[0]);
+  for (int p = 0; p < model.size(); ++p)
+    if (model.free[p].name == "ratio")
+      model.set_value(p, 1.4);
+    else if (model.free[p].name == "heading")
+      model.set_value(p, 0.5);
+  const std::optional<Hypothesis> twin = twin_of(model);
+  ASSERT_TRUE(twin);
+  EXPECT_NEAR(twin->value(twin->factor_on("youngs_modulus")),
+              1.4 * model.value(model.factor_on("youngs_modulus")), 1e-12);
+  const std::vector<Hypothesis> both{model, *twin};
+  const Eigen::MatrixXd r = hidden.workers[0].residuals(both, hidden.options);
+  const double change = (r.col(0) - hidden.base.residual).norm();
+  EXPECT_LT((r.col(1) - r.col(0)).norm(), 0.01 * change);
+  EXPECT_GT(change, 10.0);
+  EXPECT_FALSE(twin_of(hidden.base.hypothesis));
+}
+
 // Modulus and damping move the prediction alike, along one shape. Asked for more of the modulus
 // than its bound, damping takes over the rest; asked for within the bounds, both do what they were
 // asked.

@@ -137,6 +137,23 @@ TEST(MissingForce, Stop) {
   EXPECT_NE(found.sentence().find("Kind: stop or string, which"), std::string::npos);
 }
 
+// A stop thirty times as stiff as the stem: behind it the stem swings at another frequency, which
+// pulls the refitted modulus far away. Where it acts and what it is can be told all the same.
+TEST(MissingForce, StopThatMakesAnotherPlantOfIt) {
+  Bent bent;
+  bent.measure({at(0.7,
+                   [](double, const Vec3& x, const Vec3&) -> Vec3 {
+                     return 20.0 * std::max(0.0, -0.002 - x.x()) * Vec3::UnitX();
+                   })},
+               8);
+  const MissingForce found = bent.infer();
+  ASSERT_TRUE(found.found);
+  EXPECT_EQ(found.kind, "stop") << found.sentence();
+  ASSERT_TRUE(found.place);
+  EXPECT_NEAR(found.place->at, 0.7, 0.1);  // an element: from one to the next leads over a ridge
+  EXPECT_GT(found.share, 0.9);
+}
+
 // 0.6 mN at 1.7 Hz.
 TEST(MissingForce, PeriodicPush) {
   Bent bent;
