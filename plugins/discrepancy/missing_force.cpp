@@ -358,7 +358,7 @@ class Inference {
       result_.place = force.place;
       result_.share = share_of(model_.cost - result_.fit.cost);
       result_.what = "It fits best as this: " + describe(force);
-      describe_history(nearest(*force.place), force);
+      describe_course(moments_of_law(), force);
       find_elsewhere();
       find_other_kinds();
       check();
@@ -369,7 +369,7 @@ class Inference {
       result_.evidence = loudest.free.evidence - (centre_.cost - model_.cost);
       result_.share = share_of(loudest.free.gain - (centre_.cost - model_.cost));
       result_.what = "No law of the library follows it";
-      describe_history(loudest, {});
+      describe_course(moments_of_history(loudest), {});
     }
     if (result_.found) result_.where = where_text();
   }
@@ -423,31 +423,64 @@ class Inference {
     return place.curve + text(" at %.2g of its length", place.at);
   }
 
-  // When it acts, and what it does with energy, from its history in a place.
-  void describe_history(const Place& place, const std::optional<plant::Effect>& force) {
-    const Eigen::VectorXd history =
-        force ? history_of(*force, place.space, place.path, scales_) : place.free.value;
-    const auto force_at = [&](const ForceKnots& knots, int i) {
-      Vec3 f = Vec3::Zero();
-      for (std::size_t a = 0; a < place.space.axes.size(); ++a)
-        f += history[knots.first + static_cast<int>(a) * knots.count + i] * place.space.axes[a];
-      return f;
-    };
-    double most = 0.0, work = 0.0, turnover = 0.0, active = 0.0, all = 0.0;
-    for (const ForceKnots& knots : place.space.knots)
-      for (int i = 0; i < knots.count; ++i) most = std::max(most, force_at(knots, i).norm());
+  /// What a force did for a while.
+  struct Moment {
+    Vec3 force, velocity;  ///< N and m/s, W
+    double seconds = 0.0;
+  };
+
+  static std::vector<Moment> moments_of_history(const Place& place) {
+    std::vector<Moment> moments;
     for (std::size_t k = 0; k < place.space.knots.size(); ++k) {
       const ForceKnots& knots = place.space.knots[k];
       for (int i = 0; i < knots.count; ++i) {
-        const Vec3 f = force_at(knots, i);
-        const double power = f.dot(place.path.velocity[k].row(i).transpose());
-        work += power * knots.interval;
-        turnover += std::abs(power) * knots.interval;
-        active += f.norm() > 0.05 * most ? 1.0 : 0.0;
-        all += 1.0;
+        Vec3 force = Vec3::Zero();
+        for (std::size_t a = 0; a < place.space.axes.size(); ++a)
+          force += place.free.value[knots.first + static_cast<int>(a) * knots.count + i] *
+                   place.space.axes[a];
+        moments.push_back({force, place.path.velocity[k].row(i).transpose(), knots.interval});
       }
     }
-    result_.when = when_text(force, 100.0 * active / std::max(all, 1.0), most);
+    return moments;
+  }
+
+  // Of the refitted model, whose place may lie between markers: its law is listened to.
+  std::vector<Moment> moments_of_law() const {
+    const std::vector<int>& trials = options_.fit.trials;
+    std::vector<std::vector<Moment>> heard(trials.size());
+    std::vector<double> last(trials.size(), 0.0);
+    std::vector<Variant> variants(trials.size(), result_.fit.hypothesis.variant());
+    std::vector<Simulator::Request> requests;
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+      auto& law = variants[t].forces.back().law;
+      law = [plain = law, &moments = heard[t], &before = last[t]](double time, const Vec3& x,
+                                                                  const Vec3& v) -> Vec3 {
+        const Vec3 force = plain(time, x, v);
+        moments.push_back({force, v, std::max(0.0, time - before)});
+        before = time;
+        return force;
+      };
+      requests.push_back({&variants[t], trials[t]});
+    }
+    evaluator_.simulator().run(requests);
+    std::vector<Moment> all;
+    for (const std::vector<Moment>& moments : heard)
+      all.insert(all.end(), moments.begin(), moments.end());
+    return all;
+  }
+
+  // When it acts, and what it does with energy.
+  void describe_course(const std::vector<Moment>& moments,
+                       const std::optional<plant::Effect>& force) {
+    double most = 0.0, work = 0.0, turnover = 0.0, active = 0.0, all = 0.0;
+    for (const Moment& moment : moments) most = std::max(most, moment.force.norm());
+    for (const auto& [f, velocity, seconds] : moments) {
+      work += f.dot(velocity) * seconds;
+      turnover += std::abs(f.dot(velocity)) * seconds;
+      active += f.norm() > 0.05 * most ? seconds : 0.0;
+      all += seconds;
+    }
+    result_.when = when_text(force, all > 0.0 ? 100.0 * active / all : 0.0, most);
     result_.how = how_text(turnover > 0.0 ? work / turnover : 0.0);
   }
 

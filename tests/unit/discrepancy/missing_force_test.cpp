@@ -98,6 +98,13 @@ void expect_found(const MissingForce& found, const std::string& kind, double pla
 
 }  // namespace
 
+// N, of the largest force that is told.
+double size_said(const MissingForce& found) {
+  double size = 0.0;
+  EXPECT_EQ(std::sscanf(found.when.c_str(), "it reaches %lf N", &size), 1) << found.when;
+  return size;
+}
+
 // Noise of the stated size is no force: nothing may be said.
 TEST(MissingForce, NoiseAloneIsNothing) {
   Bent bent;
@@ -110,15 +117,19 @@ TEST(MissingForce, NoiseAloneIsNothing) {
 // A string, slack at rest, a tenth as stiff as the stem.
 TEST(MissingForce, String) {
   Bent bent;
+  double longest = 0.0;
   bent.measure({at(0.7,
-                   [](double, const Vec3& x, const Vec3&) -> Vec3 {
+                   [&longest](double, const Vec3& x, const Vec3&) -> Vec3 {
                      const Vec3 away = Vec3(-0.1, 0, 0.3) - x;
+                     longest = std::max(longest, away.norm() - 0.105);
                      return 0.15 * std::max(0.0, away.norm() - 0.105) * away.normalized();
                    })},
                2);
   const MissingForce found = bent.infer();
   expect_found(found, "string", 0.7);
   EXPECT_TRUE(found.other_kinds.empty()) << found.sentence();
+  // No marker is where it is tied: there it would hang slack. It was stretched by up to `longest`.
+  EXPECT_NEAR(size_said(found), 0.15 * longest, 0.1 * 0.15 * longest);
 }
 
 // A stop 3 mm beside the stem, on one side.
