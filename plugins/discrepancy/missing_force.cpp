@@ -8,6 +8,7 @@
 #include <set>
 
 #include "discrepancy/evidence.h"
+#include "discrepancy/force_course.h"
 #include "discrepancy/force_term.h"
 #include "discrepancy/places.h"
 #include "discrepancy/sentence.h"
@@ -115,7 +116,8 @@ class Inference {
   static bool is_beyond_belief(const FitSummary& model) {
     for (int p = 0; p < model.hypothesis.size(); ++p) {
       const FreeParameter& free = model.hypothesis.free[p];
-      if (!is_factor(free)) continue;
+      // Damping that the data do not show ends at a bound, too.
+      if (!is_factor(free) || p == model.hypothesis.factor_on("damping_time")) continue;
       const double far = std::abs(std::log(model.hypothesis.value(p) / free.prior_centre));
       const bool at_bound = std::ranges::find(model.at_bound, p) != model.at_bound.end();
       if (at_bound || far > beyond_belief * free.prior) return true;
@@ -358,7 +360,9 @@ class Inference {
       result_.place = force.place;
       result_.share = share_of(model_.cost - result_.fit.cost);
       result_.what = "It fits best as this: " + describe(force);
-      describe_course(moments_of_law(), force);
+      describe_course(
+          course_of_law(evaluator_.simulator(), result_.fit.hypothesis, options_.fit.trials),
+          kind_of(force));
       find_elsewhere();
       find_other_kinds();
       check();
@@ -369,7 +373,7 @@ class Inference {
       result_.evidence = loudest.free.evidence - (centre_.cost - model_.cost);
       result_.share = share_of(loudest.free.gain - (centre_.cost - model_.cost));
       result_.what = "No law of the library follows it";
-      describe_course(moments_of_history(loudest), {});
+      describe_course(course_of_history(loudest.space, loudest.path, loudest.free.value), "");
     }
     if (result_.found) result_.where = where_text();
   }
@@ -423,82 +427,9 @@ class Inference {
     return place.curve + text(" at %.2g of its length", place.at);
   }
 
-  /// What a force did for a while.
-  struct Moment {
-    Vec3 force, velocity;  ///< N and m/s, W
-    double seconds = 0.0;
-  };
-
-  static std::vector<Moment> moments_of_history(const Place& place) {
-    std::vector<Moment> moments;
-    for (std::size_t k = 0; k < place.space.knots.size(); ++k) {
-      const ForceKnots& knots = place.space.knots[k];
-      for (int i = 0; i < knots.count; ++i) {
-        Vec3 force = Vec3::Zero();
-        for (std::size_t a = 0; a < place.space.axes.size(); ++a)
-          force += place.free.value[knots.first + static_cast<int>(a) * knots.count + i] *
-                   place.space.axes[a];
-        moments.push_back({force, place.path.velocity[k].row(i).transpose(), knots.interval});
-      }
-    }
-    return moments;
-  }
-
-  // Of the refitted model, whose place may lie between markers: its law is listened to.
-  std::vector<Moment> moments_of_law() const {
-    const std::vector<int>& trials = options_.fit.trials;
-    std::vector<std::vector<Moment>> heard(trials.size());
-    std::vector<double> last(trials.size(), 0.0);
-    std::vector<Variant> variants(trials.size(), result_.fit.hypothesis.variant());
-    std::vector<Simulator::Request> requests;
-    for (std::size_t t = 0; t < trials.size(); ++t) {
-      auto& law = variants[t].forces.back().law;
-      law = [plain = law, &moments = heard[t], &before = last[t]](double time, const Vec3& x,
-                                                                  const Vec3& v) -> Vec3 {
-        const Vec3 force = plain(time, x, v);
-        moments.push_back({force, v, std::max(0.0, time - before)});
-        before = time;
-        return force;
-      };
-      requests.push_back({&variants[t], trials[t]});
-    }
-    evaluator_.simulator().run(requests);
-    std::vector<Moment> all;
-    for (const std::vector<Moment>& moments : heard)
-      all.insert(all.end(), moments.begin(), moments.end());
-    return all;
-  }
-
-  // When it acts, and what it does with energy.
-  void describe_course(const std::vector<Moment>& moments,
-                       const std::optional<plant::Effect>& force) {
-    double most = 0.0, work = 0.0, turnover = 0.0, active = 0.0, all = 0.0;
-    for (const Moment& moment : moments) most = std::max(most, moment.force.norm());
-    for (const auto& [f, velocity, seconds] : moments) {
-      work += f.dot(velocity) * seconds;
-      turnover += std::abs(f.dot(velocity)) * seconds;
-      active += f.norm() > 0.05 * most ? seconds : 0.0;
-      all += seconds;
-    }
-    result_.when = when_text(force, all > 0.0 ? 100.0 * active / all : 0.0, most);
-    result_.how = how_text(turnover > 0.0 ? work / turnover : 0.0);
-  }
-
-  static std::string when_text(const std::optional<plant::Effect>& force, double active,
-                               double most) {
-    const std::string size = text("it reaches %.2g N", most);
-    const std::string kind = force ? kind_of(*force) : "";
-    if (kind == "string" || kind == "stop")
-      return size + text(", and acts in %.0f %% of the time, by where the plant is", active);
-    if (kind == "periodic") return size + ", and comes back with time, whatever the plant does";
-    if (kind == "jolt" || kind == "onset") return size + ", in one trial alone";
-    return size + text(", and acts in %.0f %% of the time", active);
-  }
-
-  static std::string how_text(double ratio) {
-    if (ratio < -0.5) return text("it takes energy out (work over turnover %.2f)", ratio);
-    if (ratio > 0.5) return text("it drives the plant (work over turnover %.2f)", ratio);
-    return text("it gives back about what it takes (work over turnover %.2f)", ratio);
+  void describe_course(const ForceCourse& course, const std::string& kind) {
+    result_.when = when_it_acts(course, kind);
+    result_.how = what_it_does(course);
   }
 
   // RMS error in noise units over the trials kept back, without and with the force.

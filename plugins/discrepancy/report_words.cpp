@@ -80,7 +80,9 @@ std::string parameters_text(const Candidate& candidate) {
 std::string why_it_lost(const Candidate& candidate, const Diagnosis& d) {
   if (d.ranking.empty()) return "";
   const Candidate& best = d.ranking.front();
-  if (&candidate == &best) return "the likeliest";
+  if (&candidate == &best)
+    return d.verdict.outcome == Outcome::unknown ? "nearest of what is known, and not enough"
+                                                 : "the likeliest";
   for (std::size_t c = 1; c < d.verdict.causes.size(); ++c)
     if (d.verdict.causes[c].name == candidate.cause)
       return d.verdict.outcome == Outcome::ambiguous ? "did not lose: as likely, by these data"
