@@ -29,7 +29,7 @@ constexpr std::size_t kinds = 11;
 constexpr double beyond_belief = 4.0;  // deviations of what is known of a factor beforehand
 // A string's numbers stand for one another: a refit could go along its valley for long.
 constexpr int most_iterations = 30;
-constexpr double place_share = 0.1;  // of the evidence, by which another place may be worse
+constexpr double place_share = 0.5;  // of the evidence, by which another place may be worse
 constexpr std::size_t most_looks = 6;
 constexpr int look_iterations = 5;
 
