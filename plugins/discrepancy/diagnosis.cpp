@@ -29,7 +29,8 @@ constexpr double numerical_limit = 0.5;  // of the noise, RMS
 constexpr double family_share = 0.5;
 constexpr double beyond_linear = 4.0;  // times that a cause may gain what its direction promises
 constexpr int most_causes = 3;
-constexpr std::size_t most_rivals = 4;  // that another trial should part
+constexpr std::size_t most_rivals = 4;   // that another trial should part
+constexpr int junction_iterations = 15;  // a small change converges in a few, or is no small one
 // Nats that one cause, and several together, do not explain to the last by chance.
 constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
 // Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
@@ -223,7 +224,9 @@ class Procedure {
     Hypothesis with = model.hypothesis;
     with.add(junctions);
     Evaluator evaluator = setup_->evaluator();
-    FitSummary found = fit(evaluator, with, fit_options());
+    FitOptions few = fit_options();
+    few.iterations = std::min(junction_iterations, few.iterations);
+    FitSummary found = fit(evaluator, with, few);
     CoarseModel coarse(*setup_, found);
     Evaluator there = coarse.evaluator();
     std::vector<Direction> directions =
