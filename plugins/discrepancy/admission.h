@@ -21,7 +21,7 @@ struct Admission {
   }
 };
 
-/// Looks for single wild samples (far from the median of their neighbours, against the scatter
+/// Looks for single wild points (far from the cubic through their neighbours, against the scatter
 /// around them), channels that stand still to the last digit, labels that two markers exchange,
 /// trials without data, and units that cannot be metres.
 Admission admit(const Experiment& experiment);

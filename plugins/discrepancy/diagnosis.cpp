@@ -392,6 +392,11 @@ class Procedure {
     measure_errors(findings_, result_);
     findings_.symptoms = symptoms(experiment(), setup_->data(), result_.predictions[refitted]);
     conclude(findings_, result_);
+    if (result_.verdict.causes.empty() && findings_.needed.better()) {
+      // What a law stood for may be nominal, but for our own errors: then nothing is extended.
+      predict();
+      measure_errors(findings_, result_);
+    }
     if (objecting_ >= 0) {
       name_nothing(result_.verdict);
       result_.verdict.outcome = Outcome::unknown;

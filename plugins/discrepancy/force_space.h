@@ -56,7 +56,8 @@ struct FreeForce {
 };
 FreeForce free_history(const ForceSpace& space);
 
-/// Where a place was and how fast, at the knots: the model's motion with a force's part added.
+/// Where a place was and how fast, at the knots: as its marker was seen, and where it was not the
+/// model's motion with a force's part added.
 struct ForcePath {
   std::vector<Eigen::MatrixXd> position, velocity;  ///< a trial of `knots` each, knots x 3, W
 };

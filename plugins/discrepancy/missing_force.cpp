@@ -12,6 +12,7 @@
 #include "discrepancy/force_term.h"
 #include "discrepancy/places.h"
 #include "discrepancy/sentence.h"
+#include "discrepancy/way_back.h"
 
 namespace pedicel::discrepancy {
 
@@ -26,7 +27,6 @@ constexpr std::size_t most_refits = 5;
 constexpr double refit_within = 30.0;  // nats of linear response, and
 constexpr double refit_share = 0.3;    // of the best one's: large forces are not linear
 constexpr std::size_t kinds = 11;
-constexpr double beyond_belief = 4.0;  // deviations of what is known of a factor beforehand
 // A string's numbers stand for one another: a refit could go along its valley for long.
 constexpr int most_iterations = 30;
 constexpr double place_share = 0.5;  // of the evidence, by which another place may be worse
@@ -107,28 +107,6 @@ class Inference {
     responses_ =
         std::make_unique<ForceResponses>(experiment_, evaluator_.data(), centre_, options_.fit,
                                          distance, options_.threads, simulator.stop());
-  }
-
-  static bool is_factor(const FreeParameter& free) {
-    return free.name == "factor" && free.prior > 0.0;
-  }
-
-  static bool is_beyond_belief(const FitSummary& model) {
-    for (int p = 0; p < model.hypothesis.size(); ++p) {
-      const FreeParameter& free = model.hypothesis.free[p];
-      // Damping that the data do not show ends at a bound, too.
-      if (!is_factor(free) || p == model.hypothesis.factor_on("damping_time")) continue;
-      const double far = std::abs(std::log(model.hypothesis.value(p) / free.prior_centre));
-      const bool at_bound = std::ranges::find(model.at_bound, p) != model.at_bound.end();
-      if (at_bound || far > beyond_belief * free.prior) return true;
-    }
-    return false;
-  }
-
-  static Hypothesis as_believed(Hypothesis model) {
-    for (int p = 0; p < model.size(); ++p)
-      if (is_factor(model.free[p])) model.set_value(p, model.free[p].prior_centre);
-    return model;
   }
 
   void look_at_places() {

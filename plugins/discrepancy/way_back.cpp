@@ -9,9 +9,10 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double believed = 2.0;     // deviations
-constexpr double least_way = 0.5;    // deviations that are worth going back
-constexpr double most_unlike = 0.1;  // of the change that a factor's way back makes
+constexpr double believed = 2.0;       // deviations
+constexpr double beyond_belief = 4.0;  // likewise
+constexpr double least_way = 0.5;      // deviations that are worth going back
+constexpr double most_unlike = 0.1;    // of the change that a factor's way back makes
 constexpr std::size_t most_starts = 2;
 constexpr double largest_step = 0.1;  // of a logarithm
 constexpr double held_to = 0.02;      // deviation of a factor on its way
@@ -91,6 +92,19 @@ Hypothesis grown(const Hypothesis& model, const FitSummary& base, double factor)
 
 bool is_pulled(const Hypothesis& model) {
   return (way_of(model, believed).array() != 0.0).any();
+}
+
+bool is_beyond_belief(const FitSummary& model) {
+  const Hypothesis& numbers = model.hypothesis;
+  return (way_of(numbers, beyond_belief).array() != 0.0).any() ||
+         std::ranges::any_of(model.at_bound, [&](int p) {
+           return p == numbers.factor_on("youngs_modulus") || p == numbers.factor_on("density");
+         });
+}
+
+Hypothesis as_believed(Hypothesis model) {
+  model.set_unknowns(model.unknowns() + way_of(model, 0.0));
+  return model;
 }
 
 std::vector<Direction> likest_way_back(const FitSummary& base, const std::string& cause,

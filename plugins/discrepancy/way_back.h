@@ -17,6 +17,13 @@ namespace pedicel::discrepancy {
 /// Whether a factor stands further from what is believed than two of its deviations.
 bool is_pulled(const Hypothesis& model);
 
+/// Whether one stands so far away, or its modulus or density at a bound, that it is another plant.
+/// (Damping that the data do not show ends at a bound, too.)
+bool is_beyond_belief(const FitSummary& model);
+
+/// The same with its factors where they are believed to be.
+Hypothesis as_believed(Hypothesis model);
+
 /// The starts of a cause whose change looks like the pulled factor's own way back, the likest
 /// first, two at most; empty where no factor is half a deviation away.
 std::vector<Direction> likest_way_back(const FitSummary& base, const std::string& cause,

@@ -86,6 +86,26 @@ TEST(WayBack, FindsTheMassThatPulledDensity) {
   EXPECT_LT(found->cost, weighted.base.cost + 10.0);
 }
 
+// Density is known to 0.1 of its logarithm: 1.4 is 3.4 deviations away, 1.6 is 4.7. Modulus is
+// known to 1.5: only its bound is too far. Damping may end there.
+TEST(WayBack, BeyondBelief) {
+  FitSummary model;
+  model.hypothesis = baseline();
+  Hypothesis& numbers = model.hypothesis;
+  const int modulus = numbers.factor_on("youngs_modulus"), density = numbers.factor_on("density");
+  numbers.set_value(modulus, 9.0);
+  numbers.set_value(density, 1.4);
+  model.at_bound = {numbers.factor_on("damping_time")};
+  EXPECT_FALSE(is_beyond_belief(model));
+  model.at_bound = {modulus};
+  EXPECT_TRUE(is_beyond_belief(model));
+  model.at_bound.clear();
+  numbers.set_value(density, 1.6);
+  EXPECT_TRUE(is_beyond_belief(model));
+  const Hypothesis believed = as_believed(numbers);
+  for (int p = 0; p < believed.size(); ++p) EXPECT_NEAR(believed.value(p), 1.0, 1e-12);
+}
+
 TEST(WayBack, IsNotGoneWhereNothingIsPulled) {
   Weighted weighted;
   weighted.base.hypothesis.set_value(weighted.base.hypothesis.factor_on("density"), 1.04);
