@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "core/thread_pool.h"
 #include "discrepancy/candidate_starts.h"
@@ -22,17 +24,27 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr int first_iterations = 6, whole_iterations = 10;
-constexpr double rough_step = 1.0;  // nats, of fits that only tell who leads
+constexpr double rough_step = 1.0;   // nats, of fits that only tell who leads
+constexpr std::size_t foremost = 2;  // that tell, fitted whole, how far behind the others are
 constexpr std::size_t leaders = 6;
 constexpr std::size_t most_whole = 8;  // of each of the two lists
 constexpr std::array growing_horizons{0.5 * first_horizon, first_horizon, 1.0};
-constexpr int look_iterations = 2;                   // of every start, and
-constexpr std::size_t leading_starts = 2;            // go on
-constexpr double far_behind = 0.3;                   // of the first one's gain or statistic
-constexpr double near_by = 50.0, near_share = 0.05;  // nats, of the best one's gain
-constexpr double lost_by = 200.0, lost_share = 0.3;  // nats, likewise: before its last iterations,
-constexpr double still_moving = 2.0;                 // times that where it had no time to converge
-constexpr double small_residual = 2.0;               // mean square in noise units, see refit_all()
+// Iterations of every start, and how many starts go on. Between places there are ridges, on which
+// many steps are tried in vain.
+struct Look {
+  int iterations;
+  std::size_t leading;
+};
+constexpr Look look_at_size{2, 2}, look_at_place{6, 100};
+constexpr double far_behind = 0.3;  // of the first one's gain or statistic
+// Nats, and of the best one's gain: of what could be a rival, and with a few iterations of the fine
+// simulator, because of the coarse one's errors.
+constexpr double near_by = 50.0, near_share = 0.05;
+constexpr int few_fine = 4;
+// Nats, likewise: that even another minimum would not make up for, in a fit that has converged, in
+// one that had little time to, and in one that had twice as much.
+constexpr double lost_by = 200.0, lost_share = 0.05, lost_early = 0.6, lost_late = 0.3;
+constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.
 void keep_better(FitSummary& best, FitSummary&& found) {
@@ -62,22 +74,25 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
 
 // The best fit from any of these starts: a few iterations from each, the rest for those that lead.
 // Where all starts do worse than the base they are out of phase: the closest one is also fitted
-// over growing parts of the records.
+// over growing parts of the records. Above a cost of `most` it is too far behind for either.
 FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
-                    const std::vector<Hypothesis>& starts, const FitOptions& options) {
-  FitOptions look = options, rest = options;
-  // Between places there are ridges, on which many steps are tried in vain.
-  if (!has_place(starts.front())) look.iterations = std::min(look_iterations, options.iterations);
-  rest.iterations = options.iterations - look.iterations;
+                    const std::vector<Hypothesis>& starts, const FitOptions& options,
+                    const Look& look, double most) {
+  FitOptions few = options, rest = options;
+  few.iterations = std::min(look.iterations, options.iterations);
+  rest.iterations = options.iterations - few.iterations;
   std::vector<FitSummary> found;
   std::vector<double> closeness;
   for (const Hypothesis& start : starts) {
-    found.push_back(fit(evaluator, start, look, base.jacobian));
+    found.push_back(fit(evaluator, start, few, base.jacobian));
     closeness.push_back(-objective(found.back()));
   }
   FitSummary best;
-  for (const int i : first_by(closeness, leading_starts))
-    keep_better(best, rest.iterations > 0 ? refit(evaluator, found[i], rest) : std::move(found[i]));
+  for (const int i : first_by(closeness, look.leading)) {
+    const bool goes_on = rest.iterations > 0 && found[i].cost <= most;
+    keep_better(best, goes_on ? refit(evaluator, found[i], rest) : std::move(found[i]));
+  }
+  if (best.cost > most) return best;
   const Scan scanned = scan(evaluator, starts, options);
   if (scanned.cost[scanned.best] >= base.cost)
     keep_better(best, fit_growing(evaluator, starts[scanned.best], options, growing_horizons));
@@ -128,16 +143,20 @@ class Refits {
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
     // A few iterations tell who is behind; only the leaders are worth the rest.
-    longest_first(whole);
-    share_out(coarse_, static_cast<int>(whole.size()), options_, 0.5, 0.7,
-              [&](Evaluator& evaluator, int c) { fit_whole(evaluator, whole[c]); });
+    std::ranges::stable_sort(whole, std::greater(), [&](int i) { return candidates_[i].gain; });
+    const auto others = whole.begin() + std::min(foremost, whole.size());
+    std::vector<int> first(whole.begin(), others), behind(others, whole.end());
+    longest_first(behind);
+    fit_whole(first, std::numeric_limits<double>::infinity(), 0.5, 0.6);
+    double least = base_.cost;
+    for (const int i : first) least = std::min(least, candidates_[i].fit.cost);
+    fit_whole(behind, most_cost(least, lost_early), 0.6, 0.7);
     extend_special_cases();
-    const std::vector<int> first = leading(whole);
-    share_out(coarse_, static_cast<int>(first.size()), options_, 0.7, 0.8,
-              [&](Evaluator& evaluator, int c) {
-                FitSummary& found = candidates_[first[c]].fit;
-                found = refit(evaluator, found, options_.fit);
-              });
+    const std::vector<int> near = leading(whole, lost_early);
+    refit_coarse(near, whole_iterations, 0.7);
+    std::vector<int> moving = leading(near, lost_late);
+    std::erase_if(moving, [&](int i) { return candidates_[i].fit.converged; });
+    refit_coarse(moving, options_.fit.iterations, 0.75);
     std::erase_if(candidates_, [](const Candidate& c) { return c.fit.why == "not run"; });
     std::vector<Candidate*> all;
     for (Candidate& candidate : candidates_)
@@ -196,10 +215,21 @@ class Refits {
     }
   }
 
-  void fit_whole(Evaluator& evaluator, int i) {
+  void fit_whole(const std::vector<int>& chosen, double most, double from, double to) {
+    share_out(coarse_, static_cast<int>(chosen.size()), options_, from, to,
+              [&](Evaluator& evaluator, int c) { fit_whole(evaluator, chosen[c], most); });
+  }
+
+  FitOptions rough(int iterations) const {
     FitOptions few = options_.fit;
-    few.iterations = has_place(causes_[i].starts.front()) ? 2 * whole_iterations : whole_iterations;
+    few.iterations = iterations;
     few.least_step = rough_step;
+    return few;
+  }
+
+  void fit_whole(Evaluator& evaluator, int i, double most) {
+    const bool placed = has_place(causes_[i].starts.front());
+    const FitOptions few = rough((placed ? 2 : 1) * whole_iterations);
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
     if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
@@ -210,10 +240,14 @@ class Refits {
     if (plain) starts.push_back(std::move(*plain));
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
-    candidate.fit = slide_along(evaluator, best_fit(evaluator, base_, starts, few), few);
+    const std::vector<Direction> back = ways_back(candidate.cause);
+    candidate.fit =
+        best_fit(evaluator, base_, starts, few, placed ? look_at_place : look_at_size, most);
+    if (candidate.fit.cost > most && back.empty()) return;
+    candidate.fit = slide_along(evaluator, std::move(candidate.fit), few);
     if (const auto twin = twin_of(candidate.fit.hypothesis))
       keep_better(candidate.fit, fit(evaluator, *twin, few, base_.jacobian));
-    for (const Direction& start : ways_back(candidate.cause))
+    for (const Direction& start : back)
       if (auto found = walk_back(evaluator, base_, start, few))
         keep_better(candidate.fit, std::move(*found));
   }
@@ -229,16 +263,14 @@ class Refits {
     for (const auto& [special, general] : special_cases()) {
       Candidate* from = whole_one(special);
       Candidate* to = whole_one(general);
-      if (!from || !to || stopped() || is_lost(*from, least_cost(candidates_, base_))) continue;
+      if (!from || !to || stopped() || is_lost(*from, lost_early)) continue;
       const Cause& cause = causes_[to - candidates_.data()];
       const std::vector<Hypothesis> starts =
           continued(base_.hypothesis, from->fit.hypothesis, cause);
       Evaluator& evaluator = coarse_.front();
       const Scan found = scan(evaluator, starts, options_.fit);
-      FitOptions few = options_.fit;
-      few.iterations = 2 * whole_iterations;
-      few.least_step = rough_step;
-      keep_better(to->fit, fit(evaluator, starts[found.best], few, base_.jacobian));
+      keep_better(to->fit,
+                  fit(evaluator, starts[found.best], rough(2 * whole_iterations), base_.jacobian));
     }
   }
 
@@ -249,45 +281,70 @@ class Refits {
     return nullptr;
   }
 
-  // Whether it is too far from the best one for the rest of its iterations to matter.
-  bool is_lost(const Candidate& candidate, double least) const {
-    const double allowed = (candidate.fit.converged ? 1.0 : still_moving) *
-                           std::max(lost_by, lost_share * (base_.cost - least));
-    return candidate.fit.why == "not run" || candidate.fit.cost - least > allowed;
+  // Above it a fit is too far behind the best one for the rest of its iterations to matter.
+  double most_cost(double least, double share) const {
+    return least + std::max(lost_by, share * (base_.cost - least));
   }
 
-  // Of those that were fitted whole, the closest ones.
-  std::vector<int> leading(const std::vector<int>& whole) const {
-    std::vector<double> closeness(candidates_.size(), -std::numeric_limits<double>::infinity());
-    const double least = least_cost(candidates_, base_);
-    std::size_t count = 0;
-    for (const int i : whole) {
-      if (is_lost(candidates_[i], least)) continue;
-      closeness[i] = -candidates_[i].fit.cost;
-      ++count;
-    }
-    return first_by(closeness, std::min(leaders, count));
+  bool is_lost(const Candidate& candidate, double early_or_late) const {
+    const double share = candidate.fit.converged ? lost_share : early_or_late;
+    return candidate.fit.why == "not run" ||
+           candidate.fit.cost > most_cost(least_cost(candidates_, base_), share);
   }
 
-  // Whether it may be the best or a rival of it, the coarse simulator's errors considered.
+  // The closest ones of those that may still lead.
+  std::vector<int> leading(const std::vector<int>& of, double early_or_late) const {
+    std::vector<int> found;
+    for (const int i : of)
+      if (!is_lost(candidates_[i], early_or_late)) found.push_back(i);
+    std::ranges::stable_sort(found, {}, [&](int i) { return candidates_[i].fit.cost; });
+    found.resize(std::min(leaders, found.size()));
+    return found;
+  }
+
+  void refit_coarse(const std::vector<int>& chosen, int iterations, double from) {
+    FitOptions rest = options_.fit;
+    rest.iterations = std::min(rest.iterations, iterations);
+    share_out(coarse_, static_cast<int>(chosen.size()), options_, from, from + 0.05,
+              [&](Evaluator& evaluator, int c) {
+                FitSummary& found = candidates_[chosen[c]].fit;
+                found = refit(evaluator, found, rest);
+              });
+  }
+
   bool is_near_the_best(const Candidate& candidate) const {
-    const Candidate& best = candidates_.front();
-    return best.evidence - candidate.evidence <= std::max(near_by, near_share * best.gain);
+    return candidates_.front().evidence - candidate.evidence <= near_by;
   }
 
-  // The first few stand in their final order once all of them were refitted.
+  // Whether it may be near once the fine simulator has its say.
+  bool could_be_near(const Candidate& candidate) const {
+    const Candidate& best = candidates_.front();
+    return is_near_the_best(candidate) ||
+           best.evidence - candidate.evidence <= near_share * best.gain;
+  }
+
+  // The first few stand in their final order once all of them were refitted: those that are not
+  // near with a few iterations, which tell whether they will be.
   void end_with_fine() {
+    std::set<std::string> begun;
     while (!stopped()) {
       std::vector<Candidate*> open;
-      for (std::size_t i = 0; i < std::min(leaders, candidates_.size()); ++i)
-        if (candidates_[i].whole && !candidates_[i].fine && is_near_the_best(candidates_[i]))
-          open.push_back(&candidates_[i]);
+      for (std::size_t i = 0; i < std::min(leaders, candidates_.size()); ++i) {
+        Candidate& candidate = candidates_[i];
+        const bool near = begun.contains(candidate.cause) ? is_near_the_best(candidate)
+                                                          : could_be_near(candidate);
+        if (candidate.whole && !candidate.fine && near) open.push_back(&candidate);
+      }
       if (open.empty()) return;
       share_out(fine_, static_cast<int>(open.size()), options_, 0.8, 1.0,
                 [&](Evaluator& evaluator, int i) {
-                  open[i]->fit = refit(evaluator, open[i]->fit, options_.fit);
-                  open[i]->fine = true;
+                  const bool to_the_end = is_near_the_best(*open[i]);
+                  FitOptions options = options_.fit;
+                  if (!to_the_end) options.iterations = std::min(few_fine, options.iterations);
+                  open[i]->fit = refit(evaluator, open[i]->fit, options);
+                  open[i]->fine = to_the_end || open[i]->fit.converged;
                 });
+      for (const Candidate* candidate : open) begun.insert(candidate->cause);
       rank(open, fine_);
     }
   }

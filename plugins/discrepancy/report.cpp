@@ -103,7 +103,8 @@ void add_ranking(io::HtmlReport& page, const Diagnosis& d) {
   page.heading("All candidates, refitted in full");
   page.paragraph(
       "Gain: log-likelihood (nats) that the cause adds to the refitted model. Evidence: "
-      "gain less what its parameters and the number of candidates cost.");
+      "that and the gain on the trials kept back, less what its parameters and the number of "
+      "candidates cost.");
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : d.ranking) {
     if (rows.size() == most_ranked) break;

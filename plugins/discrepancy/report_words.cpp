@@ -96,10 +96,10 @@ std::string why_it_lost(const Candidate& candidate, const Diagnosis& d) {
   const int extra = candidate.fit.hypothesis.size() - best.fit.hypothesis.size();
   if (extra > 0 && candidate.gain > 0.9 * best.gain)
     text += ", and needs " + std::to_string(extra) + " more parameter" + (extra > 1 ? "s" : "");
-  std::set<std::string> stuck;
+  std::set<std::string> stuck;  // but for what we allow our own mesh
+  const Hypothesis& fitted = candidate.fit.hypothesis;
   for (const int p : candidate.fit.at_bound)
-    if (p >= 0 && p < candidate.fit.hypothesis.size())
-      stuck.insert(candidate.fit.hypothesis.free[p].name);
+    if (fitted.effects[fitted.free[p].effect].name != mesh_error) stuck.insert(fitted.free[p].name);
   if (!stuck.empty())
     text +=
         "; runs to the end of its range (" + joined({stuck.begin(), stuck.end()}, " and ") + ")";

@@ -61,7 +61,8 @@ inline Diagnosis made_diagnosis(Outcome outcome = Outcome::named) {
   Candidate rival;
   rival.cause = "weak_segment";
   rival.fit.hypothesis = hypothesis_of("weak_segment", "factor", 0.1, "1");
-  rival.fit.at_bound = {0};
+  rival.fit.hypothesis.add(mesh_freedom());
+  rival.fit.at_bound = {0, 1};
   rival.gain = 610.0, rival.evidence = 598.0;
   Candidate none = rival;
   none.cause = "wind";
