@@ -130,7 +130,12 @@ void add_hiding(io::HtmlReport& page, const Verdict& v) {
   const auto [small, never] = hiding_texts(v);
   if (small.empty() && never.empty()) return;
   page.subheading("What could still hide in these data");
-  if (!small.empty()) page.paragraph(listed(small) + ".");
+  const std::string first =
+      v.outcome == Outcome::unknown
+          ? "Behind what is missing anything may hide. Were that known, there "
+            "could still be "
+          : "";
+  if (!small.empty()) page.paragraph(first + listed(small) + ".");
   if (!never.empty()) page.paragraph("These data cannot see at any size: " + listed(never) + ".");
 }
 

@@ -78,6 +78,8 @@ Experiment measured_anew(Experiment experiment, const std::vector<plant::Effect>
     reference::Record record = run_trial(subject, plan_of(trial), markers, mesh);
     if (!record.settled)
       throw std::invalid_argument("trial \"" + trial.name + "\": no equilibrium at time 0");
+    if (!record.markers.allFinite())
+      throw std::invalid_argument("trial \"" + trial.name + "\": the simulation diverged");
     add_noise(record.markers, position_std, options.rho, random);
     add_outliers(record.markers, subject.effects, position_std, random);
     trial.markers = {record.time, record.markers};

@@ -68,6 +68,20 @@ TEST(MeasuredAnew, NoiseIsAsStatedAndComesFromTheSeed) {
   EXPECT_NE(measured_anew(e, {}, {}, other).trials[0].markers.value, noisy);
 }
 
+// A push of a giant, which is none at time 0.
+TEST(MeasuredAnew, RefusesWhatDiverges) {
+  reference::Stranger push;
+  push.kind = reference::Stranger::Kind::push;
+  push.place = {"stem", 1.0, {}};
+  push.size = 1e12;
+  try {
+    measured_anew(pulled_stem(), {}, {push}, {});
+    ADD_FAILURE() << "not refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "trial \"pull\": the simulation diverged");
+  }
+}
+
 TEST(MeasuredAnew, RefusesUnevenSamples) {
   Experiment e = pulled_stem();
   e.trials[0].markers.time[3] += 0.005;

@@ -132,6 +132,19 @@ TEST(ReferenceEffects, YieldLeavesASet) {
   EXPECT_NEAR(M[400], -K * (far - limit), 1e-3 * K * far);
 }
 
+// A slider of share r beside a spring of share 1 - r that yields: both at their limits on the way,
+// and both pulling the other way back at 0.
+TEST(ReferenceEffects, YieldBesideFriction) {
+  const double limit = 0.06, far = 0.1, ratio = 0.4, slip = 0.02;
+  const auto yield = effect("yield", {{"curvature", {limit / (L / 2)}}});
+  const auto friction =
+      effect("internal_friction", {{"ratio", {ratio}}, {"curvature", {slip / (L / 2)}}});
+  const auto M = moments(hinge({yield, friction}),
+                         turned(2.0, [&](double t) { return far * (1 - std::abs(1 - t)); }));
+  EXPECT_NEAR(M[180], K * ((1 - ratio) * limit + ratio * slip), 1e-3 * K * far);
+  EXPECT_NEAR(M[400], -K * ((1 - ratio) * (far - limit) + ratio * slip), 1e-3 * K * far);
+}
+
 // M = K phi (1 + b (kappa/k0)^2); E (1 + rate clock); a plain hinge beside them.
 TEST(ReferenceEffects, NonlinearAndDriftingMoments) {
   const double phi = 0.1;

@@ -50,7 +50,8 @@ JointOutput evaluate(const Joint& joint, const JointLaw& law, const JointInput& 
       give_way(moved, slip_limit(joint, law, stretch, in.stiffening), out.past.slip);
     }
     Vec3 slider = in.stage > 0.0 ? Vec3(moved - out.past.slip) : Vec3::Zero();
-    strain.head<2>() += law.slider_ratio * (slider - out.phi).head<2>();
+    const Vec3 elastic = out.phi - out.past.plastic;
+    strain.head<2>() += law.slider_ratio * (slider - elastic).head<2>();
   }
   for (std::size_t m = 0; m < law.memory.size() && in.stage > 0.0; ++m) {
     const MemoryTerm& term = law.memory[m];

@@ -80,6 +80,9 @@ TEST(Report, EachOutcomeHasItsOwnCard) {
   EXPECT_THAT(page_of(Outcome::unknown), HasSubstr(">largest residual<"));
   EXPECT_THAT(page_of(Outcome::unknown),
               HasSubstr("What is known of it: 31 % of what the refitted model left."));
+  const char* anything = "Behind what is missing anything may hide.";
+  EXPECT_THAT(page_of(Outcome::unknown), HasSubstr(anything));
+  EXPECT_THAT(page_of(Outcome::named), Not(HasSubstr(anything)));
   const std::string adequate = page_of(Outcome::adequate);
   EXPECT_THAT(adequate, HasSubstr("Nothing is missing at this noise"));
   EXPECT_THAT(adequate, Not(HasSubstr("extended model")));
