@@ -42,8 +42,9 @@ constexpr double far_behind = 0.3;  // of the first one's gain or statistic
 constexpr double near_by = 50.0, near_share = 0.05;
 constexpr int few_fine = 4;
 // Nats, likewise: that even another minimum would not make up for, in a fit that has converged, in
-// one that had little time to, and in one that had twice as much.
+// one that had little time to, and in one that had twice as much;
 constexpr double lost_by = 200.0, lost_share = 0.05, lost_early = 0.6, lost_late = 0.3;
+constexpr double lost_at_once = 0.9;    // likewise: that no other start would make up for
 constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.
@@ -72,29 +73,46 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
   return order;
 }
 
-// The best fit from any of these starts: a few iterations from each, the rest for those that lead.
-// Where all starts do worse than the base they are out of phase: the closest one is also fitted
-// over growing parts of the records. Above a cost of `most` it is too far behind for either.
+// Costs above which a fit is too far behind those that were made before it.
+struct Limits {
+  double least = std::numeric_limits<double>::infinity();  // of those
+  double base = 0.0;
+  double at(double share) const { return least + std::max(lost_by, share * (base - least)); }
+};
+
+// In the order of their costs.
+std::vector<Hypothesis> by_cost(const std::vector<Hypothesis>& starts, const Scan& scanned) {
+  std::vector<double> closeness;
+  for (const double cost : scanned.cost) closeness.push_back(-cost);
+  std::vector<Hypothesis> sorted;
+  for (const int i : first_by(closeness, starts.size())) sorted.push_back(starts[i]);
+  return sorted;
+}
+
+// The best fit from any of these starts, the closest first: a few iterations from each, the rest
+// for those that lead. Where all starts do worse than the base they are out of phase: the closest
+// one is also fitted over growing parts of the records.
 FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
                     const std::vector<Hypothesis>& starts, const FitOptions& options,
-                    const Look& look, double most) {
+                    const Look& look, const Limits& limits) {
   FitOptions few = options, rest = options;
   few.iterations = std::min(look.iterations, options.iterations);
   rest.iterations = options.iterations - few.iterations;
+  const double most = limits.at(lost_early);
   std::vector<FitSummary> found;
   std::vector<double> closeness;
-  for (const Hypothesis& start : starts) {
+  const Scan scanned = scan(evaluator, starts, options);
+  for (const Hypothesis& start : by_cost(starts, scanned)) {
     found.push_back(fit(evaluator, start, few, base.jacobian));
     closeness.push_back(-objective(found.back()));
+    if (found.front().cost > limits.at(lost_at_once)) break;
   }
   FitSummary best;
   for (const int i : first_by(closeness, look.leading)) {
     const bool goes_on = rest.iterations > 0 && found[i].cost <= most;
     keep_better(best, goes_on ? refit(evaluator, found[i], rest) : std::move(found[i]));
   }
-  if (best.cost > most) return best;
-  const Scan scanned = scan(evaluator, starts, options);
-  if (scanned.cost[scanned.best] >= base.cost)
+  if (best.cost <= most && scanned.cost[scanned.best] >= base.cost)
     keep_better(best, fit_growing(evaluator, starts[scanned.best], options, growing_horizons));
   return best;
 }
@@ -147,10 +165,10 @@ class Refits {
     const auto others = whole.begin() + std::min(foremost, whole.size());
     std::vector<int> first(whole.begin(), others), behind(others, whole.end());
     longest_first(behind);
-    fit_whole(first, std::numeric_limits<double>::infinity(), 0.5, 0.6);
-    double least = base_.cost;
-    for (const int i : first) least = std::min(least, candidates_[i].fit.cost);
-    fit_whole(behind, most_cost(least, lost_early), 0.6, 0.7);
+    fit_whole(first, {}, 0.5, 0.6);
+    Limits limits{base_.cost, base_.cost};
+    for (const int i : first) limits.least = std::min(limits.least, candidates_[i].fit.cost);
+    fit_whole(behind, limits, 0.6, 0.7);
     extend_special_cases();
     const std::vector<int> near = leading(whole, lost_early);
     refit_coarse(near, whole_iterations, 0.7);
@@ -215,9 +233,9 @@ class Refits {
     }
   }
 
-  void fit_whole(const std::vector<int>& chosen, double most, double from, double to) {
+  void fit_whole(const std::vector<int>& chosen, const Limits& limits, double from, double to) {
     share_out(coarse_, static_cast<int>(chosen.size()), options_, from, to,
-              [&](Evaluator& evaluator, int c) { fit_whole(evaluator, chosen[c], most); });
+              [&](Evaluator& evaluator, int c) { fit_whole(evaluator, chosen[c], limits); });
   }
 
   FitOptions rough(int iterations) const {
@@ -227,7 +245,7 @@ class Refits {
     return few;
   }
 
-  void fit_whole(Evaluator& evaluator, int i, double most) {
+  void fit_whole(Evaluator& evaluator, int i, const Limits& limits) {
     const bool placed = has_place(causes_[i].starts.front());
     const FitOptions few = rough((placed ? 2 : 1) * whole_iterations);
     Candidate& candidate = candidates_[i];
@@ -242,8 +260,8 @@ class Refits {
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     const std::vector<Direction> back = ways_back(candidate.cause);
     candidate.fit =
-        best_fit(evaluator, base_, starts, few, placed ? look_at_place : look_at_size, most);
-    if (candidate.fit.cost > most && back.empty()) return;
+        best_fit(evaluator, base_, starts, few, placed ? look_at_place : look_at_size, limits);
+    if (candidate.fit.cost > limits.at(lost_early) && back.empty()) return;
     candidate.fit = slide_along(evaluator, std::move(candidate.fit), few);
     if (const auto twin = twin_of(candidate.fit.hypothesis))
       keep_better(candidate.fit, fit(evaluator, *twin, few, base_.jacobian));
@@ -281,15 +299,11 @@ class Refits {
     return nullptr;
   }
 
-  // Above it a fit is too far behind the best one for the rest of its iterations to matter.
-  double most_cost(double least, double share) const {
-    return least + std::max(lost_by, share * (base_.cost - least));
-  }
-
+  // Whether it is too far behind the best one for the rest of its iterations to matter.
   bool is_lost(const Candidate& candidate, double early_or_late) const {
     const double share = candidate.fit.converged ? lost_share : early_or_late;
     return candidate.fit.why == "not run" ||
-           candidate.fit.cost > most_cost(least_cost(candidates_, base_), share);
+           candidate.fit.cost > Limits{least_cost(candidates_, base_), base_.cost}.at(share);
   }
 
   // The closest ones of those that may still lead.

@@ -317,8 +317,7 @@ class Procedure {
   // Whether what is left alarms, but promises too little for another cause.
   bool is_small(const Alarm& alarm) const {
     const double promised = 0.5 * alarm.statistic * alarm.statistic;  // were the model linear
-    return !alarm.leftover.shows() &&
-           beyond_linear * promised < least_gain_beside(findings_.chain.front().gain);
+    return !alarm.leftover.shows() && beyond_linear * promised < least_gain_beside(findings_.chain);
   }
 
   // Whether the data tell how large the effects from `first` on are: to a factor of e, one
@@ -335,8 +334,7 @@ class Procedure {
 
   // The trials kept back may ask for what those fitted to hardly show: that is no finding.
   bool is_another_cause(const Candidate& next) const {
-    if (next.evidence < worth_naming ||
-        next.gain < least_gain_beside(findings_.chain.front().gain) ||
+    if (next.evidence < worth_naming || next.gain < least_gain_beside(findings_.chain) ||
         !next.held_out.carries_over())
       return false;
     if (!has_a_size(next.fit, static_cast<int>(result_.best.hypothesis.effects.size())))
@@ -476,8 +474,8 @@ class Procedure {
     if (force_) return *force_;
     log_.say("looking for a force that is missing", from);
     coarse_at(result_.base);
-    // Refits are fine ones: a force moves the model so far from the base that a coarse one, which
-    // agrees with it there alone, misleads about the place.
+    // Refits end with the fine simulator: a force moves the model so far from the base that a
+    // coarse one, which agrees with it there alone, misleads about the place.
     Evaluator evaluator = setup_->evaluator();
     // The noise was read anew since the base was fitted.
     const FitSummary base = fit(evaluator, result_.base.hypothesis, fit_options());
@@ -486,6 +484,16 @@ class Procedure {
     options.check = result_.check_trials;
     options.threads = options_.threads;
     options.response_distance = coarse_->numerics().distance;
+    options.approach = [&](const Hypothesis& start, const FitOptions& few) {
+      FitSummary there;
+      there.hypothesis = start;
+      there.cost = 0.5 * evaluator.residuals(std::span(&start, 1), few).squaredNorm();
+      CoarseModel coarse(*setup_, there);
+      Evaluator cheap = coarse.evaluator();
+      FitSummary found = fit(cheap, start, few);
+      coarse_simulations_ += coarse.simulations();
+      return found;
+    };
     options.note = [this](const std::string& sentence) { log_.note(sentence); };
     force_ = infer_missing_force(evaluator, base, options);
     result_.verdict.simulations += force_->simulations;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/cause_names.h"
+#include "discrepancy/variant_plant.h"
 
 namespace pedicel::discrepancy {
 
@@ -89,8 +90,12 @@ double said_by_data(const Candidate& candidate) {
   return candidate.gain + candidate.held_out.gain;
 }
 
-double least_gain_beside(double found) {
-  const double change = std::sqrt(2.0 * worth_naming) + agreed * std::sqrt(2.0 * found);
+double least_gain_beside(const std::vector<Candidate>& found) {
+  double loudest = 0.0;
+  for (const Candidate& candidate : found)
+    if (!is_of_sensor({candidate.cause, {}, {}, {}, {}}))
+      loudest = std::max(loudest, candidate.gain);
+  const double change = std::sqrt(2.0 * worth_naming) + agreed * std::sqrt(2.0 * loudest);
   return 0.5 * change * change;
 }
 

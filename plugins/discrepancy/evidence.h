@@ -20,10 +20,10 @@ inline constexpr double clear_odds = 3.0;
 /// the trials kept back; two honest solvers differ by up to 15.
 inline constexpr double worth_naming = 18.0;
 
-/// Nats that another cause must bring beside one that brought `found`: it must change the data by
-/// more than what two honest solvers differ by, some units of the noise and a part of what the
-/// first one changes. A gain is half the square of a change.
-double least_gain_beside(double found);
+/// Nats that another cause must bring beside those found: it must change the data by more than what
+/// two honest solvers differ by, some units of the noise and a part of what the loudest one changes
+/// (none, of what a sensor does). A gain is half the square of a change.
+double least_gain_beside(const std::vector<Candidate>& found);
 
 /// The least cost of the base and of the whole fits.
 double least_cost(const std::vector<Candidate>& candidates, const FitSummary& base);
