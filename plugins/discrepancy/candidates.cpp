@@ -35,16 +35,18 @@ struct Look {
   int iterations;
   std::size_t leading;
 };
-constexpr Look look_at_size{2, 2}, look_at_place{6, 100};
+constexpr std::size_t all_starts = std::numeric_limits<std::size_t>::max();
+constexpr Look look_at_size{2, 2}, look_at_place{6, all_starts};
 constexpr double far_behind = 0.3;  // of the first one's gain or statistic
 // Nats, and of the best one's gain: of what could be a rival, and with a few iterations of the fine
 // simulator, because of the coarse one's errors.
 constexpr double near_by = 50.0, near_share = 0.05;
 constexpr int few_fine = 4;
-// Nats, likewise: that even another minimum would not make up for, in a fit that has converged, in
-// one that had little time to, and in one that had twice as much;
+// Nats, and of the best one's gain, by which a fit is too far behind to go on: one that has
+// converged, one after a few iterations, and after twice as many; and by which no other start would
+// make up for it.
 constexpr double lost_by = 200.0, lost_share = 0.05, lost_early = 0.6, lost_late = 0.3;
-constexpr double lost_at_once = 0.9;    // likewise: that no other start would make up for
+constexpr double lost_at_once = 0.9;
 constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.

@@ -104,7 +104,7 @@ void add_ranking(io::HtmlReport& page, const Diagnosis& d) {
   page.paragraph(
       "Gain: log-likelihood (nats) that the cause adds to the refitted model. Evidence: "
       "that and the gain on the trials kept back, less what its parameters and the number of "
-      "candidates cost.");
+      "candidates cost. What fell far behind was not fitted to the end.");
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : d.ranking) {
     if (rows.size() == most_ranked) break;
