@@ -15,6 +15,9 @@ constexpr double small_amplitude = 0.2;     // of a gust, of its mean
 constexpr double least_statistic = 1.0;     // below it a direction says nothing of the size
 constexpr double no_change = 1.0e-12;       // a direction without length
 constexpr double believed = 2.0;            // of an unknown's width
+constexpr std::size_t rungs = 4;            // starts of one number in its order make a ladder
+constexpr int finer_by = 5, finer_rounds = 3;
+constexpr double as_well = 0.5;  // nats
 
 // Of matrix step = right, with those that are held where they are.
 Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
@@ -49,6 +52,35 @@ std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& 
   both.add(direction.start.shrunk(share).bounded());
   both.name = direction.cause;
   return both;
+}
+
+bool is_ladder(const Cause& cause) {
+  return cause.starts.size() >= rungs && std::ranges::all_of(cause.starts, [](const Hypothesis& s) {
+           return s.size() == 1 && s.free[0].logarithmic;
+         });
+}
+
+// Of those that do as well as the best one, as all thresholds that do nothing.
+int lowest_of_best(const Scan& found) {
+  int lowest = 0;
+  while (found.cost[lowest] > found.cost[found.best] + as_well) ++lowest;
+  return lowest;
+}
+
+// From a start's one neighbour to the other, in steps that are several times shorter.
+std::vector<Hypothesis> finer_ladder(const std::vector<Hypothesis>& ladder, int at) {
+  const int first = std::max(0, at - 1);
+  const int last = std::min(at + 1, static_cast<int>(ladder.size()) - 1);
+  std::vector<Hypothesis> finer;
+  for (int i = first; i < last; ++i)
+    for (int k = 0; k < finer_by; ++k) {
+      const double share = static_cast<double>(k) / finer_by;
+      finer.push_back(ladder[i]);
+      finer.back().set_unknowns((1.0 - share) * ladder[i].unknowns() +
+                                share * ladder[i + 1].unknowns());
+    }
+  finer.push_back(ladder[last]);
+  return finer;
 }
 
 }  // namespace
@@ -183,7 +215,12 @@ std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummar
   std::vector<Hypothesis> starts;
   for (const Hypothesis& start : cause.starts)
     starts.push_back(joined(base.hypothesis, start, false));
-  const Scan found = scan(evaluator, starts, options);
+  Scan found = scan(evaluator, starts, options);
+  // One threshold does nothing, and the next one too much.
+  for (int round = 0; round < finer_rounds && is_ladder(cause); ++round) {
+    starts = finer_ladder(starts, lowest_of_best(found));
+    found = scan(evaluator, starts, options);
+  }
   if (!(found.cost[found.best] < base.cost)) return {};
   return starts[found.best];
 }

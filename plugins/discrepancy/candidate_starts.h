@@ -50,7 +50,7 @@ std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitt
 std::optional<Hypothesis> twin_of(const Hypothesis& fitted);
 
 /// The best of all starts of a cause as they are, where it does better than the base: what is large
-/// no linear model sees.
+/// no linear model sees. A threshold is looked for between them, too.
 std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,
                                            const Cause& cause, const FitOptions& options);
 

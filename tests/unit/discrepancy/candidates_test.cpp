@@ -111,6 +111,46 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
   EXPECT_LT(std::ranges::max(promise_of(nothing.causes, directions)), 5.0);
 }
 
+// A threshold just below the sharpest bend lies between one that does nothing and one that does too
+// much: with either as it stands the fit has nowhere to go.
+TEST(Candidates, FindAThresholdBetweenTwoStarts) {
+  Hidden quiet({});
+  Cause yield;
+  for (Cause& cause : candidate_causes(quiet.experiment, scales_of(quiet.experiment)))
+    if (cause.name == "yield") yield = std::move(cause);
+  const auto with = [&](double curvature) {
+    Hypothesis model = quiet.base.hypothesis;
+    model.add(yield.starts[0]);
+    model.set_value(model.size() - 1, curvature);
+    return model;
+  };
+  const auto change = [&](double curvature) {
+    const Hypothesis model = with(curvature);
+    const Eigen::MatrixXd r = quiet.workers[0].residuals(std::span(&model, 1), quiet.options);
+    return (r.col(0) - quiet.base.residual).norm();
+  };
+  std::size_t still = 0;  // the first start that does nothing
+  while (change(yield.starts[still].value(0)) > 1e-3) ++still;
+  double low = yield.starts[still - 1].value(0), high = yield.starts[still].value(0);
+  ASSERT_GT(change(low), 100.0);
+  double hidden_at = low, changes = 0.0;
+  while (changes < 20.0 || changes > 40.0) {
+    hidden_at = std::sqrt(low * high);
+    changes = change(hidden_at);
+    (changes > 40.0 ? low : high) = hidden_at;
+  }
+  Hidden hidden({testing::effect("yield", "curvature", {hidden_at})});
+  // About a model that has taken up nothing of it.
+  FitOptions none = hidden.options;
+  none.iterations = 0;
+  const FitSummary base = fit(hidden.workers[0], quiet.base.hypothesis, none);
+  const auto start = best_plain_start(hidden.workers[0], base, yield, hidden.options);
+  ASSERT_TRUE(start);
+  EXPECT_NEAR(start->value(start->size() - 1) / hidden_at, 1.0, 0.01);
+  const Scan found = scan(hidden.workers[0], std::span(&*start, 1), hidden.options);
+  EXPECT_LT(found.cost[0], base.cost - 50.0);
+}
+
 // Of a single upright stem the twin is the same plant: EI along the direction and across it are
 // what they were. Only the stretch differs, by a part of (r/L)^2.
 TEST(Candidates, TwinOfAnAnisotropyIsTheSameUprightStem) {
