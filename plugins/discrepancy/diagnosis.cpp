@@ -474,8 +474,8 @@ class Procedure {
     if (force_) return *force_;
     log_.say("looking for a force that is missing", from);
     coarse_at(result_.base);
-    // Refits end with the fine simulator: a force moves the model so far from the base that a
-    // coarse one, which agrees with it there alone, misleads about the place.
+    // Refits are fine ones: a force moves the model so far from the base that a coarse one, which
+    // agrees with it there alone, misleads about the place.
     Evaluator evaluator = setup_->evaluator();
     // The noise was read anew since the base was fitted.
     const FitSummary base = fit(evaluator, result_.base.hypothesis, fit_options());
@@ -484,16 +484,6 @@ class Procedure {
     options.check = result_.check_trials;
     options.threads = options_.threads;
     options.response_distance = coarse_->numerics().distance;
-    options.approach = [&](const Hypothesis& start, const FitOptions& few) {
-      FitSummary there;
-      there.hypothesis = start;
-      there.cost = 0.5 * evaluator.residuals(std::span(&start, 1), few).squaredNorm();
-      CoarseModel coarse(*setup_, there);
-      Evaluator cheap = coarse.evaluator();
-      FitSummary found = fit(cheap, start, few);
-      coarse_simulations_ += coarse.simulations();
-      return found;
-    };
     options.note = [this](const std::string& sentence) { log_.note(sentence); };
     force_ = infer_missing_force(evaluator, base, options);
     result_.verdict.simulations += force_->simulations;

@@ -231,23 +231,16 @@ class Inference {
           other.force.place->curve == term.force.place->curve &&
           other.evidence > (1.0 - place_share) * term.evidence && places.size() < most_looks)
         places.push_back(other.force);
-    if (places.size() == 1) return whole_fit(best_start(term.force), few);
+    if (places.size() == 1) return fit(evaluator_, best_start(term.force), few);
     FitOptions look = few;
     look.iterations = std::min(look_iterations, few.iterations);
-    std::vector<Hypothesis> looks;
-    for (const plant::Effect& force : places)
-      looks.push_back(approached(best_start(force), look).hypothesis);
+    FitSummary best;
+    for (const plant::Effect& force : places) {
+      FitSummary found = fit(evaluator_, best_start(force), look);
+      if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
+    }
     few.iterations -= look.iterations;
-    return whole_fit(looks[scan(evaluator_, looks, options_.fit).best], few);
-  }
-
-  FitSummary approached(const Hypothesis& start, const FitOptions& options) {
-    return options_.approach ? options_.approach(start, options) : fit(evaluator_, start, options);
-  }
-
-  FitSummary whole_fit(const Hypothesis& start, const FitOptions& options) {
-    if (!options_.approach) return fit(evaluator_, start, options);
-    return discrepancy::refit(evaluator_, options_.approach(start, options), options);
+    return few.iterations > 0 ? discrepancy::refit(evaluator_, best, few) : best;
   }
 
   // What looks like a stop may be a string to a point at any distance.

@@ -44,8 +44,6 @@ struct MissingForceOptions {
   /// m between nodes where linear responses are simulated, which are many and are differences; 0:
   /// as in the evaluator.
   double response_distance = 0.0;
-  /// A cheaper fit from a start, which fits by the evaluator go on from; none where empty.
-  std::function<FitSummary(const Hypothesis&, const FitOptions&)> approach;
   std::function<void(const std::string&)> note;  ///< each finding, as a sentence
 };
 
