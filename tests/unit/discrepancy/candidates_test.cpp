@@ -130,11 +130,13 @@ TEST(Candidates, FindAThresholdBetweenTwoStarts) {
     return (r.col(0) - quiet.base.residual).norm();
   };
   std::size_t still = 0;  // the first start that does nothing
-  while (change(yield.starts[still].value(0)) > 1e-3) ++still;
+  while (still < yield.starts.size() && change(yield.starts[still].value(0)) > 1e-3) ++still;
+  ASSERT_GT(still, 0u);
+  ASSERT_LT(still, yield.starts.size());
   double low = yield.starts[still - 1].value(0), high = yield.starts[still].value(0);
   ASSERT_GT(change(low), 100.0);
   double hidden_at = low, changes = 0.0;
-  while (changes < 20.0 || changes > 40.0) {
+  for (int i = 0; i < 60 && (changes < 20.0 || changes > 40.0); ++i) {
     hidden_at = std::sqrt(low * high);
     changes = change(hidden_at);
     (changes > 40.0 ? low : high) = hidden_at;

@@ -135,15 +135,17 @@ TEST(MissingForce, String) {
   EXPECT_NEAR(size_said(found), 0.15 * longest, 0.1 * 0.15 * longest);
 }
 
-// A stop 3 mm beside the stem, on one side.
+// 3 mm beside the stem, on one side.
+auto soft_stop() {
+  return at(0.7, [](double, const Vec3& x, const Vec3&) -> Vec3 {
+    const Vec3 n(0.8, 0.6, 0);
+    return 0.15 * std::max(0.0, -0.003 - n.dot(x)) * n;
+  });
+}
+
 TEST(MissingForce, Stop) {
   Bent bent;
-  bent.measure({at(0.7,
-                   [](double, const Vec3& x, const Vec3&) -> Vec3 {
-                     const Vec3 n(0.8, 0.6, 0);
-                     return 0.15 * std::max(0.0, -0.003 - n.dot(x)) * n;
-                   })},
-               3);
+  bent.measure({soft_stop()}, 3);
   const MissingForce found = bent.infer();
   expect_found(found, "stop", 0.7);
   // It is a string to a far point as well.
@@ -171,12 +173,7 @@ TEST(MissingForce, StopFarStifferThanTheStem) {
 // A stop, asked for about a plant that nobody believes in: ten times as stiff, six times as heavy.
 TEST(MissingForce, IsTriedOnThePlantThatWasBelievedIn) {
   Bent bent;
-  bent.measure({at(0.7,
-                   [](double, const Vec3& x, const Vec3&) -> Vec3 {
-                     const Vec3 n(0.8, 0.6, 0);
-                     return 0.15 * std::max(0.0, -0.003 - n.dot(x)) * n;
-                   })},
-               3);
+  bent.measure({soft_stop()}, 3);
   Hypothesis far = baseline();
   far.set_value(far.factor_on("youngs_modulus"), 9.0);
   far.set_value(far.factor_on("density"), 6.0);
