@@ -38,8 +38,12 @@ constexpr double least_objection = 6.0, small_objection = 0.1;
 // Where the best known cause leaves so much (mean square in noise units) a force from outside the
 // list is asked for. It takes the place of known causes where it leaves so much less.
 constexpr double much_left = 4.0, left_by_force = 1.0 / 3.0;
+constexpr double far_from_data = 2.0;  // mean square in noise units
 // What one force may gain less than several causes: nats, or a share of theirs.
 constexpr double force_margin = 5.0, force_share = 0.05;
+// Of the causes' gain, what a free force must promise, by its linear response, for its law to be
+// looked for.
+constexpr double promising_force = 0.5;
 
 /// One diagnosis on its way from the data to the verdict.
 class Procedure {
@@ -290,9 +294,7 @@ class Procedure {
   void extend() {
     while (!findings_.chain.empty() && static_cast<int>(findings_.chain.size()) < most_causes &&
            !stopped()) {
-      coarse_at(result_.best);
-      std::vector<Direction> directions = directions_at(result_.best);
-      result_.after = judged(directions, result_.best);
+      const std::vector<Direction> directions = look_again();
       log_.directions(directions, result_.after);
       if (!result_.after.raised || is_small(result_.after)) return;
       if (could_be_junctions(result_.after) && quiet_with_junctions(result_.best)) {
@@ -304,14 +306,37 @@ class Procedure {
       const std::vector<Candidate> next =
           refit_all({coarse_workers_, workers_}, result_.best, likely, directions,
                     refit_options(from, from + 0.15, "looking for another cause"));
-      if (stopped() || next.empty() || !is_another_cause(next.front())) return;
+      if (stopped() || next.empty()) return;
+      const Candidate& first = next.front();
+      log_.fit(text("Beside what was found, evidence %.4g", first.evidence), first.fit,
+               setup_->samples());
+      log_.note(text("It gains %.4g nats, of %.4g that another cause must; ", first.gain,
+                     least_gain_beside(findings_.chain)) +
+                text("for the trials kept back %.4g.", first.held_out.gain));
+      if (!is_another_cause(first)) return;
       findings_.chain.push_back(next.front());
       result_.best = next.front().fit;
     }
-    if (findings_.chain.empty()) return;
+    if (!findings_.chain.empty()) look_again();
+  }
+
+  // So that a model which explains them is far from it.
+  bool base_misses_the_data() const {
+    return 2.0 * result_.base.cost > far_from_data * setup_->samples();
+  }
+
+  // What the model with all causes so far leaves. Where that is far from the base, our own error
+  // is another one there.
+  std::vector<Direction> look_again() {
+    if (base_misses_the_data()) {
+      setup_->correct_at(result_.best);
+      Evaluator evaluator = setup_->evaluator();
+      result_.best = findings_.chain.back().fit = refit(evaluator, result_.best, fit_options());
+    }
     coarse_at(result_.best);
     std::vector<Direction> directions = directions_at(result_.best);
     result_.after = judged(directions, result_.best);
+    return directions;
   }
 
   // Whether what is left alarms, but promises too little for another cause.
@@ -439,7 +464,8 @@ class Procedure {
     if ((!result_.after.raised || is_small(result_.after)) &&
         explained > (several ? beyond_doubt_together : beyond_doubt))
       return;
-    const MissingForce& force = missing_force(0.96);
+    const MissingForce& force =
+        missing_force(0.96, promising_force * (result_.base.cost - result_.best.cost));
     if (!force.found || force.fit.why == "not run") return;
     // With the noise as it was read last.
     Evaluator evaluator = setup_->evaluator();
@@ -469,8 +495,9 @@ class Procedure {
     });
   }
 
-  // Where, when and of what kind the force is that no cause stands for.
-  const MissingForce& missing_force(double from) {
+  // Where, when and of what kind the force is that no cause stands for; none where even a free one
+  // promises too little.
+  const MissingForce& missing_force(double from, double least_evidence = 0.0) {
     if (force_) return *force_;
     log_.say("looking for a force that is missing", from);
     coarse_at(result_.base);
@@ -484,6 +511,9 @@ class Procedure {
     options.check = result_.check_trials;
     options.threads = options_.threads;
     options.response_distance = coarse_->numerics().distance;
+    options.least_evidence = least_evidence;
+    if (base_misses_the_data())
+      options.correct_at = [this](const FitSummary& model) { setup_->correct_at(model); };
     options.note = [this](const std::string& sentence) { log_.note(sentence); };
     force_ = infer_missing_force(evaluator, base, options);
     result_.verdict.simulations += force_->simulations;

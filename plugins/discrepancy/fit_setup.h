@@ -50,6 +50,8 @@ class FitSetup {
   /// too much, refits `model` at each, and keeps the corrections of the last check, which is
   /// returned.
   NumericsCheck refine(FitSummary& model, const Watch& watch);
+  /// The corrections anew, about a model that is far from the one they were taken at.
+  void correct_at(const FitSummary& model);
 
  private:
   const Experiment* experiment_;

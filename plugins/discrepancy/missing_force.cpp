@@ -62,7 +62,7 @@ class Inference {
     const bool of_sensor = look_at_sensor();
     if (of_sensor) {
       conclude_sensor();
-    } else if (!places_.empty()) {
+    } else if (!places_.empty() && places_.front().free.evidence > options_.least_evidence) {
       try_laws();
       refit();
       conclude();
@@ -100,6 +100,7 @@ class Inference {
       FitOptions none = options_.fit;
       none.iterations = 0;
       centre_ = fit(evaluator_, as_believed(model_.hypothesis), none);
+      if (options_.correct_at) options_.correct_at(centre_);
     }
     const Simulator& simulator = evaluator_.simulator();
     const double distance = options_.response_distance > 0.0 ? options_.response_distance
@@ -266,19 +267,30 @@ class Inference {
   void refit() {
     for (const ForceTerm& term : worth_refitting()) refit(term);
     if (result_.terms.empty()) return;
-    const ForceTerm best = *std::ranges::max_element(result_.terms, {}, &ForceTerm::evidence);
+    ForceTerm& best = *std::ranges::max_element(result_.terms, {}, &ForceTerm::evidence);
+    if (options_.correct_at) {
+      options_.correct_at(result_.fit);
+      result_.fit = discrepancy::refit(evaluator_, result_.fit, options_.fit);
+      judge(result_.fit, best);
+      result_.evidence = best.evidence;
+    }
     if (const std::optional<ForceTerm> other = with_other_end(best)) refit(*other);
     std::ranges::stable_sort(result_.terms, std::greater(), &ForceTerm::evidence);
   }
 
-  void refit(ForceTerm term) {
-    const FitSummary found = refitted(term);
+  // What a refit says about its law.
+  void judge(const FitSummary& found, ForceTerm& term) const {
     term.gain = (model_.cost - found.cost) / scales_.dispersion;
     // One more: its place along the curve.
     term.evidence = term.gain - cost_of(term.parameters + 1, scales_.samples, scales_.choices);
     term.force = found.hypothesis.effects.back();
     note("Refitted: " + describe(term.force) + " at " + place_text(*term.force.place) +
          text(", evidence %.4g", term.evidence));
+  }
+
+  void refit(ForceTerm term) {
+    const FitSummary found = refitted(term);
+    judge(found, term);
     const bool better = result_.terms.empty() || term.evidence > result_.evidence;
     result_.terms.push_back(term);
     if (!better) return;

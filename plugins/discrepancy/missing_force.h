@@ -44,6 +44,10 @@ struct MissingForceOptions {
   /// m between nodes where linear responses are simulated, which are many and are differences; 0:
   /// as in the evaluator.
   double response_distance = 0.0;
+  /// nats: where no free force, with any history, has more evidence than this, no law is tried.
+  double least_evidence = 0.0;
+  /// Corrects the evaluator about a model that is far from where it was corrected before.
+  std::function<void(const FitSummary&)> correct_at;
   std::function<void(const std::string&)> note;  ///< each finding, as a sentence
 };
 

@@ -13,7 +13,7 @@
 namespace pedicel::discrepancy {
 namespace {
 
-constexpr double dt = 1.0 / 480.0;  // s, of the fine model as FitSetup starts
+constexpr double dt = 1.0 / 480.0;  // s, of the data
 
 /// A beam pulled aside and let go, simulated and measured with white noise.
 Experiment released(double noise) {

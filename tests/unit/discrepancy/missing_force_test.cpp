@@ -60,13 +60,15 @@ struct Bent {
   }
 
   /// About a model that is fitted from `start` in so many iterations.
-  MissingForce infer(const Hypothesis& start = baseline(), int iterations = 60) const {
+  MissingForce infer(const Hypothesis& start = baseline(), int iterations = 60,
+                     double least_evidence = 0.0) const {
     DataSet data(experiment);
     data.set_noise(white_noise(noise_std), white_noise(1.0));
     Simulator simulator(experiment, {0.04, 1.0 / 480}, 1);
     Evaluator evaluator(simulator, data);
     MissingForceOptions options;
     options.fit.trials = {0, 1};
+    options.least_evidence = least_evidence;
     FitOptions around = options.fit;
     around.iterations = iterations;
     const FitSummary model = fit(evaluator, start, around);
@@ -179,6 +181,16 @@ TEST(MissingForce, IsTriedOnThePlantThatWasBelievedIn) {
   far.set_value(far.factor_on("density"), 6.0);
   const MissingForce found = bent.infer(far, 0);
   expect_found(found, "stop", 0.7);
+}
+
+// Where known causes explain more than any force could, no law of one is looked for.
+TEST(MissingForce, IsNotFollowedWhereItPromisesTooLittle) {
+  Bent bent;
+  bent.measure({soft_stop()}, 3);
+  const MissingForce found = bent.infer(baseline(), 60, 1.0e6);
+  EXPECT_FALSE(found.found) << found.sentence();
+  EXPECT_TRUE(found.terms.empty());
+  EXPECT_GT(found.simulations, 0);
 }
 
 // 0.6 mN at 1.7 Hz.
