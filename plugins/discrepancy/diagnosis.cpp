@@ -235,7 +235,7 @@ class Procedure {
     Evaluator there = coarse.evaluator();
     std::vector<Direction> directions =
         directions_of(there, found, causes_, fit_options(), result_.directions);
-    coarse_simulations_ += coarse.simulations();
+    gone_simulations_ += coarse.simulations();
     const Alarm alarm = judged(directions, found);
     log_.fit("With junctions that give a little", found, setup_->samples());
     log_.directions(directions, alarm);
@@ -320,6 +320,16 @@ class Procedure {
     if (!findings_.chain.empty()) look_again();
   }
 
+  void correct_at(const FitSummary& model) {
+    setup_->correct_at(model);
+    if (setup_->numerics() == result_.numerics) return;
+    result_.numerics = setup_->numerics();
+    log_.note(text("Here nodes every %.3g mm and a step of %.3g ms",
+                   1e3 * result_.numerics.distance, 1e3 * result_.numerics.dt) +
+              " are needed.");
+    make_workers();
+  }
+
   // So that a model which explains them is far from it.
   bool base_misses_the_data() const {
     return 2.0 * result_.base.cost > far_from_data * setup_->samples();
@@ -329,7 +339,7 @@ class Procedure {
   // is another one there.
   std::vector<Direction> look_again() {
     if (base_misses_the_data()) {
-      setup_->correct_at(result_.best);
+      correct_at(result_.best);
       Evaluator evaluator = setup_->evaluator();
       result_.best = findings_.chain.back().fit = refit(evaluator, result_.best, fit_options());
     }
@@ -380,7 +390,7 @@ class Procedure {
   }
 
   void drop_coarse() {
-    if (coarse_) coarse_simulations_ += coarse_->simulations();
+    if (coarse_) gone_simulations_ += coarse_->simulations();
     coarse_.reset();
   }
 
@@ -391,11 +401,18 @@ class Procedure {
 
   // One simulator a thread: candidates are refitted side by side.
   void make_workers() {
+    drop_workers();
     for (int i = 0; i < options_.threads; ++i) {
       simulators_.push_back(
           std::make_unique<Simulator>(experiment(), result_.numerics, 1, options_.stop));
       workers_.emplace_back(*simulators_.back(), setup_->data(), setup_->corrections());
     }
+  }
+
+  void drop_workers() {
+    for (const auto& simulator : simulators_) gone_simulations_ += simulator->simulations();
+    workers_.clear();
+    simulators_.clear();
   }
 
   // ---- Steps 8 and 9 ----------------------------------------------------------------------------
@@ -513,7 +530,10 @@ class Procedure {
     options.response_distance = coarse_->numerics().distance;
     options.least_evidence = least_evidence;
     if (base_misses_the_data())
-      options.correct_at = [this](const FitSummary& model) { setup_->correct_at(model); };
+      options.correct_at = [&](const FitSummary& model) {
+        correct_at(model);
+        evaluator = setup_->evaluator();
+      };
     options.note = [this](const std::string& sentence) { log_.note(sentence); };
     force_ = infer_missing_force(evaluator, base, options);
     result_.verdict.simulations += force_->simulations;
@@ -606,10 +626,9 @@ class Procedure {
       result_.force_noise = setup_->data().force_noise();
       result_.verdict.simulations += setup_->simulations();
     }
-    for (const auto& simulator : simulators_)
-      result_.verdict.simulations += simulator->simulations();
+    drop_workers();
     drop_coarse();
-    result_.verdict.simulations += coarse_simulations_;
+    result_.verdict.simulations += gone_simulations_;
     result_.stopped = stopped();
     result_.verdict.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -628,7 +647,7 @@ class Procedure {
   std::vector<Evaluator> workers_;
   std::unique_ptr<CoarseModel> coarse_;
   std::vector<Evaluator> coarse_workers_;
-  long coarse_simulations_ = 0;  // of coarse models that are gone
+  long gone_simulations_ = 0;  // of coarse models and workers that are gone
   Findings findings_;
   std::optional<MissingForce> force_;  // once it was asked for
   std::string instead_of_;             // the known cause whose place it takes, in words

@@ -1,5 +1,7 @@
 #include "discrepancy/fit_setup.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "discrepancy/trial_split.h"
@@ -11,6 +13,7 @@ namespace {
 // Of the noise, RMS, before it is corrected for: at most, and where nodes farther apart than in the
 // plant file, or longer steps than usual, save time.
 constexpr double allowed_error = 0.15, allowed_coarse = 0.06;
+constexpr double drowned = 0.05;          // of what the model leaves of the data, RMS
 constexpr double usual_dt = 1.0 / 480.0;  // s
 constexpr int most_refinements = 4;
 
@@ -62,9 +65,7 @@ NumericsCheck FitSetup::refine(FitSummary& model, const Watch& watch) {
     watch.begin(round);
     NumericsCheck check = check_numerics(*experiment_, data_, model, numerics_, options_, threads_,
                                          simulations_, stop_);
-    const bool coarse = numerics_.dt > usual_dt || numerics_.distance > experiment_->plant.distance;
-    const double allowed = coarse ? allowed_coarse : allowed_error;
-    if (check.largest <= allowed || round == most_refinements || stopped()) {
+    if (is_fine_enough(check) || round == most_refinements || stopped()) {
       corrections_ = check.corrections;
       return check;
     }
@@ -77,9 +78,23 @@ NumericsCheck FitSetup::refine(FitSummary& model, const Watch& watch) {
 }
 
 void FitSetup::correct_at(const FitSummary& model) {
-  corrections_ =
-      check_numerics(*experiment_, data_, model, numerics_, options_, threads_, simulations_, stop_)
-          .corrections;
+  const double left = std::sqrt(2.0 * model.cost / std::max(1, samples()));
+  for (int round = 0;; ++round) {
+    NumericsCheck check = check_numerics(*experiment_, data_, model, numerics_, options_, threads_,
+                                         simulations_, stop_);
+    const bool is_drowned = check.largest < drowned * left;
+    if (is_fine_enough(check) || is_drowned || round == most_refinements || stopped()) {
+      corrections_ = std::move(check.corrections);
+      return;
+    }
+    numerics_ = refined(check);
+    renew();
+  }
+}
+
+bool FitSetup::is_fine_enough(const NumericsCheck& check) const {
+  const bool coarse = numerics_.dt > usual_dt || numerics_.distance > experiment_->plant.distance;
+  return check.largest <= (coarse ? allowed_coarse : allowed_error);
 }
 
 }  // namespace pedicel::discrepancy

@@ -32,7 +32,7 @@ class FitSetup {
   int samples() const { return data_.samples(options_.trials); }
   long simulations() const { return simulations_ + simulator_->simulations(); }
 
-  /// On all threads; valid until the next renew() or refine().
+  /// On all threads; valid until the next renew(), refine() or correct_at().
   Evaluator evaluator();
   Simulator& simulator() { return *simulator_; }  ///< likewise
   /// Of all trials, [hypothesis][trial].
@@ -50,10 +50,13 @@ class FitSetup {
   /// too much, refits `model` at each, and keeps the corrections of the last check, which is
   /// returned.
   NumericsCheck refine(FitSummary& model, const Watch& watch);
-  /// The corrections anew, about a model that is far from the one they were taken at.
+  /// The corrections anew, about a model that is far from the one they were taken at; refines mesh
+  /// and step where they are too coarse for it.
   void correct_at(const FitSummary& model);
 
  private:
+  bool is_fine_enough(const NumericsCheck& check) const;
+
   const Experiment* experiment_;
   DataSet data_;
   NoiseRule rule_;

@@ -29,7 +29,8 @@ constexpr double refit_share = 0.3;    // of the best one's: large forces are no
 constexpr std::size_t kinds = 11;
 // A string's numbers stand for one another: a refit could go along its valley for long.
 constexpr int most_iterations = 30;
-constexpr double place_share = 0.5;  // of the evidence, by which another place may be worse
+constexpr double close_share = 0.05;  // of the best law's evidence
+constexpr double place_share = 0.5;   // of the evidence, by which another place may be worse
 constexpr std::size_t most_looks = 6;
 constexpr int look_iterations = 5;
 
@@ -267,15 +268,28 @@ class Inference {
   void refit() {
     for (const ForceTerm& term : worth_refitting()) refit(term);
     if (result_.terms.empty()) return;
-    ForceTerm& best = *std::ranges::max_element(result_.terms, {}, &ForceTerm::evidence);
-    if (options_.correct_at) {
-      options_.correct_at(result_.fit);
-      result_.fit = discrepancy::refit(evaluator_, result_.fit, options_.fit);
-      judge(result_.fit, best);
-      result_.evidence = best.evidence;
-    }
-    if (const std::optional<ForceTerm> other = with_other_end(best)) refit(*other);
+    sort_terms();
+    for (const ForceTerm& term : close_ones())
+      if (const std::optional<ForceTerm> other = with_other_end(term)) refit(*other);
+    sort_terms();
+    if (!options_.correct_at) return;
+    options_.correct_at(result_.fit);
+    result_.fit = discrepancy::refit(evaluator_, result_.fit, options_.fit);
+    judge(result_.fit, result_.terms.front());
+    result_.evidence = result_.terms.front().evidence;
+  }
+
+  void sort_terms() {
     std::ranges::stable_sort(result_.terms, std::greater(), &ForceTerm::evidence);
+  }
+
+  // A law that was left in a side valley may come out first by its other end.
+  std::vector<ForceTerm> close_ones() const {
+    const double least = (1.0 - close_share) * result_.terms.front().evidence;
+    std::vector<ForceTerm> close;
+    for (const ForceTerm& term : result_.terms)
+      if (term.evidence >= least) close.push_back(term);
+    return close;
   }
 
   // What a refit says about its law.

@@ -20,6 +20,8 @@ struct Numerics {
   /// 1, of `distance`: the short segment below a junction (plant::BuildOptions). 0: none, and the
   /// branches' places err with the first power of `distance`.
   double junction = 0.05;
+
+  bool operator==(const Numerics&) const = default;
 };
 
 /// A force that no known effect gives, evaluated at the start of each step: N in W, from time (s),
