@@ -70,7 +70,7 @@ NumericsCheck FitSetup::refine(FitSummary& model, const Watch& watch) {
       return check;
     }
     if (watch.too_coarse) watch.too_coarse(check);
-    numerics_ = refined(check);
+    numerics_ = finer(check);
     renew();
     Evaluator with = evaluator();
     model = fit(with, model.hypothesis, options_);
@@ -87,14 +87,24 @@ void FitSetup::correct_at(const FitSummary& model) {
       corrections_ = std::move(check.corrections);
       return;
     }
-    numerics_ = refined(check);
+    numerics_ = finer(check);
     renew();
   }
 }
 
+bool FitSetup::is_coarse(const Numerics& numerics) const {
+  return numerics.dt > usual_dt || numerics.distance > experiment_->plant.distance;
+}
+
 bool FitSetup::is_fine_enough(const NumericsCheck& check) const {
-  const bool coarse = numerics_.dt > usual_dt || numerics_.distance > experiment_->plant.distance;
-  return check.largest <= (coarse ? allowed_coarse : allowed_error);
+  return check.largest <= (is_coarse(check.numerics) ? allowed_coarse : allowed_error);
+}
+
+// Nodes as in the file and usual steps come before anything finer than either.
+Numerics FitSetup::finer(const NumericsCheck& check) const {
+  const Numerics next = refined(check), usual{experiment_->plant.distance, usual_dt};
+  const bool beyond = next.dt < usual.dt || next.distance < usual.distance;
+  return is_coarse(check.numerics) && beyond ? usual : next;
 }
 
 }  // namespace pedicel::discrepancy

@@ -55,7 +55,9 @@ class FitSetup {
   void correct_at(const FitSummary& model);
 
  private:
+  bool is_coarse(const Numerics& numerics) const;
   bool is_fine_enough(const NumericsCheck& check) const;
+  Numerics finer(const NumericsCheck& check) const;
 
   const Experiment* experiment_;
   DataSet data_;

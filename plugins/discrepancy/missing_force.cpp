@@ -382,18 +382,28 @@ class Inference {
     if (result_.found) result_.where = where_text();
   }
 
-  // How well the data know the place: along its curve, and on which one.
+  // How well the place is known: along its curve, and on which one.
   void find_elsewhere() {
     const Hypothesis& model = result_.fit.hypothesis;
     for (int p = 0; p < model.size(); ++p)
       if (model.free[p].name == "at" && model.effects[model.free[p].effect].name == missing_force &&
           std::isfinite(result_.fit.standard_error[p]))
-        result_.place_error = model.free[p].scale * result_.fit.standard_error[p];
+        result_.place_error =
+            std::hypot(model.free[p].scale * result_.fit.standard_error[p], node_share());
     std::set<std::string> known{result_.place->curve};
     for (const ForceTerm& term : result_.terms)
       if (term.evidence > result_.evidence - as_well_within &&
           known.insert(term.force.place->curve).second)
         result_.elsewhere.push_back(*term.force.place);
+  }
+
+  // The deviation of a place that is only known to a node, of its curve's length: loud data would
+  // know it better, were the law and the mesh exact.
+  double node_share() const {
+    for (const plant::PlantCurve& curve : experiment_.plant.curves)
+      if (curve.name == result_.place->curve)
+        return evaluator_.simulator().numerics().distance / std::sqrt(12.0) / drawn_length(curve);
+    return 0.0;
   }
 
   void find_other_kinds() {

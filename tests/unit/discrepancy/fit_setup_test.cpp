@@ -78,6 +78,16 @@ TEST(FitSetup, IsRefinedUntilTheNoiseHidesIt) {
   EXPECT_LT(quiet.setup.numerics().dt, 2.0 * usual_dt);
 }
 
+// A coarse mesh beside very short steps would be neither cheap nor what has been measured.
+TEST(FitSetup, IsNotFinerInOneThanUsualWhileCoarserInTheOther) {
+  for (const double noise : {1.0e-3, 3.0e-4, 1.0e-4, 3.0e-5}) {
+    const Numerics found = Refined(noise).setup.numerics();
+    const bool coarse = found.distance > file_distance || found.dt > usual_dt;
+    const bool finer = found.distance < file_distance || found.dt < usual_dt;
+    EXPECT_FALSE(coarse && finer) << noise << ": " << found.distance << " m, " << found.dt << " s";
+  }
+}
+
 // Twice the modulus swings 1.4 times as fast: coarse steps meet that worse, and what is carried
 // over from the model before is out of phase. Corrected there, the error is of a higher order in
 // step and mesh (0.17 mm before, 0.019 mm after).
