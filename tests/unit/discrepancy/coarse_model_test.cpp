@@ -6,42 +6,20 @@
 
 #include <cmath>
 
-#include "core/random.h"
 #include "discrepancy/causes.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "unit/discrepancy/released_beam.h"
 
 namespace pedicel::discrepancy {
 namespace {
-
-constexpr double dt = 1.0 / 480.0;  // s, of the data
-
-/// A beam pulled aside and let go, simulated and measured with white noise.
-Experiment released(double noise) {
-  testing::Beam beam;
-  beam.damping_time = 0.01;
-  Experiment e = testing::experiment_of(beam, 1.0, 0.02);
-  e.plant.distance = 0.04;
-  Trial& trial = e.trials[0];
-  trial.force = {};
-  trial.gravity = Vec3(0, 0, -9.81);
-  trial.holds.push_back(
-      {testing::on_stem(0.8), testing::resting_at(Vec3(0.03, 0, 0.8 * beam.length)), 0.2, 20.0});
-  const Variant nominal;
-  Simulator simulator(e, {0.04, dt}, 1);
-  const Simulator::Request request{&nominal, 0};
-  Eigen::MatrixXd seen = simulator.run(std::span(&request, 1)).front().markers;
-  Random random(5);
-  for (double& x : seen.reshaped()) x += noise * random.normal();
-  trial.markers.value = seen;
-  return e;
-}
 
 struct Fitted {
   Experiment experiment;
   FitSetup setup;
   FitSummary model;
 
-  explicit Fitted(double noise) : experiment(released(noise)), setup(experiment, 1, {}, nullptr) {
+  explicit Fitted(double noise)
+      : experiment(testing::released_beam(noise, 0.04, {0.04, 1.0 / 480.0})),
+        setup(experiment, 1, {}, nullptr) {
     Evaluator evaluator = setup.evaluator();
     model = fit(evaluator, baseline(), setup.options());
     setup.refine(model, {[](int) {}, {}});

@@ -6,9 +6,8 @@
 
 #include <cmath>
 
-#include "core/random.h"
 #include "discrepancy/causes.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "unit/discrepancy/released_beam.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -16,25 +15,10 @@ namespace {
 constexpr double file_distance = 0.04, usual_dt = 1.0 / 480.0;
 constexpr Numerics finest{0.005, 1.0 / 3840.0};
 
-/// A beam held aside by 30 mm and let go, with white noise of this size on its markers.
-Experiment released(double noise, double distance) {
-  testing::Beam beam;
-  beam.damping_time = 0.01;
-  Experiment e = testing::experiment_of(beam, 1.0, 0.02);
-  e.plant.distance = distance;
+/// Released, its noise stated.
+Experiment stated(double noise, double distance) {
+  Experiment e = testing::released_beam(noise, distance, {0.02, 1.0 / 960.0});
   e.noise.position_std = noise;
-  Trial& trial = e.trials[0];
-  trial.force = {};
-  trial.gravity = Vec3(0, 0, -9.81);
-  trial.holds.push_back(
-      {testing::on_stem(0.8), testing::resting_at(Vec3(0.03, 0, 0.8 * beam.length)), 0.2, 20.0});
-  const Variant nominal;
-  Simulator simulator(e, {0.02, 1.0 / 960.0}, 1);
-  const Simulator::Request request{&nominal, 0};
-  Eigen::MatrixXd seen = simulator.run(std::span(&request, 1)).front().markers;
-  Random random(5);
-  for (double& x : seen.reshaped()) x += noise * random.normal();
-  trial.markers.value = seen;
   return e;
 }
 
@@ -45,7 +29,7 @@ struct Refined {
   NumericsCheck check;
 
   explicit Refined(double noise, double distance = file_distance)
-      : experiment(released(noise, distance)), setup(experiment, 1, {}, nullptr) {
+      : experiment(stated(noise, distance)), setup(experiment, 1, {}, nullptr) {
     Evaluator evaluator = setup.evaluator();
     model = fit(evaluator, baseline(), setup.options());
     check = setup.refine(model, {[](int) {}, {}});
