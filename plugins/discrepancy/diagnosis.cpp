@@ -314,8 +314,8 @@ class Procedure {
                      least_gain_beside(findings_.chain)) +
                 text("for the trials kept back %.4g.", first.held_out.gain));
       if (!is_another_cause(first)) return;
-      findings_.chain.push_back(next.front());
-      result_.best = next.front().fit;
+      findings_.chain.push_back(first);
+      result_.best = first.fit;
     }
     if (!findings_.chain.empty()) look_again();
   }
