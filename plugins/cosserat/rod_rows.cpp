@@ -3,28 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat/lane_access.h"
 #include "cosserat/lane_kernels.h"
 
 namespace pedicel::cosserat {
 
 namespace {
-
-void put(Lanes* to, int lane, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) to[i][lane] = v[i];
-}
-void put(Lanes* to, int lane, const Quat& q) {
-  for (int i = 0; i < 4; ++i) to[i][lane] = q.coeffs()[i];
-}
-Vec3 vector_at(const Lanes* from, int lane) {
-  return {from[0][lane], from[1][lane], from[2][lane]};
-}
-Quat rotation_at(const Lanes* from, int lane) {
-  return Quat(from[3][lane], from[0][lane], from[1][lane], from[2][lane]);
-}
-void put(PoseRow& row, int lane, const Vec3& position, const Quat& orientation) {
-  put(row.position, lane, position);
-  put(row.orientation, lane, orientation);
-}
 
 // Lanes without an element compute too: with unit masses and without stiffness nothing they do is
 // ill-defined, or reaches anyone.
@@ -131,31 +115,6 @@ RowArrays RodRows::arrays() {
   return rows;
 }
 
-void RodRows::read_model(int plant, const RodModel& model) {
-  for (int e = 0; e < model.size(); ++e) {
-    const Element& element = model.elements[e];
-    const auto [row, lane] = layout_.slot(plant, e);
-    ElementRow& out = element_[row];
-    out.length[lane] = element.length;
-    put(out.stretch_stiffness, lane, element.stretch_stiffness);
-    put(out.bend_stiffness, lane, element.bend_stiffness);
-    put(out.rest_strain, lane, element.rest_strain);
-    put(out.rest_rotation, lane, element.rest_rotation);
-    out.mass[lane] = element.mass;
-    out.com_back[lane] = element.com_back;
-    put(out.inertia, lane, element.inertia);
-    out.damping_time[lane] = element.damping_time;
-    out.mass_damping[lane] = element.mass_damping;
-    out.alive[lane] = 1.0;
-  }
-  for (const int c : layout_.chains_of_plant(plant)) {
-    Pack& pack = packs_[layout_.chains()[c].pack];
-    for (const int e : layout_.chains()[c].elements)
-      if (model.elements[e].damping_time > 0.0) pack.damped = true;
-  }
-  read_extensions(plant, model);
-}
-
 // Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
 void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& root,
                          bool accelerate) {
@@ -181,46 +140,6 @@ void RodRows::set_active(std::span<const char> plants) {
   for (Pack& pack : packs_) pack.active = false;
   for (const Chain& chain : layout_.chains())
     if (plants[chain.plant]) packs_[chain.pack].active = true;
-}
-
-void RodRows::read_states(int pack, std::span<const RodState* const> states) {
-  const int begin = packs_[pack].begin;
-  for (int lane = 0; lane < lane_count; ++lane) {
-    const auto [plant, parent] = anchors_[pack][lane];
-    PoseRow& start = scratch_->start[begin];
-    if (plant < 0)
-      put(start, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
-    else if (parent < 0)  // strains of the start are against the clamp of the start
-      put(start, lane, states[plant]->previous_root.position,
-          states[plant]->previous_root.rotation);
-    else
-      put(start, lane, states[plant]->position[parent], states[plant]->orientation[parent]);
-  }
-  for (int row = begin + 1; row < packs_[pack].end; ++row) {
-    PoseRow& start = scratch_->start[row];
-    RateRow& rate = scratch_->rate[row];
-    for (int lane = 0; lane < lane_count; ++lane) {
-      const int e = layout_.elements(row)[lane];
-      if (e < 0) {  // whatever the scratch held must not reach a lane's sums
-        put(start, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
-        put(rate.velocity, lane, Vec3(0, 0, 0));
-        put(rate.angular_velocity, lane, Vec3(0, 0, 0));
-        continue;
-      }
-      const int plant = anchors_[pack][lane].plant;
-      const RodState& state = *states[plant];
-      put(start, lane, state.position[e], state.orientation[e]);
-      put(rate.velocity, lane, state.velocity[e]);
-      put(rate.angular_velocity, lane, state.angular_velocity[e]);
-      if (extended_[plant].branches > 0) read_memory(plant, state, e, row, lane);
-      if (state.alive[e] || element_[row].alive[lane] == 0.0) continue;
-      // It came off: nothing ties it to its parent any more.
-      element_[row].alive[lane] = 0.0;
-      put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
-      put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
-      if (!extension_.empty()) extension_[row].drag[lane] = 0.0;
-    }
-  }
 }
 
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
@@ -286,44 +205,6 @@ void RodRows::hold(int plant) {
   }
   for (const int c : layout_.chains_of_plant(plant))
     place_anchors(layout_.chains()[c].pack, scratch_->iterate);
-}
-
-void RodRows::read_iterate(int plant, const RodState& state) {
-  for (int e = 0; e < state.size(); ++e) {
-    const Slot slot = layout_.slot(plant, e);
-    put(scratch_->iterate[slot.row], slot.lane, state.position[e], state.orientation[e]);
-  }
-  for (const int c : layout_.chains_of_plant(plant))
-    place_anchors(layout_.chains()[c].pack, scratch_->iterate);
-}
-
-// write(state, element, row, lane) for all whose plant has a state, row by row, as the rows lie: a
-// lane at a time would fetch each of them eight times.
-template <class Write>
-void RodRows::for_each_element(int pack, std::span<RodState* const> states,
-                               const Write& write) const {
-  const auto has_state = [&](const Anchor& anchor) {
-    return anchor.plant >= 0 && states[anchor.plant];
-  };
-  if (!std::ranges::any_of(anchors_[pack], has_state)) return;
-  for (int row = packs_[pack].begin + 1; row < packs_[pack].end; ++row) {
-    for (int lane = 0; lane < lane_count; ++lane) {
-      const int e = layout_.elements(row)[lane];
-      if (e < 0) continue;
-      if (RodState* const state = states[anchors_[pack][lane].plant]) write(*state, e, row, lane);
-    }
-  }
-}
-
-void RodRows::write_pack(int pack, std::span<RodState* const> states) const {
-  for_each_element(pack, states, [&](RodState& state, int e, int row, int lane) {
-    state.position[e] = vector_at(scratch_->iterate[row].position, lane);
-    state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
-  });
-}
-
-void RodRows::write_iterate(ThreadPool& pool, std::span<RodState* const> states) {
-  graph_.each(pool, [&](int p) { write_pack(p, states); });
 }
 
 void RodRows::clear_extras() {
@@ -457,20 +338,6 @@ void RodRows::finish(ThreadPool& pool, std::span<RodState* const> states) {
   });
 }
 
-void RodRows::write_end(int pack, std::span<RodState* const> states) const {
-  for_each_element(pack, states, [&](RodState& state, int e, int row, int lane) {
-    if (!state.alive[e]) return;
-    state.position[e] = vector_at(scratch_->iterate[row].position, lane);
-    state.orientation[e] = rotation_at(scratch_->iterate[row].orientation, lane);
-    state.velocity[e] = vector_at(previous_rate_[row].velocity, lane);
-    state.angular_velocity[e] = vector_at(previous_rate_[row].angular_velocity, lane);
-    const int branches = extended_[anchors_[pack][lane].plant].branches;
-    for (int j = 0; j < branches; ++j)
-      state.joint_memory[e * branches + j] =
-          vector_at(branch_[row * branches_a_row_ + j].value, lane);
-  });
-}
-
 void RodRows::end_step() {
   if (scratch_.use_count() == 1) {  // what a step leaves there is nobody else's
     scratch_->start.swap(previous_);
@@ -527,18 +394,6 @@ int RodRows::largest_change(int plant, int elements) const {
     worst = e;
   }
   return worst;
-}
-
-void RodRows::set_history(int plant, const RodHistory& history) {
-  const int n = static_cast<int>(history.position.size());
-  for (int e = 0; e < n; ++e) {
-    const auto [row, lane] = layout_.slot(plant, e);
-    put(previous_[row], lane, history.position[e], history.orientation[e]);
-    put(previous_rate_[row].velocity, lane, history.velocity[e]);
-    put(previous_rate_[row].angular_velocity, lane, history.angular_velocity[e]);
-    put(previous_rate_[row].stretch, lane, history.stretch[e]);
-    put(previous_rate_[row].bend, lane, history.bend[e]);
-  }
 }
 
 }  // namespace pedicel::cosserat

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat/lane_access.h"
 #include "cosserat/rod_rows.h"
 
 namespace pedicel::cosserat {
@@ -9,10 +10,6 @@ namespace pedicel::cosserat {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-void put(Lanes* to, int lane, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) to[i][lane] = v[i];
-}
 
 ExtensionRow plain_row() {
   ExtensionRow row{};

@@ -1,0 +1,233 @@
+// Strains, energy, gradient and Hessian of eight elements (the README's equations). Included once
+// an instruction set by lane_kernels.cpp, which is why it has no ordinary guard.
+#if defined(PEDICEL_COSSERAT_LANE_ELEMENT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef PEDICEL_COSSERAT_LANE_ELEMENT_INL_H
+#undef PEDICEL_COSSERAT_LANE_ELEMENT_INL_H
+#else
+#define PEDICEL_COSSERAT_LANE_ELEMENT_INL_H
+#endif
+
+#include "cosserat/lane_extensions-inl.h"
+#include "cosserat/lane_math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pedicel::cosserat {
+namespace HWY_NAMESPACE {
+
+struct Pose {
+  V3 position;
+  Q orientation;
+};
+
+HWY_INLINE Pose load_pose(const PoseRow& row, int lane) {
+  return {load3(row.position, lane), load4(row.orientation, lane)};
+}
+HWY_INLINE void store_pose(const Pose& pose, PoseRow& row, int lane) {
+  store3(pose.position, row.position, lane);
+  store4(pose.orientation, row.orientation, lane);
+}
+
+HWY_INLINE V3 centre_of_mass(const Pose& pose, V com_back) {
+  return add_scaled(pose.position, hn::Neg(com_back), axis3(pose.orientation));
+}
+
+HWY_INLINE V3 middle_of(const Pose& pose, V length) {
+  return add_scaled(pose.position, set(-0.5) * length, axis3(pose.orientation));
+}
+
+// Position of the child node from the parent's, per length; in W.
+HWY_INLINE V3 along_of(const Pose& parent, const Pose& own, V length) {
+  return (set(1.0) / length) * (own.position - parent.position);
+}
+
+HWY_INLINE V3 stretch_of(const ElementRow& element, int lane, const M3& r, const V3& along) {
+  const V3 in_frame = into(r, along);
+  return V3{in_frame.x, in_frame.y, in_frame.z - set(1.0)} - load3(element.rest_strain, lane);
+}
+
+HWY_INLINE Log bend_of(const ElementRow& element, int lane, const Pose& parent, const Pose& own) {
+  return log_map(conjugate(load4(element.rest_rotation, lane)) *
+                 (conjugate(parent.orientation) * own.orientation));
+}
+
+// What gradient, Hessian and energy share.
+struct Strained {
+  Pose own;
+  M3 r;
+  V3 along;
+  V length;
+  V3 force_E;       // N, with damping
+  V3 stretch_rate;  // N, with damping
+  Log bend;         // from rest
+  V3 bend_moment;   // N m, conjugate to bend.phi, with damping
+  V3 bend_rate;     // N m/rad, with damping
+  V bend_mixed;     // N m/rad, between the bending axes (extended)
+  V3 off;           // m, W: centre of mass from its target
+  Q turn;           // from the target's rotation, w >= 0
+  V3 turn_rate;     // N m/rad, E
+  V inertia;        // N/m
+  V energy;         // J
+};
+
+template <bool extended>
+HWY_INLINE Strained strain(const RowArrays& rows, const Pack& pack, int row, int lane,
+                           const Pose& parent, const Pose& own) {
+  const ElementRow& element = rows.element[row];
+  const TermRow& term = rows.term[row];
+  Strained s;
+  s.own = own;
+  s.r = matrix(own.orientation);
+  s.length = load(element.length + lane);
+  s.along = along_of(parent, own, s.length);
+  const V stiffening = load(term.stiffening + lane);
+  const V3 stretch = stretch_of(element, lane, s.r, s.along) - load3(term.stretch_target, lane);
+  s.stretch_rate = stiffening * load3(element.stretch_stiffness, lane);
+  if constexpr (extended) s.stretch_rate = load(pack.modulus + lane) * s.stretch_rate;
+  s.force_E = times(s.stretch_rate, stretch);
+  s.bend = bend_of(element, lane, parent, own);
+
+  const V scale = load(term.inertia_scale + lane), mass = load(element.mass + lane);
+  const V3 com = add_scaled(own.position, hn::Neg(load(element.com_back + lane)), s.r.c);
+  s.inertia = mass * scale;
+  s.off = com - load3(term.com_target, lane);
+  const Q turn = conjugate(load4(term.rotation_target, lane)) * own.orientation;
+  const V sign = hn::CopySign(set(1.0), turn.w);
+  s.turn = {sign * turn.x, sign * turn.y, sign * turn.z, sign * turn.w};
+  s.turn_rate = scale * load3(element.inertia, lane);
+  const V3 vec{s.turn.x, s.turn.y, s.turn.z};
+  const V3 g{set(rows.gravity[0]), set(rows.gravity[1]), set(rows.gravity[2])};
+  const V half = set(0.5);
+  // 1/2 l strain.K strain + 1/2 phi.K phi + 1/2 m/h~^2 |off|^2 + 1/2 (2 vec).I/h~^2 (2 vec) - m g.c
+  V energy = half * s.length * dot(stretch, s.force_E);
+  if constexpr (extended) {
+    const Bending bending = bend_joint(rows, pack, row, lane, s.bend.phi);
+    s.bend_moment = bending.moment;
+    s.bend_rate = bending.hessian;
+    s.bend_mixed = bending.mixed;
+    energy = hn::MulAdd(half, bending.linear, energy) + bending.energy;
+    if (pack.windy)
+      energy = energy + drag_of(rows, pack, row, lane, middle_of(own, s.length)).energy;
+  } else {
+    const V3 off = s.bend.phi - load3(term.bend_target, lane);
+    s.bend_rate = stiffening * load3(element.bend_stiffness, lane);
+    s.bend_moment = times(s.bend_rate, off);
+    energy = hn::MulAdd(half, dot(off, s.bend_moment), energy);
+  }
+  energy = hn::MulAdd(half * s.inertia, dot(s.off, s.off), energy);
+  energy = hn::MulAdd(set(2.0), dot(vec, times(s.turn_rate, vec)), energy);
+  energy = hn::NegMulAdd(mass, dot(g, com - load3(term.com_past, lane)), energy);
+  s.energy = load(element.alive + lane) * energy;
+  return s;
+}
+
+// The blocks of one element. Lower triangles by rows; the coupling's rows are the element's, its
+// columns the parent's, and its upper right quarter is zero.
+struct Blocks {
+  V diagonal[triangle6];
+  V right[6];
+  S3 coupling_stretch;   // upper left
+  V3 coupling_lever[3];  // lower left, by rows
+  S3 coupling_bend;      // lower right
+  V3 parent_force, parent_moment;
+};
+
+template <bool extended>
+HWY_INLINE Blocks blocks_of(const RowArrays& rows, const Pack& pack, int row, int lane,
+                            const Strained& s) {
+  const ElementRow& element = rows.element[row];
+  Blocks out;
+  const V3 &a = s.along, &axis = s.r.c;
+  const V zero = set(0.0);
+  const V3 force = s.r * s.force_E;
+  const S3 k = sandwich(s.r, s.stretch_rate);
+  // Columns of k [a]x, the change of force with rotation.
+  const V3 k0{k.xx, k.yx, k.zx}, k1{k.yx, k.yy, k.zy}, k2{k.zx, k.zy, k.zz};
+  const V3 lever0 = a.z * k1 - a.y * k2, lever1 = a.x * k2 - a.z * k0, lever2 = a.y * k0 - a.x * k1;
+
+  const M3 jacobian = inverse_jacobian_transposed(s.bend);
+  const M3 bending{s.r * jacobian.a, s.r * jacobian.b, s.r * jacobian.c};
+  S3 bend = sandwich(bending, s.bend_rate);
+  if constexpr (extended) add_mixed(bending, s.bend_mixed, bend);
+  const V3 bend_moment = negative(bending * s.bend_moment);
+  const V tension = hn::Max(s.force_E.z, zero) * s.length;
+
+  const V3 arm = hn::Neg(load(element.com_back + lane)) * axis;
+  const V w = s.inertia;
+  const V arm2 = w * dot(arm, arm);
+  const V3 warm = w * arm;
+  const S3 rotary = sandwich(s.r, s.turn_rate);
+
+  const V inverse_length = set(1.0) / s.length;
+  out.coupling_stretch = {hn::Neg(inverse_length * k.xx), hn::Neg(inverse_length * k.yx),
+                          hn::Neg(inverse_length * k.yy), hn::Neg(inverse_length * k.zx),
+                          hn::Neg(inverse_length * k.zy), hn::Neg(inverse_length * k.zz)};
+  out.coupling_lever[0] = negative(lever0);
+  out.coupling_lever[1] = negative(lever1);
+  out.coupling_lever[2] = negative(lever2);
+  out.coupling_bend = {hn::Neg(bend.xx), hn::Neg(bend.yx), hn::Neg(bend.yy),
+                       hn::Neg(bend.zx), hn::Neg(bend.zy), hn::Neg(bend.zz)};
+
+  V* d = out.diagonal;
+  d[0] = w - out.coupling_stretch.xx;
+  d[1] = hn::Neg(out.coupling_stretch.yx);
+  d[2] = w - out.coupling_stretch.yy;
+  d[3] = hn::Neg(out.coupling_stretch.zx);
+  d[4] = hn::Neg(out.coupling_stretch.zy);
+  d[5] = w - out.coupling_stretch.zz;
+  // Lower left: (k [a]x)^T + w [arm]x.
+  d[6] = lever0.x;
+  d[7] = lever0.y - warm.z;
+  d[8] = lever0.z + warm.y;
+  d[10] = lever1.x + warm.z;
+  d[11] = lever1.y;
+  d[12] = lever1.z - warm.x;
+  d[15] = lever2.x - warm.y;
+  d[16] = lever2.y + warm.x;
+  d[17] = lever2.z;
+  // Lower right: l [a]x^T k [a]x + bending + tension (1 - axis axis^T) + w (arm^2 - arm arm^T)
+  // + rotary inertia.
+  const V l = s.length;
+  const V round = tension + arm2;
+  const V3 taxis = tension * axis;
+  const V xx = a.z * lever0.y - a.y * lever0.z, yx = a.x * lever0.z - a.z * lever0.x;
+  const V yy = a.x * lever1.z - a.z * lever1.x, zx = a.y * lever0.x - a.x * lever0.y;
+  const V zy = a.y * lever1.x - a.x * lever1.y, zz = a.y * lever2.x - a.x * lever2.y;
+  d[9] =
+      hn::MulAdd(l, xx, bend.xx + rotary.xx) + round - hn::MulAdd(taxis.x, axis.x, warm.x * arm.x);
+  d[13] = hn::MulAdd(l, yx, bend.yx + rotary.yx) - hn::MulAdd(taxis.y, axis.x, warm.y * arm.x);
+  d[14] =
+      hn::MulAdd(l, yy, bend.yy + rotary.yy) + round - hn::MulAdd(taxis.y, axis.y, warm.y * arm.y);
+  d[18] = hn::MulAdd(l, zx, bend.zx + rotary.zx) - hn::MulAdd(taxis.z, axis.x, warm.z * arm.x);
+  d[19] = hn::MulAdd(l, zy, bend.zy + rotary.zy) - hn::MulAdd(taxis.z, axis.y, warm.z * arm.y);
+  d[20] =
+      hn::MulAdd(l, zz, bend.zz + rotary.zz) + round - hn::MulAdd(taxis.z, axis.z, warm.z * arm.z);
+
+  const V mass = load(element.mass + lane);
+  const V3 weight{mass * set(rows.gravity[0]), mass * set(rows.gravity[1]),
+                  mass * set(rows.gravity[2])};
+  const V3 pull = weight - w * s.off;
+  // phi = 2 vec(q~^-1 q) changes by (w + [vec]x) R^T per unit of rotation.
+  const V3 vec{s.turn.x, s.turn.y, s.turn.z};
+  const V3 conjugate_turn = set(2.0) * times(s.turn_rate, vec);
+  const V3 rotary_moment = s.r * (s.turn.w * conjugate_turn - cross(vec, conjugate_turn));
+  const V3 head = pull - force;
+  const V3 tail = l * cross(a, force) + bend_moment + cross(arm, pull) - rotary_moment;
+  out.right[0] = head.x;
+  out.right[1] = head.y;
+  out.right[2] = head.z;
+  out.right[3] = tail.x;
+  out.right[4] = tail.y;
+  out.right[5] = tail.z;
+  out.parent_force = force;
+  out.parent_moment = negative(bend_moment);
+  if constexpr (extended)
+    if (pack.windy)
+      add_drag(rows, pack, row, lane, middle_of(s.own, l), set(-0.5) * l * axis, d, out.right);
+  return out;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pedicel::cosserat
+HWY_AFTER_NAMESPACE();
+
+#endif
