@@ -19,10 +19,6 @@ Vec3 vector(const plant::Effect& force, const char* name) {
   return Vec3(force.numbers.at(name).data());
 }
 
-const std::string& kind_of(const plant::Effect& force) {
-  return force.words.at("kind");
-}
-
 Vec3 anchor_of(const plant::Effect& force) {
   return vector(force, "about") + force.number("distance") * direction_of(force);
 }
@@ -152,6 +148,10 @@ std::string push_text(const plant::Effect& force, const char* name) {
 
 }  // namespace
 
+const std::string& kind_of(const plant::Effect& force) {
+  return force.words.at("kind");
+}
+
 void across(const Vec3& direction, Vec3& first, Vec3& second) {
   const Vec3 n = direction.normalized();
   first = n.cross(std::abs(n.z()) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0)).normalized();
@@ -194,7 +194,7 @@ Hypothesis free_force(const plant::Effect& force, double size, double duration) 
   freeing.push("sine");
   freeing.push("cosine");
   // What touches a stem pushes across it.
-  freeing.number("tilt", 0.3, 2.0, "1", force.words.at("kind") == "stop" ? 1 : 2);
+  freeing.number("tilt", 0.3, 2.0, "1", kind_of(force) == "stop" ? 1 : 2);
   freeing.number("offset", size, 10.0 * size, "m");
   freeing.positive("distance", 4.0, "m");
   freeing.positive("range", 2.0, "m");

@@ -40,7 +40,9 @@ Vec3 direction_of(const plant::Effect& force);
 /// Two unit vectors across a direction.
 void across(const Vec3& direction, Vec3& first, Vec3& second);
 
-/// "string", "stop", "attraction to a point", "periodic push", ...
+/// Which law a force follows.
+const std::string& kind_of(const plant::Effect& force);
+/// In words: "string", "stop", "attraction to a point", "periodic push", ...
 std::string plain_kind(const plant::Effect& force);
 /// What it is and with which numbers, without its place: "pulls like a string of 3.1 N/m towards
 /// (0.2, 0, 0.4) m beyond 0.25 m".

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 
-#include "discrepancy/evidence.h"
 #include "discrepancy/force_course.h"
+#include "discrepancy/force_refits.h"
 #include "discrepancy/force_term.h"
 #include "discrepancy/places.h"
 #include "discrepancy/sentence.h"
@@ -18,28 +17,12 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double enough_evidence = 8.0;  // nats, as a named cause must be worth
+constexpr double enough_evidence = 8.0;  // nats, for a force to be told of
 constexpr double clear_margin = 5.0;     // nats, of a sensor over a force
 constexpr double as_well_within = 3.0;   // nats: odds of 20 to 1
 constexpr std::size_t most_places = 14;
 constexpr std::ptrdiff_t most_loud = 3;  // places where laws are tried, besides two of each curve
-constexpr std::size_t most_refits = 5;
-constexpr double refit_within = 30.0;  // nats of linear response, and
-constexpr double refit_share = 0.3;    // of the best one's: large forces are not linear
 constexpr std::size_t kinds = 11;
-// A string's numbers stand for one another: a refit could go along its valley for long.
-constexpr int most_iterations = 30;
-constexpr double close_share = 0.05;  // of the best law's evidence
-constexpr double place_share = 0.5;   // of the evidence, by which another place may be worse
-constexpr std::size_t most_looks = 6;
-constexpr int look_iterations = 5;
-
-/// A place with what was found there.
-struct Place {
-  ForceSpace space;
-  FreeForce free;
-  ForcePath path;
-};
 
 class Inference {
  public:
@@ -65,7 +48,11 @@ class Inference {
       conclude_sensor();
     } else if (!places_.empty() && places_.front().free.evidence > options_.least_evidence) {
       try_laws();
-      refit();
+      ForceRefits refits(evaluator_, model_, centre_, places_, scales_, options_);
+      refits.run(std::move(terms_));
+      result_.terms = refits.laws();
+      result_.fit = refits.best();
+      if (!result_.terms.empty()) result_.evidence = result_.terms.front().evidence;
       conclude();
     }
     result_.simulations = responses_->simulations();
@@ -114,16 +101,17 @@ class Inference {
   void look_at_places() {
     double most = 0.0;
     for (const int marker : markers()) {
-      Place place;
+      ForcePlace place;
       place.space = responses_->force_at(marker);
       place.free = free_history(place.space);
       place.path = responses_->path(place.space, place.free.value);
       most = std::max(most, place.free.gain);
       places_.push_back(std::move(place));
     }
-    std::ranges::stable_sort(
-        places_, [](const Place& a, const Place& b) { return a.free.evidence > b.free.evidence; });
-    for (const Place& place : places_)
+    std::ranges::stable_sort(places_, [](const ForcePlace& a, const ForcePlace& b) {
+      return a.free.evidence > b.free.evidence;
+    });
+    for (const ForcePlace& place : places_)
       note("A free force at " + place_text(place.space.place) +
            text(": evidence %.4g", place.free.evidence));
     scales_.dispersion = std::max(1.0, (centre_.cost - most) / noise_cost());
@@ -167,7 +155,7 @@ class Inference {
 
   void try_laws() {
     std::map<std::string, std::size_t> tried;  // places of each curve
-    for (const Place& place : places_) {
+    for (const ForcePlace& place : places_) {
       const bool loud = &place - places_.data() < most_loud;
       if (++tried[place.space.place.curve] > 2 && !loud) continue;
       const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
@@ -180,183 +168,8 @@ class Inference {
         terms_, [](const ForceTerm& a, const ForceTerm& b) { return a.evidence > b.evidence; });
   }
 
-  static const std::string& kind_of(const plant::Effect& force) { return force.words.at("kind"); }
-
-  // What refits of one kind find for the other, too.
-  static std::string family_of(const plant::Effect& force) {
-    const std::string kind = plain_kind(force);
-    return kind == "string" ? "stop" : kind;
-  }
-
-  // The best place of every kind, as long as it is not far behind; then, of the best kind, the best
-  // place on every other curve. Simple laws first.
-  std::vector<ForceTerm> worth_refitting() const {
-    if (terms_.empty()) return {};
-    const plant::Effect& first = terms_.front().force;
-    const double best = terms_.front().evidence;
-    const double least =
-        std::max(0.5 * enough_evidence, std::min(best - refit_within, (1.0 - refit_share) * best));
-    std::vector<ForceTerm> chosen;
-    const auto take = [&](const ForceTerm& term, std::set<std::string>& known,
-                          const std::string& what) {
-      if (term.evidence > least && chosen.size() < most_refits && known.insert(what).second)
-        chosen.push_back(term);
-    };
-    std::set<std::string> families, curves{first.place->curve};
-    for (const ForceTerm& term : terms_) take(term, families, family_of(term.force));
-    for (const ForceTerm& term : terms_)
-      if (kind_of(term.force) == kind_of(first)) take(term, curves, term.force.place->curve);
-    std::ranges::stable_sort(
-        chosen, [](const ForceTerm& a, const ForceTerm& b) { return a.parameters < b.parameters; });
-    return chosen;
-  }
-
-  Hypothesis with(const plant::Effect& force) const {
-    Hypothesis start = centre_.hypothesis;
-    const Place& place = nearest(*force.place);
-    if (start.size() > 0)  // which have taken what they could of the force
-      start.set_unknowns(start.unknowns() +
-                         place.space.shift * history_of(force, place.space, place.path, scales_));
-    start.add(free_force(force, 0.02 * scales_.length, scales_.duration));
-    start.name = missing_force;
-    return start;
-  }
-
-  // From the best of a few starts in each place where the same law does about as well: what is
-  // stiff has ridges between places. A few iterations tell which one goes on.
-  FitSummary refitted(const ForceTerm& term) {
-    FitOptions few = options_.fit;
-    few.iterations = std::min(most_iterations, few.iterations);
-    std::vector<plant::Effect> places{term.force};
-    for (const ForceTerm& other : terms_)
-      if (kind_of(other.force) == kind_of(term.force) && !(other.force.place == term.force.place) &&
-          other.force.place->curve == term.force.place->curve &&
-          other.evidence > (1.0 - place_share) * term.evidence && places.size() < most_looks)
-        places.push_back(other.force);
-    if (places.size() == 1) return fit(evaluator_, best_start(term.force), few);
-    FitOptions look = few;
-    look.iterations = std::min(look_iterations, few.iterations);
-    FitSummary best;
-    for (const plant::Effect& force : places) {
-      FitSummary found = fit(evaluator_, best_start(force), look);
-      if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
-    }
-    few.iterations -= look.iterations;
-    return few.iterations > 0 ? discrepancy::refit(evaluator_, best, few) : best;
-  }
-
-  // What looks like a stop may be a string to a point at any distance.
-  Hypothesis best_start(const plant::Effect& force) {
-    std::vector<Hypothesis> starts;
-    for (const double factor : {1.0, 0.5, 2.0}) {
-      plant::Effect scaled = force;
-      scale_force(scaled, factor);
-      starts.push_back(with(scaled));
-    }
-    if (kind_of(force) == "string")
-      for (const ForceTerm& stop : result_.terms)
-        for (const double distance : {0.3, 0.6, 1.5})
-          if (kind_of(stop.force) == "stop") {
-            plant::Effect string = stop.force;
-            string.words["kind"] = "string";
-            string.numbers["distance"] = {distance * scales_.length};
-            starts.push_back(with(string));
-          }
-    return starts[scan(evaluator_, starts, options_.fit).best];
-  }
-
-  void refit() {
-    for (const ForceTerm& term : worth_refitting()) refit(term);
-    if (result_.terms.empty()) return;
-    sort_terms();
-    for (const ForceTerm& term : close_ones())
-      if (const std::optional<ForceTerm> other = with_other_end(term)) refit(*other);
-    sort_terms();
-    if (!options_.correct_at) return;
-    options_.correct_at(result_.fit);
-    result_.fit = discrepancy::refit(evaluator_, result_.fit, options_.fit);
-    judge(result_.fit, result_.terms.front());
-    result_.evidence = result_.terms.front().evidence;
-  }
-
-  void sort_terms() {
-    std::ranges::stable_sort(result_.terms, std::greater(), &ForceTerm::evidence);
-  }
-
-  // A law that was left in a side valley may come out first by its other end.
-  std::vector<ForceTerm> close_ones() const {
-    const double least = (1.0 - close_share) * result_.terms.front().evidence;
-    std::vector<ForceTerm> close;
-    for (const ForceTerm& term : result_.terms)
-      if (term.evidence >= least) close.push_back(term);
-    return close;
-  }
-
-  // What a refit says about its law.
-  void judge(const FitSummary& found, ForceTerm& term) const {
-    term.gain = (model_.cost - found.cost) / scales_.dispersion;
-    // One more: its place along the curve.
-    term.evidence = term.gain - cost_of(term.parameters + 1, scales_.samples, scales_.choices);
-    term.force = found.hypothesis.effects.back();
-    note("Refitted: " + describe(term.force) + " at " + place_text(*term.force.place) +
-         text(", evidence %.4g", term.evidence));
-  }
-
-  void refit(ForceTerm term) {
-    const FitSummary found = refitted(term);
-    judge(found, term);
-    const bool better = result_.terms.empty() || term.evidence > result_.evidence;
-    result_.terms.push_back(term);
-    if (!better) return;
-    result_.evidence = term.evidence;
-    result_.fit = found;
-  }
-
-  // What pulls towards a far end is a stop or a constant push; its own kind, with an end that is
-  // near, is tried there, too, so that it can be said whether the data tell them apart. So is a
-  // stop in place of a string, which has more numbers.
-  std::optional<ForceTerm> with_other_end(const ForceTerm& term) const {
-    const bool is_string = kind_of(term.force) == "string";
-    const std::string kind = is_string ? "stop" : kind_with_near_end(kind_of(term.force));
-    const auto tried = [&](const ForceTerm& t) {
-      return kind_of(t.force) == kind && t.force.place->curve == term.force.place->curve;
-    };
-    if (kind.empty() || std::ranges::any_of(result_.terms, tried)) return {};
-    ForceTerm other = term;
-    if (is_string) {
-      other.force.words["kind"] = kind;
-      other.force.numbers.erase("distance");
-    } else {
-      other.force = near_end(term.force, nearest(*term.force.place), 0.6 * scales_.length);
-    }
-    other.parameters = kind == "string" ? 5 : 3;
-    return other;
-  }
-
-  static std::string kind_with_near_end(const std::string& kind) {
-    return kind == "stop" ? "string" : kind == "constant" ? "spring" : "";
-  }
-
-  static plant::Effect near_end(plant::Effect force, const Place& place, double distance) {
-    if (kind_of(force) == "constant") {
-      const Vec3 push(force.numbers.at("force").data());
-      const Vec3 about = place.path.position.front().row(0).transpose();
-      const Vec3 tangent = place.space.axes[0].cross(place.space.axes[1]);
-      const Vec3 towards = push.normalized();
-      force.numbers.erase("force");
-      force.numbers["about"] = {about.x(), about.y(), about.z()};
-      force.numbers["towards"] = {towards.x(), towards.y(), towards.z()};
-      force.numbers["tilt"] = {0.0, 0.0};
-      force.numbers["axis"] = {tangent.x(), tangent.y(), tangent.z()};
-      force.numbers["stiffness"] = {push.norm() / distance};
-    }
-    force.words["kind"] = kind_with_near_end(kind_of(force));
-    force.numbers["distance"] = {distance};
-    return force;
-  }
-
   void conclude() {
-    const Place& loudest = places_.front();
+    const ForcePlace& loudest = places_.front();
     if (result_.evidence >= enough_evidence) {
       const plant::Effect& force = result_.terms.front().force;
       result_.found = true;
@@ -427,20 +240,6 @@ class Inference {
     return where + (result_.elsewhere.empty() ? "" : " would explain the data as well");
   }
 
-  const Place& nearest(const plant::CurvePlace& at) const {
-    const Place* best = &places_.front();
-    const auto distance = [&](const Place& p) {
-      return (p.space.place.curve == at.curve ? 0.0 : 10.0) + std::abs(p.space.place.at - at.at);
-    };
-    for (const Place& place : places_)
-      if (distance(place) < distance(*best)) best = &place;
-    return *best;
-  }
-
-  static std::string place_text(const plant::CurvePlace& place) {
-    return place.curve + text(" at %.2g of its length", place.at);
-  }
-
   void describe_course(const ForceCourse& course, const std::string& kind) {
     result_.when = when_it_acts(course, kind);
     result_.how = what_it_does(course);
@@ -475,7 +274,7 @@ class Inference {
   FitSummary centre_;  ///< the model about which forces act: `model_`, or what it was pulled from
   std::unique_ptr<ForceResponses> responses_;
   LibraryScales scales_;
-  std::vector<Place> places_;
+  std::vector<ForcePlace> places_;
   std::vector<int> sensor_;
   double sensor_evidence_ = 0.0;
   std::vector<ForceTerm> terms_;

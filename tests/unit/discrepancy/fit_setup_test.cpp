@@ -87,5 +87,26 @@ TEST(FitSetup, CorrectsAboutAModelFarAway) {
   EXPECT_LT(refined.error_at(far), 0.3 * before) << before;
 }
 
+// A modulus of 16 swings four times as fast. Where that model explains the data, steps that were
+// fine enough for the one before no longer are; where it misses them by far more than our own
+// error, nothing is gained by finer ones.
+TEST(FitSetup, GetsFinerAboutAModelFarAwayOnlyWhereThatExplainsTheData) {
+  Refined refined(3.0e-4);
+  const Numerics before = refined.setup.numerics();
+  Hypothesis far = refined.model.hypothesis;
+  far.set_value(far.factor_on("youngs_modulus"), 16.0);
+  Evaluator evaluator = refined.setup.evaluator();
+  FitOptions none = refined.setup.options();
+  none.iterations = 0;
+  FitSummary model = fit(evaluator, far, none);
+  ASSERT_GT(2.0 * model.cost, 100.0 * refined.setup.samples());
+  refined.setup.correct_at(model);
+  EXPECT_EQ(refined.setup.numerics(), before);
+
+  model.cost = 0.5 * refined.setup.samples();
+  refined.setup.correct_at(model);
+  EXPECT_LT(refined.setup.numerics().dt, before.dt);
+}
+
 }  // namespace
 }  // namespace pedicel::discrepancy

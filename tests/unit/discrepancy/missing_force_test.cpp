@@ -2,91 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <cstdio>
 
-#include "beam_experiment.h"
-#include "core/random.h"
-#include "discrepancy/causes.h"
+#include "bent_stem.h"
 #include "discrepancy/force_term.h"
-#include "discrepancy/places.h"
 
 namespace pedicel::discrepancy {
 
 using namespace testing;
 
 namespace {
-
-constexpr double noise_std = 2e-4;  // m
-
-/// A stem of 0.4 m in ten elements (first frequency 2.9 Hz, 1/tip stiffness 1.7 m/N) that is pulled
-/// aside in two directions by known loads and let go, with five markers.
-struct Bent {
-  Experiment experiment;
-
-  Bent() {
-    Beam beam;
-    beam.damping_time = 0.01;
-    experiment = experiment_of(beam, 2.5, 0.02);
-    experiment.plant.distance = 0.04;
-    experiment.markers.clear();
-    for (const double at : {0.2, 0.4, 0.6, 0.8, 1.0})
-      experiment.markers.push_back({"m" + std::to_string(at), on_stem(at)});
-    Trial trial = experiment.trials.front();
-    trial.gravity = Vec3(0, 0, -9.81);
-    trial.markers = empty_samples(2.5, 0.02, 15);
-    trial.force = {};
-    experiment.trials.clear();
-    const Vec3 pulls[] = {Vec3(0.03, 0.005, 0), Vec3(-0.012, 0.025, 0)};
-    for (const Vec3& pull : pulls) {
-      trial.name = "trial_" + std::to_string(experiment.trials.size() + 1);
-      trial.loads = {{on_stem(1.0), pull, 0.2, 1.0}};
-      experiment.trials.push_back(trial);
-    }
-  }
-
-  double stem_length() const { return drawn_length(experiment.plant.curves.front()); }
-
-  /// Measures what a stem with `forces` would do, with white noise on top.
-  void measure(std::vector<PointForce> forces, std::uint64_t seed) {
-    Simulator truth(experiment, {0.04, 1.0 / 480}, 1);
-    Variant variant;
-    variant.effects = {effect("youngs_modulus", "factor", {1.03})};
-    variant.forces = std::move(forces);
-    std::vector<Simulator::Request> requests{{&variant, 0}, {&variant, 1}};
-    const std::vector<Prediction> seen = truth.run(requests);
-    Random random(seed);
-    for (std::size_t t = 0; t < seen.size(); ++t) {
-      experiment.trials[t].markers.value = seen[t].markers;
-      for (double& x : experiment.trials[t].markers.value.reshaped())
-        x += noise_std * random.normal();
-    }
-  }
-
-  /// About a model that is fitted from `start` in so many iterations.
-  MissingForce infer(const Hypothesis& start = baseline(), int iterations = 60,
-                     double least_evidence = 0.0) const {
-    DataSet data(experiment);
-    data.set_noise(white_noise(noise_std), white_noise(1.0));
-    Simulator simulator(experiment, {0.04, 1.0 / 480}, 1);
-    Evaluator evaluator(simulator, data);
-    MissingForceOptions options;
-    options.fit.trials = {0, 1};
-    options.least_evidence = least_evidence;
-    FitOptions around = options.fit;
-    around.iterations = iterations;
-    const FitSummary model = fit(evaluator, start, around);
-    options.note = [](const std::string& s) {
-      if (std::getenv("MISSING_NOTES")) std::puts(s.c_str());
-    };
-    const MissingForce found = infer_missing_force(evaluator, model, options);
-    options.note(found.sentence());
-    return found;
-  }
-};
-
-PointForce at(double place, std::function<Vec3(double, const Vec3&, const Vec3&)> law) {
-  return {on_stem(place), std::move(law), {}};
-}
 
 void expect_found(const MissingForce& found, const std::string& kind, double place) {
   ASSERT_TRUE(found.found);
@@ -115,7 +40,7 @@ double size_said(const MissingForce& found) {
 
 // Noise of the stated size is no force: nothing may be said.
 TEST(MissingForce, NoiseAloneIsNothing) {
-  Bent bent;
+  BentStem bent;
   bent.measure({}, 1);
   const MissingForce found = bent.infer();
   EXPECT_FALSE(found.found) << found.sentence();
@@ -124,7 +49,7 @@ TEST(MissingForce, NoiseAloneIsNothing) {
 
 // A string, slack at rest, a tenth as stiff as the stem.
 TEST(MissingForce, String) {
-  Bent bent;
+  BentStem bent;
   double longest = 0.0;
   bent.measure({at(0.7,
                    [&longest](double, const Vec3& x, const Vec3&) -> Vec3 {
@@ -140,16 +65,8 @@ TEST(MissingForce, String) {
   EXPECT_NEAR(size_said(found), 0.15 * longest, 0.1 * 0.15 * longest);
 }
 
-// 3 mm beside the stem, on one side.
-auto soft_stop() {
-  return at(0.7, [](double, const Vec3& x, const Vec3&) -> Vec3 {
-    const Vec3 n(0.8, 0.6, 0);
-    return 0.15 * std::max(0.0, -0.003 - n.dot(x)) * n;
-  });
-}
-
 TEST(MissingForce, Stop) {
-  Bent bent;
+  BentStem bent;
   bent.measure({soft_stop()}, 3);
   const MissingForce found = bent.infer();
   expect_found(found, "stop", 0.7);
@@ -161,7 +78,7 @@ TEST(MissingForce, Stop) {
 // A stop thirty times as stiff as the stem: behind it the stem swings at another frequency. Where
 // it acts and what it is can be told all the same.
 TEST(MissingForce, StopFarStifferThanTheStem) {
-  Bent bent;
+  BentStem bent;
   bent.measure({at(0.7,
                    [](double, const Vec3& x, const Vec3&) -> Vec3 {
                      return 20.0 * std::max(0.0, -0.002 - x.x()) * Vec3::UnitX();
@@ -179,7 +96,7 @@ TEST(MissingForce, StopFarStifferThanTheStem) {
 
 // A stop, asked for about a plant that nobody believes in: ten times as stiff, six times as heavy.
 TEST(MissingForce, IsTriedOnThePlantThatWasBelievedIn) {
-  Bent bent;
+  BentStem bent;
   bent.measure({soft_stop()}, 3);
   Hypothesis far = baseline();
   far.set_value(far.factor_on("youngs_modulus"), 9.0);
@@ -190,7 +107,7 @@ TEST(MissingForce, IsTriedOnThePlantThatWasBelievedIn) {
 
 // Where known causes explain more than any force could, no law of one is looked for.
 TEST(MissingForce, IsNotFollowedWhereItPromisesTooLittle) {
-  Bent bent;
+  BentStem bent;
   bent.measure({soft_stop()}, 3);
   const MissingForce found = bent.infer(baseline(), 60, 1.0e6);
   EXPECT_FALSE(found.found) << found.sentence();
@@ -200,7 +117,7 @@ TEST(MissingForce, IsNotFollowedWhereItPromisesTooLittle) {
 
 // 0.6 mN at 1.7 Hz.
 TEST(MissingForce, PeriodicPush) {
-  Bent bent;
+  BentStem bent;
   bent.measure({at(0.6,
                    [](double t, const Vec3&, const Vec3&) -> Vec3 {
                      return 6e-4 * std::sin(2 * M_PI * 1.7 * t) * Vec3(0.6, -0.8, 0);
@@ -214,7 +131,7 @@ TEST(MissingForce, PeriodicPush) {
 
 // Towards a point 5 cm aside, with a pull that halves at 4 cm.
 TEST(MissingForce, Attraction) {
-  Bent bent;
+  BentStem bent;
   bent.measure({at(0.7,
                    [](double, const Vec3& x, const Vec3&) -> Vec3 {
                      const Vec3 away = Vec3(0.05, 0.02, 0.29) - x;
@@ -226,7 +143,7 @@ TEST(MissingForce, Attraction) {
 
 // A knock of 3 mN within 0.2 s in the second trial.
 TEST(MissingForce, Jolt) {
-  Bent bent;
+  BentStem bent;
   PointForce jolt = at(0.6, [](double t, const Vec3&, const Vec3&) -> Vec3 {
     return std::max(0.0, 1.0 - std::abs(t - 1.7) / 0.1) * Vec3(0, 0.003, 0);
   });
@@ -240,7 +157,7 @@ TEST(MissingForce, Jolt) {
 
 // All markers 1 mm aside for half a second: no force does that.
 TEST(MissingForce, ShiftOfTheCameraIsNoForce) {
-  Bent bent;
+  BentStem bent;
   bent.measure({}, 7);
   Samples& markers = bent.experiment.trials[0].markers;
   for (int i = 0; i < markers.size(); ++i)
