@@ -81,6 +81,11 @@ std::string plain_name(const std::string& cause) {
   return found == names.end() ? cause : found->second;
 }
 
+bool is_moment(const std::string& cause, const std::string& parameter) {
+  return (cause == "latency" && parameter == "delay") ||
+         (cause == "grip_slip" && parameter == "time");
+}
+
 bool same_family(const std::string& a, const std::string& b) {
   static const std::map<std::string, int> family = {{"mass_damping", 0},
                                                     {"structural_damping", 0},

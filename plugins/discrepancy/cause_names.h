@@ -14,6 +14,9 @@ std::string plain_name(const std::string& cause);
 /// Unit of an effect's parameter, "1" where it has none.
 std::string unit_of(const std::string& cause, const std::string& parameter);
 
+/// Whether a cause's parameter says when something happens, or how much later (s).
+bool is_moment(const std::string& cause, const std::string& parameter);
+
 /// The value of a cause's parameter at which the cause vanishes.
 Vanishes vanishing(const std::string& cause, const std::string& parameter);
 

@@ -30,6 +30,7 @@ bool stands_at_bound(const Candidate& found) {
 
 void Procedure::conclude_all() {
   log_.say("writing the verdict", 0.95);
+  findings_.step = result_.numerics.dt;
   if (findings_.chain.size() > 1) findings_.held_out = held_out_together();
   // What is left of the best model is the best sample of the noise.
   if (!findings_.chain.empty()) setup_->renew_noise(result_.best.hypothesis);

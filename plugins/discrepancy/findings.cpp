@@ -16,7 +16,14 @@ Estimate Findings::estimate(const FitSummary& fit, int parameter) const {
   double error = interval95 * fit.standard_error[parameter] * spread(fit);
   if (parameter < parameter_shift.size())
     error += left_uncorrected * std::abs(parameter_shift[parameter]);
-  return {free.to_value(u), free.to_value(u - error), free.to_value(u + error), free.unit};
+  Estimate estimate{free.to_value(u), free.to_value(u - error), free.to_value(u + error),
+                    free.unit};
+  if (is_moment(fit.hypothesis.effects[free.effect].name, free.name)) {
+    const double least = interval95 * step / std::sqrt(12.0);
+    estimate.low = estimate.value - std::hypot(estimate.value - estimate.low, least);
+    estimate.high = estimate.value + std::hypot(estimate.high - estimate.value, least);
+  }
+  return estimate;
 }
 
 // Where more than noise is left, intervals are wider.

@@ -20,13 +20,15 @@ struct Findings {
   HeldOut held_out;                 ///< of all of them together, where they are several
   std::vector<Symptom> symptoms;    ///< of the refitted model
   Eigen::VectorXd parameter_shift;  ///< of the baseline's unknowns, by our own error
+  double step = 0.0;                ///< s, of the fits
   /// Of modulus, density and damping, those that the data do not allow to be nominal.
   NeededParameters needed;
 
   int samples() const { return data->samples(fit_trials); }
 
   /// A free parameter with its 95 % interval, wider where more than noise is left and where our own
-  /// error moves it.
+  /// error moves it. A moment is known to a step at best, however loud the data: when in a step a
+  /// grip lets go, or a sample is taken, two honest solvers do differently.
   Estimate estimate(const FitSummary& fit, int parameter) const;
   /// Mean square of what is left beyond the noise, in units of it.
   double excess(const FitSummary& model) const;

@@ -92,6 +92,37 @@ TEST(Conclusion, NamesTheBestWithItsNumbers) {
 }
 
 // The margin is 3 nats and 0.2 % of the gain of 640: 4.28.
+// A delay that the data alone would give to 0.01 ms, from fits with steps of 2 ms: uniformly within
+// one, with a deviation of 2 ms / sqrt(12). A time that is no moment stays as sharp as the data.
+TEST(Conclusion, KnowsAMomentToAStepAtBest) {
+  Case c;
+  c.findings.step = 0.002;
+  Candidate& late = c.diagnosis.ranking.front();
+  late.cause = "latency";
+  late.fit.hypothesis =
+      with(c.diagnosis.base.hypothesis, hypothesis_of("latency", "delay", 0.03, "s"));
+  late.fit.hypothesis.free[1].logarithmic = false;
+  late.fit.hypothesis.free[1].scale = 0.01;
+  late.fit.standard_error = Eigen::Vector2d(0.01, 0.001);
+  const Verdict v = c.concluded();
+  ASSERT_THAT(names(v), ElementsAre("latency"));
+  const Estimate& delay = v.causes.front().parameters.at("delay").front();
+  const double deviation = std::hypot(0.002 / std::sqrt(12.0), 1.0e-5);
+  EXPECT_NEAR(delay.high - delay.value, 1.96 * deviation, 1e-9);
+  EXPECT_NEAR(delay.value - delay.low, 1.96 * deviation, 1e-9);
+
+  Case other;
+  other.findings.step = 0.002;
+  Candidate& memory = other.diagnosis.ranking.front();
+  memory = late;
+  memory.cause = memory.fit.hypothesis.effects[1].name = "relaxation";
+  memory.fit.hypothesis.free[1].name = "time";
+  memory.fit.hypothesis.effects[1].numbers = {{"time", {0.03}}};
+  const Verdict w = other.concluded();
+  const Estimate& time = w.causes.front().parameters.at("time").front();
+  EXPECT_NEAR(time.high - time.value, 1.96 * 1.0e-5, 1e-9);
+}
+
 TEST(Conclusion, IsAmbiguousWithinTheMargin) {
   Case c;
   c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 631.0 - 4.2));
