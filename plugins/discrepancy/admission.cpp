@@ -24,12 +24,10 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-// What each sample has against the cubic through its two neighbours on either side.
-std::vector<double> from_neighbours(const Eigen::VectorXd& x) {
-  std::vector<double> distance(x.size(), nothing);
-  for (int i = 2; i + 2 < x.size(); ++i)
-    distance[i] = std::abs(x[i] - (4.0 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6.0);
-  return distance;
+// What a sample has against the cubic through its two neighbours on either side.
+double from_neighbours(const Eigen::Ref<const Eigen::VectorXd>& x, int i) {
+  if (i < 2 || i + 2 >= x.size()) return nothing;
+  return std::abs(x[i] - (4.0 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6.0);
 }
 
 // The usual scatter around sample i, which it and those next to it take no part in, nor stretches
@@ -56,39 +54,63 @@ std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& ti
   return beside;
 }
 
-// The squares of those distances over the scatter, summed over the axes: a wild point is far out in
-// some direction, which need not be an axis. One axis may scatter little by chance, being judged by
-// a few neighbours; no instrument sees one twice as well as the other two.
-std::vector<double> wildness(const Eigen::Ref<const Eigen::MatrixXd>& xyz) {
-  std::array<std::vector<double>, 3> distance;
-  for (int c = 0; c < 3; ++c) distance[c] = from_neighbours(xyz.col(c));
-  std::vector<double> sum(static_cast<std::size_t>(xyz.rows()), 0.0);
-  for (int i = 0; i < static_cast<int>(sum.size()); ++i) {
-    std::array<double, 3> scatter;
-    for (int c = 0; c < 3; ++c) scatter[c] = scatter_near(distance[c], i);
-    std::array<double, 3> sorted = scatter;
-    std::ranges::sort(sorted);
-    const double least = std::isfinite(sorted[1]) ? 0.5 * sorted[1] : 0.0;
-    for (int c = 0; c < 3; ++c)
-      if (std::isfinite(distance[c][i]) && distance[c][i] > 0.0)
-        sum[i] += std::pow(distance[c][i] / (normal_scale * std::max(scatter[c], least)), 2);
+// A marker's points, of which wild ones are taken out one by one. How wild a point is: the squares
+// of those distances over the scatter, summed over the axes, since it is far out in some direction,
+// which need not be an axis. One axis may scatter little by chance, being judged by a few
+// neighbours; no instrument sees one twice as well as the other two.
+class Points {
+ public:
+  explicit Points(Eigen::Ref<Eigen::MatrixXd> xyz) : xyz_(xyz), wildness_(xyz.rows(), 0.0) {
+    distance_.fill(std::vector<double>(xyz.rows(), nothing));
+    judge(0, size() - 1);
   }
-  return sum;
-}
 
-// The worst first: a wild point makes its neighbours look wild. All its numbers go. `spared` stay.
+  int size() const { return static_cast<int>(xyz_.rows()); }
+  double wildness(int i) const { return wildness_[i]; }
+
+  // All its numbers go, and what lies next to it is judged anew.
+  void take_out(int i) {
+    xyz_.row(i).setConstant(nothing);
+    judge(std::max(0, i - 2), std::min(i + 2, size() - 1));
+  }
+
+ private:
+  // What changes with the points from `first` to `last`.
+  void judge(int first, int last) {
+    for (int c = 0; c < 3; ++c)
+      for (int i = first; i <= last; ++i) distance_[c][i] = from_neighbours(xyz_.col(c), i);
+    for (int i = std::max(0, first - reach); i <= std::min(last + reach, size() - 1); ++i) {
+      std::array<double, 3> scatter;
+      for (int c = 0; c < 3; ++c) scatter[c] = scatter_near(distance_[c], i);
+      std::array<double, 3> sorted = scatter;
+      std::ranges::sort(sorted);
+      const double least = std::isfinite(sorted[1]) ? 0.5 * sorted[1] : 0.0;
+      wildness_[i] = 0.0;
+      for (int c = 0; c < 3; ++c)
+        if (std::isfinite(distance_[c][i]) && distance_[c][i] > 0.0)
+          wildness_[i] +=
+              std::pow(distance_[c][i] / (normal_scale * std::max(scatter[c], least)), 2);
+    }
+  }
+
+  Eigen::Ref<Eigen::MatrixXd> xyz_;
+  std::array<std::vector<double>, 3> distance_;
+  std::vector<double> wildness_;
+};
+
+// The worst first: a wild point makes its neighbours look wild. `spared` stay.
 int take_out_wild_points(Eigen::Ref<Eigen::MatrixXd> xyz, const std::vector<char>& spared) {
+  Points points(xyz);
   for (int count = 0;; ++count) {
-    const std::vector<double> wildest = wildness(xyz);
     int worst = -1;
     double most = wild * wild;
-    for (int i = 0; i < static_cast<int>(wildest.size()); ++i) {
-      if (spared[i] || !(wildest[i] > most) || !std::isfinite(wildest[i])) continue;
-      most = wildest[i];
+    for (int i = 0; i < points.size(); ++i) {
+      if (spared[i] || !(points.wildness(i) > most) || !std::isfinite(points.wildness(i))) continue;
+      most = points.wildness(i);
       worst = i;
     }
     if (worst < 0) return count;
-    xyz.row(worst).setConstant(nothing);
+    points.take_out(worst);
   }
 }
 
