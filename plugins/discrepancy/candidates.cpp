@@ -42,6 +42,9 @@ constexpr double far_behind = 0.3;  // of the first one's gain or statistic
 // simulator, because of the coarse one's errors.
 constexpr double near_by = 50.0, near_share = 0.05;
 constexpr int few_fine = 4;
+// Nats that the best one must gain for any to be left early: where it gains little, a fit on its
+// way from a start that does worse than the base is soon as many behind.
+constexpr double loud = 2000.0;
 // Nats, and of the best one's gain, by which a fit is too far behind to go on: one that has
 // converged, one after a few iterations, and after twice as many; and by which no other start would
 // make up for it.
@@ -79,7 +82,10 @@ std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
 struct Limits {
   double least = std::numeric_limits<double>::infinity();  // of those
   double base = 0.0;
-  double at(double share) const { return least + std::max(lost_by, share * (base - least)); }
+  double at(double share) const {
+    if (base - least < loud) return std::numeric_limits<double>::infinity();
+    return least + std::max(lost_by, share * (base - least));
+  }
 };
 
 // In the order of their costs.
