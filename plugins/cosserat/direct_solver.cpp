@@ -15,6 +15,7 @@ constexpr double largest_turn =
     1.0;  // rad, of one Newton step: beyond it the quadratic model is void
 constexpr double converged_change = 1.0e-3;  // m or rad
 constexpr double rough_change = 0.3;         // rad, or element lengths
+constexpr double looked_after = 0.1;         // likewise
 constexpr double straight_turn = 0.03;       // rad
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
@@ -102,7 +103,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.last_change = 0.0;
     plant.presses = false;
     plant.in_parts = false;
-    plant.iterate_is_here = false;
+    plant.iterate_is_here = plant.contacts_are_here = false;
   }
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
@@ -175,12 +176,13 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
       rows_.eliminate_and_substitute(pool);
     }
     search(steps, pool);
+    look_again(steps, dt, pool);
     for (int p = 0; p < size(); ++p)
       if (working_[p] && is_done(plants_[p], steps[p].report)) working_[p] = 0;
   }
 }
 
-// Contacts are found anew in every iteration.
+// Contacts are found anew in every iteration, unless the search did so.
 void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
   rows_.clear_extras();
@@ -197,9 +199,8 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     if (!wanted(p)) return;
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
-    for (ContactSource* source : steps[p].contacts) source->use(inner);
-    plant.contacts.find(model, *steps[p].state, plant.iterate, dt, steps[p].contacts);
-    for (ContactSource* source : steps[p].contacts) source->use(nullptr);
+    if (!plant.contacts_are_here) find_contacts(p, steps[p], dt, inner);
+    plant.contacts_are_here = false;
     plant.extras.clear();
     const double pressed = plant.contacts.linearise(model, plant.iterate, plant.extras);
     plant.presses = pressed > 0.0;
@@ -211,6 +212,13 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     pool.for_each(size(), linearise);
   for (int p = 0; p < size(); ++p)
     if (wanted(p) && !plants_[p].loops) rows_.add_extras(p, plants_[p].extras);
+}
+
+void DirectSolver::find_contacts(int index, const PlantStep& step, double dt, ThreadPool* pool) {
+  Plant& plant = plants_[index];
+  for (ContactSource* source : step.contacts) source->use(pool);
+  plant.contacts.find(*step.model, *step.state, plant.iterate, dt, step.contacts);
+  for (ContactSource* source : step.contacts) source->use(nullptr);
 }
 
 void DirectSolver::solve_loops(int index, const RodModel& model) {
@@ -261,9 +269,9 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
   Plant& plant = plants_[index];
   double found = rows_.energy(index);
   if (plant.touched) {
-    const double pressed = plant.contacts.potential(model, plant.iterate);
-    plant.presses = plant.presses || pressed > 0.0;
-    found += plant.attachments.potential(model, plant.iterate) + pressed;
+    plant.pressed = plant.contacts.potential(model, plant.iterate);
+    plant.presses = plant.presses || plant.pressed > 0.0;
+    found += plant.attachments.potential(model, plant.iterate) + plant.pressed;
   }
   // Rounding of the sum is the only ascent allowed.
   if (plant.share == 0.0 || found <= plant.energy + 1.0e-12 * (1.0 + std::abs(plant.energy))) {
@@ -277,6 +285,38 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
     report.errors |= line_search_failed;
   }
   rows_.set_share(index, plant.share);
+}
+
+// A move by many radii may end deep in what it was not near before, which the search did not feel:
+// the next iteration would find energy there that nothing has put in. So contacts are found again
+// at its end, and it is cut until the potential with them has not risen by more than the known ones
+// hold. At the share 0 it has not risen.
+void DirectSolver::look_again(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
+  for (int p = 0; p < size(); ++p) {
+    const Plant& plant = plants_[p];
+    const double moved = plant.share * std::max(plant.change.turn, plant.change.shift);
+    searching_[p] = working_[p] && !steps[p].contacts.empty() && moved > looked_after;
+  }
+  while (any(searching_)) {
+    bool cut = false;
+    for (int p = 0; p < size(); ++p) {
+      if (!searching_[p]) continue;
+      Plant& plant = plants_[p];
+      const RodModel& model = *steps[p].model;
+      find_contacts(p, steps[p], dt, &pool);
+      plant.contacts_are_here = true;
+      const double found = rows_.energy(p) + plant.attachments.potential(model, plant.iterate) +
+                           plant.contacts.potential(model, plant.iterate);
+      searching_[p] = found > plant.energy + plant.pressed && plant.share > 0.0;
+      if (!searching_[p]) continue;
+      plant.share = plant.share > smallest_share ? 0.5 * plant.share : 0.0;
+      rows_.set_share(p, plant.share);
+      cut = true;
+    }
+    if (!cut) break;
+    rows_.set_active(searching_);
+    rows_.move(pool, false, iterates_);
+  }
 }
 
 // Newton stops when what is left, by the geometric series of its gain an iteration, is below the

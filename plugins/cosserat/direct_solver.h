@@ -73,10 +73,12 @@ class DirectSolver : public RodSolver {
     bool touched = false;                // by loads, supports, welds or contact sources
     RodState iterate;                    // where touched
     bool iterate_is_here = false;        // where the line search ended
+    bool contacts_are_here = false;      // found there, too
     bool presses = false;                // a contact did, in this iteration
     bool has_history = false;
     bool smooth = false;                      // the last step was solved to the tolerance
     double energy = 0.0, extra_energy = 0.0;  // J, where the line search began; of `touched`
+    double pressed = 0.0;                     // J, of the known contacts where it ended
     double share = 0.0;                       // 1, of Newton's change that is tried
     RodRows::Change change;
     double last_change = 0.0;  // of the iteration before; 0: there was none
@@ -91,10 +93,12 @@ class DirectSolver : public RodSolver {
   void choose_start(std::span<PlantStep> steps, ThreadPool& pool);
   void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool);
+  void find_contacts(int index, const PlantStep& step, double dt, ThreadPool* pool);
   void solve_loops(int index, const RodModel& model);
   void search(std::span<PlantStep> steps, ThreadPool& pool);
   void start_search(int index, StepReport& report);
   void try_share(int index, const RodModel& model, StepReport& report);
+  void look_again(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   bool is_done(Plant& plant, StepReport& report) const;
   void take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity);
   void end(std::span<PlantStep> steps, double dt, ThreadPool& pool);

@@ -132,11 +132,13 @@ double EnergyLedger::pressed_by_clamp(const RodModel& model, const BookedStep& s
 
 double EnergyLedger::pressed_by_colliders(const BookedStep& step) const {
   double pressed = 0.0;
-  for (const cosserat::ContactPoint& point : step.meeting) {
-    const double overlap = std::max(0.0, point.margin - point.gap);
-    const double friction = point.friction * point.stiffness * overlap;
-    pressed += 0.5 * point.stiffness * overlap * overlap + friction * point.surface_motion_W.norm();
-  }
+  for (const auto& met : {step.meeting_half_way, step.meeting})
+    for (const cosserat::ContactPoint& point : met) {
+      const double overlap = std::max(0.0, point.margin - point.gap);
+      const double friction = point.friction * point.stiffness * overlap;
+      pressed +=
+          0.5 * point.stiffness * overlap * overlap + friction * point.surface_motion_W.norm();
+    }
   return std::max(0.0, pressed - springs_);
 }
 

@@ -16,8 +16,9 @@ struct BookedStep {
   double dt = 0.0;  ///< s
   std::span<const cosserat::Load> loads;
   std::span<const cosserat::ContactForce> contacts;
-  /// What the colliders at the step's end would touch of the plant at the step's start.
-  std::span<const cosserat::ContactPoint> meeting;
+  /// What the colliders half way through the step, and at its end, would touch of the plant at the
+  /// step's start.
+  std::span<const cosserat::ContactPoint> meeting_half_way, meeting;
   std::span<const cosserat::DetachEvent> detached;
   bool is_converged = true;
 };
@@ -40,7 +41,8 @@ struct BookedStep {
 /// left is that a step descends in its potential: the driven places go first, and the plant gets
 /// what they can have done while it held still. So there the energy counts that the clamp presses
 /// into the springs and dampers of the segments at it, and the colliders into the contact springs
-/// of the plant at its old place, with the work of friction |force| |ds|.
+/// of the plant at its old place, with the work of friction |force| |ds|. Such a step may have been
+/// taken in two halves: then the colliders press half way, and once more at the end.
 ///
 /// Allowed: put in + as much again as was ever put in. BDF2 bounds not E but
 /// G(n) = 1/4 (|y(n)|^2 + |2 y(n) - y(n-1)|^2), y the state in the norm of energy (Dahlquist, BIT

@@ -77,8 +77,12 @@ class Run {
   }
 
   void look_ahead(const RodState& before) {
-    meeting_.clear();
     probe_.begin_step(model(), before, case_.dt);
+    probe_.cover(0.0, 0.5);
+    meeting_half_way_.clear();
+    probe_.find(model(), before, 0.5 * case_.dt, meeting_half_way_);
+    probe_.cover(0.0, 1.0);
+    meeting_.clear();
     probe_.find(model(), before, case_.dt, meeting_);
   }
 
@@ -93,8 +97,8 @@ class Run {
     const auto& detached = system_.detached(0);
     const bool is_converged =
         errors == cosserat::none && system_.report(0).last_change <= case_.rods.tolerance;
-    ledger.book(model(), {before, after, case_.dt, system_.loads(0), contacts, meeting_, detached,
-                          is_converged});
+    ledger.book(model(), {before, after, case_.dt, system_.loads(0), contacts, meeting_half_way_,
+                          meeting_, detached, is_converged});
     outcome_.rough_steps += errors != cosserat::none;
     outcome_.contacts = std::max(outcome_.contacts, static_cast<int>(contacts.size()));
     outcome_.broken += static_cast<int>(detached.size());
@@ -125,7 +129,7 @@ class Run {
   coupling::ColliderSet colliders_;
   cosserat::RodSystem system_;
   coupling::ColliderSource probe_;  // what would touch if the plant held still
-  std::vector<cosserat::ContactPoint> meeting_;
+  std::vector<cosserat::ContactPoint> meeting_half_way_, meeting_;
   Outcome outcome_;
 };
 

@@ -23,6 +23,15 @@ TEST_P(Stress, NeverExplodes) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Stress, testing::Range(0, tests));
 
+// Of the first 10,000 seeds those that did: branches that ended deep in others which they had not
+// been near held up to 45 times the energy allowed.
+TEST(Stress, BranchesThatRushIntoOthersDoNotExplode) {
+  for (const int seed : {2266, 3467, 3917, 4157, 6106}) {
+    const StressCase one = draw_case(seed);
+    EXPECT_EQ(run_case(one).fault, "") << describe(one);
+  }
+}
+
 cosserat::RodModel cantilever() {
   const cosserat::Material material{2.0e7, 0.3, 450.0, 0.01};
   cosserat::RodModel model;
@@ -59,7 +68,7 @@ class ShakenCantilever : public testing::Test {
     system_.edit_state(0).root.position.z() = 0.01 * std::sin(20.0 * i * dt);
     system_.step(dt, gravity);
     ASSERT_EQ(system_.report(0).errors, 0u);
-    BookedStep booked{before, system_.state(0), dt, system_.loads(0), {}, {}, {}};
+    BookedStep booked{before, system_.state(0), dt, system_.loads(0), {}, {}, {}, {}};
     ledger_.book(system_.model(0), booked);
   }
 
