@@ -80,10 +80,10 @@ void add_yield(JointLaw& law, double limit) {
 
 // Weights of log-spaced branches by least squares on eta(f)/g = 1 over the band: with weights e_j
 // per long-term modulus, sum e_j (loss_j - g storage_j) = g is linear in them.
-void add_structural_damping(JointLaw& law, double g) {
+void add_structural_damping(JointLaw& law, double g, double frequency) {
   if (g <= 0.0) return;
-  constexpr int count = 6, samples = 61;
-  constexpr double low = 0.07, high = 140.0, band_low = 0.1, band_high = 100.0;  // Hz
+  constexpr int count = 8, samples = 81;
+  constexpr double low = 0.007, high = 280.0, band_low = 0.01, band_high = 200.0;  // Hz
   std::vector<double> times;
   for (int j = 0; j < count; ++j)
     times.push_back(1.0 / (2.0 * pi * low * std::pow(high / low, j / (count - 1.0))));
@@ -98,7 +98,7 @@ void add_structural_damping(JointLaw& law, double g) {
       rows.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(samples)).cwiseMax(0.0);
   double storage = 1.0;
   for (int j = 0; j < count; ++j) {
-    const double x = 2.0 * pi * 2.0 * times[j];
+    const double x = 2.0 * pi * frequency * times[j];
     storage += weights[j] * x * x / (1.0 + x * x);
   }
   law.deviation += 1.0 / storage - 1.0;

@@ -51,9 +51,9 @@ void add_friction(JointLaw& law, double share, double limit);
 /// Call it last.
 void add_yield(JointLaw& law, double limit);
 
-/// Maxwell branches whose loss factor is `loss_factor` from 0.1 to 100 Hz, and whose storage
-/// modulus is the elastic one at 2 Hz, about the settled shape.
-void add_structural_damping(JointLaw& law, double loss_factor);
+/// Maxwell branches whose loss factor is `loss_factor` from 0.01 to 200 Hz, and whose storage
+/// modulus is the elastic one at `frequency` (Hz), about the settled shape.
+void add_structural_damping(JointLaw& law, double loss_factor, double frequency = 2.0);
 
 /// Loss factor and storage modulus (per elastic modulus) of a law's dashpots at a frequency (Hz):
 /// sum share i w t / (1 + i w t) beside the elastic spring.

@@ -113,8 +113,11 @@ class Candidates {
 
   void dissipation() {
     add("mass_damping", {Start("mass_damping").positive("rate", 0.3, 1e-4, 1e3)});
-    add("structural_damping",
-        {Start("structural_damping").positive("loss_factor", 0.05, 1e-4, 2.0)});
+    // Where the modulus of the settled shape is met again, solvers and materials differ.
+    add("structural_damping", {Start("structural_damping")
+                                   .positive("loss_factor", 0.05, 1e-4, 2.0)
+                                   .positive("frequency", 2.0, 0.01, 200.0)
+                                   .prior(1.5, 2.0)});
     std::vector<Hypothesis> friction, relaxation, creep;
     for (const double slip : {0.03, 0.1, 0.3})
       for (const double ratio : {0.1, 0.3})

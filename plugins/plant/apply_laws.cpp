@@ -49,8 +49,11 @@ void add_to_joint(const RodModel& model, const Effect& effect, int e, JointLaw& 
     const double bend = effect.number("k0") * length;
     law.hardening += effect.number("coefficient") / (bend * bend);
   }
-  if (name == "structural_damping")
-    cosserat::add_structural_damping(law, effect.number("loss_factor"));
+  if (name == "structural_damping") {
+    const double frequency =
+        effect.numbers.contains("frequency") ? effect.number("frequency") : 2.0;
+    cosserat::add_structural_damping(law, effect.number("loss_factor"), frequency);
+  }
   if (name == "relaxation" || name == "creep")
     cosserat::add_relaxation(law, effect.number("fraction"), effect.number("time"),
                              starts_unloaded(effect));

@@ -117,7 +117,11 @@ TEST(Laws, DriftIsThePlants) {
 
 TEST(Laws, StructuralDampingIsABankOfDashpots) {
   const BuiltPlant plant = with("{name: structural_damping, loss_factor: 0.1}");
-  EXPECT_NEAR(modulus_at(plant.model.laws[0], 5.0).loss_factor, 0.1, 0.003);
+  for (const double f : {0.01, 0.1, 5.0, 100.0})
+    EXPECT_NEAR(modulus_at(plant.model.laws[0], f).loss_factor, 0.1, 0.003) << f;
+  EXPECT_NEAR(modulus_at(plant.model.laws[0], 2.0).storage, 1.0, 1e-12);
+  const BuiltPlant other = with("{name: structural_damping, loss_factor: 0.1, frequency: 0.4}");
+  EXPECT_NEAR(modulus_at(other.model.laws[0], 0.4).storage, 1.0, 1e-12);
 }
 
 // First frequencies in the two directions are as sqrt(ratio): static stiffness as ratio.
@@ -169,7 +173,7 @@ TEST(Laws, StackOnOneJoint) {
       "{name: yield, curvature: 4}, {name: internal_friction, curvature: 0.5, ratio: 0.2}, "
       "{name: relaxation, fraction: 0.3, time: 1}, {name: structural_damping, loss_factor: 0.05}");
   const cosserat::JointLaw& law = plant.model.laws[3];
-  ASSERT_EQ(law.branches.size(), 9u);
+  ASSERT_EQ(law.branches.size(), 11u);
   EXPECT_TRUE(std::isfinite(law.branches[0].limit));
   EXPECT_TRUE(std::isfinite(law.branches[1].limit));
   EXPECT_FALSE(std::isfinite(law.branches[2].limit));
