@@ -27,7 +27,8 @@ constexpr int first_iterations = 6, whole_iterations = 10;
 constexpr double rough_step = 1.0;   // nats, of fits that only tell who leads
 constexpr std::size_t foremost = 2;  // that tell, fitted whole, how far behind the others are
 constexpr std::size_t leaders = 6;
-constexpr std::size_t most_whole = 8;  // of each of the two lists
+constexpr std::size_t most_whole = 8;     // of each of the two lists
+constexpr std::size_t most_extended = 3;  // starts from a special case
 constexpr std::array growing_horizons{0.5 * first_horizon, first_horizon, 1.0};
 // Iterations of every start, and how many starts go on. Between places there are ridges, on which
 // many steps are tried in vain.
@@ -36,7 +37,7 @@ struct Look {
   std::size_t leading;
 };
 constexpr std::size_t all_starts = std::numeric_limits<std::size_t>::max();
-constexpr Look look_at_size{2, 2}, look_at_place{6, all_starts};
+constexpr Look look_at_size{2, 2}, look_at_place{6, all_starts}, look_at_extended{3, 1};
 constexpr double far_behind = 0.3;  // of the first one's gain or statistic
 // Nats, and of the best one's gain: of what could be a rival, and with a few iterations of the fine
 // simulator, because of the coarse one's errors.
@@ -163,8 +164,10 @@ class Refits {
     else
       promise_gains();
     choose_whole(promise_);
-    for (std::size_t i = 0; i < causes_.size(); ++i)
-      if (!ways_back(causes_[i].name).empty()) candidates_[i].whole = true;
+    const std::string foremost_cause = std::ranges::max(candidates_, {}, &Candidate::gain).cause;
+    for (Candidate& candidate : candidates_)
+      if (same_family(candidate.cause, foremost_cause) || !ways_back(candidate.cause).empty())
+        candidate.whole = true;
     std::vector<int> whole;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
@@ -291,12 +294,12 @@ class Refits {
       Candidate* to = whole_one(general);
       if (!from || !to || stopped() || is_lost(*from, lost_early)) continue;
       const Cause& cause = causes_[to - candidates_.data()];
-      const std::vector<Hypothesis> starts =
-          continued(base_.hypothesis, from->fit.hypothesis, cause);
+      std::vector<Hypothesis> starts = continued(base_.hypothesis, from->fit.hypothesis, cause);
       Evaluator& evaluator = coarse_.front();
-      const Scan found = scan(evaluator, starts, options_.fit);
-      keep_better(to->fit,
-                  fit(evaluator, starts[found.best], rough(2 * whole_iterations), base_.jacobian));
+      starts = by_cost(starts, scan(evaluator, starts, options_.fit));
+      starts.resize(std::min(most_extended, starts.size()));
+      keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * whole_iterations),
+                                    look_at_extended, Limits{}));
     }
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "discrepancy/bounded_solve.h"
 #include "discrepancy/differences.h"
 
 namespace pedicel::discrepancy {
@@ -220,21 +221,11 @@ namespace {
 FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptions& options) {
   FitSummary result;
   result.hypothesis = start;
-  const Eigen::VectorXd low = start.low(), high = start.high();
   Eigen::VectorXd u = bounded(start);
   if (start.size() == 0) {
     result.converged = true;
     result.why = "nothing is free";
   } else {
-    ceres::Problem::Options ownership;
-    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem ceres_problem(ownership);
-    // Ceres only reads it, but asks for a pointer to something that it may own.
-    ceres_problem.AddResidualBlock(const_cast<Problem*>(&problem), nullptr, u.data());
-    for (int p = 0; p < start.size(); ++p) {
-      ceres_problem.SetParameterLowerBound(u.data(), p, low[p]);
-      ceres_problem.SetParameterUpperBound(u.data(), p, high[p]);
-    }
     ceres::Solver::Options settings;
     settings.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     settings.max_num_iterations = options.iterations;
@@ -250,10 +241,9 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
     // region looks at anyway; where that fails the region shrinks.
     settings.max_num_line_search_step_size_iterations = 1;
     settings.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(settings, &ceres_problem, &summary);
-    result.converged = summary.termination_type == ceres::CONVERGENCE;
-    result.why = summary.message;
+    BoundedSolution found = solve_bounded(problem, start.low(), start.high(), settings, u);
+    result.converged = found.converged;
+    result.why = std::move(found.why);
   }
   problem.compute(u);
   result.hypothesis.set_unknowns(u);

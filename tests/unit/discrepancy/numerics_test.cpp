@@ -22,15 +22,22 @@ struct Released {
   FitOptions options;
   FitSummary base;
 
-  Released() : experiment(made()), data(experiment) {
+  explicit Released(double distance = 0.08, bool branched = false)
+      : experiment(made(distance, branched)), data(experiment) {
     data.set_noise(white_noise(noise), white_noise(1.0));
     options.trials = {0};
   }
-  static Experiment made() {
+  static Experiment made(double distance, bool branched) {
     testing::Beam beam;
     beam.damping_time = 0.02;
     Experiment e = testing::experiment_of(beam, 0.4);
-    e.plant.distance = 0.08;
+    e.plant.distance = distance;
+    if (branched) {
+      plant::PlantCurve branch = e.plant.curves[0];
+      branch.name = "branch";
+      branch.points = {Vec3(0, 0, 0.5 * beam.length), Vec3(0.12, 0, 0.6 * beam.length)};
+      e.plant.curves.push_back(branch);
+    }
     Trial& trial = e.trials[0];
     trial.force = {};
     Hold hold;
@@ -86,6 +93,17 @@ TEST(NumericsCheck, CorrectsWhatItFinds) {
   const double before = beam.error(numerics, nullptr);
   EXPECT_GT(before, 0.5);
   EXPECT_LT(beam.error(numerics, &check.corrections), 0.15 * before);
+}
+
+// Nodes twice as far apart as in the plant file, where a branch meets its stem.
+TEST(NumericsCheck, CorrectsAMeshCoarserThanTheFiles) {
+  const Released plant(0.02, true);
+  const Numerics numerics{0.04, 1.0 / 960.0};
+  const NumericsCheck check = plant.check(numerics);
+  const double before = plant.error(numerics, nullptr);
+  const double after = plant.error(numerics, &check.corrections);
+  EXPECT_GT(before, 0.2);
+  EXPECT_LT(after, 0.05 * before) << after << " of " << before;
 }
 
 TEST(Refined, HalvesWhatWeighsMore) {
