@@ -23,6 +23,7 @@ constexpr double close_share = 0.05;  // of the best law's evidence
 constexpr double place_share = 0.5;   // of the evidence, by which another place may be worse
 constexpr std::size_t most_looks = 6;
 constexpr int look_iterations = 5;
+constexpr double least_across = 0.05;  // of a unit vector, that has a direction across the curve
 constexpr double far_end = 0.6;  // m a length of the plant: where a near end is looked for first
 
 // What refits of one kind find for the other, too.
@@ -49,7 +50,16 @@ plant::Effect near_end(plant::Effect force, const ForcePlace& place, double dist
   return force;
 }
 
+// A stop pushes across the curve, where a string may lean along it.
 plant::Effect as_stop(plant::Effect string) {
+  const Vec3 axis = Vec3(string.numbers.at("axis").data()).normalized();
+  const Vec3 pull = direction_of(string);
+  const Vec3 across = pull - axis.dot(pull) * axis;
+  if (across.norm() > least_across) {
+    const Vec3 n = across.normalized();
+    string.numbers["towards"] = {n.x(), n.y(), n.z()};
+    string.numbers["tilt"] = {0.0, 0.0};
+  }
   string.words["kind"] = "stop";
   string.numbers.erase("distance");
   return string;
