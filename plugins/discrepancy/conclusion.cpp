@@ -115,8 +115,10 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
 
 // A rival that has the best one as a special case, and needs more parameters to do no better, is
 // no other explanation: a wind of no speed is drag. Nor is one whose fit turned into the best one.
-bool contains(const Candidate& rival, const Candidate& best) {
+// (What would win without one of the trials does better there.)
+bool contains(const Candidate& rival, const Candidate& best, bool turns) {
   if (rival.limit_of == best.cause) return true;
+  if (turns) return false;
   const auto& special = special_cases();
   return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
          rival.evidence < best.evidence;
@@ -184,7 +186,7 @@ void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effec
              said_by_data(best) - said_by_data(rival)) +
         text(" %g more numbers", rival.fit.hypothesis.size() - best.fit.hypothesis.size()) +
         (turns ? "; one trial alone decides between them." : "."));
-    if (beaten || findings.chain.size() > 1 || contains(rival, best)) {
+    if (beaten || findings.chain.size() > 1 || contains(rival, best, turns)) {
       const bool found = std::ranges::any_of(
           findings.chain, [&](const Candidate& named) { return named.cause == rival.cause; });
       if (!found) verdict.rivals.push_back({rival.cause, behind});

@@ -57,10 +57,11 @@ class Procedure {
   std::vector<Direction> directions_at(const FitSummary& model);
   bool is_small(const Alarm& alarm) const;
   bool is_another_cause(const Candidate& next) const;
+  bool stands_alone(const Candidate& next);
 
   // Steps 8 and 9 (diagnosis_verdict.cpp).
   void conclude_all();
-  HeldOut held_out_together();
+  HeldOut held_out_by(const FitSummary& model);
   void ask_for_one_force();
   const MissingForce& missing_force(double from, double least_evidence = 0.0);
   void tell_of_force();

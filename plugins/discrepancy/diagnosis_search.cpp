@@ -19,6 +19,20 @@ constexpr int most_causes = 3;
 constexpr double much_left = 4.0, left_by_force = 1.0 / 3.0;
 constexpr double far_from_data = 2.0;  // mean square in noise units
 
+// The base with the effects of `both` that stand behind those of `first`, from their numbers there.
+Hypothesis without_first(const Hypothesis& base, const Hypothesis& first, const Hypothesis& both) {
+  const int effects = static_cast<int>(first.effects.size());
+  Hypothesis second;
+  second.effects.assign(both.effects.begin() + effects, both.effects.end());
+  second.free.assign(both.free.begin() + first.size(), both.free.end());
+  for (FreeParameter& free : second.free) free.effect -= effects;
+  Hypothesis alone = base;
+  alone.set_unknowns(both.unknowns().head(base.size()));
+  alone.add(second);
+  alone.name = both.name;
+  return alone;
+}
+
 // Whether the data tell how large the effects from `first` on are: to a factor of e, one
 // deviation.
 bool has_a_size(const FitSummary& model, int first) {
@@ -98,6 +112,7 @@ void Procedure::extend() {
                    least_gain_beside(findings_.chain)) +
               text("for the trials kept back %.4g.", first.held_out.gain));
     if (!is_another_cause(first)) return;
+    if (stands_alone(first)) continue;
     findings_.chain.push_back(first);
     result_.best = first.fit;
   }
@@ -161,6 +176,39 @@ bool Procedure::is_another_cause(const Candidate& next) const {
   return std::ranges::all_of(findings_.chain, [&](const Candidate& found) {
     return !same_family(found.cause, next.cause) || next.gain > family_share * found.gain;
   });
+}
+
+// What was found first may have stood in for this cause, whose own fit did not get so far from its
+// starts; from where it stands beside the first one it does. Then the first one must bring as much
+// beside it as any other cause, or is none.
+bool Procedure::stands_alone(const Candidate& next) {
+  if (findings_.chain.size() != 1 || stopped()) return false;
+  const auto known = std::ranges::find(result_.ranking, next.cause, &Candidate::cause);
+  if (known == result_.ranking.end()) return false;
+  const FitSummary& first = findings_.chain.front().fit;
+  Evaluator evaluator = setup_->evaluator();
+  Candidate alone = next;
+  alone.fit =
+      fit(evaluator, without_first(result_.base.hypothesis, first.hypothesis, next.fit.hypothesis),
+          fit_options());
+  const double dispersion = std::max(1.0, 2.0 * next.fit.cost / setup_->samples());
+  alone.gain = (result_.base.cost - alone.fit.cost) / dispersion;
+  const double brought = (alone.fit.cost - next.fit.cost) / dispersion;
+  log_.note(findings_.chain.front().cause + " beside " + next.cause +
+            text(" brings %.4g nats, of %.4g that another cause must.", brought,
+                 least_gain_beside({alone})));
+  if (brought >= least_gain_beside({alone})) return false;
+  alone.held_out = held_out_by(alone.fit);
+  alone.whole = alone.fine = true;
+  std::vector<Candidate> ranking = result_.ranking;
+  ranking[known - result_.ranking.begin()] = std::move(alone);
+  weigh(ranking, result_.base, setup_->samples(),
+        dispersion_of(ranking, result_.base, setup_->samples()));
+  if (ranking.front().cause != next.cause) return false;
+  result_.ranking = std::move(ranking);
+  findings_.chain = {result_.ranking.front()};
+  result_.best = findings_.chain.front().fit;
+  return true;
 }
 
 }  // namespace pedicel::discrepancy

@@ -31,7 +31,7 @@ bool stands_at_bound(const Candidate& found) {
 void Procedure::conclude_all() {
   log_.say("writing the verdict", 0.95);
   findings_.step = result_.numerics.dt;
-  if (findings_.chain.size() > 1) findings_.held_out = held_out_together();
+  if (findings_.chain.size() > 1) findings_.held_out = held_out_by(result_.best);
   // What is left of the best model is the best sample of the noise.
   if (!findings_.chain.empty()) setup_->renew_noise(result_.best.hypothesis);
   if (findings_.chain.empty() && instead_of_.empty()) {
@@ -69,14 +69,14 @@ void Procedure::conclude_all() {
 }
 
 // What several causes do together for the trials kept back.
-HeldOut Procedure::held_out_together() {
+HeldOut Procedure::held_out_by(const FitSummary& model) {
   if (result_.check_trials.empty()) return {};
   Evaluator evaluator = setup_->evaluator();
   FitOptions check = fit_options();
   check.trials = result_.check_trials;
   const KeptBack base = kept_back(evaluator, result_.base, check);
-  const std::array extended{kept_back(evaluator, result_.best, check)};
-  const double dispersion = std::max(1.0, 2.0 * result_.best.cost / setup_->samples());
+  const std::array extended{kept_back(evaluator, model, check)};
+  const double dispersion = std::max(1.0, 2.0 * model.cost / setup_->samples());
   return held_out(base, extended, setup_->data().samples(check.trials), dispersion).front();
 }
 

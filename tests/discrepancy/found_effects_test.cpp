@@ -99,6 +99,17 @@ TEST(FoundEffect, GradientAtTheFarEndOfItsValley) {
   EXPECT_EQ(run.score.sizes.size(), 1u);
 }
 
+// A yield that is passed by 0.5 % is found from few starts alone. A creep, which goes part of its
+// way, came first and stayed when the yield was found beside it, though it brought nothing there.
+TEST(FoundEffect, YieldThatACreepStoodInFor) {
+  const TemporaryFolder folder;
+  const CaseOrder& order = case_orders()[143];
+  ASSERT_EQ(order.hidden, std::vector<std::string>{"yield"});
+  const CaseRun run = run_case(17, order, {folder / "", 1, nullptr});
+  EXPECT_EQ(run.score.call, Call::right) << run.notes;
+  EXPECT_EQ(run.score.sizes.size(), 1u);
+}
+
 // A string 200 times the smallest that can be seen: no known cause comes near it, and three of them
 // on top of each other were searched for at length. The coarse simulator put it at 0.14 of the
 // stem.

@@ -199,6 +199,31 @@ TEST(Conclusion, DoesNotCallAWindOfNoSpeedARivalOfDrag) {
   EXPECT_EQ(other.concluded().outcome, Outcome::ambiguous);
 }
 
+// 2 nats behind with numbers that cost 8: 6 ahead by the data of one trial. Without the other one
+// the gust stands before the wind, and is more than a wind.
+TEST(Conclusion, CallsAGustARivalOfItsWindWhereOneTrialAloneDecides) {
+  Case c;
+  c.findings.fit_trials = {0, 1, 2};
+  const int size = c.data.size(c.findings.fit_trials);
+  const std::array last{2};
+  const int rest = size - c.data.size(last);
+  Candidate wind = c.candidate("wind", "drag_area", 640.0, 631.0);
+  Candidate gust = c.candidate("gust", "drag_area", 646.0, 629.0);
+  wind.fit.residual = gust.fit.residual = Eigen::VectorXd::Zero(size);
+  const auto conclude = [&](double in_first, double in_last) {
+    wind.fit.residual[0] = std::sqrt(2.0 * in_first);
+    wind.fit.residual[rest] = std::sqrt(2.0 * in_last);
+    wind.fit.cost = in_first + in_last;
+    gust.fit.cost = 0.0;
+    c.diagnosis.ranking = {wind, gust};
+    c.diagnosis.verdict = {};
+    c.findings.chain.clear();
+    return c.concluded().outcome;
+  };
+  EXPECT_EQ(conclude(6.0, 0.0), Outcome::ambiguous);
+  EXPECT_EQ(conclude(2.0, 2.0), Outcome::named);
+}
+
 // 20 nats behind in all, because of the last trial alone: without it, ahead.
 TEST(Conclusion, IsAmbiguousWhereOneTrialAloneDecides) {
   Case c;
