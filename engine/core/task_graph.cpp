@@ -57,7 +57,10 @@ Schedule schedule(const Lists& needs, const Lists& needed_by, const std::vector<
 }  // namespace
 
 TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int threads)
-    : inward_(needs.size()), outward_(needs.size()) {
+    : inward_(needs.size()),
+      outward_(needs.size()),
+      inward_walks_(std::max(0, threads)),
+      outward_walks_(std::max(0, threads)) {
   if (threads < 1) throw UsageError("threads = " + std::to_string(threads) + ": must be >= 1");
   const int n = static_cast<int>(needs.size());
   Lists needed_by(n);

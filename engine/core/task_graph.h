@@ -29,7 +29,7 @@ class TaskGraph {
   void each(ThreadPool& pool, const Task& task) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_first(thread, [&](int i) {
+      own_first(thread, round, [&](int i) {
         do_once(
             inward_[i], round, [] {}, [&] { task(i); });
       });
@@ -41,7 +41,7 @@ class TaskGraph {
   void inward(ThreadPool& pool, const Task& task) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_first(thread, [&](int i) { do_inward(i, round, task); });
+      own_first(thread, round, [&](int i) { do_inward(i, round, task); });
     });
   }
 
@@ -50,7 +50,7 @@ class TaskGraph {
   void outward(ThreadPool& pool, const Task& task) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_last(thread, [&](int i) {
+      own_last(thread, round, [&](int i) {
         do_outward(
             i, round, [](int) {}, task);
       });
@@ -62,8 +62,8 @@ class TaskGraph {
   void inward_and_outward(ThreadPool& pool, const Inward& in, const Outward& out) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_first(thread, [&](int i) { do_inward(i, round, in); });
-      own_last(thread, [&](int i) {
+      own_first(thread, round, [&](int i) { do_inward(i, round, in); });
+      own_last(thread, round, [&](int i) {
         const auto before = [&](int task) {
           do_inward(task, round, in);
           await_end(inward_[task], round);
@@ -80,23 +80,44 @@ class TaskGraph {
       return {items.data() + begin[i], items.data() + begin[i + 1]};
     }
   };
-  // In which round a task was last begun, and done.
-  struct Mark {
+  // In which round a task was last begun, and done. A line of the cache each: else what one thread
+  // marks would take the marks beside it from another one.
+  struct alignas(64) Mark {
     std::atomic<unsigned> begun{0}, done{0};
   };
+  // How many tasks of its share a thread has come to in a walk: what is left for others to help
+  // with, without a look at each mark.
+  struct alignas(64) Walk {
+    std::atomic<unsigned> round{0};
+    std::atomic<int> come_to{0};
+  };
 
-  // All tasks, a thread's own ones first.
+  // All tasks, a thread's own ones first, then those that the others have not come to.
   template <class Do>
-  void own_first(int thread, const Do& todo) const {
-    for (int k = 0; k < threads(); ++k)
-      for (const int i : shares_[(thread + k) % threads()]) todo(i);
+  void own_first(int thread, unsigned round, const Do& todo) {
+    walk(thread, round, inward_walks_,
+         [&](const std::vector<int>& share, std::size_t k) { todo(share[k]); });
   }
   // Likewise from the last to the first.
   template <class Do>
-  void own_last(int thread, const Do& todo) const {
-    for (int k = 0; k < threads(); ++k) {
-      const std::vector<int>& share = shares_[(thread + k) % threads()];
-      for (auto i = share.rbegin(); i != share.rend(); ++i) todo(*i);
+  void own_last(int thread, unsigned round, const Do& todo) {
+    walk(thread, round, outward_walks_,
+         [&](const std::vector<int>& share, std::size_t k) { todo(share[share.size() - 1 - k]); });
+  }
+  template <class Do>
+  void walk(int thread, unsigned round, std::vector<Walk>& walks, const Do& todo) {
+    Walk& own = walks[thread];
+    own.come_to.store(0, std::memory_order_relaxed);
+    own.round.store(round, std::memory_order_release);
+    for (std::size_t k = 0; k < shares_[thread].size(); ++k) {
+      own.come_to.store(static_cast<int>(k) + 1, std::memory_order_relaxed);
+      todo(shares_[thread], k);
+    }
+    for (int other = 1; other < threads(); ++other) {
+      const int helped = (thread + other) % threads();
+      const bool began = walks[helped].round.load(std::memory_order_acquire) == round;
+      const int come_to = began ? walks[helped].come_to.load(std::memory_order_relaxed) : 0;
+      for (std::size_t k = come_to; k < shares_[helped].size(); ++k) todo(shares_[helped], k);
     }
   }
 
@@ -134,7 +155,8 @@ class TaskGraph {
 
   FlatLists needs_, needed_by_;
   std::vector<std::vector<int>> shares_;
-  std::vector<Mark> inward_, outward_;
+  std::vector<Mark> inward_, outward_;              // by task
+  std::vector<Walk> inward_walks_, outward_walks_;  // by thread
   unsigned round_ = 0;
 };
 

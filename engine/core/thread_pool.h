@@ -43,21 +43,35 @@ class ThreadPool {
 
  private:
   using Call = void (*)(const void*, int);
+  // What one thread writes and another one reads goes from core to core a line of the cache at a
+  // time, which takes as long as some hundred multiplications. So each has lines of its own.
+  struct alignas(64) Job {
+    std::atomic<unsigned> generation{0};  // of the call
+    int count = 0;
+    Call call = nullptr;
+    const void* object = nullptr;
+  };
+  struct alignas(64) Mark {
+    std::atomic<unsigned> generation{0};
+  };
+
   void run(int count, Call call, const void* object);
   void work(int thread);
-  void take_tasks(int thread);
+  void take_tasks(int thread, unsigned generation);
+  void take_own_task(int thread, unsigned generation);
+  void take_left_tasks(unsigned generation);
+  bool all_done(unsigned generation) const;
 
   std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable wake_, done_;
-  std::vector<std::atomic<bool>> begun_;  // by thread, its own task
-  std::atomic<int> next_{0};              // of the other tasks
-  std::atomic<int> busy_{0};
-  std::atomic<unsigned> generation_{0};
-  std::atomic<bool> stop_{false};
-  int count_ = 0;
-  Call call_ = nullptr;
-  const void* object_ = nullptr;
+  alignas(64) std::atomic<int> asleep_{0};  // workers
+  std::atomic<bool> caller_sleeps_{false};
+  Job job_;
+  std::vector<Mark> begun_;     // by thread: the last call whose task of that number somebody took
+  std::vector<Mark> finished_;  // by thread: the last call that it had nothing left to do of
+  alignas(64) std::atomic<int> next_{0};  // of the other tasks
+  alignas(64) std::atomic<bool> stop_{false};
 };
 
 }  // namespace pedicel

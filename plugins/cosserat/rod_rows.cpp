@@ -136,22 +136,23 @@ void RodRows::set_gravity(const Vec3& gravity) {
   gravity_ = gravity;
 }
 
+// Packs that stay as they are are not written to: a thread has them in its core's cache.
 void RodRows::set_active(std::span<const char> plants) {
-  for (Pack& pack : packs_) pack.active = false;
+  active_.assign(packs_.size(), 0);
   for (const Chain& chain : layout_.chains())
-    if (plants[chain.plant]) packs_[chain.pack].active = true;
+    if (plants[chain.plant]) active_[chain.pack] = 1;
+  for (std::size_t p = 0; p < packs_.size(); ++p)
+    if (packs_[p].active != (active_[p] != 0)) packs_[p].active = active_[p] != 0;
 }
 
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
-  graph_.each(pool, [&](int p) {
+  graph_.outward(pool, [&](int p) {
     if (!packs_[p].active) return;
     read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
+    place_anchors(p, scratch_->iterate);
   });
-  // Not in the loop above: there nothing has to wait for its parents.
-  for (int p = 0; p < layout_.packs(); ++p)
-    if (packs_[p].active) place_anchors(p, scratch_->iterate);
 }
 
 // The parents' poses into a pack's first row: theirs must have been moved already.
@@ -316,7 +317,8 @@ void RodRows::eliminate_and_substitute(ThreadPool& pool) {
 void RodRows::set_share(int plant, double share) {
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
-    packs_[chain.pack].share[chain.lane] = share;
+    double& own = packs_[chain.pack].share[chain.lane];
+    if (own != share) own = share;  // as in set_active()
   }
 }
 

@@ -145,6 +145,7 @@ class RodRows {
   LaneLayout layout_;
   TaskGraph graph_;  // of the packs
   std::vector<Pack> packs_;
+  std::vector<char> active_;  // scratch, by pack
   std::vector<ElementRow> element_;
   std::vector<PoseRow> previous_;
   std::vector<RateRow> previous_rate_;  // between finish() and end_step() the end's, as velocities
