@@ -18,7 +18,6 @@
 #define PEDICEL_COSSERAT_CAPSULES_MIDWAY
 namespace pedicel::cosserat {
 constexpr double midway = 1.0e-4;  // pull towards the middles, relative to the longer axis squared
-constexpr std::size_t worth_waking = 256;  // pairs
 }  // namespace pedicel::cosserat
 #endif
 
@@ -26,13 +25,64 @@ HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
 
-using Indices = hn::RebindToSigned<D>;
-using IndexVector = hn::Vec<Indices>;
+constexpr int width = static_cast<int>(hn::MaxLanes(D()));
+constexpr int fields = sizeof(Capsule) / sizeof(double);
 
-HWY_INLINE V3 gather(const std::array<std::vector<double>, 3>& from, IndexVector at) {
-  const D d;
-  return {hn::GatherIndex(d, from[0].data(), at), hn::GatherIndex(d, from[1].data(), at),
-          hn::GatherIndex(d, from[2].data(), at)};
+// Makes lane j of vector i what was lane i of vector j.
+HWY_INLINE void transpose([[maybe_unused]] V* rows) {
+#if HWY_TARGET != HWY_SCALAR
+#pragma GCC unroll 8
+  for (int i = 0; i < width; i += 2) {
+    const V a = rows[i], b = rows[i + 1];
+    rows[i] = hn::InterleaveLower(D(), a, b);
+    rows[i + 1] = hn::InterleaveUpper(D(), a, b);
+  }
+  if constexpr (width >= 4) {  // pairs of lanes
+#pragma GCC unroll 8
+    for (int i = 0; i < width; i += i % 4 == 1 ? 3 : 1) {
+      const V a = rows[i], b = rows[i + 2];
+      rows[i] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a);
+      rows[i + 2] = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a));
+    }
+  }
+  if constexpr (width >= 8) {  // halves
+#pragma GCC unroll 8
+    for (int i = 0; i < width / 2; ++i) {
+      const V a = rows[i], b = rows[i + 4];
+      rows[i] = hn::ConcatLowerLower(D(), b, a);
+      rows[i + 4] = hn::ConcatUpperUpper(D(), b, a);
+    }
+  }
+#endif
+}
+
+struct Ends {
+  V3 near;
+  V radius_near;
+  V3 far;
+  V radius_far;
+};
+
+// The numbers of a vector's worth of capsules, capsule k's being the eight that rows(k, place)
+// gives a vector of, from the given one of them on.
+template <class Rows>
+HWY_INLINE Ends transposed(const Rows& rows) {
+  V all[fields];
+#pragma GCC unroll 8
+  for (int place = 0; place < fields; place += width) {
+#pragma GCC unroll 8
+    for (int k = 0; k < width; ++k) all[place + k] = rows(k, place);
+    transpose(all + place);
+  }
+  return {{all[0], all[1], all[2]}, all[3], {all[4], all[5], all[6]}, all[7]};
+}
+
+HWY_INLINE V load_row(const Capsule& capsule, int place) {
+  return load(capsule.near + place);
+}
+
+HWY_INLINE Ends gather(const Capsules& capsules, const int* of) {
+  return transposed([&](int k, int place) { return load_row(capsules[of[k]], place); });
 }
 
 HWY_INLINE V unit_clamped(V x) {
@@ -73,49 +123,115 @@ HWY_INLINE Fractions nearest(const V3& between, const V3& along_a, const V3& alo
   return {hn::IfThenElse(inside, s, best.a), hn::IfThenElse(inside, t, best.b)};
 }
 
-HWY_INLINE IndexVector load_indices(const int* from) {
-  return hn::PromoteTo(Indices(), hn::LoadU(hn::Rebind<int, D>(), from));
-}
-
-HWY_INLINE V radius(const Capsules& capsules, IndexVector of, V fraction) {
-  const V near = hn::GatherIndex(D(), capsules.radius_near.data(), of);
-  const V far = hn::GatherIndex(D(), capsules.radius_far.data(), of);
-  return hn::MulAdd(fraction, far - near, near);
+HWY_INLINE V radius(const Ends& of, V fraction) {
+  return hn::MulAdd(fraction, of.radius_far - of.radius_near, of.radius_near);
 }
 
 void Measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end) {
   const D d;
-  for (std::size_t i = first; i < end; i += hn::MaxLanes(d)) {
-    const IndexVector a = load_indices(&pairs.a[i]), b = load_indices(&pairs.b[i]);
-    const V3 near_a = gather(capsules.near, a), along_a = gather(capsules.far, a) - near_a;
-    const V3 near_b = gather(capsules.near, b), along_b = gather(capsules.far, b) - near_b;
-    const Fractions at = nearest(near_a - near_b, along_a, along_b);
-    const V3 apart = add_scaled(near_a, at.a, along_a) - add_scaled(near_b, at.b, along_b);
-    const V gap =
-        hn::Sqrt(dot(apart, apart)) - radius(capsules, a, at.a) - radius(capsules, b, at.b);
+  for (std::size_t i = first; i < end; i += width) {
+    const Ends a = gather(capsules, &pairs.a[i]), b = gather(capsules, &pairs.b[i]);
+    const V3 along_a = a.far - a.near, along_b = b.far - b.near;
+    const Fractions at = nearest(a.near - b.near, along_a, along_b);
+    const V3 apart = add_scaled(a.near, at.a, along_a) - add_scaled(b.near, at.b, along_b);
+    const V gap = hn::Sqrt(dot(apart, apart)) - radius(a, at.a) - radius(b, at.b);
     hn::StoreU(at.a, d, &pairs.at_a[i]);
     hn::StoreU(at.b, d, &pairs.at_b[i]);
     hn::StoreU(gap, d, &pairs.gap[i]);
   }
 }
 
-// Returns how many pairs were looked at: all but those that do not fill a vector.
-std::size_t Sift(const CapsulePairs& from, double open, const std::vector<double>& reach,
-                 CapsulePairs& kept) {
-  const D d;
-  const std::size_t width = hn::MaxLanes(d);
-  std::size_t i = 0;
-  for (; i + width <= from.size(); i += width) {
-    const IndexVector a = load_indices(&from.a[i]), b = load_indices(&from.b[i]);
-    const V reached = hn::GatherIndex(d, reach.data(), a) + hn::GatherIndex(d, reach.data(), b);
-    const M near = hn::LoadU(d, &from.gap[i]) <= set(open) + reached;
-    if (hn::AllFalse(d, near)) continue;
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, near, bits);
-    for (unsigned left = bits[0]; left != 0; left &= left - 1)
-      kept.add(from, i + __builtin_ctz(left));
+using Ints = hn::Rebind<int, D>;
+
+HWY_INLINE V look_up(const std::vector<double>& values, const int* at) {
+  return hn::GatherIndex(D(), values.data(),
+                         hn::PromoteTo(hn::RebindToSigned<D>(), hn::LoadU(Ints(), at)));
+}
+
+// Of the pairs i, i + 1, ..., those before `end`.
+HWY_INLINE M before(std::size_t i, std::size_t end) {
+  return hn::FirstN(D(), std::min<std::size_t>(end - i, width));
+}
+
+// The lanes chosen, one bit each.
+HWY_INLINE unsigned bits_of(M mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(D(), mask, bits);
+  return bits[0];
+}
+
+// Copies the chosen ones of the pairs from i on to the place `to`, which may be i.
+HWY_INLINE std::size_t copy_chosen(const CapsulePairs& from, std::size_t i, M chosen,
+                                   CapsulePairs& kept, std::size_t to) {
+  for (unsigned left = bits_of(chosen); left != 0; left &= left - 1, ++to) {
+    const std::size_t pair = i + __builtin_ctz(left);
+    kept.a[to] = from.a[pair];
+    kept.b[to] = from.b[pair];
+    kept.gap[to] = from.gap[pair];
   }
-  return i;
+  return to;
+}
+
+void Sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
+          const std::vector<double>& reach, CapsulePairs& kept) {
+  std::size_t count = kept.size();
+  for (std::size_t i = first; i < end; i += width) {
+    const V reached = look_up(reach, &from.a[i]) + look_up(reach, &from.b[i]);
+    const M near = hn::LoadU(D(), &from.gap[i]) <= set(open) + reached;
+    count = copy_chosen(from, i, hn::And(near, before(i, end)), kept, count);
+  }
+  kept.resize(count);
+}
+
+HWY_INLINE V length(const V3& v) {
+  return hn::Sqrt(dot(v, v));
+}
+
+// Half of each capsule's turn in addition to what the middles do.
+HWY_INLINE V moved_apart(const CapsuleMotion& motion, const int* a, const int* b) {
+  const Ends to_a = gather(motion.now, a), from_a = gather(motion.start, a);
+  const Ends to_b = gather(motion.now, b), from_b = gather(motion.start, b);
+  const V3 near_a = to_a.near - from_a.near, far_a = to_a.far - from_a.far;
+  const V3 near_b = to_b.near - from_b.near, far_b = to_b.far - from_b.far;
+  const V turned = length(near_a - far_a) + length(near_b - far_b);
+  return hn::Min(set(0.5) * (length(near_a + far_a - near_b - far_b) + turned),
+                 set(2.0 * motion.most));
+}
+
+void KeepMeeting(const CapsuleMotion& motion, double open, double times,
+                 const std::vector<double>& reach, CapsulePairs& pairs) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pairs.size(); i += width) {
+    const int *a = &pairs.a[i], *b = &pairs.b[i];
+    const V most = set(open) + set(times) * (look_up(reach, a) + look_up(reach, b)) +
+                   moved_apart(motion, a, b);
+    const M near = hn::LoadU(D(), &pairs.gap[i]) <= most;
+    count = copy_chosen(pairs, i, hn::And(near, before(i, pairs.size())), pairs, count);
+  }
+  pairs.resize(count);
+}
+
+std::size_t ListMeeting(const CapsuleMotion& motion, double open, const CapsulePairs& pairs,
+                        std::size_t first, std::size_t end, std::vector<int>& which) {
+  std::size_t count = 0;
+  for (std::size_t i = first; i < end; i += width) {
+    const V most = set(open) + moved_apart(motion, &pairs.a[i], &pairs.b[i]);
+    const M near = hn::And(hn::LoadU(D(), &pairs.gap[i]) <= most, before(i, end));
+    for (unsigned left = bits_of(near); left != 0; left &= left - 1)
+      which[count++] = static_cast<int>(i) + __builtin_ctz(left);
+  }
+  return count;
+}
+
+void MeasureWays(const Capsules& now, const Capsules& before, std::size_t first, std::size_t end,
+                 std::vector<double>& way) {
+  for (std::size_t i = first; i < end; i += width) {
+    const Ends moved = transposed([&](int k, int place) {
+      return load_row(now[i + k], place) - load_row(before[i + k], place);
+    });
+    const V squared = hn::Max(dot(moved.near, moved.near), dot(moved.far, moved.far));
+    hn::StoreU(hn::Sqrt(squared), D(), &way[i]);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -126,64 +242,66 @@ HWY_AFTER_NAMESPACE();
 namespace pedicel::cosserat {
 
 HWY_EXPORT(Measure);
-
 HWY_EXPORT(Sift);
+HWY_EXPORT(KeepMeeting);
+HWY_EXPORT(ListMeeting);
+HWY_EXPORT(MeasureWays);
 
-// Pairs of the first capsule with itself fill the last vector up.
-void measure(const Capsules& capsules, CapsulePairs& pairs, const PartedLoop& loop) {
-  const std::size_t count = pairs.size();
-  pairs.resize((count + lane_count - 1) / lane_count * lane_count);
-  loop.run(count, loop.parts(count, worth_waking), [&](int, std::size_t first, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs, first, end);
-  });
-  pairs.resize(count);
+void measure(const Capsules& capsules, CapsulePairs& pairs) {
+  pairs.make_places();
+  measure(capsules, pairs, 0, pairs.size());
 }
 
-void sift(const CapsulePairs& from, double open, const std::vector<double>& reach,
-          CapsulePairs& kept) {
-  kept.clear();
-  std::size_t i = HWY_DYNAMIC_DISPATCH(Sift)(from, open, reach, kept);
-  for (; i < from.size(); ++i)
-    if (from.gap[i] <= open + (reach[from.a[i]] + reach[from.b[i]])) kept.add(from, i);
+void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end) {
+  HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs, first, end);
 }
 
-void Capsules::resize(std::size_t count) {
-  for (int i = 0; i < 3; ++i) {
-    near[i].resize(count);
-    far[i].resize(count);
-  }
-  radius_near.resize(count);
-  radius_far.resize(count);
+void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
+          const std::vector<double>& reach, CapsulePairs& kept) {
+  kept.make_room(end - first);
+  HWY_DYNAMIC_DISPATCH(Sift)(from, first, end, open, reach, kept);
 }
 
-void CapsulePairs::clear() {
-  a.clear();
-  b.clear();
-  gap.clear();
+void keep_meeting(const CapsuleMotion& motion, double open, double times,
+                  const std::vector<double>& reach, CapsulePairs& pairs) {
+  HWY_DYNAMIC_DISPATCH(KeepMeeting)(motion, open, times, reach, pairs);
 }
 
-void CapsulePairs::resize(std::size_t count) {
-  a.resize(count);
-  b.resize(count);
-  at_a.resize(count);
-  at_b.resize(count);
-  gap.resize(count);
+std::size_t list_meeting(const CapsuleMotion& motion, double open, const CapsulePairs& pairs,
+                         std::size_t first, std::size_t end, std::vector<int>& which) {
+  if (which.size() < end - first) which.resize(2 * (end - first));
+  return HWY_DYNAMIC_DISPATCH(ListMeeting)(motion, open, pairs, first, end, which);
+}
+
+void measure_ways(const Capsules& now, const Capsules& before, std::size_t first, std::size_t end,
+                  std::vector<double>& way) {
+  HWY_DYNAMIC_DISPATCH(MeasureWays)(now, before, first, end, way);
 }
 
 void CapsulePairs::add(int first, int second) {
-  a.push_back(first);
-  b.push_back(second);
+  if (count_ == a.size()) make_room(1);
+  a[count_] = first;
+  b[count_] = second;
+  ++count_;
 }
 
-void CapsulePairs::add(const CapsulePairs& from, std::size_t pair) {
-  add(from.a[pair], from.b[pair]);
-  gap.push_back(from.gap[pair]);
+// Pairs of the first capsule with itself fill the last vector up.
+void CapsulePairs::make_places() {
+  make_room(0);
+  std::fill_n(a.begin() + static_cast<long>(count_), lane_count, 0);
+  std::fill_n(b.begin() + static_cast<long>(count_), lane_count, 0);
+  at_a.resize(gap.size());
+  at_b.resize(gap.size());
 }
 
-void CapsulePairs::append(const CapsulePairs& measured) {
-  a.insert(a.end(), measured.a.begin(), measured.a.end());
-  b.insert(b.end(), measured.b.begin(), measured.b.end());
-  gap.insert(gap.end(), measured.gap.begin(), measured.gap.end());
+// The numbers beyond the last pair are indices of capsules, too.
+void CapsulePairs::make_room(std::size_t more) {
+  const std::size_t wanted = count_ + more + lane_count;
+  if (wanted <= a.size()) return;
+  const std::size_t room = wanted + wanted / 2;
+  a.resize(room);
+  b.resize(room);
+  gap.resize(room);
 }
 
 NearestFractions nearest_fractions(const Vec3& start_a, const Vec3& along_a, const Vec3& start_b,

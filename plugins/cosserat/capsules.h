@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/frames.h"
-#include "cosserat/parted_loop.h"
 
 namespace pedicel::cosserat {
 
@@ -20,38 +18,68 @@ struct NearestFractions {
 NearestFractions nearest_fractions(const Vec3& start_a, const Vec3& along_a, const Vec3& start_b,
                                    const Vec3& along_b);
 
-/// Capsules (or cones with round ends, or spheres), a structure of arrays: the ends of the axes and
-/// the radii there, linear in between.
-struct Capsules {
-  std::array<std::vector<double>, 3> near, far;  // m, W
-  std::vector<double> radius_near, radius_far;   // m
+/// A capsule (or a cone with round ends, or a sphere), in one line of a core's cache: the ends of
+/// the axis and the radii there, linear in between.
+struct alignas(64) Capsule {
+  double near[3] = {}, radius_near = 0.0;  // m, W; m
+  double far[3] = {}, radius_far = 0.0;
 
-  void resize(std::size_t count);
-  std::size_t size() const { return radius_near.size(); }
-  Vec3 near_at(int i) const { return {near[0][i], near[1][i], near[2][i]}; }
-  Vec3 far_at(int i) const { return {far[0][i], far[1][i], far[2][i]}; }
+  Vec3 near_at() const { return {near[0], near[1], near[2]}; }
+  Vec3 far_at() const { return {far[0], far[1], far[2]}; }
 };
+using Capsules = std::vector<Capsule>;
 
-/// Pairs of capsules and, once measured, where their axes are nearest and the gap there.
+/// Pairs of capsules and, once measured, where their axes are nearest and the gap there. The arrays
+/// keep their room, and have some beyond the last pair.
 struct CapsulePairs {
   std::vector<int> a, b;
-  std::vector<double> at_a, at_b;  // fractions along the axes
+  std::vector<double> at_a, at_b;  // fractions along the axes; not of pairs that were sifted
   std::vector<double> gap;         // m, negative where they overlap
 
-  std::size_t size() const { return a.size(); }
-  void clear();
-  void resize(std::size_t count);
+  std::size_t size() const { return count_; }
+  void clear() { count_ = 0; }
   void add(int first, int second);
-  void add(const CapsulePairs& from, std::size_t pair);  // measured: with the gap
-  void append(const CapsulePairs& measured);             // likewise
+  /// Drops all pairs beyond the first ones, or takes up what was written into the room made.
+  void resize(std::size_t count) { count_ = count; }
+  /// For so many more, in whole vectors.
+  void make_room(std::size_t more);
+  /// For what measure() sets.
+  void make_places();
+
+ private:
+  std::size_t count_ = 0;
 };
 
 /// Sets at_a, at_b and gap of all pairs, several at a time: nearest_fractions() up to rounding.
-void measure(const Capsules& capsules, CapsulePairs& pairs, const PartedLoop& loop = {});
+void measure(const Capsules& capsules, CapsulePairs& pairs);
+/// Likewise of the pairs from `first`, a multiple of lane_count, to `end`; make_places() must have
+/// been called since pairs were added.
+void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end);
 
-/// Makes `kept` those of the measured pairs whose gap is not above `open` + reach[a] + reach[b]
-/// (m), in their order, with their gaps.
-void sift(const CapsulePairs& from, double open, const std::vector<double>& reach,
-          CapsulePairs& kept);
+/// Adds to `kept` those of the measured pairs `first` to `end` whose gap is not above `open` +
+/// reach[a] + reach[b] (m), in their order, with their gaps.
+void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
+          const std::vector<double>& reach, CapsulePairs& kept);
+
+/// How far capsules have moved: from where to where, and no farther than `most` (m) each.
+struct CapsuleMotion {
+  const Capsules& start;
+  const Capsules& now;
+  double most;
+};
+
+/// Keeps those of the measured pairs whose gap is not above `open` + `times` (reach[a] +
+/// reach[b]) (m) + what the two have moved against each other, at most, wherever on them.
+void keep_meeting(const CapsuleMotion& motion, double open, double times,
+                  const std::vector<double>& reach, CapsulePairs& pairs);
+/// Lists those of the measured pairs `first` to `end` that are not farther apart than `open` + what
+/// they have so moved; returns how many.
+std::size_t list_meeting(const CapsuleMotion& motion, double open, const CapsulePairs& pairs,
+                         std::size_t first, std::size_t end, std::vector<int>& which);
+
+/// Sets way[i] for i from `first` to `end` to the larger distance (m) that an end of capsule i is
+/// from where it was. `first` and `end` are multiples of lane_count.
+void measure_ways(const Capsules& now, const Capsules& before, std::size_t first, std::size_t end,
+                  std::vector<double>& way);
 
 }  // namespace pedicel::cosserat

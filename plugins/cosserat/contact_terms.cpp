@@ -1,12 +1,15 @@
 #include "cosserat/contact_terms.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cosserat/self_contact.h"
 
 namespace pedicel::cosserat {
 
 namespace {
+
+constexpr std::size_t stretch_length = 32;  // contacts that a thread takes at a time
 
 Vec3 tangential(const Vec3& v, const Vec3& normal) {
   return v - v.dot(normal) * normal;
@@ -22,28 +25,62 @@ bool before(int shape_a, int collider_a, int shape_b, int collider_b) {
 
 }  // namespace
 
+// task(first, end) for stretches of all contacts, perhaps at once. Their length does not depend on
+// the number of threads.
+template <class Task>
+void ContactTerms::for_each_stretch(const Task& task) const {
+  const std::size_t count = active_.size();
+  const int stretches = static_cast<int>((count + stretch_length - 1) / stretch_length);
+  loop_.each(stretches, [&](int stretch) {
+    const std::size_t first = stretch * stretch_length;
+    task(first, std::min(count, first + stretch_length));
+  });
+}
+
+// The sum of energy_of(i) (J) over all contacts i, stretch by stretch.
+template <class EnergyOf>
+double ContactTerms::sum(const EnergyOf& energy_of) const {
+  sums_.assign((active_.size() + stretch_length - 1) / stretch_length, 0.0);
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    double& energy = sums_[first / stretch_length];
+    for (std::size_t i = first; i < end; ++i) energy += energy_of(i);
+  });
+  return std::accumulate(sums_.begin(), sums_.end(), 0.0);
+}
+
 void ContactTerms::find(const RodModel& model, const RodState& start, const RodState& iterate,
                         double dt, std::span<ContactSource* const> sources) {
   found_.clear();
-  active_.clear();
-  only_with_itself_ = true;
   for (ContactSource* source : sources) source->find(model, iterate, dt, found_);
-  for (const ContactPoint& point : found_) {
-    Active contact;
-    contact.point = point;
-    contact.element = model.shapes[point.shape].element;
-    only_with_itself_ = only_with_itself_ && is_self_contact(point.collider);
-    const Quat& q = iterate.orientation[contact.element];
-    contact.arm_E = Vec3(0, 0, -point.back) - point.radius * (q.conjugate() * point.normal_W);
-    contact.place_W = place(iterate, contact.element, contact.arm_E);
-    contact.start_W = place(start, contact.element, contact.arm_E);
-    if (const Memory* memory = remembered(point.shape, point.collider)) {
-      contact.stretch_W = memory->stretch_W;
-      contact.limit = point.friction * memory->normal;
+  active_.resize(found_.size());
+  pushes_.resize(found_.size());
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      active_[i] = activated(found_[i], model, start, iterate);
+      push_at_iterate(i);
     }
-    active_.push_back(contact);
-  }
+  });
+  only_with_itself_ = std::all_of(found_.begin(), found_.end(), [](const ContactPoint& point) {
+    return is_self_contact(point.collider);
+  });
   share_gives();
+}
+
+ContactTerms::Active ContactTerms::activated(const ContactPoint& point, const RodModel& model,
+                                             const RodState& start, const RodState& iterate) const {
+  Active contact;
+  contact.point = point;
+  contact.element = model.shapes[point.shape].element;
+  const Quat& q = iterate.orientation[contact.element];
+  contact.arm_E = Vec3(0, 0, -point.back) - point.radius * (q.conjugate() * point.normal_W);
+  contact.place_W = place(iterate, contact.element, contact.arm_E);
+  contact.start_W = place(start, contact.element, contact.arm_E);
+  contact.stiffness = point.stiffness;
+  if (const Memory* memory = remembered(point.shape, point.collider)) {
+    contact.stretch_W = memory->stretch_W;
+    contact.limit = point.friction * memory->normal;
+  }
+  return contact;
 }
 
 // Contacts that push one collider together move it together: each one counts the others' share as
@@ -52,15 +89,24 @@ void ContactTerms::share_gives() {
   const auto pushes = [](const Active& contact) {
     return contact.point.gap < contact.point.margin;
   };
-  for (Active& contact : active_) {
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    Active& contact = active_[i];
     const ContactPoint& own = contact.point;
+    if (own.give <= 0.0) continue;
     int together = pushes(contact) ? 0 : 1;
-    if (own.give > 0.0)
-      for (const Active& other : active_)
-        together += pushes(other) && other.point.collider == own.collider;
+    for (const Active& other : active_)
+      together += pushes(other) && other.point.collider == own.collider;
     contact.give = together * own.give;
     contact.stiffness = own.stiffness / (1.0 + own.stiffness * contact.give);
+    push_at_iterate(i);
   }
+}
+
+void ContactTerms::push_at_iterate(std::size_t contact) {
+  if (is_idle(active_[contact]))
+    pushes_[contact].energy = 0.0;
+  else
+    pushes_[contact] = push(active_[contact], active_[contact].place_W);
 }
 
 const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) const {
@@ -72,9 +118,9 @@ const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) co
   return &*it;
 }
 
-ContactTerms::Push ContactTerms::push(const Active& contact, const RodState& state) const {
+// With the surface at `now`.
+ContactTerms::Push ContactTerms::push(const Active& contact, const Vec3& now) {
   const ContactPoint& point = contact.point;
-  const Vec3 now = place(state, contact.element, contact.arm_E);
   const double overlap =
       std::max(0.0, point.margin - point.gap - point.normal_W.dot(now - contact.place_W));
   Push push;
@@ -106,35 +152,38 @@ bool ContactTerms::is_idle(const Active& contact) {
 double ContactTerms::linearise(const RodModel&, const RodState& iterate,
                                DiagonalBlocks& blocks) const {
   double energy = 0.0;
-  for (const Active& contact : active_) {
-    const ContactPoint& point = contact.point;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const Active& contact = active_[i];
     if (is_idle(contact)) continue;
-    const Push push_now = push(contact, iterate);
-    energy += push_now.energy;
-    const Mat3 normal = point.normal_W * point.normal_W.transpose();
-    Mat3 hessian = Mat3::Zero();
-    if (push_now.normal_force != Vec3::Zero()) hessian += contact.stiffness * normal;
-    if (push_now.slipping && contact.limit > 0.0) {
-      // The sliding spring's secant stiffness: an upper bound of its Hessian, so Newton stays
-      // stable.
-      const Vec3 total =
-          tangential(contact.stretch_W + contact.place_W - contact.start_W - point.surface_motion_W,
-                     point.normal_W);
-      hessian += contact.limit / total.norm() * (Mat3::Identity() - normal);
-    } else if (!push_now.slipping) {
-      hessian += contact.stiffness * (Mat3::Identity() - normal);
-    }
-    const Vec3 arm = contact.place_W - iterate.position[contact.element];
-    add_point_spring(blocks, contact.element, arm, hessian,
-                     push_now.normal_force + push_now.friction_force);
+    energy += pushes_[i].energy;
+    add(contact, pushes_[i], contact.place_W - iterate.position[contact.element], blocks);
   }
   return energy;
 }
 
+// The spring's stiffness is one along the normal and another one across it. The sliding spring's is
+// the secant stiffness: an upper bound of its Hessian, so Newton stays stable.
+void ContactTerms::add(const Active& contact, const Push& push, const Vec3& arm,
+                       DiagonalBlocks& blocks) {
+  const ContactPoint& point = contact.point;
+  const double along = push.normal_force != Vec3::Zero() ? contact.stiffness : 0.0;
+  double across = 0.0;
+  if (!push.slipping)
+    across = contact.stiffness;
+  else if (contact.limit > 0.0)
+    across = contact.limit / tangential(contact.stretch_W + contact.place_W - contact.start_W -
+                                            point.surface_motion_W,
+                                        point.normal_W)
+                                 .norm();
+  add_point_spring(blocks, contact.element, arm, point.normal_W, along, across,
+                   push.normal_force + push.friction_force);
+}
+
 double ContactTerms::potential(const RodModel&, const RodState& state) const {
-  double energy = 0.0;
-  for (const Active& contact : active_) energy += push(contact, state).energy;
-  return energy;
+  return sum([&](std::size_t i) {
+    const Active& contact = active_[i];
+    return push(contact, place(state, contact.element, contact.arm_E)).energy;
+  });
 }
 
 // The two sides of a self-contact, which follow each other, meet in the middle of where both went
@@ -159,14 +208,14 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
     ++i;
   }
   for (const Active& contact : active_) {
-    const Push now = push(contact, end);
+    const Vec3 place_W = place(end, contact.element, contact.arm_E);
+    const Push now = push(contact, place_W);
     const double normal = now.normal_force.norm();
     if (normal == 0.0) continue;
     ContactPoint point = contact.point;
     point.gap += contact.give * normal;
     memory_.push_back({point.shape, point.collider, now.stretch, normal});
-    forces_.push_back({point, place(end, contact.element, contact.arm_E), normal,
-                       now.friction_force, now.slipping});
+    forces_.push_back({point, place_W, normal, now.friction_force, now.slipping});
   }
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) {
     return before(a.shape, a.collider, b.shape, b.collider);

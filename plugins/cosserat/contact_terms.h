@@ -5,6 +5,7 @@
 
 #include "cosserat/contact.h"
 #include "cosserat/diagonal_blocks.h"
+#include "cosserat/parted_loop.h"
 
 namespace pedicel::cosserat {
 
@@ -27,11 +28,16 @@ namespace pedicel::cosserat {
 /// what sticks does not creep.
 class ContactTerms {
  public:
+  /// The threads that the calls below share out to until told otherwise, without a trace in the
+  /// bits; null: the caller's alone.
+  void use(ThreadPool* pool) { loop_.pool = pool; }
+
   /// Collects the contacts of an iterate. `start` is the state at the start of the step.
   void find(const RodModel& model, const RodState& start, const RodState& iterate, double dt,
             std::span<ContactSource* const> sources);
 
-  /// Adds gradient and Hessian at the iterate; returns the potential there.
+  /// Adds gradient and Hessian at the iterate for which find() was called; returns the potential
+  /// there.
   double linearise(const RodModel& model, const RodState& iterate, DiagonalBlocks& blocks) const;
   double potential(const RodModel& model, const RodState& state) const;
 
@@ -73,14 +79,25 @@ class ContactTerms {
     double energy;
     bool slipping;
   };
+  Active activated(const ContactPoint& point, const RodModel& model, const RodState& start,
+                   const RodState& iterate) const;
   void share_gives();
+  void push_at_iterate(std::size_t contact);
   static bool is_idle(const Active& contact);
-  Push push(const Active& contact, const RodState& state) const;
+  static Push push(const Active& contact, const Vec3& now_W);
+  static void add(const Active& contact, const Push& push, const Vec3& arm, DiagonalBlocks& blocks);
   const Memory* remembered(int shape, int collider) const;
+  template <class Task>
+  void for_each_stretch(const Task& task) const;
+  template <class EnergyOf>
+  double sum(const EnergyOf& energy_of) const;
 
+  PartedLoop loop_;
   bool only_with_itself_ = true;
   std::vector<ContactPoint> found_;
   std::vector<Active> active_;
+  std::vector<Push> pushes_;          // at the iterate
+  mutable std::vector<double> sums_;  // scratch, J, by stretch
   std::vector<Memory> memory_;
   std::vector<ContactForce> forces_;
 };

@@ -64,4 +64,26 @@ void add_point_spring(Blocks& blocks, int element, const Vec3& arm, const Mat3& 
   right.template tail<3>() += arm.cross(force);
 }
 
+/// The same for a stiffness `along` the unit vector `axis` and another one `across` it (N/m):
+///   hessian = across I + (along - across) axis axis^T
+template <class Blocks>
+void add_point_spring(Blocks& blocks, int element, const Vec3& arm, const Vec3& axis, double along,
+                      double across, const Vec3& force) {
+  Vec6 one;  // d (axis . point) / d (position, rotation)
+  one << axis, arm.cross(axis);
+  Mat6& block = blocks.diagonal(element);
+  block += ((along - across) * one) * one.transpose();
+  if (across != 0.0) {
+    const Mat3 lever = -skew(arm);
+    block.template topLeftCorner<3, 3>().diagonal().array() += across;
+    block.template topRightCorner<3, 3>() += across * lever;
+    block.template bottomLeftCorner<3, 3>() -= across * lever;
+    block.template bottomRightCorner<3, 3>() -= (across * arm) * arm.transpose();
+    block.template bottomRightCorner<3, 3>().diagonal().array() += across * arm.squaredNorm();
+  }
+  Vec6& right = blocks.right_side(element);
+  right.template head<3>() += force;
+  right.template tail<3>() += arm.cross(force);
+}
+
 }  // namespace pedicel::cosserat

@@ -26,6 +26,17 @@ constexpr double rough_self_contact = 10.0;  // times the tolerance
 constexpr double stalled_gain = 0.9;         // more iterations do not help
 constexpr double left_over = 0.6;            // times the tolerance: of what is left by the series
 
+// Makes `iterate` what it will be but for where the elements are, which the rows write.
+void follow(const RodState& state, RodState& iterate) {
+  if (iterate.size() != state.size() || iterate.joint_memory.size() != state.joint_memory.size())
+    iterate = state;
+  iterate.alive = state.alive;
+  iterate.fruit_gone = state.fruit_gone;
+  iterate.root = state.root;
+  iterate.previous_root = state.previous_root;
+  iterate.time = state.time;
+}
+
 bool any(const std::vector<char>& flags) {
   return std::find(flags.begin(), flags.end(), 1) != flags.end();
 }
@@ -80,6 +91,33 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
   end(steps, dt, pool);
 }
 
+// task(p) for the plants that are wanted. A single one may use the threads for itself, with the
+// sources that touch it.
+template <class Wanted, class Task>
+void DirectSolver::for_each_plant(std::span<PlantStep> steps, ThreadPool& pool,
+                                  const Wanted& wanted, const Task& task) {
+  int count = 0, last = 0;
+  for (int p = 0; p < size(); ++p) {
+    if (!wanted(p)) continue;
+    ++count;
+    last = p;
+  }
+  if (count > 1) {
+    pool.for_each(size(), [&](int p) {
+      if (wanted(p)) task(p);
+    });
+  } else if (count == 1) {
+    lend(&pool, last, steps[last]);
+    task(last);
+    lend(nullptr, last, steps[last]);
+  }
+}
+
+void DirectSolver::lend(ThreadPool* pool, int index, const PlantStep& step) {
+  plants_[index].contacts.use(pool);
+  for (ContactSource* source : step.contacts) source->use(pool);
+}
+
 void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& gravity,
                          ThreadPool& pool) {
   rows_.set_gravity(gravity);
@@ -108,15 +146,14 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
   rows_.prepare(pool, states_);
-  if (std::any_of(plants_.begin(), plants_.end(), [](const Plant& p) { return p.touched; })) {
-    pool.for_each(size(), [&](int p) {
-      if (!plants_[p].touched) return;
-      plants_[p].iterate = *steps[p].state;
-      plants_[p].attachments.prepare(*steps[p].state, steps[p].loads);
-      for (ContactSource* source : steps[p].contacts)
-        source->begin_step(*steps[p].model, *steps[p].state, dt);
-    });
-  }
+  for_each_plant(
+      steps, pool, [&](int p) { return plants_[p].touched; },
+      [&](int p) {
+        follow(*steps[p].state, plants_[p].iterate);
+        plants_[p].attachments.prepare(*steps[p].state, steps[p].loads);
+        for (ContactSource* source : steps[p].contacts)
+          source->begin_step(*steps[p].model, *steps[p].state, dt);
+      });
   choose_start(steps, pool);
 }
 
@@ -186,39 +223,27 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
 void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
   rows_.clear_extras();
-  int count = 0;
-  for (int p = 0; p < size(); ++p) count += wanted(p) ? 1 : 0;
-  if (count == 0) return;
   for (int p = 0; p < size(); ++p)
     iterates_[p] = wanted(p) && !plants_[p].iterate_is_here ? &plants_[p].iterate : nullptr;
   if (std::any_of(iterates_.begin(), iterates_.end(), [](const RodState* s) { return s; }))
     rows_.write_iterate(pool, iterates_);
-  // Where there is but one plant, its sources may use the threads.
-  ThreadPool* const inner = count == 1 ? &pool : nullptr;
-  const auto linearise = [&](int p) {
-    if (!wanted(p)) return;
+  for_each_plant(steps, pool, wanted, [&](int p) {
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
-    if (!plant.contacts_are_here) find_contacts(p, steps[p], dt, inner);
+    if (!plant.contacts_are_here) find_contacts(p, steps[p], dt);
     plant.contacts_are_here = false;
     plant.extras.clear();
     const double pressed = plant.contacts.linearise(model, plant.iterate, plant.extras);
     plant.presses = pressed > 0.0;
     plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
-  };
-  if (inner)
-    for (int p = 0; p < size(); ++p) linearise(p);
-  else
-    pool.for_each(size(), linearise);
+  });
   for (int p = 0; p < size(); ++p)
     if (wanted(p) && !plants_[p].loops) rows_.add_extras(p, plants_[p].extras);
 }
 
-void DirectSolver::find_contacts(int index, const PlantStep& step, double dt, ThreadPool* pool) {
+void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
   Plant& plant = plants_[index];
-  for (ContactSource* source : step.contacts) source->use(pool);
   plant.contacts.find(*step.model, *step.state, plant.iterate, dt, step.contacts);
-  for (ContactSource* source : step.contacts) source->use(nullptr);
 }
 
 void DirectSolver::solve_loops(int index, const RodModel& model) {
@@ -246,9 +271,9 @@ void DirectSolver::search(std::span<PlantStep> steps, ThreadPool& pool) {
   for (bool keep = true; any(searching_); keep = false) {
     rows_.set_active(searching_);
     rows_.move(pool, keep, iterates_);
-    pool.for_each(size(), [&](int p) {
-      if (searching_[p]) try_share(p, *steps[p].model, steps[p].report);
-    });
+    for_each_plant(
+        steps, pool, [&](int p) { return searching_[p]; },
+        [&](int p) { try_share(p, *steps[p].model, steps[p].report); });
   }
 }
 
@@ -303,10 +328,12 @@ void DirectSolver::look_again(std::span<PlantStep> steps, double dt, ThreadPool&
       if (!searching_[p]) continue;
       Plant& plant = plants_[p];
       const RodModel& model = *steps[p].model;
-      find_contacts(p, steps[p], dt, &pool);
+      lend(&pool, p, steps[p]);
+      find_contacts(p, steps[p], dt);
       plant.contacts_are_here = true;
       const double found = rows_.energy(p) + plant.attachments.potential(model, plant.iterate) +
                            plant.contacts.potential(model, plant.iterate);
+      lend(nullptr, p, steps[p]);
       searching_[p] = found > plant.energy + plant.pressed && plant.share > 0.0;
       if (!searching_[p]) continue;
       plant.share = plant.share > smallest_share ? 0.5 * plant.share : 0.0;

@@ -89,11 +89,15 @@ class DirectSolver : public RodSolver {
   };
 
   void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
+  template <class Wanted, class Task>
+  void for_each_plant(std::span<PlantStep> steps, ThreadPool& pool, const Wanted& wanted,
+                      const Task& task);
+  void lend(ThreadPool* pool, int index, const PlantStep& step);
   void begin_memory(int index, const RodModel& model, RodState& state) const;
   void choose_start(std::span<PlantStep> steps, ThreadPool& pool);
   void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool);
-  void find_contacts(int index, const PlantStep& step, double dt, ThreadPool* pool);
+  void find_contacts(int index, const PlantStep& step, double dt);
   void solve_loops(int index, const RodModel& model);
   void search(std::span<PlantStep> steps, ThreadPool& pool);
   void start_search(int index, StepReport& report);

@@ -61,27 +61,32 @@ namespace pedicel::cosserat {
 
 HWY_EXPORT(Sweep);
 
-void OverlappingBoxes::find(std::span<const Eigen::AlignedBox3d> boxes, Pairs& pairs,
-                            const PartedLoop& loop) {
+void OverlappingBoxes::find(std::span<const Eigen::AlignedBox3d> boxes, Pairs& pairs) {
   pairs.clear();
+  find(boxes, {},
+       [&](int, const Pairs& some) { pairs.insert(pairs.end(), some.begin(), some.end()); });
+}
+
+// Returns how many boxes are not empty.
+std::size_t OverlappingBoxes::sort(std::span<const Eigen::AlignedBox3d> boxes) {
+  order_.clear();
   Eigen::AlignedBox3d all;
   for (const Eigen::AlignedBox3d& box : boxes)
     if (!box.isEmpty()) all.extend(box);
-  if (all.isEmpty()) return;
+  if (all.isEmpty()) return 0;
   int axis = 0;
   all.sizes().maxCoeff(&axis);
   sort_along(axis, all, boxes);
-  const int parts = loop.parts(order_.size(), 128);
-  loop.run(order_.size(), parts, [&](int part, std::size_t first, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(Sweep)(low_, high_, first, end, found_[part]);
-    for (auto& [i, j] : found_[part]) {
-      const int a = order_[i].box, b = order_[j].box;
-      i = std::min(a, b);
-      j = std::max(a, b);
-    }
-  });
-  for (int part = 0; part < parts; ++part)
-    pairs.insert(pairs.end(), found_[part].begin(), found_[part].end());
+  return order_.size();
+}
+
+void OverlappingBoxes::sweep(std::size_t first, std::size_t end, Pairs& pairs) const {
+  HWY_DYNAMIC_DISPATCH(Sweep)(low_, high_, first, end, pairs);
+  for (auto& [i, j] : pairs) {
+    const int a = order_[i].box, b = order_[j].box;
+    i = std::min(a, b);
+    j = std::max(a, b);
+  }
 }
 
 // By a key of 16 bits; the low end swept along is that of the key, at or below the box's.
@@ -90,7 +95,6 @@ void OverlappingBoxes::sort_along(int axis, const Eigen::AlignedBox3d& all,
   constexpr double keys = 65535.0;
   const double start = all.min()[axis], step = all.sizes()[axis] / keys;
   const double per_step = step > 0.0 ? 1.0 / step : 0.0;
-  order_.clear();
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
     if (!boxes[i].isEmpty())
       order_.push_back({static_cast<unsigned>((boxes[i].min()[axis] - start) * per_step), i});

@@ -13,24 +13,31 @@ struct PartedLoop {
   ThreadPool* pool = nullptr;
   static constexpr int most_parts = 16;
 
-  int parts(std::size_t count, std::size_t worth_waking) const {
+  /// One part a thread, always the same one: where a turn takes as long as another. Several where
+  /// they do not, for whoever is idle.
+  int parts(std::size_t count, std::size_t worth_waking, int a_thread = 1) const {
     if (!pool || pool->threads() == 1 || count < 2 * worth_waking) return 1;
     return static_cast<int>(std::min(
-        {count / worth_waking, std::size_t(2 * pool->threads()), std::size_t(most_parts)}));
+        {count / worth_waking, std::size_t(a_thread * pool->threads()), std::size_t(most_parts)}));
   }
 
   /// task(part, first, end), perhaps at once.
   template <class Task>
   void run(std::size_t count, int parts, const Task& task) const {
     const std::size_t length = (count / parts + 8) / 8 * 8;
-    const auto one = [&](int part) {
+    each(parts, [&](int part) {
       const std::size_t first = std::min(count, part * length);
       task(part, first, std::min(count, first + length));
-    };
-    if (parts == 1)
-      one(0);
+    });
+  }
+
+  /// task(part), perhaps at once.
+  template <class Task>
+  void each(int parts, const Task& task) const {
+    if (pool && parts > 1)
+      pool->for_each(parts, task);
     else
-      pool->for_each(parts, one);
+      for (int part = 0; part < parts; ++part) task(part);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "cosserat/lanes.h"
 
 namespace pedicel::cosserat {
 
@@ -31,30 +32,25 @@ void check(const SelfContactSettings& settings) {
 }  // namespace
 
 SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings)
-    : settings_(settings), boxes_(model.shapes.size()) {
+    : settings_(settings), count_(model.shapes.size()), boxes_(count_) {
   check(settings);
-  const std::size_t count = model.shapes.size();
-  for (Capsules* capsules : {&start_, &now_}) capsules->resize(count);
-  for (std::vector<double>* values : {&way_, &reach_, &far_.budget, &near_.budget})
-    values->assign(count, 0.0);
-  for (const CollisionShape& shape : model.shapes)
-    lineage_.push_back(lineage(model, shape.element));
+  const std::size_t room = (count_ + lane_count - 1) / lane_count * lane_count;
+  for (Capsules* capsules : {&start_, &now_, &far_reference_, &near_reference_})
+    capsules->resize(room);
+  for (std::vector<double>* values : {&way_, &reach_, &far_budget_, &near_budget_})
+    values->assign(room, 0.0);
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count_; ++i) {
     const CollisionShape& shape = model.shapes[i];
-    now_.radius_near[i] = start_.radius_near[i] = shape.radius_near;
-    now_.radius_far[i] = start_.radius_far[i] = shape.radius_far;
+    now_[i].radius_near = start_[i].radius_near = shape.radius_near;
+    now_[i].radius_far = start_[i].radius_far = shape.radius_far;
     sum += std::abs(shape.back_near - shape.back_far) + shape.radius_near + shape.radius_far;
   }
-  extent_ = sum / static_cast<double>(std::max<std::size_t>(1, count));
-  const RodState drawn = drawn_state(model);
-  begin_step(model, drawn, 0.0);
+  extent_ = sum / static_cast<double>(std::max<std::size_t>(1, count_));
+  begin_step(model, drawn_state(model), 0.0);
   now_ = start_;
-  measure_ways();
-  first_excluded_.assign(count + 1, 0);
-  collect_far(model);
-  exclude_touching();
-  collect_far(model);
+  collect_left_out(model);
+  collect_far();
   work_ = {};
 }
 
@@ -66,53 +62,62 @@ void SelfContact::change_settings(const SelfContactSettings& settings) {
 }
 
 void SelfContact::begin_step(const RodModel& model, const RodState& start, double) {
-  start_position_ = start.position;
-  start_orientation_ = start.orientation;
-  place(model, start, start_);
+  const std::size_t elements = start.position.size(), longest = std::max(elements, count_);
+  start_position_.resize(elements);
+  start_orientation_.resize(elements);
+  const auto begin_some = [&](int, std::size_t first, std::size_t end) {
+    for (std::size_t e = first; e < std::min(end, elements); ++e) {
+      start_position_[e] = start.position[e];
+      start_orientation_[e] = start.orientation[e];
+    }
+    place(model, start, first, end, start_);
+  };
+  loop_.run(longest, loop_.parts(longest, worth_waking), begin_some);
   near_list_made_ = false;
 }
 
 void SelfContact::find(const RodModel& model, const RodState& state, double dt,
                        std::vector<ContactPoint>& found) {
   if (start_position_.size() != state.position.size()) begin_step(model, state, dt);
-  place(model, state, now_);
-  if (!near_list_holds()) collect_near(model);
-  measure(now_, near_.pairs, loop_);
-  work_.pairs += static_cast<long>(near_.pairs.size());
-  const std::size_t count = near_.pairs.size();
-  const int parts = loop_.parts(count, worth_waking);
+  look(model, state);
+  const std::size_t count = near_.size();
+  work_.pairs += static_cast<long>(count);
+  const int parts = loop_.parts(count, worth_waking, 2);
   loop_.run(count, parts, [&](int part, std::size_t first, std::size_t end) {
-    found_[part].clear();
-    touch_some(model, state, dt, first, end, found_[part]);
+    touch_some(model, state, dt, part, first, end);
   });
   for (int part = 0; part < parts; ++part)
-    found.insert(found.end(), found_[part].begin(), found_[part].end());
+    found.insert(found.end(), scratch_[part].found.begin(), scratch_[part].found.end());
 }
 
-void SelfContact::touch_some(const RodModel& model, const RodState& state, double dt,
-                             std::size_t first, std::size_t end,
-                             std::vector<ContactPoint>& found) const {
+void SelfContact::touch_some(const RodModel& model, const RodState& state, double dt, int part,
+                             std::size_t first, std::size_t end) {
   const auto is_live = [&](const CollisionShape& shape) {
     return state.alive[shape.element] && (shape.fruit < 0 || !state.fruit_gone[shape.fruit]);
   };
-  for (std::size_t i = first; i < end; ++i) {
-    const int a = near_.pairs.a[i], b = near_.pairs.b[i];
-    const double over = near_.pairs.gap[i] - settings_.margin;
-    if (over > way_[a] + way_[b] + near_.budget[a] + near_.budget[b]) continue;
-    if (over > moved_apart(a, b)) continue;
-    if (is_live(model.shapes[a]) && is_live(model.shapes[b])) touch(model, state, dt, i, found);
+  Scratch& scratch = scratch_[part];
+  scratch.found.clear();
+  measure(now_, near_, first, end);
+  const std::size_t meeting =
+      list_meeting(motion(), settings_.margin, near_, first, end, scratch.meeting);
+  for (std::size_t i = 0; i < meeting; ++i) {
+    const int pair = scratch.meeting[i];
+    if (is_live(model.shapes[near_.a[pair]]) && is_live(model.shapes[near_.b[pair]]))
+      touch(model, state, dt, pair, scratch.found);
   }
 }
 
 void SelfContact::touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
                         std::vector<ContactPoint>& found) const {
-  const int a = near_.pairs.a[pair], b = near_.pairs.b[pair];
-  const double at_a = near_.pairs.at_a[pair], at_b = near_.pairs.at_b[pair];
+  const int a = near_.a[pair], b = near_.b[pair];
+  const double at_a = near_.at_a[pair], at_b = near_.at_b[pair];
   const CollisionShape &shape_a = model.shapes[a], &shape_b = model.shapes[b];
   const int element_a = shape_a.element, element_b = shape_b.element;
   const double back_a = back_at(shape_a, at_a), back_b = back_at(shape_b, at_b);
-  const Vec3 between_W = now_.near_at(a) + at_a * (now_.far_at(a) - now_.near_at(a)) -
-                         now_.near_at(b) - at_b * (now_.far_at(b) - now_.near_at(b));
+  const auto place_on = [](const Capsule& capsule, double at) -> Vec3 {
+    return capsule.near_at() + at * (capsule.far_at() - capsule.near_at());
+  };
+  const Vec3 between_W = place_on(now_[a], at_a) - place_on(now_[b], at_b);
   double distance = between_W.norm();
   const double radius_a = shape_a.radius_near + at_a * (shape_a.radius_far - shape_a.radius_near);
   const double radius_b = shape_b.radius_near + at_b * (shape_b.radius_far - shape_b.radius_near);
@@ -125,8 +130,8 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
     distance = -distance;
   }
   const double gap = distance - radius_a - radius_b;
-  const Vec3 motion_a = motion(state, element_a, back_a, -radius_a * normal_W);
-  const Vec3 motion_b = motion(state, element_b, back_b, radius_b * normal_W);
+  const Vec3 motion_a = moved(state, element_a, back_a, -radius_a * normal_W);
+  const Vec3 motion_b = moved(state, element_b, back_b, radius_b * normal_W);
   // What is farther apart than it moved in this step is not met in the next iteration either.
   if (!(gap <= settings_.margin + (motion_a - motion_b).norm())) return;
 
@@ -162,8 +167,8 @@ Vec3 SelfContact::start_place(int element, const Vec3& arm_E) const {
 }
 
 // How far the material point moved over the step that lies `outward_W` from the axis now.
-Vec3 SelfContact::motion(const RodState& state, int element, double back,
-                         const Vec3& outward_W) const {
+Vec3 SelfContact::moved(const RodState& state, int element, double back,
+                        const Vec3& outward_W) const {
   const Quat& q = state.orientation[element];
   const Vec3 arm_E = Vec3(0, 0, -back) + q.conjugate() * outward_W;
   return state.position[element] + q * arm_E - start_place(element, arm_E);

@@ -69,52 +69,61 @@ class SelfContact : public ContactSource {
   const Work& work() const { return work_; }
 
  private:
-  // A shape's element and those that it hangs on; -1: none.
-  struct Lineage {
-    int element = -1, parent = -1, grandparent = -1;
-    bool is_near(const Lineage& other) const;
-  };
-  static Lineage lineage(const RodModel& model, int element);
-  // Pairs that hold while no end of a capsule has moved by more than its `budget` from `reference`.
-  struct List {
-    CapsulePairs pairs;
-    Capsules reference;
-    std::vector<double> budget;  // m
-  };
-  void place(const RodModel& model, const RodState& state, Capsules& capsules) const;
-  bool near_list_holds() const;
-  void measure_ways();
-  void collect_near(const RodModel& model);
-  bool far_list_holds();
-  void collect_far(const RodModel& model);
-  void exclude_touching();
-  bool is_left_out(const RodModel& model, int a, int b) const;
-  double moved_apart(int a, int b) const;
-  void touch_some(const RodModel& model, const RodState& state, double dt, std::size_t first,
-                  std::size_t end, std::vector<ContactPoint>& found) const;
+  void collect_left_out(const RodModel& model);
+  void look(const RodModel& model, const RodState& state);
+  template <class Holds>
+  bool for_all_shapes(const Holds& holds);
+  void place(const RodModel& model, const RodState& state, std::size_t first, std::size_t end,
+             Capsules& capsules) const;
+  bool near_list_holds(std::size_t first, std::size_t end);
+  bool foresee(std::size_t first, std::size_t end);
+  void collect_near(bool far_list_holds);
+  void sift_far(int part);
+  void collect_far();
+  void make_box(std::size_t shape);
+  void leave_out(std::vector<std::pair<int, int>> pairs);
+  bool is_left_out(int a, int b) const;
+  CapsuleMotion motion() const;
+  void touch_some(const RodModel& model, const RodState& state, double dt, int part,
+                  std::size_t first, std::size_t end);
   void touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
              std::vector<ContactPoint>& found) const;
   Vec3 start_place(int element, const Vec3& arm_E) const;
-  Vec3 motion(const RodState& state, int element, double back, const Vec3& outward_W) const;
+  Vec3 moved(const RodState& state, int element, double back, const Vec3& outward_W) const;
 
   static constexpr std::size_t worth_waking = 256;  // shapes or pairs, a thread
 
+  // What the parts of a loop need for themselves.
+  struct Scratch {
+    CapsulePairs pairs;
+    std::vector<std::pair<int, int>> candidates;
+    std::vector<int> meeting;
+    std::vector<ContactPoint> found;
+    long measured = 0;
+    bool holds = true;
+  };
+
   SelfContactSettings settings_;
   PartedLoop loop_;
-  std::array<std::vector<ContactPoint>, PartedLoop::most_parts> found_;  // scratch
-  std::vector<Lineage> lineage_;                                         // of the shapes
-  double extent_ = 0.0;                        // m, mean length of a shape
-  std::vector<std::pair<int, int>> excluded_;  // shapes, ascending
-  std::vector<int> first_excluded_;            // by shape, in excluded_
-  Capsules start_, now_;                       // the shapes, at the step's start and at the iterate
-  std::vector<double> way_;                    // m, by shape: of an end in this step, at most
-  std::vector<double> reach_;                  // m, by shape: of the way still open to it
-  List far_, near_;                            // near_ is ascending; far_'s gaps: at its reference
-  bool near_list_made_ = false;                // in this step
-  CapsulePairs measured_;                      // scratch
-  std::array<CapsulePairs, PartedLoop::most_parts> sieved_, kept_;  // scratch
-  std::vector<std::pair<int, int>> candidates_;                     // scratch
-  std::vector<Eigen::AlignedBox3d> boxes_;                          // scratch, m, W
+  std::size_t count_ = 0;      // of the shapes; what follows has room for whole vectors of them
+  double extent_ = 0.0;        // m, mean length of a shape
+  Capsules start_, now_;       // the shapes, at the step's start and at the iterate
+  std::vector<double> way_;    // m, by shape: of an end in this step, at most
+  std::vector<double> reach_;  // m, by shape: of the way still open to it
+  // Each list holds while no end of a capsule has moved by more than its `budget` (m) from its
+  // `reference`. The far list is in parts; its gaps are those at its reference.
+  Capsules far_reference_, near_reference_;
+  std::vector<double> far_budget_, near_budget_;
+  std::array<CapsulePairs, PartedLoop::most_parts> far_;
+  int far_parts_ = 0;
+  CapsulePairs near_;            // ascending
+  bool near_list_made_ = false;  // in this step
+  // Shapes a < b, ascending, that do not touch each other, and where those of a shape a begin.
+  std::vector<std::pair<int, int>> left_out_;
+  std::vector<int> first_left_out_;
+  std::array<Scratch, PartedLoop::most_parts> scratch_;
+  std::vector<std::pair<int, int>> candidates_;  // scratch
+  std::vector<Eigen::AlignedBox3d> boxes_;       // scratch, m, W
   OverlappingBoxes overlapping_;
   PairSort sort_;
   Work work_;

@@ -15,164 +15,211 @@ constexpr double steps_ahead = 4.0;  // of the present motion
 constexpr double slack = 0.25;       // of the present motion, for what iterations change
 constexpr double most_motion = 2.0;  // mean lengths: what moves farther in a step may pass through
 
-// Largest squared distance of an end from where it was.
-double squared_way(const Capsules& now, const Capsules& before, std::size_t i) {
-  double near = 0.0, far = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double dn = now.near[k][i] - before.near[k][i], df = now.far[k][i] - before.far[k][i];
-    near += dn * dn;
-    far += df * df;
+constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+// Elements at most two joints apart from each other, by element, each with itself.
+std::vector<std::vector<int>> neighbours(const RodModel& model) {
+  std::vector<std::vector<int>> children(model.elements.size() + 1);  // the first: at the clamp
+  std::vector<std::vector<int>> near(model.elements.size());
+  for (int e = 0; e < model.size(); ++e) children[model.elements[e].parent + 1].push_back(e);
+  for (int e = 0; e < model.size(); ++e) {
+    const int parent = model.elements[e].parent;
+    near[e] = children[parent + 1];  // itself and its siblings
+    if (parent >= 0) near[e].push_back(parent);
+    if (parent >= 0 && model.elements[parent].parent >= 0)
+      near[e].push_back(model.elements[parent].parent);
+    for (const int child : children[e + 1]) {
+      near[e].push_back(child);
+      near[e].insert(near[e].end(), children[child + 1].begin(), children[child + 1].end());
+    }
   }
-  return std::max(near, far);
+  return near;
 }
 
 }  // namespace
 
-SelfContact::Lineage SelfContact::lineage(const RodModel& model, int element) {
-  const auto parent = [&](int e) { return e < 0 ? -1 : model.elements[e].parent; };
-  return {element, parent(element), parent(parent(element))};
+// Whether holds(first, end) for all stretches of shapes, each of which is looked at.
+template <class Holds>
+bool SelfContact::for_all_shapes(const Holds& holds) {
+  const std::size_t room = now_.size();
+  const int parts = loop_.parts(room, worth_waking);
+  loop_.run(room, parts, [&](int part, std::size_t first, std::size_t end) {
+    scratch_[part].holds = holds(first, end);
+  });
+  return std::all_of(scratch_.begin(), scratch_.begin() + parts,
+                     [](const Scratch& scratch) { return scratch.holds; });
 }
 
-// At most two joints apart: parent, grandparent, or sibling.
-bool SelfContact::Lineage::is_near(const Lineage& other) const {
-  return element == other.element || parent == other.parent || parent == other.element ||
-         other.parent == element || grandparent == other.element || other.grandparent == element;
+// A step's first look collects the near list; later ones see whether it holds.
+void SelfContact::look(const RodModel& model, const RodState& state) {
+  const bool first_look = !near_list_made_;
+  const bool holds = for_all_shapes([&](std::size_t first, std::size_t end) {
+    place(model, state, first, end, now_);
+    return first_look ? foresee(first, end) : near_list_holds(first, end);
+  });
+  if (first_look)
+    collect_near(holds);
+  else if (!holds)
+    collect_near(
+        for_all_shapes([&](std::size_t first, std::size_t end) { return foresee(first, end); }));
 }
 
-void SelfContact::place(const RodModel& model, const RodState& state, Capsules& capsules) const {
-  const std::size_t count = model.shapes.size();
-  const auto place_some = [&](int, std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      const CollisionShape& shape = model.shapes[i];
-      const Vec3 axis = state.orientation[shape.element] * Vec3::UnitZ();
-      const Vec3& position = state.position[shape.element];
-      for (int k = 0; k < 3; ++k) {
-        capsules.near[k][i] = position[k] - shape.back_near * axis[k];
-        capsules.far[k][i] = position[k] - shape.back_far * axis[k];
-      }
+void SelfContact::place(const RodModel& model, const RodState& state, std::size_t first,
+                        std::size_t end, Capsules& capsules) const {
+  for (std::size_t i = first; i < std::min(end, count_); ++i) {
+    const CollisionShape& shape = model.shapes[i];
+    const Vec3 axis = state.orientation[shape.element] * Vec3::UnitZ();
+    const Vec3& position = state.position[shape.element];
+    for (int k = 0; k < 3; ++k) {
+      capsules[i].near[k] = position[k] - shape.back_near * axis[k];
+      capsules[i].far[k] = position[k] - shape.back_far * axis[k];
     }
-  };
-  loop_.run(count, loop_.parts(count, worth_waking), place_some);
+  }
 }
 
-bool SelfContact::near_list_holds() const {
-  bool holds = near_list_made_;
-  for (std::size_t i = 0; holds && i < now_.size(); ++i)
-    holds = squared_way(now_, near_.reference, i) <= near_.budget[i] * near_.budget[i];
+bool SelfContact::near_list_holds(std::size_t first, std::size_t end) {
+  measure_ways(now_, near_reference_, first, end, reach_);
+  bool holds = true;
+  for (std::size_t i = first; i < std::min(end, count_); ++i)
+    holds = holds && reach_[i] <= near_budget_[i];
   return holds;
 }
 
-void SelfContact::measure_ways() {
+// Sets how far the shapes come in this step at most, and how much nearer than at the far list's
+// reference a pair may thus come, one's share of that. Whether that list foresaw it.
+bool SelfContact::foresee(std::size_t first, std::size_t end) {
   const double most = most_motion * extent_;
-  for (std::size_t i = 0; i < now_.size(); ++i)
-    way_[i] = std::min(std::sqrt(squared_way(now_, start_, i)), most);
+  measure_ways(now_, start_, first, end, way_);
+  measure_ways(now_, far_reference_, first, end, reach_);
+  bool holds = true;
+  for (std::size_t i = first; i < std::min(end, count_); ++i) {
+    way_[i] = std::min(way_[i], most);
+    near_budget_[i] = settings_.margin + slack * way_[i];
+    reach_[i] += way_[i] + 2.0 * near_budget_[i];
+    holds = holds && reach_[i] <= far_budget_[i];
+  }
+  return holds;
+}
+
+CapsuleMotion SelfContact::motion() const {
+  return {start_, now_, most_motion * extent_};
 }
 
 // A pair is needed in this step while its gap is not above margin + what the two move against each
 // other. As the iterations move both by up to their slack, the gap may shrink and that motion grow
 // by as much.
-void SelfContact::collect_near(const RodModel& model) {
-  measure_ways();
-  for (std::size_t i = 0; i < way_.size(); ++i)
-    near_.budget[i] = settings_.margin + slack * way_[i];
-  if (!far_list_holds()) {
-    collect_far(model);
-    far_list_holds();
+void SelfContact::collect_near(bool far_list_holds) {
+  if (!far_list_holds) {
+    collect_far();
+    for (std::size_t i = 0; i < count_; ++i) reach_[i] = way_[i] + 2.0 * near_budget_[i];
   }
-  sift(far_.pairs, settings_.margin, reach_, measured_);
-  measure(now_, measured_, loop_);
-  work_.pairs += static_cast<long>(measured_.size());
+  loop_.each(far_parts_, [&](int part) { sift_far(part); });
   candidates_.clear();
-  for (std::size_t i = 0; i < measured_.size(); ++i) {
-    const int a = measured_.a[i], b = measured_.b[i];
-    const double open = settings_.margin + 2.0 * (near_.budget[a] + near_.budget[b]);
-    if (measured_.gap[i] <= open + way_[a] + way_[b] &&
-        measured_.gap[i] <= open + moved_apart(a, b))
-      candidates_.emplace_back(a, b);
+  for (int part = 0; part < far_parts_; ++part) {
+    const Scratch& scratch = scratch_[part];
+    candidates_.insert(candidates_.end(), scratch.candidates.begin(), scratch.candidates.end());
+    work_.pairs += scratch.measured;
   }
-  sort_(candidates_, static_cast<int>(now_.size()));
-  near_.pairs.clear();
-  for (const auto& [a, b] : candidates_) near_.pairs.add(a, b);
-  near_.reference = now_;
+  sort_(candidates_, static_cast<int>(count_));
+  near_.clear();
+  for (const auto& [a, b] : candidates_) near_.add(a, b);
+  near_.make_places();
+  near_reference_ = now_;
   near_list_made_ = true;
 }
 
-// Sets `reach_`: how much nearer than at the far list's reference a pair may come, one's share.
-bool SelfContact::far_list_holds() {
-  bool holds = true;
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    reach_[i] = std::sqrt(squared_way(now_, far_.reference, i)) + way_[i] + 2.0 * near_.budget[i];
-    holds = holds && reach_[i] <= far_.budget[i];
-  }
-  return holds;
-}
-
-void SelfContact::collect_far(const RodModel& model) {
-  ++work_.collections;
-  far_.reference = now_;
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    far_.budget[i] = skin * extent_ + 2.0 * settings_.margin + steps_ahead * way_[i];
-    const Vec3 near = now_.near_at(i), far = now_.far_at(i);
-    boxes_[i].setEmpty();
-    if (!std::isfinite((near + far).sum())) continue;
-    const double wide =
-        std::max(now_.radius_near[i], now_.radius_far[i]) + 0.5 * settings_.margin + far_.budget[i];
-    boxes_[i].extend(near).extend(far);
-    boxes_[i].min().array() -= wide;
-    boxes_[i].max().array() += wide;
-  }
-  overlapping_.find(boxes_, candidates_, loop_);
-  const int parts = loop_.parts(candidates_.size(), worth_waking);
-  loop_.run(candidates_.size(), parts, [&](int part, std::size_t first, std::size_t end) {
-    CapsulePairs& pairs = sieved_[part];
+// Those of the far list's pairs that may touch in this step.
+void SelfContact::sift_far(int part) {
+  Scratch& scratch = scratch_[part];
+  scratch.candidates.clear();
+  scratch.measured = 0;
+  const CapsulePairs& far = far_[part];
+  for (std::size_t first = 0; first < far.size(); first += at_a_time) {
+    const std::size_t end = std::min(far.size(), first + at_a_time);
+    CapsulePairs& pairs = scratch.pairs;
     pairs.clear();
-    for (std::size_t i = first; i < end; ++i) {
-      const auto [a, b] = candidates_[i];
-      if (!is_left_out(model, a, b)) pairs.add(a, b);
-    }
+    sift(far, first, end, settings_.margin, reach_, pairs);
     measure(now_, pairs);
-    sift(pairs, settings_.margin, far_.budget, kept_[part]);
-  });
-  far_.pairs.clear();
-  for (int part = 0; part < parts; ++part) far_.pairs.append(kept_[part]);
+    scratch.measured += static_cast<long>(pairs.size());
+    keep_meeting(motion(), settings_.margin, 2.0, near_budget_, pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      scratch.candidates.emplace_back(pairs.a[i], pairs.b[i]);
+  }
 }
 
-// What nearly touches as drawn, by the far list there.
-void SelfContact::exclude_touching() {
-  for (std::size_t i = 0; i < far_.pairs.size(); ++i)
-    if (far_.pairs.gap[i] < settings_.margin)
-      excluded_.emplace_back(far_.pairs.a[i], far_.pairs.b[i]);
-  std::sort(excluded_.begin(), excluded_.end());
-  for (const auto& [a, b] : excluded_) ++first_excluded_[a + 1];
-  std::partial_sum(first_excluded_.begin(), first_excluded_.end(), first_excluded_.begin());
+void SelfContact::collect_far() {
+  ++work_.collections;
+  far_reference_ = now_;
+  loop_.run(count_, loop_.parts(count_, worth_waking),
+            [&](int, std::size_t first, std::size_t end) {
+              for (; first < end; ++first) make_box(first);
+            });
+  for (CapsulePairs& part : far_) part.clear();
+  far_parts_ = overlapping_.find(boxes_, loop_, [&](int part, const Pairs& candidates) {
+    CapsulePairs& pairs = scratch_[part].pairs;
+    pairs.clear();
+    for (const auto& [a, b] : candidates)
+      if (!is_left_out(a, b)) pairs.add(a, b);
+    measure(now_, pairs);
+    sift(pairs, 0, pairs.size(), settings_.margin, far_budget_, far_[part]);
+  });
+}
+
+// Around all of a capsule until it has used up its budget.
+void SelfContact::make_box(std::size_t shape) {
+  const Capsule& capsule = now_[shape];
+  Eigen::AlignedBox3d& box = boxes_[shape];
+  far_budget_[shape] = skin * extent_ + 2.0 * settings_.margin + steps_ahead * way_[shape];
+  const Vec3 near = capsule.near_at(), far = capsule.far_at();
+  box.setEmpty();
+  if (!std::isfinite((near + far).sum())) return;
+  const Vec3 wide = Vec3::Constant(std::max(capsule.radius_near, capsule.radius_far) +
+                                   0.5 * settings_.margin + far_budget_[shape]);
+  box = {near.cwiseMin(far) - wide, near.cwiseMax(far) + wide};
 }
 
 // Shapes that are near in the tree, or across a weld, and those that nearly touch as drawn.
-bool SelfContact::is_left_out(const RodModel& model, int a, int b) const {
-  if (lineage_[a].is_near(lineage_[b])) return true;
-  for (int i = first_excluded_[a]; i < first_excluded_[a + 1]; ++i)
-    if (excluded_[i].second == b) return true;
-  const auto joined = [&](const Lineage& x, const Lineage& y, const Weld& weld) {
-    return (x.element == weld.a && lineage(model, weld.b).is_near(y)) ||
-           (x.element == weld.b && lineage(model, weld.a).is_near(y));
+void SelfContact::collect_left_out(const RodModel& model) {
+  std::vector<std::vector<int>> shapes(model.elements.size());  // of an element
+  for (std::size_t i = 0; i < count_; ++i)
+    shapes[model.shapes[i].element].push_back(static_cast<int>(i));
+  const std::vector<std::vector<int>> near = neighbours(model);
+  Pairs pairs;
+  const auto add = [&](int element, int other) {
+    for (const int a : shapes[element])
+      for (const int b : shapes[other])
+        if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
   };
-  return std::any_of(model.welds.begin(), model.welds.end(), [&](const Weld& weld) {
-    return joined(lineage_[a], lineage_[b], weld) || joined(lineage_[b], lineage_[a], weld);
-  });
+  for (int e = 0; e < model.size(); ++e)
+    for (const int other : near[e]) add(e, other);
+  for (const Weld& weld : model.welds) {
+    for (const int other : near[weld.b]) add(weld.a, other);
+    for (const int other : near[weld.a]) add(weld.b, other);
+  }
+  leave_out(pairs);
+  collect_far();
+  for (int part = 0; part < far_parts_; ++part)
+    for (std::size_t i = 0; i < far_[part].size(); ++i)
+      if (far_[part].gap[i] < settings_.margin)
+        pairs.emplace_back(far_[part].a[i], far_[part].b[i]);
+  leave_out(pairs);
 }
 
-// How far two capsules have moved against each other in this step, at most, wherever on them.
-double SelfContact::moved_apart(int a, int b) const {
-  const double most = most_motion * extent_;
-  const auto way = [&](int i) {
-    return std::pair(Vec3(now_.near_at(i) - start_.near_at(i)),
-                     Vec3(now_.far_at(i) - start_.far_at(i)));
-  };
-  const auto [near_a, far_a] = way(a);
-  const auto [near_b, far_b] = way(b);
-  // Half of each capsule's turn in addition to what the middles do.
-  const double turned = 0.5 * ((near_a - far_a).norm() + (near_b - far_b).norm());
-  return std::min(0.5 * (near_a + far_a - near_b - far_b).norm() + turned, 2.0 * most);
+void SelfContact::leave_out(Pairs pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  left_out_ = Pairs(pairs.begin(), pairs.end());
+  first_left_out_.assign(count_ + 1, 0);
+  for (const auto& [a, b] : left_out_) ++first_left_out_[a + 1];
+  std::partial_sum(first_left_out_.begin(), first_left_out_.end(), first_left_out_.begin());
+}
+
+bool SelfContact::is_left_out(int a, int b) const {
+  for (int i = first_left_out_[a + 1] - 1; i >= first_left_out_[a] && left_out_[i].second >= b; --i)
+    if (left_out_[i].second == b) return true;
+  return false;
 }
 
 }  // namespace pedicel::cosserat

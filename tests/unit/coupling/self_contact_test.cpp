@@ -96,11 +96,11 @@ TEST(Capsules, AreMeasuredAsOneByOne) {
     const Vec3 near = random_point(random, 1);
     const Vec3 far = i % 10 == 1 ? near : Vec3(near + random_point(random, 1));
     for (int k = 0; k < 3; ++k) {
-      capsules.near[k][i] = near[k];
-      capsules.far[k][i] = far[k];
+      capsules[i].near[k] = near[k];
+      capsules[i].far[k] = far[k];
     }
-    capsules.radius_near[i] = random.uniform(0.01, 0.2);
-    capsules.radius_far[i] = random.uniform(0.01, 0.2);
+    capsules[i].radius_near = random.uniform(0.01, 0.2);
+    capsules[i].radius_far = random.uniform(0.01, 0.2);
   }
   CapsulePairs pairs;
   for (int a = 0; a < 40; ++a)
@@ -111,14 +111,14 @@ TEST(Capsules, AreMeasuredAsOneByOne) {
     measure(capsules, pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const int a = pairs.a[i], b = pairs.b[i];
-      const Vec3 near_a = capsules.near_at(a), along_a = capsules.far_at(a) - near_a;
-      const Vec3 near_b = capsules.near_at(b), along_b = capsules.far_at(b) - near_b;
+      const Vec3 near_a = capsules[a].near_at(), along_a = capsules[a].far_at() - near_a;
+      const Vec3 near_b = capsules[b].near_at(), along_b = capsules[b].far_at() - near_b;
       const auto at = nearest_fractions(near_a, along_a, near_b, along_b);
       ASSERT_NEAR(pairs.at_a[i], at.a, 1e-12) << set << " " << a << " " << b;
       ASSERT_NEAR(pairs.at_b[i], at.b, 1e-12) << set << " " << a << " " << b;
       const auto radius = [&](int k, double fraction) {
-        return capsules.radius_near[k] +
-               fraction * (capsules.radius_far[k] - capsules.radius_near[k]);
+        return capsules[k].radius_near +
+               fraction * (capsules[k].radius_far - capsules[k].radius_near);
       };
       const double gap = (near_a + at.a * along_a - near_b - at.b * along_b).norm() -
                          radius(a, at.a) - radius(b, at.b);
