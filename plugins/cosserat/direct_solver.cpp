@@ -26,10 +26,11 @@ constexpr double rough_self_contact = 10.0;  // times the tolerance
 constexpr double stalled_gain = 0.9;         // more iterations do not help
 constexpr double left_over = 0.6;            // times the tolerance: of what is left by the series
 
-// Makes `iterate` what it will be but for where the elements are, which the rows write.
+// Makes `iterate` what it will be but for where the elements are, which the rows write. It has no
+// velocities.
 void follow(const RodState& state, RodState& iterate) {
-  if (iterate.size() != state.size() || iterate.joint_memory.size() != state.joint_memory.size())
-    iterate = state;
+  iterate.position.resize(state.position.size());
+  iterate.orientation.resize(state.orientation.size());
   iterate.alive = state.alive;
   iterate.fruit_gone = state.fruit_gone;
   iterate.root = state.root;

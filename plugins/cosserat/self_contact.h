@@ -91,7 +91,8 @@ class SelfContact : public ContactSource {
   Vec3 start_place(int element, const Vec3& arm_E) const;
   Vec3 moved(const RodState& state, int element, double back, const Vec3& outward_W) const;
 
-  static constexpr std::size_t worth_waking = 256;  // shapes or pairs, a thread
+  // Shapes and near pairs, a thread.
+  static constexpr std::size_t worth_waking = 256, worth_touching = 48;
 
   // What the parts of a loop need for themselves.
   struct Scratch {

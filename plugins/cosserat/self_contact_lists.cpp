@@ -10,9 +10,9 @@ namespace pedicel::cosserat {
 namespace {
 
 // A larger budget collects the far list more rarely, but with more pairs.
-constexpr double skin = 0.35;        // mean lengths of a shape
-constexpr double steps_ahead = 4.0;  // of the present motion
-constexpr double slack = 0.25;       // of the present motion, for what iterations change
+constexpr double skin = 0.2;         // mean lengths of a shape
+constexpr double steps_ahead = 3.0;  // of the present motion
+constexpr double slack = 0.4;        // of the present motion, for what iterations change
 constexpr double most_motion = 2.0;  // mean lengths: what moves farther in a step may pass through
 
 constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
@@ -87,14 +87,16 @@ bool SelfContact::near_list_holds(std::size_t first, std::size_t end) {
   return holds;
 }
 
-// Sets how far the shapes come in this step at most, and how much nearer than at the far list's
-// reference a pair may thus come, one's share of that. Whether that list foresaw it.
+// Makes the iterate the near list's reference: sets how far the shapes come in this step at most,
+// and how much nearer than at the far list's reference a pair may thus come, one's share of that.
+// Whether that list foresaw it.
 bool SelfContact::foresee(std::size_t first, std::size_t end) {
   const double most = most_motion * extent_;
   measure_ways(now_, start_, first, end, way_);
   measure_ways(now_, far_reference_, first, end, reach_);
   bool holds = true;
   for (std::size_t i = first; i < std::min(end, count_); ++i) {
+    near_reference_[i] = now_[i];
     way_[i] = std::min(way_[i], most);
     near_budget_[i] = settings_.margin + slack * way_[i];
     reach_[i] += way_[i] + 2.0 * near_budget_[i];
@@ -126,7 +128,6 @@ void SelfContact::collect_near(bool far_list_holds) {
   near_.clear();
   for (const auto& [a, b] : candidates_) near_.add(a, b);
   near_.make_places();
-  near_reference_ = now_;
   near_list_made_ = true;
 }
 
@@ -151,7 +152,6 @@ void SelfContact::sift_far(int part) {
 
 void SelfContact::collect_far() {
   ++work_.collections;
-  far_reference_ = now_;
   loop_.run(count_, loop_.parts(count_, worth_waking),
             [&](int, std::size_t first, std::size_t end) {
               for (; first < end; ++first) make_box(first);
@@ -167,9 +167,9 @@ void SelfContact::collect_far() {
   });
 }
 
-// Around all of a capsule until it has used up its budget.
+// Around all of a capsule, from where it is now, until it has used up its budget.
 void SelfContact::make_box(std::size_t shape) {
-  const Capsule& capsule = now_[shape];
+  const Capsule& capsule = far_reference_[shape] = now_[shape];
   Eigen::AlignedBox3d& box = boxes_[shape];
   far_budget_[shape] = skin * extent_ + 2.0 * settings_.margin + steps_ahead * way_[shape];
   const Vec3 near = capsule.near_at(), far = capsule.far_at();
