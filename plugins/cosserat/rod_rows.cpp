@@ -147,12 +147,14 @@ void RodRows::set_active(std::span<const char> plants) {
 
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
-  graph_.outward(pool, [&](int p) {
+  graph_.each(pool, [&](int p) {
     if (!packs_[p].active) return;
     read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
-    place_anchors(p, scratch_->iterate);
   });
+  // Not in the loop above: there nothing has to wait for its parents.
+  for (int p = 0; p < layout_.packs(); ++p)
+    if (packs_[p].active) place_anchors(p, scratch_->iterate);
 }
 
 // The parents' poses into a pack's first row: theirs must have been moved already.
