@@ -139,6 +139,8 @@ std::string truth_text(const HiddenCase& c) {
   out["smallest"] = c.smallest;
   out["size"] = c.size;
   out["visible"] = c.visible;
+  if (c.nearest.distance > 0.0)
+    out["nearest"] = {{"cause", c.nearest.cause}, {"distance", c.nearest.distance}};
   out["noise"] = {{"position_std", c.noise.position_std},
                   {"force_std", c.noise.force_std},
                   {"rho", c.noise.rho}};

@@ -51,6 +51,7 @@ std::vector<CaseOrder> effects() {
       // Over the effects every size meets every plant and both colours of noise.
       order.hidden = {use.name};
       order.size = sizes[(v + e + e / 4) % 8];
+      order.told_apart = true;
       order.coloured = (v / 4 + e) % 2;
       order.hidden_start = (v + e / 4) % 4 == 1;
       if (use.name == "youngs_modulus" || use.name == "density" || use.name == "damping_time")

@@ -22,7 +22,8 @@ using reference::TrialPlan;
 // The least that counts as identifiable: what stays of the change after a refit, in noise units.
 constexpr double identifiable = 5.0;
 constexpr int most_draws = 20;          // of an effect until one leaves a trace, and
-constexpr double least_visible = 0.02;  // of what is identifiable, that counts as one
+constexpr double least_visible = 0.02;  // of what is identifiable, that counts as one,
+constexpr double least_parted = 0.2;    // or as one of its own: instruments five times as good
 
 /// Makes one case, step by step.
 class Maker {
@@ -98,10 +99,12 @@ class Maker {
     }
   }
 
-  Eigen::VectorXd predict(const Subject& subject) const {
+  Eigen::VectorXd predict(const Subject& subject) const { return predict(subject, coarse_); }
+
+  Eigen::VectorXd predict(const Subject& subject, const Mesh& mesh) const {
     std::vector<Record> records;
     for (const TrialPlan& t : case_.trials)
-      records.push_back(run_trial(subject, t, case_.setting.markers, coarse_));
+      records.push_back(run_trial(subject, t, case_.setting.markers, mesh));
     return whitened(records, case_.noise);
   }
 
@@ -113,6 +116,21 @@ class Maker {
         absorbing.push_back(name);
     return Sight(
         plain_, [this](const Subject& s) { return predict(s); }, absorbing);
+  }
+
+  // What other causes, the plant's mesh and junctions led otherwise make of the data.
+  Parting parting(const std::string& truth, const Sight& eye) const {
+    const auto change = [&](const std::vector<plant::Effect>& effects) -> Eigen::VectorXd {
+      Subject subject = plain_;
+      subject.effects.insert(subject.effects.end(), effects.begin(), effects.end());
+      return predict(subject) - eye.plain();
+    };
+    const double distance = case_.setting.plant.distance;
+    std::vector<Eigen::VectorXd> conventions{predict(plain_, {distance, coarse_.dt}) -
+                                             predict(plain_, {0.25 * distance, coarse_.dt})};
+    if (case_.setting.plant.curves.size() > 1)
+      conventions.push_back(change(soft_junctions(case_.setting.plant)));
+    return {eye.columns(), conventions, other_causes(truth, case_.setting, scale_), change};
   }
 
   static Subject with(Subject subject, const HiddenEffect& effect, double size) {
@@ -182,9 +200,14 @@ class Maker {
     double smallest = 0.003, size = smallest * std::min(order().size, 8.0), seen = 0.0;
     if (effect.sized) {
       const Sight eye = sight(effect.name);
-      std::map<double, double> known;
+      const bool apart = order().told_apart;
+      const auto others = apart ? std::optional(parting(effect.name, eye)) : std::nullopt;
+      std::map<double, Eigen::VectorXd> changes;
+      const auto change = [&](double u) -> const Eigen::VectorXd& {
+        return changes.contains(u) ? changes[u] : changes[u] = look(eye, effect, u);
+      };
       const auto norm = [&](double u) {
-        return known.contains(u) ? known[u] : known[u] = look(eye, effect, u).norm();
+        return others ? others->nearest(change(u)).distance : change(u).norm();
       };
       last_size_ = 0.0;
       smallest = size_for(norm, identifiable, effect.guess, effect.cap / order().size);
@@ -192,13 +215,15 @@ class Maker {
       if (order().kind == Kind::look_alike && count("density"))
         size = 0.15;  // nothing tells them apart, however large: no need to be near the limit
       const double better = norm(smallest) / identifiable;
-      if (!(better > least_visible)) return false;
-      seen = norm(size);
+      if (!(better > (apart ? least_parted : least_visible))) return false;
+      seen = change(size).norm();
+      if (apart) case_.nearest = others->nearest(change(size));
       if (better < 0.94) {
         case_.noise.position_std *= better;
         case_.noise.force_std *= better;
         for (double& before : case_.visible) before /= better;
         seen /= better;
+        case_.nearest.distance /= better;
       }
     }
     effect.add(size, subject_);

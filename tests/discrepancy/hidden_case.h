@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "discrepancy/hidden_effect.h"
-#include "discrepancy/identifiability.h"
+#include "discrepancy/parting.h"
 
 namespace pedicel::hidden {
 
@@ -24,6 +24,7 @@ struct CaseOrder {
   PackKind pack = PackKind::mix;
   std::vector<std::string> hidden;  ///< names; of a look-alike all that fit, the true one first
   double size = 0.0;                ///< times the smallest identifiable
+  bool told_apart = false;          ///< which tells one effect from every other; false: it is seen
   bool coloured = false;            ///< noise AR(1) with rho 0.5 to 0.95, else white
   bool off = false;                 ///< nominal modulus and damping are off, too
   bool hidden_start = false;        ///< holds start where the hidden plant settles, not the nominal
@@ -48,6 +49,7 @@ struct HiddenCase {
   std::vector<double> smallest;          ///< identifiable size of each cause or stranger
   std::vector<double> size;              ///< of each; in effects_size's own units
   std::vector<double> visible;           ///< noise units beyond a refit, of each on its own
+  Parting::Nearest nearest;              ///< of one effect that is told apart: what comes nearest
   Noise noise;
   Setting setting;  ///< the nominal plant and its markers
   std::vector<reference::TrialPlan> trials;
@@ -56,7 +58,7 @@ struct HiddenCase {
   std::filesystem::path folder;            ///< once it is written
 };
 
-/// Where what is to be hidden leaves no trace in the data, however it is drawn.
+/// Where what is to be hidden leaves no trace in the data, or none of its own, however it is drawn.
 struct NoTrace : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

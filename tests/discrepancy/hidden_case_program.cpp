@@ -31,6 +31,8 @@ void print_case(const HiddenCase& c) {
               name_of(c.expected), c.sine, c.noise.position_std, c.noise.force_std, c.noise.rho);
   for (std::size_t i = 0; i < c.size.size(); ++i)
     std::printf(" | smallest %.4g, size %.4g, seen %.3g", c.smallest[i], c.size[i], c.visible[i]);
+  if (c.nearest.distance > 0.0)
+    std::printf(" | nearest %s %.3g", c.nearest.cause.c_str(), c.nearest.distance);
   std::printf("\n");
   std::fflush(stdout);
 }

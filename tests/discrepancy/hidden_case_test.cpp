@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "io/atomic_file.h"
@@ -86,6 +87,56 @@ TEST(HiddenCases, SizesAreMultiplesOfTheSmallest) {
   ASSERT_EQ(c.causes.size(), 1u);
   EXPECT_EQ(c.causes[0].number("delay"), c.size[0]);
   EXPECT_EQ(c.expected, Expected::named);
+}
+
+// The change (7, 3, 2, 5, 4, 1): a refit takes the first entry, another cause the second and third
+// (it mixes its two effects) or the fifth (one of its two places), and what solvers differ by at
+// most 2 of the fourth, of which 3 stay.
+TEST(HiddenCases, PartingLeavesWhatNoOtherCauseMakes) {
+  const auto unit = [](int i) -> Eigen::VectorXd { return Eigen::VectorXd::Unit(6, i); };
+  const auto along = [](int i, const char* name) {
+    plant::Effect e;
+    e.name = name;
+    e.numbers["axis"] = {static_cast<double>(i)};
+    return e;
+  };
+  const std::vector<OtherCause> causes{
+      {"mixes", {{along(1, "mixes"), along(2, "mixes")}}},
+      {"has_a_place", {{along(4, "has_a_place")}, {along(5, "has_a_place")}}}};
+  const auto change = [&](const std::vector<plant::Effect>& effects) -> Eigen::VectorXd {
+    // Each comes with some of what a refit takes.
+    return 0.1 * unit(static_cast<int>(effects.front().number("axis"))) + 3.0 * unit(0);
+  };
+  Eigen::VectorXd truth(6);
+  truth << 7, 3, 2, 5, 4, 1;
+  const Parting with({unit(0)}, {2.0 * unit(3)}, causes, change);
+  const Parting::Nearest nearest = with.nearest(truth);
+  EXPECT_EQ(nearest.cause, "has_a_place");
+  EXPECT_NEAR(nearest.distance, std::sqrt(3 * 3 + 2 * 2 + 3 * 3 + 1), 1e-9);
+  const Parting alone({unit(0)}, {2.0 * unit(3)}, {}, change);
+  EXPECT_EQ(alone.nearest(truth).cause, "");
+  EXPECT_NEAR(alone.nearest(truth).distance, std::sqrt(3 * 3 + 2 * 2 + 3 * 3 + 4 * 4 + 1), 1e-9);
+  // Nothing is taken the other way round.
+  EXPECT_NEAR(alone.nearest(-truth).distance, std::sqrt(3 * 3 + 2 * 2 + 5 * 5 + 4 * 4 + 1), 1e-9);
+}
+
+// Relaxation is told from creep and from other dampings by less than it is seen by: its smallest
+// size is larger where it must be told apart, and 5 units are left beside the nearest of them.
+TEST(HiddenCases, ToldApartIsMoreThanSeen) {
+  CaseOrder order;
+  order.kind = Kind::effect;
+  order.pack = PackKind::push;
+  order.hidden = {"relaxation"};
+  order.size = 1;
+  const HiddenCase seen = make_case(2, order);
+  order.told_apart = true;
+  const HiddenCase apart = make_case(2, order);
+  EXPECT_NEAR(seen.visible[0], 5, 0.3);
+  EXPECT_EQ(seen.nearest.cause, "");
+  EXPECT_GT(apart.size[0], 1.2 * seen.size[0]);
+  EXPECT_GT(apart.visible[0], apart.nearest.distance);
+  EXPECT_NEAR(apart.nearest.distance, 5, 0.3);
+  EXPECT_NE(apart.nearest.cause, "");
 }
 
 // AR(1) noise through its own whitening has variance 1 and no correlation.

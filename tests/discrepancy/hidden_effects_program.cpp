@@ -1,5 +1,5 @@
-// hidden_effects [--seed S] [--count N] [--first N] [--case N...] [--size X] [--threads T]
-//                [--out DIR]
+// hidden_effects [--seed S] [--count N] [--first N] [--case N...] [--kind K] [--size X] [--seen]
+//                [--threads T] [--out DIR]
 // Makes hidden cases, diagnoses them and scores the verdicts, several cases side by side, one
 // thread each. Cases whose score stands in DIR/results.jsonl are not done again.
 #include <CLI/CLI.hpp>
@@ -34,6 +34,8 @@ struct Arguments {
   int count = static_cast<int>(case_orders().size()), first = 0, threads = 0;
   std::vector<int> cases;
   double size = 0.0;  // times the smallest identifiable; 0: the list's
+  bool seen = false;  // that size counts from where an effect is seen
+  std::string kind;   // these alone, where it is not empty
   std::string out = "out/hidden_effects";
   bool keep = false;
 };
@@ -50,7 +52,9 @@ class Bench {
   explicit Bench(const Arguments& a) : a_(a), out_(a.out), results_(out_ / "results.jsonl") {
     scores_ = read_scores(results_, a.seed);
     // Lines of another size may stand in the same file.
-    std::erase_if(scores_, [&](const Score& s) { return s.times != order(s.number).size; });
+    std::erase_if(scores_, [&](const Score& s) {
+      return s.times != order(s.number).size || s.told_apart != order(s.number).told_apart;
+    });
     std::set<int> done;
     for (const Score& s : scores_) done.insert(s.number);
     std::vector<int> wanted = a.cases;
@@ -58,7 +62,9 @@ class Bench {
       for (int i = 0; i < a.count; ++i) wanted.push_back(a.first + i);
     const int most = static_cast<int>(case_orders().size());
     for (const int number : wanted)
-      if (number >= 0 && number < most && !done.contains(number)) todo_.push_back(number);
+      if (number >= 0 && number < most && !done.contains(number) &&
+          (a.kind.empty() || a.kind == name_of(case_orders()[number].kind)))
+        todo_.push_back(number);
   }
 
   int run() {
@@ -82,6 +88,7 @@ class Bench {
   CaseOrder order(int number) const {
     CaseOrder order = case_orders()[number];
     if (a_.size > 0.0 && order.size > 0.0) order.size = a_.size;
+    if (a_.seen) order.told_apart = false;
     return order;
   }
 
@@ -149,6 +156,12 @@ int main(int argc, char** argv) {
                  "hide everything at this many times the smallest identifiable size, not at the "
                  "list's own: 100 for what one sees with bare eyes")
       ->check(CLI::PositiveNumber);
+  app.add_flag(
+      "--seen", a.seen,
+      "count sizes from where an effect is seen at all, not from where no other cause does "
+      "as well");
+  app.add_option("--kind", a.kind, "cases of this kind only")
+      ->check(CLI::IsMember({"null", "effect", "pair", "look_alike", "outside"}));
   app.add_option("--threads", a.threads, "cases side by side (default: all cores)")
       ->check(CLI::Range(1, 1024));
   app.add_option("--out", a.out, "folder of the results")->capture_default_str();

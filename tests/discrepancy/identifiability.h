@@ -43,6 +43,10 @@ class Sight {
   /// long oscillation is met out of phase.
   Change change(const reference::Subject& with, const Eigen::VectorXd& start = {}) const;
 
+  /// The data of the subject, and their changes by the logarithms of the factors `absorbing`.
+  const Eigen::VectorXd& plain() const { return plain_; }
+  const Eigen::MatrixXd& columns() const { return columns_; }
+
  private:
   int factors() const { return static_cast<int>(absorbing_.size()); }
   /// The data of the subject with these factors.

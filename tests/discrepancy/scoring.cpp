@@ -116,6 +116,7 @@ Score blank(const HiddenCase& hidden) {
   s.coloured = hidden.order.coloured;
   s.off = hidden.order.off;
   s.times = hidden.order.size;
+  s.told_apart = hidden.order.told_apart;
   s.hidden = hidden.order.hidden;
   return s;
 }
@@ -171,6 +172,7 @@ std::string to_line(const Score& s) {
                              {"kind", s.kind},
                              {"hidden", s.hidden},
                              {"times_smallest", s.times},
+                             {"told_apart", s.told_apart},
                              {"verdict", s.outcome},
                              {"said", s.said},
                              {"call", name_of(s.call)},
@@ -210,6 +212,7 @@ Score from_line(const std::string& line) {
   json.at("simulations").get_to(s.simulations);
   json.at("fault").get_to(s.fault);
   s.times = number_of(json.at("times_smallest"));
+  s.told_apart = json.value("told_apart", false);
   s.evidence = number_of(json.at("evidence"));
   s.alarm = number_of(json.at("alarm"));
   s.seconds = number_of(json.at("seconds"));

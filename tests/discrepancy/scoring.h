@@ -40,6 +40,8 @@ struct Score {
   std::string kind, plant, pack, outcome;
   bool coloured = false, off = false;
   double times = 0.0;  ///< the smallest identifiable size
+  /// That size tells it from every other cause, too; false: it is seen, no more (older lines).
+  bool told_apart = false;
   std::vector<std::string> hidden, said;
   Call call = Call::missed;
   /// Share of the true model's gain on trials kept back; absent where the true model gains less
