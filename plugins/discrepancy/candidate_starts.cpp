@@ -225,4 +225,25 @@ std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummar
   return starts[found.best];
 }
 
+Hypothesis with_threshold_by(Evaluator& evaluator, const Hypothesis& fitted, const Cause& cause,
+                             const FitOptions& options) {
+  if (!is_ladder(cause)) return fitted;
+  const Eigen::Index last = fitted.size() - 1;
+  const double rung = cause.starts[1].unknowns()[0] - cause.starts[0].unknowns()[0];
+  std::vector<Hypothesis> ladder(3, fitted);
+  for (int i = 0; i < 3; ++i) {
+    Eigen::VectorXd moved = fitted.unknowns();
+    moved[last] += (i - 1) * rung;
+    ladder[i].set_unknowns(moved);
+    ladder[i] = ladder[i].bounded();
+  }
+  Scan found;
+  for (int round = 0, at = 1; round < finer_rounds; ++round) {
+    ladder = finer_ladder(ladder, at);
+    found = scan(evaluator, ladder, options);
+    at = lowest_of_best(found);
+  }
+  return ladder[found.best];
+}
+
 }  // namespace pedicel::discrepancy

@@ -54,4 +54,10 @@ std::optional<Hypothesis> twin_of(const Hypothesis& fitted);
 std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,
                                            const Cause& cause, const FitOptions& options);
 
+/// What was fitted by another simulator, its threshold where this one puts it, the other numbers as
+/// they are: the sharpest bend of a coarse mesh is another one than a fine mesh's, and a threshold
+/// just beyond it does nothing, however it is moved. Causes without a threshold stay as fitted.
+Hypothesis with_threshold_by(Evaluator& evaluator, const Hypothesis& fitted, const Cause& cause,
+                             const FitOptions& options);
+
 }  // namespace pedicel::discrepancy

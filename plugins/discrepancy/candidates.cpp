@@ -366,12 +366,19 @@ class Refits {
                   const bool to_the_end = is_near_the_best(*open[i]);
                   FitOptions options = options_.fit;
                   if (!to_the_end) options.iterations = std::min(few_fine, options.iterations);
+                  if (!begun.contains(open[i]->cause)) start_with_fine(evaluator, *open[i]);
                   open[i]->fit = refit(evaluator, open[i]->fit, options);
                   open[i]->fine = to_the_end || open[i]->fit.converged;
                 });
       for (const Candidate* candidate : open) begun.insert(candidate->cause);
       rank(open, fine_);
     }
+  }
+
+  void start_with_fine(Evaluator& evaluator, Candidate& candidate) const {
+    const auto cause = std::ranges::find(causes_, candidate.cause, &Cause::name);
+    candidate.fit.hypothesis =
+        with_threshold_by(evaluator, candidate.fit.hypothesis, *cause, options_.fit);
   }
 
   bool stopped() const { return options_.stop && *options_.stop; }

@@ -132,7 +132,7 @@ std::string gain_text(const Diagnosis& d) {
   text +=
       " (1 is the noise floor; nominal model: " + short_number(errors.nominal.value_or(NAN)) + ").";
   if (d.verdict.gain && found)
-    text += " That removes " + percent(*d.verdict.gain) + " of the error above the noise.";
+    text += " That removes " + share_removed(*d.verdict.gain) + " of the error above the noise.";
   return text;
 }
 
@@ -151,9 +151,9 @@ std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const
     lists.first.push_back(
         hide.name + ": " + hide.parameter +
         (stiff    ? " above "
-         : factor ? " between 1 and "
+         : factor ? " off 1 by less than "
                   : " below ") +
-        (factor ? io::format_number(hide.smallest_seen, 5) : short_number(hide.smallest_seen)) +
+        short_number(factor ? std::abs(hide.smallest_seen - 1.0) : hide.smallest_seen) +
         unit_text(hide.unit));
   }
   return lists;

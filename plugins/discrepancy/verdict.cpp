@@ -120,6 +120,10 @@ std::string to_json(const Verdict& verdict) {
   return json.dump(2);
 }
 
+std::string share_removed(double gain) {
+  return gain > 0.995 ? "all" : short_number(100.0 * gain) + " %";
+}
+
 std::string headline(const Verdict& verdict) {
   std::string names;
   for (const NamedCause& cause : verdict.causes) {
@@ -130,8 +134,8 @@ std::string headline(const Verdict& verdict) {
                             : ", ") +
              plain_name(cause.name) + " (" + cause.name + ")";
   }
-  const std::string gain = verdict.gain ? "; it removes " + short_number(100.0 * *verdict.gain) +
-                                              " % of the error above the noise on trials kept back"
+  const std::string gain = verdict.gain ? "; it removes " + share_removed(*verdict.gain) +
+                                              " of the error above the noise on trials kept back"
                                         : "";
   switch (verdict.outcome) {
     case Outcome::adequate:

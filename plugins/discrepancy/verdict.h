@@ -63,6 +63,9 @@ struct Verdict {
 };
 
 std::string to_json(const Verdict& verdict);
+/// How much of the error above the noise a gain removes: "96 %", or "all" where noise alone is
+/// left.
+std::string share_removed(double gain);
 /// One sentence: what is wrong and how sure that is.
 std::string headline(const Verdict& verdict);
 

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "discrepancy/plant_sketch.h"
+#include "discrepancy/report_words.h"
 #include "io/atomic_file.h"
 #include "made_diagnosis.h"
 #include "support/temporary_folder.h"
@@ -109,6 +110,17 @@ TEST(Report, ForceOfUnknownKindHasItsPlaceInTheDrawing) {
   EXPECT_THAT(page, Not(HasSubstr("That removes")));
   EXPECT_THAT(page, HasSubstr("<h3>What is left</h3>"));
   EXPECT_THAT(page, HasSubstr("&quot;push&quot;, which was to be kept back"));
+}
+
+TEST(Report, FactorsThatCouldHideAreToldByHowFarTheyAreFromOne) {
+  Verdict verdict;
+  verdict.could_hide = {{"marker_scale", "factor", 1.00002, "1"},
+                        {"weak_segment", "factor", 0.91632, "1"},
+                        {"extra_mass", "mass", 0.004, "kg"}};
+  EXPECT_THAT(hiding_texts(verdict).first,
+              ::testing::ElementsAre("marker_scale: factor off 1 by less than 2e-05",
+                                     "weak_segment: factor off 1 by less than 0.0837",
+                                     "extra_mass: mass below 0.004 kg"));
 }
 
 /// The open element that a closing one does not match, or what is left open; empty where all nest.
