@@ -273,7 +273,7 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
 
 void conclude(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
-  if (!diagnosis.before.raised) {
+  if (!diagnosis.before.raised && findings.chain.empty()) {
     conclude_parameters(findings, diagnosis);
   } else if (findings.chain.empty() && !diagnosis.before.leftover.shows() &&
              findings.excess(diagnosis.base) < small_excess) {

@@ -344,9 +344,20 @@ TEST(Conclusion, IsUnknownWhereNothingExplainsTheAlarm) {
   EXPECT_EQ(c.concluded().outcome, Outcome::unknown);
 }
 
+// Density that went far from what it was weighed to be took a mass over: no alarm, but a cause.
+TEST(Conclusion, NamesWhatAPulledParameterHadTakenOver) {
+  Case c;
+  c.diagnosis.before.raised = false;
+  c.findings.needed = {};
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::named);
+  EXPECT_THAT(names(v), ElementsAre("base_compliance"));
+}
+
 TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
   Case c;
   c.diagnosis.before.raised = false;
+  c.diagnosis.ranking.clear();
   c.diagnosis.ranking.clear();
   c.diagnosis.base.cost = 0.5 * c.findings.samples();
   const Verdict v = c.concluded();
@@ -363,6 +374,7 @@ TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
     Case d;
     d.diagnosis.before.raised = false;
     d.diagnosis.ranking.clear();
+    d.diagnosis.ranking.clear();
     d.diagnosis.base.standard_error[0] = 0.04;
     d.findings.needed.model = d.diagnosis.base;
     d.findings.parameter_shift = Eigen::VectorXd::Constant(1, shift);
@@ -374,6 +386,7 @@ TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
 TEST(Conclusion, OfAParameterThatAnotherOneCouldStandForIsAmbiguous) {
   Case c;
   c.diagnosis.before.raised = false;
+  c.diagnosis.ranking.clear();
   c.diagnosis.ranking.clear();
   c.findings.needed.instead = {{c.diagnosis.base, 2.5}};
   Hypothesis& instead = c.findings.needed.instead[0].model.hypothesis;
@@ -393,6 +406,7 @@ TEST(Conclusion, ALawThatExplainsFarMoreThanTheParameterIsNamedAlone) {
   for (const double better : {30.0, 10.0}) {
     Case c;
     c.diagnosis.before.raised = false;
+    c.diagnosis.ranking.clear();
     c.diagnosis.ranking.clear();
     c.findings.needed.instead = {{c.diagnosis.base, -better}};
     Hypothesis& instead = c.findings.needed.instead[0].model.hypothesis;
@@ -417,6 +431,7 @@ TEST(Conclusion, ALawThatExplainsFarMoreThanTheParameterIsNamedAlone) {
 TEST(Conclusion, DoesNotBlameAParameterThatMayBeNominal) {
   Case c;
   c.diagnosis.before.raised = false;
+  c.diagnosis.ranking.clear();
   c.diagnosis.ranking.clear();
   c.findings.needed.names.clear();
   EXPECT_EQ(c.concluded().outcome, Outcome::adequate);
