@@ -1,6 +1,7 @@
 #include "discrepancy/conclusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "discrepancy/cause_names.h"
@@ -113,15 +114,23 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
   if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
 }
 
+bool is_special_case(const Candidate& special, const Candidate& general) {
+  const auto& pairs = special_cases();
+  return std::ranges::find(pairs, std::pair(special.cause, general.cause)) != pairs.end();
+}
+
+// What more numbers gain by chance, in nats: half of chi-squared's upper twentieth.
+double gain_by_chance(int more_numbers) {
+  static constexpr std::array nats{0.0, 1.92, 3.00, 3.91, 4.74, 5.54};
+  return nats[std::clamp<int>(more_numbers, 0, nats.size() - 1)];
+}
+
 // A rival that has the best one as a special case, and needs more parameters to do no better, is
 // no other explanation: a wind of no speed is drag. Nor is one whose fit turned into the best one.
 // (What would win without one of the trials does better there.)
 bool contains(const Candidate& rival, const Candidate& best, bool turns) {
   if (rival.limit_of == best.cause) return true;
-  if (turns) return false;
-  const auto& special = special_cases();
-  return std::ranges::find(special, std::pair(best.cause, rival.cause)) != special.end() &&
-         rival.evidence < best.evidence;
+  return !turns && is_special_case(best, rival) && rival.evidence < best.evidence;
 }
 
 bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
@@ -131,16 +140,20 @@ bool explains_as_well(const Candidate& rival, const Candidate& best, double marg
 }
 
 // Whether the rival stands before the best where one of the trials is left out. Both as they were
-// fitted to all: a rival that is far off goes farther without a trial than first order tells.
+// fitted to all: a rival that is far off goes farther without a trial than first order tells. One
+// that has the best as a special case is never behind, and ahead by what its numbers gain by
+// chance.
 bool wins_without_a_trial(const Findings& findings, const Candidate& rival, const Candidate& best) {
   if (findings.fit_trials.size() < 3) return false;
+  const int more = rival.fit.hypothesis.size() - best.fit.hypothesis.size();
+  const double chance = is_special_case(best, rival) ? gain_by_chance(more) : 0.0;
   const double all = rival.fit.cost - best.fit.cost;
   Eigen::Index row = 0;
   for (const int t : findings.fit_trials) {
     const Eigen::Index size = findings.data->size(std::span(&t, 1));
     const double here = 0.5 * (rival.fit.residual.segment(row, size).squaredNorm() -
                                best.fit.residual.segment(row, size).squaredNorm());
-    if (all - here < -turned) return true;
+    if (all - here < -turned - chance) return true;
     row += size;
   }
   return false;

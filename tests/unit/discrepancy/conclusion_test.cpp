@@ -222,6 +222,12 @@ TEST(Conclusion, CallsAGustARivalOfItsWindWhereOneTrialAloneDecides) {
   };
   EXPECT_EQ(conclude(6.0, 0.0), Outcome::ambiguous);
   EXPECT_EQ(conclude(2.0, 2.0), Outcome::named);
+  // Two more numbers, as a gust has, gain 3 nats by chance (chi-squared's upper twentieth is 6).
+  gust.fit.hypothesis.add(hypothesis_of("gust", "frequency", 1.0, "Hz"));
+  gust.fit.hypothesis.add(hypothesis_of("gust", "amplitude", 0.5, "1"));
+  gust.fit.standard_error = Eigen::Vector4d(0.01, 0.02, 0.1, 0.1);
+  EXPECT_EQ(conclude(7.5, 0.0), Outcome::named);
+  EXPECT_EQ(conclude(8.5, 0.0), Outcome::ambiguous);
 }
 
 // 20 nats behind in all, because of the last trial alone: without it, ahead.
