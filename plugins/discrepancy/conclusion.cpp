@@ -119,22 +119,27 @@ bool is_special_case(const Candidate& special, const Candidate& general) {
   return std::ranges::find(pairs, std::pair(special.cause, general.cause)) != pairs.end();
 }
 
-// What more numbers gain by chance, in nats: half of chi-squared's upper twentieth.
+// What more numbers gain by chance once in a hundred times, in nats: half a chi-squared.
 double gain_by_chance(int more_numbers) {
-  static constexpr std::array nats{0.0, 1.92, 3.00, 3.91, 4.74, 5.54};
+  static constexpr std::array nats{0.0, 3.32, 4.61, 5.67, 6.64, 7.54};
   return nats[std::clamp<int>(more_numbers, 0, nats.size() - 1)];
 }
 
-// A rival that has the best one as a special case, and needs more parameters to do no better, is
-// no other explanation: a wind of no speed is drag. Nor is one whose fit turned into the best one.
-// (What would win without one of the trials does better there.)
+int more_numbers(const Candidate& rival, const Candidate& best) {
+  return rival.fit.hypothesis.size() - best.fit.hypothesis.size();
+}
+
+// A rival that has the best one as a special case, and needs more parameters to do no better than
+// by chance, is no other explanation: a wind of no speed is drag. Nor is one whose fit turned into
+// the best one. (What would win without one of the trials does better there.)
 bool contains(const Candidate& rival, const Candidate& best, bool turns) {
   if (rival.limit_of == best.cause) return true;
-  return !turns && is_special_case(best, rival) && rival.evidence < best.evidence;
+  return !turns && is_special_case(best, rival) && rival.evidence < best.evidence &&
+         said_by_data(rival) - said_by_data(best) <= gain_by_chance(more_numbers(rival, best));
 }
 
 bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
-  return rival.fit.hypothesis.size() - best.fit.hypothesis.size() <= most_more_numbers &&
+  return more_numbers(rival, best) <= most_more_numbers &&
          said_by_data(best) - said_by_data(rival) < as_well &&
          best.evidence - rival.evidence < most_margins * margin;
 }
@@ -145,8 +150,8 @@ bool explains_as_well(const Candidate& rival, const Candidate& best, double marg
 // chance.
 bool wins_without_a_trial(const Findings& findings, const Candidate& rival, const Candidate& best) {
   if (findings.fit_trials.size() < 3) return false;
-  const int more = rival.fit.hypothesis.size() - best.fit.hypothesis.size();
-  const double chance = is_special_case(best, rival) ? gain_by_chance(more) : 0.0;
+  const double chance =
+      is_special_case(best, rival) ? gain_by_chance(more_numbers(rival, best)) : 0.0;
   const double all = rival.fit.cost - best.fit.cost;
   Eigen::Index row = 0;
   for (const int t : findings.fit_trials) {
@@ -193,12 +198,12 @@ void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effec
     if (!rival.whole || rival.evidence < 0.0) break;
     const bool turns = wins_without_a_trial(findings, rival, best);
     const bool beaten = behind > margin && !explains_as_well(rival, best, margin) && !turns;
-    diagnosis.steps.push_back(
-        text("Of %.4g nats that a rival must lose by, ", margin) + rival.cause +
-        text(" loses by %.4g; the data say %.4g less for it, and it has", behind,
-             said_by_data(best) - said_by_data(rival)) +
-        text(" %g more numbers", rival.fit.hypothesis.size() - best.fit.hypothesis.size()) +
-        (turns ? "; one trial alone decides between them." : "."));
+    diagnosis.steps.push_back(text("Of %.4g nats that a rival must lose by, ", margin) +
+                              rival.cause +
+                              text(" loses by %.4g; the data say %.4g less for it, and it has",
+                                   behind, said_by_data(best) - said_by_data(rival)) +
+                              text(" %g more numbers", more_numbers(rival, best)) +
+                              (turns ? "; one trial alone decides between them." : "."));
     if (beaten || findings.chain.size() > 1 || contains(rival, best, turns)) {
       const bool found = std::ranges::any_of(
           findings.chain, [&](const Candidate& named) { return named.cause == rival.cause; });
