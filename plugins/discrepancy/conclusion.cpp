@@ -305,9 +305,11 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
     const Leftover& left = diagnosis.before.leftover;
     if (left.shows())
       verdict.remainder =
-          "the plant moves in its own shapes in trial " +
-          diagnosis.admission.experiment.trials[left.trial].name + left.frequency() +
-          text(", %.3g deviations beyond noise", left.deviations) + ", and no cause explains it";
+          "the plant moves in its own shapes in " +
+          (left.in_all ? "all trials"
+                       : "trial " + diagnosis.admission.experiment.trials[left.trial].name) +
+          left.frequency() + text(", %.3g deviations beyond noise", left.deviations) +
+          ", and no cause explains it";
   } else {
     conclude_causes(findings, diagnosis);
   }

@@ -41,7 +41,8 @@ void DiagnosisLog::directions(std::vector<Direction> directions, const Alarm& al
   const Leftover& left = alarm.leftover;
   if (left.trial >= 0)
     note(text("Left in the plant's shapes of motion: %.3g deviations,", left.deviations) +
-         left.frequency() + " of trial " + std::to_string(left.trial + 1) + ".");
+         left.frequency() +
+         (left.in_all ? " of all trials." : " of trial " + std::to_string(left.trial + 1) + "."));
   std::ranges::stable_sort(directions, [](const Direction& a, const Direction& b) {
     return std::abs(a.statistic) > std::abs(b.statistic);
   });

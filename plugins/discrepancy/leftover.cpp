@@ -85,28 +85,41 @@ double deviations_of(double ratio, double n, double m) {
   return ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
 }
 
-/// One trial's power by frequency.
+/// One trial's power at the frequencies 1/duration, 2/duration, ...
 struct Powers {
   Eigen::VectorXd along, across, own;  // of the residual, and along the shapes of our own error
-  int shapes = 0, others = 0;
+  int shapes = 0, others = 0, trial = 0;
+  double duration = 0.0;  // s
 
-  double deviations(Eigen::Index first, Eigen::Index count) const {
-    const double found = std::sqrt(along.segment(first, count).sum()) -
-                         mistrust * std::sqrt(own.segment(first, count).sum());
-    if (found <= 0.0) return 0.0;
-    const Eigen::Index low = std::max<Eigen::Index>(0, first - least_neighbourhood);
-    const Eigen::Index high =
-        std::min<Eigen::Index>(across.size(), first + count + least_neighbourhood);
-    const double n = 2.0 * shapes * static_cast<double>(count);
-    const double m = 2.0 * others * static_cast<double>(high - low);
-    const double noise = across.segment(low, high - low).sum() / m;
-    return noise > 0.0 ? deviations_of(found * found / n / noise, n, m) : 0.0;
+  Eigen::Index at(double hz) const {
+    return std::clamp<Eigen::Index>(std::lround(hz * duration) - 1, 0, along.size() - 1);
   }
 };
+
+/// Of a band of all these trials together.
+double deviations(std::span<const Powers> trials, double low_hz, double high_hz) {
+  double along = 0.0, across = 0.0, own = 0.0, n = 0.0, m = 0.0;
+  for (const Powers& powers : trials) {
+    const Eigen::Index first = powers.at(low_hz), count = powers.at(high_hz) - first + 1;
+    const Eigen::Index low = std::max<Eigen::Index>(0, first - least_neighbourhood);
+    const Eigen::Index high =
+        std::min<Eigen::Index>(powers.across.size(), first + count + least_neighbourhood);
+    along += powers.along.segment(first, count).sum();
+    own += powers.own.segment(first, count).sum();
+    across += powers.across.segment(low, high - low).sum();
+    n += 2.0 * powers.shapes * static_cast<double>(count);
+    m += 2.0 * powers.others * static_cast<double>(high - low);
+  }
+  const double found = std::sqrt(along) - mistrust * std::sqrt(own);
+  if (found <= 0.0 || !(across > 0.0)) return 0.0;
+  return deviations_of(found * found / n / (across / m), n, m);
+}
 
 Powers powers_of(const Block& block, const Shapes& shapes, const Eigen::VectorXd& residual,
                  const Eigen::VectorXd& numerical) {
   Powers powers;
+  powers.trial = block.trial;
+  powers.duration = block.duration;
   powers.shapes = shapes.count;
   powers.others = static_cast<int>(block.channels) - shapes.count;
   const Eigen::MatrixXd power = periodograms(block.of(residual.data()) * shapes.basis);
@@ -139,22 +152,29 @@ Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSum
   const Eigen::VectorXd residual = model.residual.cwiseMax(-tame).cwiseMin(tame);
   const Shapes shapes = shapes_of(model.jacobian, blocks);
   if (shapes.count < 1) return loudest;
-  for (const Block& block : blocks) {
-    if (block.rows < 4 * least_neighbourhood) continue;
-    const Powers powers = powers_of(block, shapes, residual, numerical);
+  std::vector<Powers> all;
+  for (const Block& block : blocks)
+    if (block.rows >= 4 * least_neighbourhood)
+      all.push_back(powers_of(block, shapes, residual, numerical));
+  const auto look_at = [&](std::span<const Powers> some) {
+    const Powers& longest = *std::ranges::max_element(
+        some, {}, [](const Powers& powers) { return powers.along.size(); });
     const auto look = [&](Eigen::Index first, Eigen::Index count) {
-      const double deviations = powers.deviations(first, count);
-      if (deviations <= loudest.deviations) return;
-      const auto hz = [&](Eigen::Index f) { return static_cast<double>(f) / block.duration; };
-      loudest = {deviations, block.trial, hz(first + 1), hz(first + count)};
+      const double low = static_cast<double>(first + 1) / longest.duration;
+      const double high = static_cast<double>(first + count) / longest.duration;
+      const double found = deviations(some, low, high);
+      if (found > loudest.deviations) loudest = {found, longest.trial, some.size() > 1, low, high};
     };
-    const Eigen::Index frequencies = powers.along.size();
+    const Eigen::Index frequencies = longest.along.size();
     for (Eigen::Index f = 0; f < frequencies; ++f) look(f, 1);
     for (Eigen::Index width = 2; width <= frequencies; width *= 2) {
       look(0, width);
       if (2 * width <= frequencies) look(width, width);
     }
-  }
+  };
+  for (const Powers& powers : all) look_at({&powers, 1});
+  // What acts in every trial, as a thing that was forgotten does, is louder in all together.
+  if (all.size() > 1) look_at(all);
   return loudest;
 }
 

@@ -115,6 +115,7 @@ std::vector<CaseOrder> outsiders() {
         order_of(Kind::outside, v + k, plants[(v + k) % 4], use.packs[v % use.packs.size()]);
     order.hidden = {use.name};
     order.size = v % 2 ? 8 : 4;
+    order.told_apart = true;
     order.coloured = v / 2 % 2;
     list.push_back(order);
   }

@@ -45,7 +45,8 @@ Call call_null(Outcome outcome, const Names& said) {
                                                           : Call::false_alarm;
 }
 
-Call call_outside(Outcome outcome) {
+// Where modulus and damping were off as well, to name them is no mistake, and not what was asked.
+Call call_outside(const HiddenCase& hidden, Outcome outcome, const Names& said) {
   switch (outcome) {
     case Outcome::unknown:
       return Call::right;
@@ -54,11 +55,11 @@ Call call_outside(Outcome outcome) {
     case Outcome::ambiguous:
       return Call::not_held;
     default:
-      return Call::wrong;
+      return within(said, names_of(hidden.refitted)) ? Call::missed : Call::wrong;
   }
 }
 
-// Where modulus and damping were off as well, to name them is no mistake, and not what was asked.
+// Likewise.
 Call call_named(const HiddenCase& hidden, const Names& truth, const Names& said) {
   Names allowed = truth;
   for (const std::string& name : names_of(hidden.refitted)) allowed.push_back(name);
@@ -74,7 +75,7 @@ Call call_of(const HiddenCase& hidden, Outcome outcome, const Names& said) {
   const Kind kind = hidden.order.kind;
   if (kind == Kind::null) return call_null(outcome, said);
   if (outcome == Outcome::bad_data || outcome == Outcome::numerical) return Call::refused;
-  if (kind == Kind::outside) return call_outside(outcome);
+  if (kind == Kind::outside) return call_outside(hidden, outcome, said);
   const Names truth = names_of(hidden.causes);
   switch (outcome) {
     case Outcome::adequate:

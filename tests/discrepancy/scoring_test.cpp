@@ -93,10 +93,13 @@ TEST(Scoring, TwoEffectsLookAlikesAndStrangers) {
   EXPECT_EQ(call(alike, verdict_of(Outcome::ambiguous, {"weak_segment", "yield"})), Call::not_held);
   EXPECT_EQ(call(alike, verdict_of(Outcome::named, {"base_compliance"})), Call::sure);
   EXPECT_EQ(call(alike, verdict_of(Outcome::named, {"weak_segment"})), Call::wrong);
-  const HiddenCase outside = case_of(Kind::outside, {"string"});
+  HiddenCase outside = case_of(Kind::outside, {"string"});
   EXPECT_EQ(call(outside, verdict_of(Outcome::unknown)), Call::right);
   EXPECT_EQ(call(outside, verdict_of(Outcome::named, {"wind"})), Call::wrong);
   EXPECT_EQ(call(outside, verdict_of(Outcome::adequate)), Call::missed);
+  outside.refitted = {effect("youngs_modulus"), effect("damping_time")};
+  EXPECT_EQ(call(outside, verdict_of(Outcome::named, {"damping_time"})), Call::missed);
+  EXPECT_EQ(call(outside, verdict_of(Outcome::named, {"damping_time", "wind"})), Call::wrong);
 }
 
 // refitted 3, true model 1.1, extended 1.29: (3 - 1.29) / (3 - 1.1) = 0.9. Where the true model
