@@ -26,10 +26,10 @@ constexpr int look_iterations = 5;
 constexpr double least_across = 0.05;  // of a unit vector, that has a direction across the curve
 constexpr double far_end = 0.6;  // m a length of the plant: where a near end is looked for first
 
-// What refits of one kind find for the other, too.
+// What refits of one kind find for the other, too. (A spring does not find a pull that grows
+// weaker with distance: its refit goes where the pull is constant.)
 std::string family_of(const plant::Effect& force) {
-  const std::string kind = plain_kind(force);
-  return kind == "string" ? "stop" : kind;
+  return kind_of(force) == "string" ? "stop" : kind_of(force);
 }
 
 plant::Effect near_end(plant::Effect force, const ForcePlace& place, double distance) {
