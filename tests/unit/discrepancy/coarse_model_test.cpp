@@ -75,5 +75,16 @@ TEST(CoarseModel, IsNoCoarserThanTheNoiseAllows) {
   EXPECT_TRUE(coarse.numerics().distance < twice.distance || coarse.numerics().dt < twice.dt);
 }
 
+// Where the noise lets the fit itself go by twice the file's mesh, a search does not go by four
+// times: a weak stretch may be shorter than such a segment.
+TEST(CoarseModel, IsNoCoarserThanTwiceTheFilesMesh) {
+  Fitted fitted(5.0e-3);
+  const double most = 2.0 * fitted.experiment.plant.distance;
+  ASSERT_EQ(fitted.setup.numerics().distance, most);
+  CoarseModel coarse(fitted.setup, fitted.model);
+  EXPECT_EQ(coarse.numerics().distance, most);
+  EXPECT_EQ(coarse.numerics().dt, 2.0 * fitted.setup.numerics().dt);
+}
+
 }  // namespace
 }  // namespace pedicel::discrepancy

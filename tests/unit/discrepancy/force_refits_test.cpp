@@ -1,9 +1,12 @@
 // Laws that the linear response found, refitted by the simulator.
 #include "discrepancy/force_refits.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "bent_stem.h"
 #include "discrepancy/force_term.h"
@@ -82,6 +85,29 @@ TEST(ForceRefits, TriesAStopInPlaceOfAString) {
   EXPECT_NEAR(best.force.place->at, 0.7, 0.15);
   EXPECT_GT(direction_of(best.force).dot(Vec3(0.8, 0.6, 0.0)), 0.99);
   EXPECT_EQ(kind_of(refits.best().hypothesis.effects.back()), "stop");
+}
+
+// Both are attractions to a point, but one grows with distance and the other weakens: the refit of
+// one does not find the other.
+TEST(ForceRefits, RefitsASpringAndAPullThatWeakensWithDistance) {
+  MetAStop met;
+  std::vector<ForceTerm> laws = met.laws("attraction");
+  ASSERT_FALSE(laws.empty());
+  laws.resize(1);
+  ForceTerm spring = laws.front();
+  spring.force.words["kind"] = "spring";
+  spring.force.numbers["stiffness"] = {spring.force.numbers.at("size")[0] /
+                                       spring.force.numbers.at("distance")[0]};
+  spring.force.numbers.erase("size");
+  spring.force.numbers.erase("range");
+  spring.parameters = 3;
+  spring.evidence += 1.0;
+  laws.insert(laws.begin(), spring);
+  ForceRefits refits(met.evaluator, met.model, met.model, met.places, met.scales, met.options);
+  refits.run(laws);
+  std::vector<std::string> kinds;
+  for (const ForceTerm& law : refits.laws()) kinds.push_back(kind_of(law.force));
+  EXPECT_THAT(kinds, ::testing::UnorderedElementsAre("spring", "attraction"));
 }
 
 TEST(ForceRefits, WithoutLawsThereIsNone) {
