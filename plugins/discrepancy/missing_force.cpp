@@ -11,6 +11,7 @@
 #include "discrepancy/force_term.h"
 #include "discrepancy/places.h"
 #include "discrepancy/sentence.h"
+#include "discrepancy/verdict.h"
 #include "discrepancy/way_back.h"
 
 namespace pedicel::discrepancy {
@@ -298,7 +299,9 @@ std::string MissingForce::sentence() const {
     course[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(course[0])));
     all += " " + course + ".";
   }
-  if (gain) all += text(" On trials kept back it removes %.0f %% of the error.", 100.0 * *gain);
+  if (gain)
+    all += " On trials kept back it removes " + share_removed(*gain) +
+           " of the error above the noise.";
   return all + " Do not extrapolate.";
 }
 

@@ -47,6 +47,18 @@ TEST(MissingForce, NoiseAloneIsNothing) {
   EXPECT_TRUE(found.sentence().empty());
 }
 
+// Noise alone may be left of trials kept back, and by chance less than that.
+TEST(MissingForce, RemovesNoMoreThanAllOfTheError) {
+  MissingForce force;
+  force.found = true;
+  force.gain = 1.3;
+  EXPECT_NE(force.sentence().find(" removes all of the error above the noise."), std::string::npos)
+      << force.sentence();
+  force.gain = 0.5;
+  EXPECT_NE(force.sentence().find(" removes 50 % of the error above"), std::string::npos)
+      << force.sentence();
+}
+
 // A string, slack at rest, a tenth as stiff as the stem.
 TEST(MissingForce, String) {
   BentStem bent;
