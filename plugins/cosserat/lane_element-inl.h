@@ -28,7 +28,7 @@ HWY_INLINE void store_pose(const Pose& pose, PoseRow& row, int lane) {
 }
 
 HWY_INLINE V3 centre_of_mass(const Pose& pose, V com_back) {
-  return add_scaled(pose.position, hn::Neg(com_back), axis3(pose.orientation));
+  return less_scaled(pose.position, com_back, axis3(pose.orientation));
 }
 
 HWY_INLINE V3 middle_of(const Pose& pose, V length) {
@@ -46,8 +46,8 @@ HWY_INLINE V3 stretch_of(const ElementRow& element, int lane, const M3& r, const
 }
 
 HWY_INLINE Log bend_of(const ElementRow& element, int lane, const Pose& parent, const Pose& own) {
-  return log_map(conjugate(load4(element.rest_rotation, lane)) *
-                 (conjugate(parent.orientation) * own.orientation));
+  return log_map(times_conjugate(load4(element.rest_rotation, lane),
+                                 times_conjugate(parent.orientation, own.orientation)));
 }
 
 // What gradient, Hessian and energy share.
@@ -79,25 +79,30 @@ HWY_INLINE Strained strain(const RowArrays& rows, const Pack& pack, int row, int
   s.r = matrix(own.orientation);
   s.length = load(element.length + lane);
   s.along = along_of(parent, own, s.length);
-  const V stiffening = load(term.stiffening + lane);
-  const V3 stretch = stretch_of(element, lane, s.r, s.along) - load3(term.stretch_target, lane);
-  s.stretch_rate = stiffening * load3(element.stretch_stiffness, lane);
+  V3 stretch = stretch_of(element, lane, s.r, s.along);
+  s.stretch_rate = load3(element.stretch_stiffness, lane);
+  if (extended || pack.viscous) {
+    const ViscousRow& viscous = rows.viscous[row];
+    stretch = stretch - load3(viscous.stretch_target, lane);
+    s.stretch_rate = load(viscous.stiffening + lane) * s.stretch_rate;
+  }
   if constexpr (extended) s.stretch_rate = load(pack.modulus + lane) * s.stretch_rate;
   s.force_E = times(s.stretch_rate, stretch);
   s.bend = bend_of(element, lane, parent, own);
 
   const V scale = load(term.inertia_scale + lane), mass = load(element.mass + lane);
-  const V3 com = add_scaled(own.position, hn::Neg(load(element.com_back + lane)), s.r.c);
+  const V3 com = less_scaled(own.position, load(element.com_back + lane), s.r.c);
   s.inertia = mass * scale;
   s.off = com - load3(term.com_target, lane);
-  const Q turn = conjugate(load4(term.rotation_target, lane)) * own.orientation;
+  const Q turn = times_conjugate(load4(term.rotation_target, lane), own.orientation);
   const V sign = hn::CopySign(set(1.0), turn.w);
   s.turn = {sign * turn.x, sign * turn.y, sign * turn.z, sign * turn.w};
   s.turn_rate = scale * load3(element.inertia, lane);
   const V3 vec{s.turn.x, s.turn.y, s.turn.z};
   const V3 g{set(rows.gravity[0]), set(rows.gravity[1]), set(rows.gravity[2])};
   const V half = set(0.5);
-  // 1/2 l strain.K strain + 1/2 phi.K phi + 1/2 m/h~^2 |off|^2 + 1/2 (2 vec).I/h~^2 (2 vec) - m g.c
+  // 1/2 l strain.K strain + 1/2 phi.K phi + 1/2 m/h~^2 |off|^2 + 1/2 (2 vec).I/h~^2 (2 vec) - m
+  // g.off
   V energy = half * s.length * dot(stretch, s.force_E);
   if constexpr (extended) {
     const Bending bending = bend_joint(rows, pack, row, lane, s.bend.phi);
@@ -108,27 +113,32 @@ HWY_INLINE Strained strain(const RowArrays& rows, const Pack& pack, int row, int
     if (pack.windy)
       energy = energy + drag_of(rows, pack, row, lane, middle_of(own, s.length)).energy;
   } else {
-    const V3 off = s.bend.phi - load3(term.bend_target, lane);
-    s.bend_rate = stiffening * load3(element.bend_stiffness, lane);
+    V3 off = s.bend.phi;
+    s.bend_rate = load3(element.bend_stiffness, lane);
+    if (pack.viscous) {
+      const ViscousRow& viscous = rows.viscous[row];
+      off = off - load3(viscous.bend_target, lane);
+      s.bend_rate = load(viscous.stiffening + lane) * s.bend_rate;
+    }
     s.bend_moment = times(s.bend_rate, off);
     energy = hn::MulAdd(half, dot(off, s.bend_moment), energy);
   }
   energy = hn::MulAdd(half * s.inertia, dot(s.off, s.off), energy);
   energy = hn::MulAdd(set(2.0), dot(vec, times(s.turn_rate, vec)), energy);
-  energy = hn::NegMulAdd(mass, dot(g, com - load3(term.com_past, lane)), energy);
+  energy = hn::NegMulAdd(mass, dot(g, s.off), energy);
   s.energy = load(element.alive + lane) * energy;
   return s;
 }
 
-// The blocks of one element. Lower triangles by rows; the coupling's rows are the element's, its
-// columns the parent's, and its upper right quarter is zero.
+// The blocks of one element. Lower triangles by rows. The coupling's rows are the element's, its
+// columns the parent's; it is minus what stands here, and its upper right quarter is zero.
 struct Blocks {
   V diagonal[triangle6];
   V right[6];
-  S3 coupling_stretch;   // upper left
-  V3 coupling_lever[3];  // lower left, by rows
-  S3 coupling_bend;      // lower right
-  V3 parent_force, parent_moment;
+  S3 stretch;        // upper left
+  V3 lever[3];       // lower left, by rows
+  S3 bend;           // lower right
+  V3 force, moment;  // on the parent
 };
 
 template <bool extended>
@@ -137,89 +147,89 @@ HWY_INLINE Blocks blocks_of(const RowArrays& rows, const Pack& pack, int row, in
   const ElementRow& element = rows.element[row];
   Blocks out;
   const V3 &a = s.along, &axis = s.r.c;
-  const V zero = set(0.0);
-  const V3 force = s.r * s.force_E;
-  const S3 k = sandwich(s.r, s.stretch_rate);
+  const V l = s.length, inverse_length = set(1.0) / l;
+  // R diag(k) R^T = k1 1 + (k2 - k1) b b^T + (k3 - k1) c c^T with R's columns b, c.
+  const S3 bb = square(s.r.b), cc = square(axis);
+  const V3& rate = s.stretch_rate;
+  const V across = rate.y - rate.x, along = rate.z - rate.x;
+  const S3 k = {hn::MulAdd(along, cc.xx, hn::MulAdd(across, bb.xx, rate.x)),
+                hn::MulAdd(along, cc.yx, across * bb.yx),
+                hn::MulAdd(along, cc.yy, hn::MulAdd(across, bb.yy, rate.x)),
+                hn::MulAdd(along, cc.zx, across * bb.zx),
+                hn::MulAdd(along, cc.zy, across * bb.zy),
+                hn::MulAdd(along, cc.zz, hn::MulAdd(across, bb.zz, rate.x))};
+  out.force = s.r * s.force_E;
+  out.stretch = {inverse_length * k.xx, inverse_length * k.yx, inverse_length * k.yy,
+                 inverse_length * k.zx, inverse_length * k.zy, inverse_length * k.zz};
   // Columns of k [a]x, the change of force with rotation.
   const V3 k0{k.xx, k.yx, k.zx}, k1{k.yx, k.yy, k.zy}, k2{k.zx, k.zy, k.zz};
-  const V3 lever0 = a.z * k1 - a.y * k2, lever1 = a.x * k2 - a.z * k0, lever2 = a.y * k0 - a.x * k1;
+  out.lever[0] = a.z * k1 - a.y * k2;
+  out.lever[1] = a.x * k2 - a.z * k0;
+  out.lever[2] = a.y * k0 - a.x * k1;
+  const V3(&lever)[3] = out.lever;
 
   const M3 jacobian = inverse_jacobian_transposed(s.bend);
   const M3 bending{s.r * jacobian.a, s.r * jacobian.b, s.r * jacobian.c};
-  S3 bend = sandwich(bending, s.bend_rate);
-  if constexpr (extended) add_mixed(bending, s.bend_mixed, bend);
-  const V3 bend_moment = negative(bending * s.bend_moment);
-  const V tension = hn::Max(s.force_E.z, zero) * s.length;
+  out.bend = sandwich(bending, s.bend_rate);
+  if constexpr (extended) add_mixed(bending, s.bend_mixed, out.bend);
+  out.moment = bending * s.bend_moment;
 
-  const V3 arm = hn::Neg(load(element.com_back + lane)) * axis;
   const V w = s.inertia;
-  const V arm2 = w * dot(arm, arm);
+  const V3 arm = load(element.com_back + lane) * axis;  // from the centre of mass to the node
   const V3 warm = w * arm;
-  const S3 rotary = sandwich(s.r, s.turn_rate);
-
-  const V inverse_length = set(1.0) / s.length;
-  out.coupling_stretch = {hn::Neg(inverse_length * k.xx), hn::Neg(inverse_length * k.yx),
-                          hn::Neg(inverse_length * k.yy), hn::Neg(inverse_length * k.zx),
-                          hn::Neg(inverse_length * k.zy), hn::Neg(inverse_length * k.zz)};
-  out.coupling_lever[0] = negative(lever0);
-  out.coupling_lever[1] = negative(lever1);
-  out.coupling_lever[2] = negative(lever2);
-  out.coupling_bend = {hn::Neg(bend.xx), hn::Neg(bend.yx), hn::Neg(bend.yy),
-                       hn::Neg(bend.zx), hn::Neg(bend.zy), hn::Neg(bend.zz)};
 
   V* d = out.diagonal;
-  d[0] = w - out.coupling_stretch.xx;
-  d[1] = hn::Neg(out.coupling_stretch.yx);
-  d[2] = w - out.coupling_stretch.yy;
-  d[3] = hn::Neg(out.coupling_stretch.zx);
-  d[4] = hn::Neg(out.coupling_stretch.zy);
-  d[5] = w - out.coupling_stretch.zz;
-  // Lower left: (k [a]x)^T + w [arm]x.
-  d[6] = lever0.x;
-  d[7] = lever0.y - warm.z;
-  d[8] = lever0.z + warm.y;
-  d[10] = lever1.x + warm.z;
-  d[11] = lever1.y;
-  d[12] = lever1.z - warm.x;
-  d[15] = lever2.x - warm.y;
-  d[16] = lever2.y + warm.x;
-  d[17] = lever2.z;
+  d[0] = w + out.stretch.xx;
+  d[1] = out.stretch.yx;
+  d[2] = w + out.stretch.yy;
+  d[3] = out.stretch.zx;
+  d[4] = out.stretch.zy;
+  d[5] = w + out.stretch.zz;
+  // Lower left: (k [a]x)^T - w [arm]x.
+  d[6] = lever[0].x;
+  d[7] = lever[0].y + warm.z;
+  d[8] = lever[0].z - warm.y;
+  d[10] = lever[1].x - warm.z;
+  d[11] = lever[1].y;
+  d[12] = lever[1].z + warm.x;
+  d[15] = lever[2].x + warm.y;
+  d[16] = lever[2].y - warm.x;
+  d[17] = lever[2].z;
   // Lower right: l [a]x^T k [a]x + bending + tension (1 - axis axis^T) + w (arm^2 - arm arm^T)
-  // + rotary inertia.
-  const V l = s.length;
-  const V round = tension + arm2;
-  const V3 taxis = tension * axis;
-  const V xx = a.z * lever0.y - a.y * lever0.z, yx = a.x * lever0.z - a.z * lever0.x;
-  const V yy = a.x * lever1.z - a.z * lever1.x, zx = a.y * lever0.x - a.x * lever0.y;
-  const V zy = a.y * lever1.x - a.x * lever1.y, zz = a.y * lever2.x - a.x * lever2.y;
-  d[9] =
-      hn::MulAdd(l, xx, bend.xx + rotary.xx) + round - hn::MulAdd(taxis.x, axis.x, warm.x * arm.x);
-  d[13] = hn::MulAdd(l, yx, bend.yx + rotary.yx) - hn::MulAdd(taxis.y, axis.x, warm.y * arm.x);
-  d[14] =
-      hn::MulAdd(l, yy, bend.yy + rotary.yy) + round - hn::MulAdd(taxis.y, axis.y, warm.y * arm.y);
-  d[18] = hn::MulAdd(l, zx, bend.zx + rotary.zx) - hn::MulAdd(taxis.z, axis.x, warm.z * arm.x);
-  d[19] = hn::MulAdd(l, zy, bend.zy + rotary.zy) - hn::MulAdd(taxis.z, axis.y, warm.z * arm.y);
-  d[20] =
-      hn::MulAdd(l, zz, bend.zz + rotary.zz) + round - hn::MulAdd(taxis.z, axis.z, warm.z * arm.z);
+  // + rotary inertia R diag(i) R^T, written as above.
+  const V xx = a.z * lever[0].y - a.y * lever[0].z, yx = a.x * lever[0].z - a.z * lever[0].x;
+  const V yy = a.x * lever[1].z - a.z * lever[1].x, zx = a.y * lever[0].x - a.x * lever[0].y;
+  const V zy = a.y * lever[1].x - a.x * lever[1].y, zz = a.y * lever[2].x - a.x * lever[2].y;
+  const V3& i = s.turn_rate;
+  const V tension = hn::Max(s.force_E.z, set(0.0)) * l;
+  const V round = hn::MulAdd(w, dot(arm, arm), tension + i.x);
+  const V less = round - i.z, more = i.y - i.x;
+  const auto lower_right = [&](V lever_part, V bend, V b, V c) {
+    return hn::MulAdd(l, lever_part, hn::MulAdd(more, b, hn::NegMulAdd(less, c, bend)));
+  };
+  d[9] = lower_right(xx, out.bend.xx + round, bb.xx, cc.xx);
+  d[13] = lower_right(yx, out.bend.yx, bb.yx, cc.yx);
+  d[14] = lower_right(yy, out.bend.yy + round, bb.yy, cc.yy);
+  d[18] = lower_right(zx, out.bend.zx, bb.zx, cc.zx);
+  d[19] = lower_right(zy, out.bend.zy, bb.zy, cc.zy);
+  d[20] = lower_right(zz, out.bend.zz + round, bb.zz, cc.zz);
 
   const V mass = load(element.mass + lane);
   const V3 weight{mass * set(rows.gravity[0]), mass * set(rows.gravity[1]),
                   mass * set(rows.gravity[2])};
-  const V3 pull = weight - w * s.off;
+  const V3 pull = less_scaled(weight, w, s.off);
   // phi = 2 vec(q~^-1 q) changes by (w + [vec]x) R^T per unit of rotation.
   const V3 vec{s.turn.x, s.turn.y, s.turn.z};
   const V3 conjugate_turn = set(2.0) * times(s.turn_rate, vec);
   const V3 rotary_moment = s.r * (s.turn.w * conjugate_turn - cross(vec, conjugate_turn));
-  const V3 head = pull - force;
-  const V3 tail = l * cross(a, force) + bend_moment + cross(arm, pull) - rotary_moment;
+  const V3 head = pull - out.force;
+  const V3 tail = l * cross(a, out.force) - out.moment - cross(arm, pull) - rotary_moment;
   out.right[0] = head.x;
   out.right[1] = head.y;
   out.right[2] = head.z;
   out.right[3] = tail.x;
   out.right[4] = tail.y;
   out.right[5] = tail.z;
-  out.parent_force = force;
-  out.parent_moment = negative(bend_moment);
   if constexpr (extended)
     if (pack.windy)
       add_drag(rows, pack, row, lane, middle_of(s.own, l), set(-0.5) * l * axis, d, out.right);

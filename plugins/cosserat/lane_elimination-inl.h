@@ -45,25 +45,27 @@ constexpr int at(int i, int j) {  // in a lower triangle by rows
   return i * (i + 1) / 2 + j;
 }
 
-// In place; the inverses of the diagonal stand on it. Returns the smallest pivot.
-HWY_INLINE V cholesky(V* a) {
+// L D L^T in place, L with ones on its diagonal, where D^-1 stands: one division a pivot and no
+// root, which would make up half of the time from one row to the next. Returns the smallest pivot.
+HWY_INLINE V factorise(V* a) {
   V smallest = set(1.0);
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {
-    V pivot = a[at(j, j)];
-#pragma GCC unroll 6
-    for (int k = 0; k < j; ++k) pivot = hn::NegMulAdd(a[at(j, k)], a[at(j, k)], pivot);
+    const V pivot = a[at(j, j)];
     // Written so that a NaN counts as a bad pivot.
     smallest = hn::IfThenElse(pivot > set(0.0), smallest, set(0.0));
-    const V inverse = set(1.0) / hn::Sqrt(pivot);
+    const V inverse = set(1.0) / pivot;
     a[at(j, j)] = inverse;
+    V column[6];
 #pragma GCC unroll 6
     for (int i = j + 1; i < 6; ++i) {
-      V x = a[at(i, j)];
-#pragma GCC unroll 6
-      for (int k = 0; k < j; ++k) x = hn::NegMulAdd(a[at(i, k)], a[at(j, k)], x);
-      a[at(i, j)] = x * inverse;
+      column[i] = a[at(i, j)];
+      a[at(i, j)] = column[i] * inverse;
     }
+#pragma GCC unroll 6
+    for (int k = j + 1; k < 6; ++k)
+#pragma GCC unroll 6
+      for (int i = k; i < 6; ++i) a[at(i, k)] = hn::NegMulAdd(a[at(i, j)], column[k], a[at(i, k)]);
   }
   return smallest;
 }
@@ -72,59 +74,57 @@ HWY_INLINE V cholesky(V* a) {
 template <int skip>
 HWY_INLINE void forward(const V* l, V* x) {
 #pragma GCC unroll 6
-  for (int i = skip; i < 6; ++i) {
-    V sum = x[i];
+  for (int k = skip; k < 6; ++k)
 #pragma GCC unroll 6
-    for (int k = skip; k < i; ++k) sum = hn::NegMulAdd(l[at(i, k)], x[k], sum);
-    x[i] = sum * l[at(i, i)];
-  }
+    for (int i = k + 1; i < 6; ++i) x[i] = hn::NegMulAdd(l[at(i, k)], x[k], x[i]);
 }
 
-// What the parent gets: its own share of the element's energies less W^T W, W^T y.
-HWY_INLINE void carry_to_parent(const Blocks& b, const V (&w)[6][6], const V* y, Carry& carry) {
-  const S3 &stretch = b.coupling_stretch, &bend = b.coupling_bend;
+// What the parent gets: its own share of the element's energies less V^T W, and V^T y with V = D W,
+// all minus what comes of the coupling.
+HWY_INLINE void carry_to_parent(const Blocks& b, const V (&v)[6][6], const V (&w)[6][6], const V* y,
+                                Carry& carry) {
   V* d = carry.diagonal;
-  d[0] = hn::Neg(stretch.xx);
-  d[1] = hn::Neg(stretch.yx);
-  d[2] = hn::Neg(stretch.yy);
-  d[3] = hn::Neg(stretch.zx);
-  d[4] = hn::Neg(stretch.zy);
-  d[5] = hn::Neg(stretch.zz);
+  d[0] = b.stretch.xx;
+  d[1] = b.stretch.yx;
+  d[2] = b.stretch.yy;
+  d[3] = b.stretch.zx;
+  d[4] = b.stretch.zy;
+  d[5] = b.stretch.zz;
   for (const int i : {6, 7, 8, 10, 11, 12, 15, 16, 17}) d[i] = set(0.0);
-  d[9] = hn::Neg(bend.xx);
-  d[13] = hn::Neg(bend.yx);
-  d[14] = hn::Neg(bend.yy);
-  d[18] = hn::Neg(bend.zx);
-  d[19] = hn::Neg(bend.zy);
-  d[20] = hn::Neg(bend.zz);
+  d[9] = b.bend.xx;
+  d[13] = b.bend.yx;
+  d[14] = b.bend.yy;
+  d[18] = b.bend.zx;
+  d[19] = b.bend.zy;
+  d[20] = b.bend.zz;
   V* g = carry.right;
-  g[0] = b.parent_force.x;
-  g[1] = b.parent_force.y;
-  g[2] = b.parent_force.z;
-  g[3] = b.parent_moment.x;
-  g[4] = b.parent_moment.y;
-  g[5] = b.parent_moment.z;
+  g[0] = b.force.x;
+  g[1] = b.force.y;
+  g[2] = b.force.z;
+  g[3] = b.moment.x;
+  g[4] = b.moment.y;
+  g[5] = b.moment.z;
 #pragma GCC unroll 6
-  for (int j = 0; j < 6; ++j) {  // w[j] is column j
+  for (int j = 0; j < 6; ++j) {  // v[j] is column j
     const int first = j < 3 ? 0 : 3;
 #pragma GCC unroll 6
     for (int i = j; i < 6; ++i) {
       const int start = i < 3 ? first : 3;
 #pragma GCC unroll 6
-      for (int k = start; k < 6; ++k) d[at(i, j)] = hn::NegMulAdd(w[i][k], w[j][k], d[at(i, j)]);
+      for (int k = start; k < 6; ++k) d[at(i, j)] = hn::NegMulAdd(v[i][k], w[j][k], d[at(i, j)]);
     }
 #pragma GCC unroll 6
-    for (int k = first; k < 6; ++k) g[j] = hn::NegMulAdd(w[j][k], y[k], g[j]);
+    for (int k = first; k < 6; ++k) g[j] = hn::MulAdd(v[j][k], y[k], g[j]);
   }
 }
 
 HWY_INLINE V eliminate(const Blocks& b, FactorRow& out, int lane, Carry& carry) {
   V* l = carry.diagonal;  // so far: what the tips gave
   V* y = carry.right;
-  const V smallest = cholesky(l);
-  V w[6][6];
-  const V3(&lever)[3] = b.coupling_lever;
-  const S3 &s = b.coupling_stretch, &t = b.coupling_bend;
+  const V smallest = factorise(l);
+  V v[6][6], w[6][6];
+  const V3(&lever)[3] = b.lever;
+  const S3 &s = b.stretch, &t = b.bend;
   const V zero = set(0.0);
   const V columns[6][6] = {{s.xx, s.yx, s.zx, lever[0].x, lever[1].x, lever[2].x},
                            {s.yx, s.yy, s.zy, lever[0].y, lever[1].y, lever[2].y},
@@ -135,26 +135,31 @@ HWY_INLINE V eliminate(const Blocks& b, FactorRow& out, int lane, Carry& carry) 
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j)
 #pragma GCC unroll 6
-    for (int i = 0; i < 6; ++i) w[j][i] = columns[j][i];
+    for (int i = 0; i < 6; ++i) v[j][i] = columns[j][i];
 #pragma GCC unroll 3
-  for (int j = 0; j < 3; ++j) forward<0>(l, w[j]);
+  for (int j = 0; j < 3; ++j) forward<0>(l, v[j]);
 #pragma GCC unroll 3
-  for (int j = 3; j < 6; ++j) forward<3>(l, w[j]);
+  for (int j = 3; j < 6; ++j) forward<3>(l, v[j]);
   forward<0>(l, y);
-#pragma GCC unroll 21
-  for (int i = 0; i < triangle6; ++i) store(l[i], out.diagonal[i] + lane);
   V kept[6];
 #pragma GCC unroll 6
   for (int i = 0; i < 6; ++i) {
-    kept[i] = y[i];
-    store(y[i], out.right[i] + lane);
+    kept[i] = l[at(i, i)] * y[i];
+    store(kept[i], out.right[i] + lane);
   }
   int place = 0;
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j)
 #pragma GCC unroll 6
-    for (int i = j < 3 ? 0 : 3; i < 6; ++i) store(w[j][i], out.coupling[place++] + lane);
-  carry_to_parent(b, w, kept, carry);
+    for (int i = j < 3 ? 0 : 3; i < 6; ++i) {
+      w[j][i] = l[at(i, i)] * v[j][i];
+      store(w[j][i], out.factors[place++] + lane);
+    }
+#pragma GCC unroll 6
+  for (int i = 1; i < 6; ++i)
+#pragma GCC unroll 6
+    for (int j = 0; j < i; ++j) store(l[at(i, j)], out.factors[place++] + lane);
+  carry_to_parent(b, v, w, kept, carry);
   return smallest;
 }
 

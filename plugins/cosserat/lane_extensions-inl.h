@@ -98,14 +98,14 @@ HWY_INLINE V slider_reach(const BranchRow& branch, V share, V softer, int lane) 
   return load(branch.limit + lane) / (share * softer + set(1.0e-300));
 }
 
-/// Everything about a joint bent by phi: what is linear, which TermRow and ExtensionTermRow hold as
-/// stiffness and target, then hardening and sliders. The tangent is taken where it is positive
+/// Everything about a joint bent by phi: what is linear, which ViscousRow and ExtensionTermRow hold
+/// as stiffness and target, then hardening and sliders. The tangent is taken where it is positive
 /// definite, else the secant stiffness, a majoriser of what softens or slips.
 HWY_INLINE Bending bend_joint(const RowArrays& rows, const Pack& pack, int row, int lane,
                               const V3& phi) {
   const ExtensionRow& extension = rows.extension[row];
   const V3 linear = load3(rows.extension_term[row].bend_stiffness, lane);
-  const V3 off = phi - load3(rows.term[row].bend_target, lane);
+  const V3 off = phi - load3(rows.viscous[row].bend_target, lane);
   const V zero = set(0.0), half = set(0.5);
   Bending out{times(linear, off), zero, zero, {zero, zero, linear.z}, zero};
   out.linear = dot(off, out.moment);
@@ -145,10 +145,10 @@ HWY_INLINE Bending bend_joint(const RowArrays& rows, const Pack& pack, int row, 
 HWY_INLINE void prepare_joint(const RowArrays& rows, const Pack& pack, int row, int lane,
                               const V3& now) {
   const ExtensionRow& extension = rows.extension[row];
-  TermRow& term = rows.term[row];
+  ViscousRow& viscous = rows.viscous[row];
   ExtensionTermRow& out = rows.extension_term[row];
-  const V stiffening = load(term.stiffening + lane), zero = set(0.0);
-  const V3 target = load3(term.bend_target, lane);
+  const V stiffening = load(viscous.stiffening + lane), zero = set(0.0);
+  const V3 target = load3(viscous.bend_target, lane);
   V3 offset = stiffening * target - load3(out.bias, lane);
   V weights = zero;
   for (int j = 0; j < pack.branches; ++j) {
@@ -169,14 +169,14 @@ HWY_INLINE void prepare_joint(const RowArrays& rows, const Pack& pack, int row, 
   const V by_bend = hn::IfThenElse(bend > tiny, set(1.0) / hn::Max(bend, tiny), zero);
   const V by_twist = hn::IfThenElse(twist > tiny, set(1.0) / hn::Max(twist, tiny), zero);
   const V3 mean{by_bend * offset.x, by_bend * offset.y, by_twist * offset.z};
-  store3(select(lawful, mean, target), term.bend_target, lane);
+  store3(select(lawful, mean, target), viscous.bend_target, lane);
 }
 
 /// What dashpots and sliders have given way by at the end of the step.
 HWY_INLINE void finish_joint(const RowArrays& rows, const Pack& pack, int row, int lane,
                              const V3& phi) {
   const JointStiffness stiffness = joint_stiffness(rows.element[row], pack, lane);
-  const V3 now = load3(rows.rate[row].bend, lane);
+  const V3 now = load3(rows.strain[row].bend, lane);
   for (int j = 0; j < pack.branches; ++j) {
     BranchRow& branch = rows.law_branch[row * rows.law_branches + j];
     const V3 value = load3(branch.value, lane);
@@ -221,7 +221,7 @@ HWY_INLINE Drag drag_of(const RowArrays& rows, const Pack& pack, int row, int la
   const V h = load(pack.effective_step + lane);
   const V3 velocity = (set(1.0) / h) * (middle - load3(term.middle_past, lane));
   const V3 relative = load3(term.air, lane) - velocity, axis = load3(term.axis, lane);
-  const V3 u = add_scaled(relative, hn::Neg(dot(relative, axis)), axis);
+  const V3 u = less_scaled(relative, dot(relative, axis), axis);
   const V speed = hn::Sqrt(dot(u, u));
   const V c = load(rows.extension[row].drag + lane);
   return {u, speed, c, h * c * speed * speed * speed * set(1.0 / 3.0)};

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 HWY_INLINE void prepare_viscous(const RowArrays& rows, const Pack& pack, int row, int lane,
                                 const Pose& parent, const Pose& own, V h) {
   const ElementRow& element = rows.element[row];
-  TermRow& term = rows.term[row];
+  ViscousRow& term = rows.viscous[row];
   const V a = load(pack.past_now + lane), b = load(pack.past_before + lane);
   const V viscous = load(element.damping_time + lane) / h;
   store(set(1.0) + viscous, term.stiffening + lane);
@@ -30,9 +30,9 @@ HWY_INLINE void prepare_viscous(const RowArrays& rows, const Pack& pack, int row
   const V3 stretch = stretch_of(element, lane, matrix(own.orientation),
                                 along_of(parent, own, load(element.length + lane)));
   const V3 bend = bend_of(element, lane, parent, own).phi;
-  store3(stretch, rows.rate[row].stretch, lane);
-  store3(bend, rows.rate[row].bend, lane);
-  const RateRow& before = rows.previous_rate[row];
+  store3(stretch, rows.strain[row].stretch, lane);
+  store3(bend, rows.strain[row].bend, lane);
+  const StrainRow& before = rows.previous_strain[row];
   store3(share * (a * stretch - b * load3(before.stretch, lane)), term.stretch_target, lane);
   store3(share * (a * bend - b * load3(before.bend, lane)), term.bend_target, lane);
 }
@@ -62,7 +62,7 @@ HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int l
   const Pose now = load_pose(rows.start[row], lane), before = load_pose(rows.previous[row], lane);
   const V com_back = load(element.com_back + lane);
   const V3 com = centre_of_mass(now, com_back), com_before = centre_of_mass(before, com_back);
-  const Q turn = conjugate(before.orientation) * now.orientation;
+  const Q turn = times_conjugate(before.orientation, now.orientation);
   const V3 velocity = a * load3(rate.velocity, lane) - b * load3(before_rate.velocity, lane);
   const V3 omega = load3(rate.angular_velocity, lane);
   const V3 omega_before = load3(before_rate.angular_velocity, lane);
@@ -80,17 +80,13 @@ HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int l
   store3(com_past, term.com_past, lane);
   store4(rotation_past, term.rotation_past, lane);
   store3(add_scaled(com_past, advance, velocity), term.com_target, lane);
-  store4(rotation_past * exp_map(advance * add_scaled(spin, hn::Neg(h), gyroscopic)),
-         term.rotation_target, lane);
+  store4(rotation_past * exp_map(advance * less_scaled(spin, h, gyroscopic)), term.rotation_target,
+         lane);
   store(drag / (h * h), term.inertia_scale + lane);
-  if (extended || pack.damped) {
+  if (extended || pack.viscous) {
     prepare_viscous(rows, pack, row, lane, load_pose(rows.start[row - 1], lane), now, h);
-    if constexpr (extended) prepare_joint(rows, pack, row, lane, load3(rows.rate[row].bend, lane));
-  } else {
-    const V zero = set(0.0);
-    store(set(1.0), term.stiffening + lane);
-    store3({zero, zero, zero}, term.stretch_target, lane);
-    store3({zero, zero, zero}, term.bend_target, lane);
+    if constexpr (extended)
+      prepare_joint(rows, pack, row, lane, load3(rows.strain[row].bend, lane));
   }
   // Motion continued, with its acceleration where the plant has a smooth past.
   const V later = load(pack.accelerate + lane) * again;
@@ -162,40 +158,20 @@ void linearise_pack(const RowArrays& rows, Pack& pack) {
                            load_pose(rows.iterate[row], lane));
       energy = energy + s.energy;
       const Blocks b = blocks_of<extended>(rows, pack, row, lane, s);
-      FactorRow& out = rows.factor[row];
+      BlocksRow& out = rows.blocks[row];
       for (int i = 0; i < triangle6; ++i) store(b.diagonal[i], out.diagonal[i] + lane);
       // Lanes without an element must not seem to move.
       const V alive = load(rows.element[row].alive + lane);
       for (int i = 0; i < 6; ++i) store(alive * b.right[i], out.right[i] + lane);
-      const S3 &s3 = b.coupling_stretch, &t3 = b.coupling_bend;
-      const V values[27] = {s3.xx,
-                            s3.yx,
-                            s3.yy,
-                            s3.zx,
-                            s3.zy,
-                            s3.zz,
-                            b.coupling_lever[0].x,
-                            b.coupling_lever[0].y,
-                            b.coupling_lever[0].z,
-                            b.coupling_lever[1].x,
-                            b.coupling_lever[1].y,
-                            b.coupling_lever[1].z,
-                            b.coupling_lever[2].x,
-                            b.coupling_lever[2].y,
-                            b.coupling_lever[2].z,
-                            t3.xx,
-                            t3.yx,
-                            t3.yy,
-                            t3.zx,
-                            t3.zy,
-                            t3.zz,
-                            b.parent_force.x,
-                            b.parent_force.y,
-                            b.parent_force.z,
-                            b.parent_moment.x,
-                            b.parent_moment.y,
-                            b.parent_moment.z};
-      for (int i = 0; i < 27; ++i) store(values[i], out.coupling[i] + lane);
+      const S3 &s3 = b.stretch, &t3 = b.bend;
+      const V3(&lever)[3] = b.lever;
+      const V coupling[21] = {
+          s3.xx,      s3.yx,      s3.yy,      s3.zx,      s3.zy,      s3.zz,      lever[0].x,
+          lever[0].y, lever[0].z, lever[1].x, lever[1].y, lever[1].z, lever[2].x, lever[2].y,
+          lever[2].z, t3.xx,      t3.yx,      t3.yy,      t3.zx,      t3.zy,      t3.zz};
+      for (int i = 0; i < 21; ++i) store(coupling[i], out.coupling[i] + lane);
+      const V on_parent[6] = {b.force.x, b.force.y, b.force.z, b.moment.x, b.moment.y, b.moment.z};
+      for (int i = 0; i < 6; ++i) store(on_parent[i], out.on_parent[i] + lane);
     }
     store(energy, pack.energy + lane);
   }
@@ -241,6 +217,7 @@ void Substitute(const RowArrays& rows, Pack& pack) {
     load_change(rows.factor[pack.begin], lane, parent);
     for (int row = pack.begin + 1; row < pack.end; ++row) {
       FactorRow& factor = rows.factor[row];
+      const auto* lower = factor.factors + FactorRow::coupling_size;
       V x[6];
       load_change(factor, lane, x);
       int place = 0;
@@ -248,14 +225,12 @@ void Substitute(const RowArrays& rows, Pack& pack) {
       for (int j = 0; j < 6; ++j)
 #pragma GCC unroll 6
         for (int i = j < 3 ? 0 : 3; i < 6; ++i)
-          x[i] = hn::NegMulAdd(load(factor.coupling[place++] + lane), parent[j], x[i]);
+          x[i] = hn::MulAdd(load(factor.factors[place++] + lane), parent[j], x[i]);
 #pragma GCC unroll 6
-      for (int i = 5; i >= 0; --i) {
+      for (int k = 5; k > 0; --k)
 #pragma GCC unroll 6
-        for (int k = i + 1; k < 6; ++k)
-          x[i] = hn::NegMulAdd(load(factor.diagonal[at(k, i)] + lane), x[k], x[i]);
-        x[i] = x[i] * load(factor.diagonal[at(i, i)] + lane);
-      }
+        for (int i = 0; i < k; ++i)
+          x[i] = hn::NegMulAdd(load(lower[k * (k - 1) / 2 + i] + lane), x[k], x[i]);
       const V alive = load(rows.element[row].alive + lane);
 #pragma GCC unroll 6
       for (int i = 0; i < 6; ++i) {
@@ -319,7 +294,7 @@ void Finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
       const Pose pose = load_pose(rows.iterate[row], lane);
       const V3 com = centre_of_mass(pose, load(rows.element[row].com_back + lane));
       store3(inverse_step * (com - load3(term.com_past, lane)), end[row].velocity, lane);
-      const Q turn = conjugate(load4(term.rotation_past, lane)) * pose.orientation;
+      const Q turn = times_conjugate(load4(term.rotation_past, lane), pose.orientation);
       store3(inverse_step * log_map(turn).phi, end[row].angular_velocity, lane);
       if (pack.branches > 0)
         finish_joint(

@@ -22,7 +22,7 @@ void prepare(const RowArrays& rows, Pack& pack);
 /// the tips to the first element. Sets `energy`, `healthy` and `branch`.
 void linearise_and_eliminate(const RowArrays& rows, Pack& pack);
 
-/// Gradient and Hessian alone, left in `factor` (see FactorRow). Sets `energy`.
+/// Gradient and Hessian alone, left in `blocks`. Sets `energy`.
 void linearise(const RowArrays& rows, Pack& pack);
 
 /// From the parents' changes in the pack's first row to everyone's. Sets `turn`, `shift`, `change`.

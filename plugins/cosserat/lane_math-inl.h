@@ -32,6 +32,15 @@ HWY_INLINE void store(V x, double* p) {
   hn::Store(x, D(), p);
 }
 
+/// Numbers that are kept in single precision.
+HWY_INLINE V load(const float* p) {
+  return hn::PromoteTo(D(), hn::Load(hn::Rebind<float, D>(), p));
+}
+HWY_INLINE void store(V x, float* p) {
+  const hn::Rebind<float, D> d;
+  hn::Store(hn::DemoteTo(d, x), d, p);
+}
+
 struct V3 {
   V x, y, z;
 };
@@ -78,6 +87,10 @@ HWY_INLINE V3 operator*(V s, const V3& a) {
 HWY_INLINE V3 add_scaled(const V3& a, V s, const V3& b) {
   return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
 }
+/// a - s b
+HWY_INLINE V3 less_scaled(const V3& a, V s, const V3& b) {
+  return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
+}
 HWY_INLINE V3 times(const V3& a, const V3& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
@@ -103,6 +116,10 @@ HWY_INLINE V3 operator*(const M3& m, const V3& v) {
 HWY_INLINE V3 into(const M3& m, const V3& v) {
   return {dot(m.a, v), dot(m.b, v), dot(m.c, v)};
 }
+/// v v^T
+HWY_INLINE S3 square(const V3& v) {
+  return {v.x * v.x, v.y * v.x, v.y * v.y, v.z * v.x, v.z * v.y, v.z * v.z};
+}
 /// m diag(k) m^T
 HWY_INLINE S3 sandwich(const M3& m, const V3& k) {
   const V3 a = k.x * m.a, b = k.y * m.b, c = k.z * m.c;
@@ -125,14 +142,18 @@ HWY_INLINE void add_mixed(const M3& m, V k, S3& s) {
   s.zz = hn::MulAdd(a.z, b.z, hn::MulAdd(a.z, b.z, s.zz));
 }
 
-HWY_INLINE Q conjugate(const Q& q) {
-  return {hn::Neg(q.x), hn::Neg(q.y), hn::Neg(q.z), q.w};
-}
 HWY_INLINE Q operator*(const Q& a, const Q& b) {
   return {hn::MulAdd(a.w, b.x, hn::MulAdd(a.x, b.w, hn::NegMulAdd(a.z, b.y, a.y * b.z))),
           hn::MulAdd(a.w, b.y, hn::MulAdd(a.y, b.w, hn::NegMulAdd(a.x, b.z, a.z * b.x))),
           hn::MulAdd(a.w, b.z, hn::MulAdd(a.z, b.w, hn::NegMulAdd(a.y, b.x, a.x * b.y))),
           hn::NegMulAdd(a.x, b.x, hn::NegMulAdd(a.y, b.y, hn::NegMulAdd(a.z, b.z, a.w * b.w)))};
+}
+/// conjugate(a) * b
+HWY_INLINE Q times_conjugate(const Q& a, const Q& b) {
+  return {hn::MulAdd(a.w, b.x, hn::NegMulAdd(a.x, b.w, hn::NegMulAdd(a.y, b.z, a.z * b.y))),
+          hn::MulAdd(a.w, b.y, hn::NegMulAdd(a.y, b.w, hn::NegMulAdd(a.z, b.x, a.x * b.z))),
+          hn::MulAdd(a.w, b.z, hn::NegMulAdd(a.z, b.w, hn::NegMulAdd(a.x, b.y, a.y * b.x))),
+          hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::MulAdd(a.z, b.z, a.w * b.w)))};
 }
 HWY_INLINE Q select(M mask, const Q& yes, const Q& no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),

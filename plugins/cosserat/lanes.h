@@ -21,9 +21,14 @@ struct alignas(64) PoseRow {
 };
 
 /// What else the scheme knows of a time: velocity of the centre of mass (m/s, W), angular velocity
-/// (rad/s, E), strains from rest (1 and rad, E; only where there is Kelvin-Voigt damping).
+/// (rad/s, E).
 struct alignas(64) RateRow {
-  Lanes velocity[3], angular_velocity[3], stretch[3], bend[3];
+  Lanes velocity[3], angular_velocity[3];
+};
+
+/// Strains from rest (1 and rad, E), where there is Kelvin-Voigt damping or a joint law.
+struct alignas(64) StrainRow {
+  Lanes stretch[3], bend[3];
 };
 
 /// The terms of one step's incremental potential (plugins/cosserat/README.md). With h~ = beta dt
@@ -35,9 +40,13 @@ struct alignas(64) RateRow {
 struct alignas(64) TermRow {
   Lanes com_past[3], rotation_past[4];      // c* (m, W), q* (E to W)
   Lanes com_target[3], rotation_target[4];  // m, W; E to W
+  Lanes inertia_scale;                      // 1/s2: (1 + rate h~)/h~^2
+};
+
+/// Those of Kelvin-Voigt damping: without it they are 0, 0 and 1.
+struct alignas(64) ViscousRow {
   Lanes stretch_target[3], bend_target[3];  // 1 and rad, E
   Lanes stiffening;                         // 1: 1 + tau/h~
-  Lanes inertia_scale;                      // 1/s2: (1 + rate h~)/h~^2
 };
 
 /// Constants of eight elements' extensions (JointLaw, SegmentAir; SI units). Where an element has
@@ -61,29 +70,38 @@ struct alignas(64) BranchRow {
 
 /// The extensions' terms of one step.
 struct alignas(64) ExtensionTermRow {
-  Lanes bend_stiffness[3];  // N m/rad: what is linear in phi (its offset is TermRow::bend_target)
-  Lanes bias[3];            // rad, RodState::joint_bias
-  Lanes middle_past[3];     // m, W: c* of the segment's middle
-  Lanes air[3];             // m/s, W, at the step's end
-  Lanes axis[3];            // W, of the segment where the drag was linearised last
+  Lanes
+      bend_stiffness[3];  // N m/rad: what is linear in phi (its offset is ViscousRow::bend_target)
+  Lanes bias[3];          // rad, RodState::joint_bias
+  Lanes middle_past[3];   // m, W: c* of the segment's middle
+  Lanes air[3];           // m/s, W, at the step's end
+  Lanes axis[3];          // W, of the segment where the drag was linearised last
 };
 
 /// Sizes of the blocks below. A symmetric 6x6 block is kept as its lower triangle by rows.
 inline constexpr int triangle6 = 21, block_size = triangle6 + 6;
 
-/// The factors of eight elements' blocks: L (L L^T is the diagonal block; with the inverses of its
-/// diagonal), W = L^-1 coupling by columns (its upper right quarter is zero), y = L^-1 right side,
-/// and then the solution. Where a row is not eliminated here (plants with loops): the block itself,
-/// the coupling (two symmetric quarters and the lower left one), what the parent's right side gets,
-/// the right side. The line search needs the solution alone: the iterate that it begins from, its
-/// base, takes the place of W.
+/// The factors of eight elements' blocks, L D L^T the diagonal block, L with ones on its diagonal.
+/// In single precision, which halves what has to come from memory: Newton's change is off by some
+/// 1e-7 of itself, which its next iteration finds, and y, which the equilibrium of forces hangs on,
+/// is not rounded.
 struct alignas(64) FactorRow {
-  Lanes diagonal[triangle6];
+  static constexpr int lower_size = triangle6 - 6, coupling_size = 27;
+  /// First W = -D^-1 L^-1 coupling by columns (its upper right quarter is zero), then L's lower
+  /// triangle by rows. The line search needs neither: the iterate that it begins from stands there.
   union {
-    Lanes coupling[27];
+    float factors[coupling_size + lower_size][lane_count];
     PoseRow base;
   };
-  Lanes right[6];
+  Lanes right[6];  ///< y = D^-1 L^-1 right side, and then the solution
+};
+
+/// The blocks of eight elements of plants with loops, which are not eliminated in rows.
+struct alignas(64) BlocksRow {
+  Lanes diagonal[triangle6];
+  Lanes coupling[21];  ///< minus it: two symmetric quarters with the lower left one between them
+  Lanes right[6];      ///< right side
+  Lanes on_parent[6];  ///< what the parent's gets
 };
 
 /// What goes into one element's block from outside its row: a branch that starts at it, or springs
@@ -111,8 +129,8 @@ struct alignas(64) Pack {
   Lanes healthy;              // 1 where all pivots were positive
   Lanes branch[block_size];   // what the first elements give to their parents' blocks
   int begin = 0, end = 0;
-  bool active = true;   // some plant in it is still being solved
-  bool damped = false;  // some element has Kelvin-Voigt damping
+  bool active = true;    // some plant in it is still being solved
+  bool viscous = false;  // some element has Kelvin-Voigt damping, or an extension
   // Extensions.
   bool extended = false, windy = false;  // some plant in it has any; drag
   int branches = 0, sliders = 0;         // of its joints at most
@@ -125,8 +143,12 @@ struct RowArrays {
   const PoseRow* previous = nullptr;
   RateRow* rate = nullptr;
   const RateRow* previous_rate = nullptr;
+  StrainRow* strain = nullptr;  // this and the next two where some plant needs them
+  const StrainRow* previous_strain = nullptr;
+  ViscousRow* viscous = nullptr;
   TermRow* term = nullptr;
   FactorRow* factor = nullptr;
+  BlocksRow* blocks = nullptr;        // where some plant has loops
   const int* first_branch = nullptr;  // a row, into `branches`; -1: none
   const int* first_extra = nullptr;   // a row, into `extras`; -1: none
   const BlockSource* branches = nullptr;

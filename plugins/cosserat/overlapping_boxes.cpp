@@ -1,7 +1,8 @@
 #include "cosserat/overlapping_boxes.h"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 // Compiled once for each instruction set, as lane_kernels.cpp is.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -17,9 +18,44 @@
 #ifndef PEDICEL_COSSERAT_OVERLAPPING_BOXES
 #define PEDICEL_COSSERAT_OVERLAPPING_BOXES
 namespace pedicel::cosserat {
-using Sides = std::array<std::vector<float>, 3>;
-using Pairs = std::vector<std::pair<int, int>>;
+
+using Group = OverlappingBoxes::Group;
+using Groups = OverlappingBoxes::Groups;
+using Boxes = OverlappingBoxes::Boxes;
+using Scratch = OverlappingBoxes::Scratch;
+
+constexpr int group_size = OverlappingBoxes::group_size;
 constexpr std::size_t most_floats = 16;  // of a vector
+constexpr int near = 32;                 // numbers beyond a box's own, a bit each
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+struct Box {
+  float low[3], high[3];
+};
+inline Box box_of(const Group& group, int lane) {
+  return {{group.low[0][lane], group.low[1][lane], group.low[2][lane]},
+          {group.high[0][lane], group.high[1][lane], group.high[2][lane]}};
+}
+inline Box box_of(const Boxes& boxes, std::size_t i) {
+  return {{boxes.low[0][i], boxes.low[1][i], boxes.low[2][i]},
+          {boxes.high[0][i], boxes.high[1][i], boxes.high[2][i]}};
+}
+
+// Of a box's pairs with a group, those with greater numbers that may not be left out, a bit each.
+inline unsigned looked_for(const Groups& groups, int box, int group) {
+  const int first = group * group_size - box - 1;  // the group's, counted from the box's next
+  const unsigned left_out = groups.near_left_out[box];
+  if (first >= near) return 255;
+  if (first >= 0) return 255 & ~(left_out >> first);
+  return 255 & ~(left_out << -first) & ~0u << -first;
+}
+
+inline bool is_far_left_out(const Groups& groups, int a, int b) {
+  const auto first = groups.far_left_out.begin();
+  return std::binary_search(first + groups.first_far_left_out[a],
+                            first + groups.first_far_left_out[a + 1], std::pair(a, b));
+}
+
 }  // namespace pedicel::cosserat
 #endif
 
@@ -27,29 +63,77 @@ HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
 
-// Compares each box with those that begin before it ends, several at a time: their places in order.
-void Sweep(const Sides& low, const Sides& high, std::size_t first, std::size_t last, Pairs& pairs) {
+// Which of a vector's worth of boxes overlap the one, a bit each; low(k) and high(k) are where the
+// first one's coordinates are.
+template <class Tag, class Low, class High>
+HWY_INLINE unsigned overlapping(Tag d, const Box& box, const Low& low, const High& high) {
+  const auto beside = [&](int k) {
+    return hn::And(hn::LoadU(d, low(k)) <= hn::Set(d, box.high[k]),
+                   hn::LoadU(d, high(k)) >= hn::Set(d, box.low[k]));
+  };
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, hn::And(hn::And(beside(0), beside(1)), beside(2)), bits);
+  return bits[0] | bits[1] << 8;
+}
+
+HWY_INLINE unsigned overlapping(const Box& box, const Group& group) {
+  const hn::CappedTag<float, group_size> d;
+  unsigned found = 0;
+  for (std::size_t i = 0; i < group_size; i += hn::Lanes(d))
+    found |= overlapping(
+                 d, box, [&](int k) { return &group.low[k][i]; },
+                 [&](int k) { return &group.high[k][i]; })
+             << i;
+  return found;
+}
+
+// take(i) for those of the boxes from `first` to `end` that overlap the one, ascending.
+template <class Take>
+HWY_INLINE void for_overlapping(const Box& box, const Boxes& boxes, std::size_t first,
+                                std::size_t end, const Take& take) {
   const hn::CappedTag<float, most_floats> d;
-  const std::size_t width = hn::Lanes(d);
+  for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
+    unsigned left = overlapping(
+        d, box, [&](int k) { return &boxes.low[k][i]; }, [&](int k) { return &boxes.high[k][i]; });
+    for (; left != 0; left &= left - 1) take(i + __builtin_ctz(left));
+  }
+}
+
+// Lists the groups from the given one on that its box overlaps; returns how many.
+HWY_INLINE std::size_t list_groups(const Groups& groups, std::size_t group, Scratch& scratch) {
   std::size_t count = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    const auto low1 = hn::Set(d, low[1][i]), high1 = hn::Set(d, high[1][i]);
-    const auto low2 = hn::Set(d, low[2][i]), high2 = hn::Set(d, high[2][i]);
-    const auto end = hn::Set(d, high[0][i]);
-    for (std::size_t j = i + 1; low[0][j] <= high[0][i]; j += width) {
-      const auto at = [&](const std::vector<float>& side) { return hn::LoadU(d, &side[j]); };
-      const auto beside =
-          hn::And(hn::And(at(low[1]) <= high1, at(high[1]) >= low1), at(low[0]) <= end);
-      const auto overlap = hn::And(hn::And(at(low[2]) <= high2, at(high[2]) >= low2), beside);
-      if (hn::AllFalse(d, overlap)) continue;
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, overlap, bits);
-      if (count + most_floats > pairs.size()) pairs.resize(2 * count + 64 * most_floats);
-      for (unsigned left = bits[0] | bits[1] << 8; left != 0; left &= left - 1)
-        pairs[count++] = {static_cast<int>(i), static_cast<int>(j) + __builtin_ctz(left)};
+  for_overlapping(box_of(groups.around, group), groups.around, group, groups.boxes.size(),
+                  [&](std::size_t other) {
+                    scratch.groups[count] = static_cast<int>(other);
+                    for (int k = 0; k < 3; ++k) {
+                      scratch.around.low[k][count] = groups.around.low[k][other];
+                      scratch.around.high[k][count] = groups.around.high[k][other];
+                    }
+                    ++count;
+                  });
+  // The last vector's others are empty.
+  std::fill_n(&scratch.around.low[0][count], most_floats, infinity);
+  return count;
+}
+
+void Compare(const Groups& groups, std::size_t first, std::size_t end, Scratch& scratch) {
+  scratch.pairs.clear();
+  for (std::size_t group = first / group_size; group * group_size < end; ++group) {
+    const std::size_t count = list_groups(groups, group, scratch);
+    for (int lane = 0; lane < group_size; ++lane) {
+      const int a = static_cast<int>(group) * group_size + lane;
+      const Box box = box_of(groups.boxes[group], lane);
+      const bool has_far = groups.first_far_left_out[a] < groups.first_far_left_out[a + 1];
+      for_overlapping(box, scratch.around, 0, count, [&](std::size_t place) {
+        const int other = scratch.groups[place];
+        unsigned left = overlapping(box, groups.boxes[other]) & looked_for(groups, a, other);
+        for (; left != 0; left &= left - 1) {
+          const int b = other * group_size + __builtin_ctz(left);
+          if (!has_far || !is_far_left_out(groups, a, b)) scratch.pairs.add(a, b);
+        }
+      });
     }
   }
-  pairs.resize(count);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -59,84 +143,70 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pedicel::cosserat {
 
-HWY_EXPORT(Sweep);
+HWY_EXPORT(Compare);
 
-void OverlappingBoxes::find(std::span<const Eigen::AlignedBox3d> boxes, Pairs& pairs) {
-  pairs.clear();
-  find(boxes, {},
-       [&](int, const Pairs& some) { pairs.insert(pairs.end(), some.begin(), some.end()); });
+namespace {
+
+void make_empty(Boxes& boxes, std::size_t room) {
+  for (auto& side : boxes.low) side.assign(room, infinity);
+  for (auto& side : boxes.high) side.assign(room, -infinity);
 }
 
-// Returns how many boxes are not empty.
-std::size_t OverlappingBoxes::sort(std::span<const Eigen::AlignedBox3d> boxes) {
-  order_.clear();
-  Eigen::AlignedBox3d all;
-  for (const Eigen::AlignedBox3d& box : boxes)
-    if (!box.isEmpty()) all.extend(box);
-  if (all.isEmpty()) return 0;
-  int axis = 0;
-  all.sizes().maxCoeff(&axis);
-  sort_along(axis, all, boxes);
-  return order_.size();
+}  // namespace
+
+void OverlappingBoxes::compare(std::size_t first, std::size_t end, Scratch& scratch) const {
+  const std::size_t room = groups_.around.low[0].size();
+  if (scratch.around.low[0].size() != room) make_empty(scratch.around, room);
+  scratch.groups.resize(room);
+  HWY_DYNAMIC_DISPATCH(Compare)(groups_, first, end, scratch);
 }
 
-void OverlappingBoxes::sweep(std::size_t first, std::size_t end, Pairs& pairs) const {
-  HWY_DYNAMIC_DISPATCH(Sweep)(low_, high_, first, end, pairs);
-  for (auto& [i, j] : pairs) {
-    const int a = order_[i].box, b = order_[j].box;
-    i = std::min(a, b);
-    j = std::max(a, b);
-  }
+void OverlappingBoxes::resize(std::size_t count) {
+  count_ = count;
+  const std::size_t groups = (count + group_size - 1) / group_size;
+  Group empty;
+  std::fill_n(&empty.low[0][0], 3 * group_size, infinity);
+  std::fill_n(&empty.high[0][0], 3 * group_size, -infinity);
+  groups_.boxes.assign(groups, empty);
+  make_empty(groups_.around, groups + most_floats);
+  leave_out({});
 }
 
-// By a key of 16 bits; the low end swept along is that of the key, at or below the box's.
-void OverlappingBoxes::sort_along(int axis, const Eigen::AlignedBox3d& all,
-                                  std::span<const Eigen::AlignedBox3d> boxes) {
-  constexpr double keys = 65535.0;
-  const double start = all.min()[axis], step = all.sizes()[axis] / keys;
-  const double per_step = step > 0.0 ? 1.0 / step : 0.0;
-  for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
-    if (!boxes[i].isEmpty())
-      order_.push_back({static_cast<unsigned>((boxes[i].min()[axis] - start) * per_step), i});
-  sort_by_key();
-  const Vec3 middle = all.center();
-  const double rounding = 2.0e-6 * all.sizes().maxCoeff();  // float's is 6e-8 of half the size
-  for (int k = 0; k < 3; ++k) {
-    // What a vector holds beyond the last box begins after every other.
-    low_[k].assign(order_.size() + most_floats, std::numeric_limits<float>::infinity());
-    high_[k].assign(order_.size() + most_floats, std::numeric_limits<float>::infinity());
-    const int from = (axis + k) % 3;
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      const Eigen::AlignedBox3d& box = boxes[order_[i].box];
-      const double low = k == 0 ? start + order_[i].key * step : box.min()[from];
-      low_[k][i] = static_cast<float>(low - middle[from] - rounding);
-      high_[k][i] = static_cast<float>(box.max()[from] - middle[from] + rounding);
+void OverlappingBoxes::leave_out(const std::vector<std::pair<int, int>>& pairs) {
+  const std::size_t room = groups_.boxes.size() * group_size;
+  groups_.near_left_out.assign(room, 0);
+  groups_.far_left_out.clear();
+  groups_.first_far_left_out.assign(room + 1, 0);
+  for (const auto& [a, b] : pairs) {
+    if (b - a <= near) {
+      groups_.near_left_out[a] |= 1u << (b - a - 1);
+    } else {
+      groups_.far_left_out.emplace_back(a, b);
+      ++groups_.first_far_left_out[a + 1];
     }
   }
+  std::partial_sum(groups_.first_far_left_out.begin(), groups_.first_far_left_out.end(),
+                   groups_.first_far_left_out.begin());
 }
 
-// Two passes of counting, eight bits each.
-void OverlappingBoxes::sort_by_key() {
-  other_order_.resize(order_.size());
-  for (const int shift : {0, 8}) {
-    std::array<int, 257> places{};
-    for (const Place& place : order_) ++places[(place.key >> shift & 255) + 1];
-    for (int i = 0; i < 256; ++i) places[i + 1] += places[i];
-    for (const Place& place : order_) other_order_[places[place.key >> shift & 255]++] = place;
-    order_.swap(other_order_);
+void OverlappingBoxes::set(std::size_t box, const Vec3& low, const Vec3& high) {
+  constexpr float outward = 1.2e-7F;  // of a number: a float's rounding
+  const bool finite = std::isfinite((low + high).sum());
+  Group& group = groups_.boxes[box / group_size];
+  for (int k = 0; k < 3; ++k) {
+    const auto below = static_cast<float>(low[k]), above = static_cast<float>(high[k]);
+    group.low[k][box % group_size] = finite ? below - outward * std::abs(below) : infinity;
+    group.high[k][box % group_size] = finite ? above + outward * std::abs(above) : -infinity;
   }
 }
 
-void PairSort::operator()(Pairs& pairs, int count) {
-  other_.resize(pairs.size());
-  const auto pass = [&](const Pairs& from, Pairs& to, auto number) {
-    places_.assign(count + 1, 0);
-    for (const auto& pair : from) ++places_[number(pair) + 1];
-    for (int i = 0; i < count; ++i) places_[i + 1] += places_[i];
-    for (const auto& pair : from) to[places_[number(pair)]++] = pair;
-  };
-  pass(pairs, other_, [](const auto& pair) { return pair.second; });
-  pass(other_, pairs, [](const auto& pair) { return pair.first; });
+void OverlappingBoxes::close_groups(std::size_t first, std::size_t end) {
+  for (std::size_t g = first / group_size; g * group_size < end; ++g)
+    for (int k = 0; k < 3; ++k) {
+      const Group& group = groups_.boxes[g];
+      groups_.around.low[k][g] = *std::min_element(group.low[k], group.low[k] + group_size);
+      groups_.around.high[k][g] = *std::max_element(group.high[k], group.high[k] + group_size);
+    }
 }
 
 }  // namespace pedicel::cosserat

@@ -2,68 +2,80 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "core/frames.h"
+#include "cosserat/capsules.h"
 #include "cosserat/parted_loop.h"
 
 namespace pedicel::cosserat {
 
-/// Pairs of boxes that overlap, found by sweeping along the longest axis of them all, in single
-/// precision: boxes nearer than some 1e-5 of the size of them all may count as overlapping, too.
-/// Does not allocate once warm.
+/// Pairs of boxes that overlap, where most boxes lie beside those with the numbers next to theirs,
+/// as those along a branch do: eight that follow each other make a group with a box around it, and
+/// groups are compared first. In single precision: boxes nearer than some 1e-6 of how far they are
+/// from the origin may count as overlapping, too. Does not allocate once warm.
 class OverlappingBoxes {
  public:
-  /// Replaces `pairs` with all (i, j), i < j, each once, in an order that depends on the boxes
-  /// alone. Empty boxes overlap nothing.
-  void find(std::span<const Eigen::AlignedBox3d> boxes, std::vector<std::pair<int, int>>& pairs);
+  static constexpr std::size_t group_size = 8;
 
-  /// The same in parts, perhaps at once: take(part, pairs) for some of the pairs at a time, which
-  /// then are still in a core's cache. Returns the number of parts. The pairs of part after part
-  /// are in an order that depends on the boxes alone, however many parts there are.
+  /// How many boxes there are; all are empty, and no pair is left out.
+  void resize(std::size_t count);
+  /// Pairs (a, b), a < b, ascending, each once, that are not looked for.
+  void leave_out(const std::vector<std::pair<int, int>>& pairs);
+
+  /// Sets a box (m). What is not finite is empty, and overlaps nothing. Different boxes may be set
+  /// at once.
+  void set(std::size_t box, const Vec3& low, const Vec3& high);
+  /// Makes the groups' boxes, from the box `first`, a multiple of group_size, to the box `end`.
+  void close_groups(std::size_t first, std::size_t end);
+
+  /// take(part, pairs) for some pairs (a, b), a < b, at a time, perhaps at once for different
+  /// parts. Returns the number of parts. The pairs of part after part are ascending, however many
+  /// parts there are.
   template <class Take>
-  int find(std::span<const Eigen::AlignedBox3d> boxes, const PartedLoop& loop, const Take& take) {
-    const std::size_t count = sort(boxes);
-    const int parts = loop.parts(count, worth_waking, 2);
-    loop.run(count, parts, [&](int part, std::size_t first, std::size_t end) {
+  int find(const PartedLoop& loop, const Take& take) {
+    const int parts = loop.parts(count_, worth_waking, 2);
+    loop.run(count_, parts, [&](int part, std::size_t first, std::size_t end) {
       for (; first < end; first += at_a_time) {
-        sweep(first, std::min(end, first + at_a_time), found_[part]);
-        take(part, found_[part]);
+        compare(first, std::min(end, first + at_a_time), scratch_[part]);
+        take(part, scratch_[part].pairs);
       }
     });
     return parts;
   }
 
- private:
-  static constexpr std::size_t worth_waking = 128, at_a_time = 32;  // boxes
-
-  struct Place {
-    unsigned key;  // of the low end along the axis swept
-    int box;
+  /// Eight boxes (m), by coordinate; empty ones are inside out.
+  struct alignas(32) Group {
+    float low[3][group_size], high[3][group_size];
   };
-  std::size_t sort(std::span<const Eigen::AlignedBox3d> boxes);
-  void sweep(std::size_t first, std::size_t end, std::vector<std::pair<int, int>>& pairs) const;
-  void sort_along(int axis, const Eigen::AlignedBox3d& all,
-                  std::span<const Eigen::AlignedBox3d> boxes);
-  void sort_by_key();
-
-  std::vector<Place> order_, other_order_;
-  // In that order, m from the middle of them all, with a vector's worth beyond the last; the axis
-  // swept along is the first.
-  std::array<std::vector<float>, 3> low_, high_;
-  std::array<std::vector<std::pair<int, int>>, PartedLoop::most_parts> found_;  // by part
-};
-
-/// Sorts pairs of numbers in [0, count) ascending, by counting. Does not allocate once warm.
-class PairSort {
- public:
-  void operator()(std::vector<std::pair<int, int>>& pairs, int count);
+  /// As many as the arrays hold, and a vector's worth of empty ones beyond the last.
+  struct Boxes {
+    std::array<std::vector<float>, 3> low, high;
+  };
+  /// What is compared.
+  struct Groups {
+    std::vector<Group> boxes;
+    Boxes around;
+    std::vector<std::uint32_t> near_left_out;  // by box: bit k is its pair with the (k + 1)-th next
+    std::vector<std::pair<int, int>> far_left_out;  // the others, ascending
+    std::vector<int> first_far_left_out;            // by box, where its pairs begin there
+  };
+  struct Scratch {
+    CapsulePairs pairs;
+    std::vector<int> groups;  // that the box of one group overlaps
+    Boxes around;             // their boxes
+  };
 
  private:
-  std::vector<std::pair<int, int>> other_;
-  std::vector<int> places_;
+  static constexpr std::size_t worth_waking = 128, at_a_time = 64;  // boxes, whole groups
+
+  void compare(std::size_t first, std::size_t end, Scratch& scratch) const;
+
+  std::size_t count_ = 0;
+  Groups groups_;
+  std::array<Scratch, PartedLoop::most_parts> scratch_;
 };
 
 }  // namespace pedicel::cosserat

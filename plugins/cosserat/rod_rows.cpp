@@ -69,6 +69,10 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
   grow(scratch_->rate);
   grow(scratch_->term);
   grow(scratch_->factor);
+  if (std::any_of(plants.begin(), plants.end(),
+                  [](const RodModel* m) { return !m->welds.empty(); }) ||
+      keep_blocks)
+    grow(scratch_->blocks);
   for (int p = 0; p < layout_.packs(); ++p) {
     packs_[p] = Pack{};
     packs_[p].begin = layout_.first_row(p);
@@ -100,8 +104,12 @@ RowArrays RodRows::arrays() {
   rows.previous = previous_.data();
   rows.rate = scratch_->rate.data();
   rows.previous_rate = previous_rate_.data();
+  rows.strain = scratch_->strain.data();
+  rows.previous_strain = previous_strain_.data();
+  rows.viscous = scratch_->viscous.data();
   rows.term = scratch_->term.data();
   rows.factor = scratch_->factor.data();
+  rows.blocks = scratch_->blocks.data();
   rows.first_branch = first_branch_.data();
   rows.first_extra = first_extra_.data();
   rows.branches = branches_.data();
@@ -253,7 +261,7 @@ void RodRows::copy_blocks(int plant, BlockSystem& system) const {
     int parent = anchors_[chain.pack][lane].element;
     for (const int e : chain.elements) {
       const int row = layout_.slot(plant, e).row;
-      const FactorRow& from = scratch_->factor[row];
+      const BlocksRow& from = scratch_->blocks[row];
       if (element_[row].alive[lane] == 0.0) {
         system.diagonal(e).setIdentity();
         parent = e;
@@ -268,15 +276,14 @@ void RodRows::copy_blocks(int plant, BlockSystem& system) const {
           for (int j = 0; j < 3; ++j) {
             const double stretch = from.coupling[at(i, j)][lane];
             const double bend = from.coupling[15 + at(i, j)][lane];
-            system.coupling(e)(i, j) = stretch;
-            system.coupling(e)(3 + i, j) = from.coupling[6 + 3 * i + j][lane];
-            system.coupling(e)(3 + i, 3 + j) = bend;
-            system.diagonal(parent)(i, j) -= stretch;
-            system.diagonal(parent)(3 + i, 3 + j) -= bend;
+            system.coupling(e)(i, j) = -stretch;
+            system.coupling(e)(3 + i, j) = -from.coupling[6 + 3 * i + j][lane];
+            system.coupling(e)(3 + i, 3 + j) = -bend;
+            system.diagonal(parent)(i, j) += stretch;
+            system.diagonal(parent)(3 + i, 3 + j) += bend;
           }
-          system.right_side(parent)[i] += from.coupling[21 + i][lane];
-          system.right_side(parent)[3 + i] += from.coupling[24 + i][lane];
         }
+        for (int i = 0; i < 6; ++i) system.right_side(parent)[i] += from.on_parent[i][lane];
       }
       parent = e;
     }
@@ -346,10 +353,12 @@ void RodRows::end_step() {
   if (scratch_.use_count() == 1) {  // what a step leaves there is nobody else's
     scratch_->start.swap(previous_);
     scratch_->rate.swap(previous_rate_);
+    scratch_->strain.swap(previous_strain_);
     return;
   }
   std::copy_n(scratch_->start.begin(), layout_.rows(), previous_.begin());
   std::copy_n(scratch_->rate.begin(), layout_.rows(), previous_rate_.begin());
+  std::copy_n(scratch_->strain.begin(), previous_strain_.size(), previous_strain_.begin());
 }
 
 double RodRows::energy(int plant) const {

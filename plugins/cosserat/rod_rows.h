@@ -27,8 +27,11 @@ struct RodHistory {
 struct RowScratch {
   std::vector<PoseRow> start, iterate;
   std::vector<RateRow> rate;
+  std::vector<StrainRow> strain;
+  std::vector<ViscousRow> viscous;
   std::vector<TermRow> term;
   std::vector<FactorRow> factor;
+  std::vector<BlocksRow> blocks;
 };
 
 /// The incremental potential of some plants over one step, without loads, supports, welds and
@@ -127,6 +130,7 @@ class RodRows {
   };
 
   RowArrays arrays();
+  void make_viscous(int chain);
   void make_extension_rows(int branches);
   void read_extensions(int plant, const RodModel& model);
   void read_branches(int plant, const RodModel& model);
@@ -148,7 +152,8 @@ class RodRows {
   std::vector<char> active_;  // scratch, by pack
   std::vector<ElementRow> element_;
   std::vector<PoseRow> previous_;
-  std::vector<RateRow> previous_rate_;  // between finish() and end_step() the end's, as velocities
+  std::vector<RateRow> previous_rate_;  // between finish() and end_step() the end's
+  std::vector<StrainRow> previous_strain_;
   std::shared_ptr<RowScratch> scratch_;
   // Empty unless some plant is extended; branch_: branches_a_row_ a row.
   std::vector<ExtensionRow> extension_;

@@ -96,6 +96,7 @@ void RodRows::mark_extended(int plant, const RodModel& model) {
   for (const int c : layout_.chains_of_plant(plant)) {
     Pack& pack = packs_[layout_.chains()[c].pack];
     pack.extended = true;
+    make_viscous(c);
     pack.windy = pack.windy || !model.air.empty();
     pack.branches = std::max(pack.branches, extended_[plant].branches);
     pack.sliders = std::max(pack.sliders, sliders);

@@ -24,11 +24,23 @@ void RodRows::read_model(int plant, const RodModel& model) {
     out.alive[lane] = 1.0;
   }
   for (const int c : layout_.chains_of_plant(plant)) {
-    Pack& pack = packs_[layout_.chains()[c].pack];
-    for (const int e : layout_.chains()[c].elements)
-      if (model.elements[e].damping_time > 0.0) pack.damped = true;
+    const auto& elements = layout_.chains()[c].elements;
+    if (std::any_of(elements.begin(), elements.end(),
+                    [&](int e) { return model.elements[e].damping_time > 0.0; }))
+      make_viscous(c);
   }
   read_extensions(plant, model);
+}
+
+void RodRows::make_viscous(int chain) {
+  packs_[layout_.chains()[chain].pack].viscous = true;
+  if (!previous_strain_.empty()) return;
+  const auto rows = static_cast<std::size_t>(layout_.rows());
+  previous_strain_.resize(rows, StrainRow{});
+  if (scratch_->strain.size() < rows) {
+    scratch_->strain.resize(rows);
+    scratch_->viscous.resize(rows);
+  }
 }
 
 void RodRows::read_states(int pack, std::span<const RodState* const> states) {
@@ -87,8 +99,9 @@ void RodRows::set_history(int plant, const RodHistory& history) {
     put(previous_[row], lane, history.position[e], history.orientation[e]);
     put(previous_rate_[row].velocity, lane, history.velocity[e]);
     put(previous_rate_[row].angular_velocity, lane, history.angular_velocity[e]);
-    put(previous_rate_[row].stretch, lane, history.stretch[e]);
-    put(previous_rate_[row].bend, lane, history.bend[e]);
+    if (previous_strain_.empty()) continue;
+    put(previous_strain_[row].stretch, lane, history.stretch[e]);
+    put(previous_strain_[row].bend, lane, history.bend[e]);
   }
 }
 

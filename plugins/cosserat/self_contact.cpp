@@ -32,7 +32,7 @@ void check(const SelfContactSettings& settings) {
 }  // namespace
 
 SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings)
-    : settings_(settings), count_(model.shapes.size()), boxes_(count_) {
+    : settings_(settings), count_(model.shapes.size()) {
   check(settings);
   const std::size_t room = (count_ + lane_count - 1) / lane_count * lane_count;
   for (Capsules* capsules : {&start_, &now_, &far_reference_, &near_reference_})

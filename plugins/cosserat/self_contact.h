@@ -81,8 +81,6 @@ class SelfContact : public ContactSource {
   void sift_far(int part);
   void collect_far();
   void make_box(std::size_t shape);
-  void leave_out(std::vector<std::pair<int, int>> pairs);
-  bool is_left_out(int a, int b) const;
   CapsuleMotion motion() const;
   void touch_some(const RodModel& model, const RodState& state, double dt, int part,
                   std::size_t first, std::size_t end);
@@ -112,21 +110,16 @@ class SelfContact : public ContactSource {
   std::vector<double> way_;    // m, by shape: of an end in this step, at most
   std::vector<double> reach_;  // m, by shape: of the way still open to it
   // Each list holds while no end of a capsule has moved by more than its `budget` (m) from its
-  // `reference`. The far list is in parts; its gaps are those at its reference.
+  // `reference`. The far list is in parts; its gaps are those at its reference. Pairs are
+  // ascending.
   Capsules far_reference_, near_reference_;
   std::vector<double> far_budget_, near_budget_;
   std::array<CapsulePairs, PartedLoop::most_parts> far_;
   int far_parts_ = 0;
-  CapsulePairs near_;            // ascending
+  CapsulePairs near_;
   bool near_list_made_ = false;  // in this step
-  // Shapes a < b, ascending, that do not touch each other, and where those of a shape a begin.
-  std::vector<std::pair<int, int>> left_out_;
-  std::vector<int> first_left_out_;
   std::array<Scratch, PartedLoop::most_parts> scratch_;
-  std::vector<std::pair<int, int>> candidates_;  // scratch
-  std::vector<Eigen::AlignedBox3d> boxes_;       // scratch, m, W
-  OverlappingBoxes overlapping_;
-  PairSort sort_;
+  OverlappingBoxes boxes_;  // m, W
   Work work_;
   std::vector<Vec3> start_position_;
   std::vector<Quat> start_orientation_;

@@ -118,15 +118,11 @@ void SelfContact::collect_near(bool far_list_holds) {
     for (std::size_t i = 0; i < count_; ++i) reach_[i] = way_[i] + 2.0 * near_budget_[i];
   }
   loop_.each(far_parts_, [&](int part) { sift_far(part); });
-  candidates_.clear();
-  for (int part = 0; part < far_parts_; ++part) {
-    const Scratch& scratch = scratch_[part];
-    candidates_.insert(candidates_.end(), scratch.candidates.begin(), scratch.candidates.end());
-    work_.pairs += scratch.measured;
-  }
-  sort_(candidates_, static_cast<int>(count_));
   near_.clear();
-  for (const auto& [a, b] : candidates_) near_.add(a, b);
+  for (int part = 0; part < far_parts_; ++part) {
+    for (const auto& [a, b] : scratch_[part].candidates) near_.add(a, b);
+    work_.pairs += scratch_[part].measured;
+  }
   near_.make_places();
   near_list_made_ = true;
 }
@@ -154,14 +150,11 @@ void SelfContact::collect_far() {
   ++work_.collections;
   loop_.run(count_, loop_.parts(count_, worth_waking),
             [&](int, std::size_t first, std::size_t end) {
-              for (; first < end; ++first) make_box(first);
+              for (std::size_t i = first; i < end; ++i) make_box(i);
+              boxes_.close_groups(first, end);
             });
   for (CapsulePairs& part : far_) part.clear();
-  far_parts_ = overlapping_.find(boxes_, loop_, [&](int part, const Pairs& candidates) {
-    CapsulePairs& pairs = scratch_[part].pairs;
-    pairs.clear();
-    for (const auto& [a, b] : candidates)
-      if (!is_left_out(a, b)) pairs.add(a, b);
+  far_parts_ = boxes_.find(loop_, [&](int part, CapsulePairs& pairs) {
     measure(now_, pairs);
     sift(pairs, 0, pairs.size(), settings_.margin, far_budget_, far_[part]);
   });
@@ -170,14 +163,11 @@ void SelfContact::collect_far() {
 // Around all of a capsule, from where it is now, until it has used up its budget.
 void SelfContact::make_box(std::size_t shape) {
   const Capsule& capsule = far_reference_[shape] = now_[shape];
-  Eigen::AlignedBox3d& box = boxes_[shape];
   far_budget_[shape] = skin * extent_ + 2.0 * settings_.margin + steps_ahead * way_[shape];
   const Vec3 near = capsule.near_at(), far = capsule.far_at();
-  box.setEmpty();
-  if (!std::isfinite((near + far).sum())) return;
   const Vec3 wide = Vec3::Constant(std::max(capsule.radius_near, capsule.radius_far) +
                                    0.5 * settings_.margin + far_budget_[shape]);
-  box = {near.cwiseMin(far) - wide, near.cwiseMax(far) + wide};
+  boxes_.set(shape, near.cwiseMin(far) - wide, near.cwiseMax(far) + wide);
 }
 
 // Shapes that are near in the tree, or across a weld, and those that nearly touch as drawn.
@@ -198,28 +188,19 @@ void SelfContact::collect_left_out(const RodModel& model) {
     for (const int other : near[weld.b]) add(weld.a, other);
     for (const int other : near[weld.a]) add(weld.b, other);
   }
-  leave_out(pairs);
+  const auto leave_out = [&] {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    boxes_.leave_out(pairs);
+  };
+  boxes_.resize(count_);
+  leave_out();
   collect_far();
   for (int part = 0; part < far_parts_; ++part)
     for (std::size_t i = 0; i < far_[part].size(); ++i)
       if (far_[part].gap[i] < settings_.margin)
         pairs.emplace_back(far_[part].a[i], far_[part].b[i]);
-  leave_out(pairs);
-}
-
-void SelfContact::leave_out(Pairs pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  left_out_ = Pairs(pairs.begin(), pairs.end());
-  first_left_out_.assign(count_ + 1, 0);
-  for (const auto& [a, b] : left_out_) ++first_left_out_[a + 1];
-  std::partial_sum(first_left_out_.begin(), first_left_out_.end(), first_left_out_.begin());
-}
-
-bool SelfContact::is_left_out(int a, int b) const {
-  for (int i = first_left_out_[a + 1] - 1; i >= first_left_out_[a] && left_out_[i].second >= b; --i)
-    if (left_out_[i].second == b) return true;
-  return false;
+  leave_out();
 }
 
 }  // namespace pedicel::cosserat

@@ -114,7 +114,10 @@ TEST(LaneLayout, RowsLieInTheOrderThatIsAskedFor) {
     }
 }
 
-// The rows' elimination against the block system, which is tested against dense matrices.
+// The rows' elimination against the block system, which is tested against dense matrices. The rows
+// keep L and W in single precision: each number is off by up to 6e-8 of itself, and what an element
+// gets follows from its parent's, so that such errors add up along a branch as those of lengths do.
+// Found: 4e-8 of the largest change.
 TEST(RodRows, SolvesAsTheBlockSystemDoes) {
   for (const int threads : {1, 2}) {
     for (int seed = 0; seed < 5; ++seed) {
@@ -143,7 +146,7 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
         largest = std::max(largest, system.solution(e).norm());
         worst = std::max(worst, (rows.change(0, e) - system.solution(e)).norm());
       }
-      EXPECT_LT(worst, 1e-9 * largest) << seed;  // stretch over inertia: conditions of 1e6
+      EXPECT_LT(worst, 2e-7 * largest) << seed;
     }
   }
 }

@@ -138,28 +138,57 @@ TEST(NearestFractions, MoveContinuouslyThroughParallel) {
   }
 }
 
+// Boxes near the origin and far from it, empty ones and ones of all sizes, in no order at all;
+// pairs of near and of far numbers are left out; in parts and by every instruction set. All pairs
+// are found, and none that is apart by more than single precision's rounding on both sides.
 TEST(OverlappingBoxes, AreThoseOfAllPairs) {
+  constexpr int count = 205;
   Random random(2);
   OverlappingBoxes finder;
+  ThreadPool pool(2);
+  const std::vector<std::string> sets = available_instruction_sets();
   for (int trial = 0; trial < 30; ++trial) {
+    use_instruction_set(sets[trial % sets.size()]);
+    const double distance = trial % 3 == 0 ? 1.0e3 : 1.0;  // m
+    const Vec3 middle = random_point(random, distance), rounding = Vec3::Constant(3e-7 * distance);
     std::vector<Eigen::AlignedBox3d> boxes;
-    for (int i = 0; i < 80; ++i) {
+    std::vector<Pair> left_out, overlapping, touching, found;
+    finder.resize(count);
+    for (int i = 0; i < count; ++i) {
       Eigen::AlignedBox3d box;
-      const Vec3 low = random_point(random, 1);
+      const Vec3 low = middle + random_point(random, 1);
       if (i % 9 != 0) box.extend(low).extend(low + Vec3::Constant(random.uniform(0.01, 0.3)));
-      if (i % 17 == 0) box.extend(random_point(random, 1));
+      if (i % 17 == 0) box.extend(middle + random_point(random, 1));
       boxes.push_back(box);
+      if (!box.isEmpty()) finder.set(i, box.min(), box.max());
     }
-    std::vector<Pair> expected, found;
-    for (int i = 0; i < 80; ++i)
-      for (int j = i + 1; j < 80; ++j)
-        if (!boxes[i].isEmpty() && !boxes[j].isEmpty() && boxes[i].intersects(boxes[j]))
-          expected.emplace_back(i, j);
-    finder.find(boxes, found);
-    EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
-    PairSort()(found, 80);
-    EXPECT_EQ(found, expected);
+    finder.set(13, Vec3::Constant(std::nan("")), Vec3::Ones());
+    boxes[13].setEmpty();
+    for (int i = 0; i < count; ++i)
+      for (int j = i + 1; j < count; ++j) {
+        if (random.uniform(0.0, 1.0) < 0.2) {
+          left_out.emplace_back(i, j);
+        } else if (!boxes[i].isEmpty() && !boxes[j].isEmpty()) {
+          const Eigen::AlignedBox3d wide(boxes[i].min() - rounding, boxes[i].max() + rounding);
+          if (boxes[i].intersects(boxes[j])) overlapping.emplace_back(i, j);
+          if (wide.intersects(boxes[j])) touching.emplace_back(i, j);
+        }
+      }
+    finder.leave_out(left_out);
+    finder.close_groups(0, count);
+    PartedLoop loop;
+    loop.pool = trial % 2 == 0 ? &pool : nullptr;
+    std::array<std::vector<Pair>, PartedLoop::most_parts> by_part;
+    const int parts = finder.find(loop, [&](int part, const CapsulePairs& pairs) {
+      for (std::size_t i = 0; i < pairs.size(); ++i)
+        by_part[part].emplace_back(pairs.a[i], pairs.b[i]);
+    });
+    for (int part = 0; part < parts; ++part)
+      found.insert(found.end(), by_part[part].begin(), by_part[part].end());
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), overlapping.begin(), overlapping.end()));
+    EXPECT_TRUE(std::includes(touching.begin(), touching.end(), found.begin(), found.end()));
   }
+  use_instruction_set("");
 }
 
 TEST(SelfContact, GivesTwoContactsThatCarryTheForceOfOneSpring) {
