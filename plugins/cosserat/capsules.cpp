@@ -12,7 +12,7 @@
 #include "hwy/highway.h"
 // clang-format on
 
-#include "cosserat/lane_math-inl.h"
+#include "cosserat/capsule_lanes-inl.h"
 
 #ifndef PEDICEL_COSSERAT_CAPSULES_MIDWAY
 #define PEDICEL_COSSERAT_CAPSULES_MIDWAY
@@ -24,62 +24,6 @@ constexpr double midway = 1.0e-4;  // pull towards the middles, relative to the 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
-
-constexpr int width = static_cast<int>(hn::MaxLanes(D()));
-constexpr int fields = sizeof(Capsule) / sizeof(double);
-
-// Makes lane j of vector i what was lane i of vector j.
-HWY_INLINE void transpose([[maybe_unused]] V* rows) {
-#if HWY_TARGET != HWY_SCALAR
-#pragma GCC unroll 8
-  for (int i = 0; i < width; i += 2) {
-    const V a = rows[i], b = rows[i + 1];
-    rows[i] = hn::InterleaveLower(D(), a, b);
-    rows[i + 1] = hn::InterleaveUpper(D(), a, b);
-  }
-  if constexpr (width >= 4) {  // pairs of lanes
-#pragma GCC unroll 8
-    for (int i = 0; i < width; i += i % 4 == 1 ? 3 : 1) {
-      const V a = rows[i], b = rows[i + 2];
-      rows[i] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(b), a);
-      rows[i + 2] = hn::OddEvenBlocks(b, hn::SwapAdjacentBlocks(a));
-    }
-  }
-  if constexpr (width >= 8) {  // halves
-#pragma GCC unroll 8
-    for (int i = 0; i < width / 2; ++i) {
-      const V a = rows[i], b = rows[i + 4];
-      rows[i] = hn::ConcatLowerLower(D(), b, a);
-      rows[i + 4] = hn::ConcatUpperUpper(D(), b, a);
-    }
-  }
-#endif
-}
-
-struct Ends {
-  V3 near;
-  V radius_near;
-  V3 far;
-  V radius_far;
-};
-
-// The numbers of a vector's worth of capsules, capsule k's being the eight that rows(k, place)
-// gives a vector of, from the given one of them on.
-template <class Rows>
-HWY_INLINE Ends transposed(const Rows& rows) {
-  V all[fields];
-#pragma GCC unroll 8
-  for (int place = 0; place < fields; place += width) {
-#pragma GCC unroll 8
-    for (int k = 0; k < width; ++k) all[place + k] = rows(k, place);
-    transpose(all + place);
-  }
-  return {{all[0], all[1], all[2]}, all[3], {all[4], all[5], all[6]}, all[7]};
-}
-
-HWY_INLINE V load_row(const Capsule& capsule, int place) {
-  return load(capsule.near + place);
-}
 
 HWY_INLINE Ends gather(const Capsules& capsules, const int* of) {
   return transposed([&](int k, int place) { return load_row(capsules[of[k]], place); });
@@ -142,10 +86,10 @@ void Measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, s
 }
 
 using Ints = hn::Rebind<int, D>;
+using Floats = hn::Rebind<float, D>;
 
-HWY_INLINE V look_up(const std::vector<double>& values, const int* at) {
-  return hn::GatherIndex(D(), values.data(),
-                         hn::PromoteTo(hn::RebindToSigned<D>(), hn::LoadU(Ints(), at)));
+HWY_INLINE V look_up(const std::vector<float>& values, const int* at) {
+  return hn::PromoteTo(D(), hn::GatherIndex(Floats(), values.data(), hn::LoadU(Ints(), at)));
 }
 
 // Of the pairs i, i + 1, ..., those before `end`.
@@ -173,7 +117,7 @@ HWY_INLINE std::size_t copy_chosen(const CapsulePairs& from, std::size_t i, M ch
 }
 
 void Sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
-          const std::vector<double>& reach, CapsulePairs& kept) {
+          const std::vector<float>& reach, CapsulePairs& kept) {
   std::size_t count = kept.size();
   for (std::size_t i = first; i < end; i += width) {
     const V reached = look_up(reach, &from.a[i]) + look_up(reach, &from.b[i]);
@@ -199,7 +143,7 @@ HWY_INLINE V moved_apart(const CapsuleMotion& motion, const int* a, const int* b
 }
 
 void KeepMeeting(const CapsuleMotion& motion, double open, double times,
-                 const std::vector<double>& reach, CapsulePairs& pairs) {
+                 const std::vector<float>& reach, CapsulePairs& pairs) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < pairs.size(); i += width) {
     const int *a = &pairs.a[i], *b = &pairs.b[i];
@@ -223,17 +167,6 @@ std::size_t ListMeeting(const CapsuleMotion& motion, double open, const CapsuleP
   return count;
 }
 
-void MeasureWays(const Capsules& now, const Capsules& before, std::size_t first, std::size_t end,
-                 std::vector<double>& way) {
-  for (std::size_t i = first; i < end; i += width) {
-    const Ends moved = transposed([&](int k, int place) {
-      return load_row(now[i + k], place) - load_row(before[i + k], place);
-    });
-    const V squared = hn::Max(dot(moved.near, moved.near), dot(moved.far, moved.far));
-    hn::StoreU(hn::Sqrt(squared), D(), &way[i]);
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace pedicel::cosserat
 HWY_AFTER_NAMESPACE();
@@ -245,7 +178,6 @@ HWY_EXPORT(Measure);
 HWY_EXPORT(Sift);
 HWY_EXPORT(KeepMeeting);
 HWY_EXPORT(ListMeeting);
-HWY_EXPORT(MeasureWays);
 
 void measure(const Capsules& capsules, CapsulePairs& pairs) {
   pairs.make_places();
@@ -257,13 +189,13 @@ void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, s
 }
 
 void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
-          const std::vector<double>& reach, CapsulePairs& kept) {
+          const std::vector<float>& reach, CapsulePairs& kept) {
   kept.make_room(end - first);
   HWY_DYNAMIC_DISPATCH(Sift)(from, first, end, open, reach, kept);
 }
 
 void keep_meeting(const CapsuleMotion& motion, double open, double times,
-                  const std::vector<double>& reach, CapsulePairs& pairs) {
+                  const std::vector<float>& reach, CapsulePairs& pairs) {
   HWY_DYNAMIC_DISPATCH(KeepMeeting)(motion, open, times, reach, pairs);
 }
 
@@ -271,11 +203,6 @@ std::size_t list_meeting(const CapsuleMotion& motion, double open, const Capsule
                          std::size_t first, std::size_t end, std::vector<int>& which) {
   if (which.size() < end - first) which.resize(2 * (end - first));
   return HWY_DYNAMIC_DISPATCH(ListMeeting)(motion, open, pairs, first, end, which);
-}
-
-void measure_ways(const Capsules& now, const Capsules& before, std::size_t first, std::size_t end,
-                  std::vector<double>& way) {
-  HWY_DYNAMIC_DISPATCH(MeasureWays)(now, before, first, end, way);
 }
 
 void CapsulePairs::add(int first, int second) {

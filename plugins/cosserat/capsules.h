@@ -59,7 +59,7 @@ void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, s
 /// Adds to `kept` those of the measured pairs `first` to `end` whose gap is not above `open` +
 /// reach[a] + reach[b] (m), in their order, with their gaps.
 void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
-          const std::vector<double>& reach, CapsulePairs& kept);
+          const std::vector<float>& reach, CapsulePairs& kept);
 
 /// How far capsules have moved: from where to where, and no farther than `most` (m) each.
 struct CapsuleMotion {
@@ -71,15 +71,10 @@ struct CapsuleMotion {
 /// Keeps those of the measured pairs whose gap is not above `open` + `times` (reach[a] +
 /// reach[b]) (m) + what the two have moved against each other, at most, wherever on them.
 void keep_meeting(const CapsuleMotion& motion, double open, double times,
-                  const std::vector<double>& reach, CapsulePairs& pairs);
+                  const std::vector<float>& reach, CapsulePairs& pairs);
 /// Lists those of the measured pairs `first` to `end` that are not farther apart than `open` + what
 /// they have so moved; returns how many.
 std::size_t list_meeting(const CapsuleMotion& motion, double open, const CapsulePairs& pairs,
                          std::size_t first, std::size_t end, std::vector<int>& which);
-
-/// Sets way[i] for i from `first` to `end` to the larger distance (m) that an end of capsule i is
-/// from where it was. `first` and `end` are multiples of lane_count.
-void measure_ways(const Capsules& now, const Capsules& before, std::size_t first, std::size_t end,
-                  std::vector<double>& way);
 
 }  // namespace pedicel::cosserat

@@ -29,26 +29,26 @@ void check(const SelfContactSettings& settings) {
   above("margin", settings.margin, settings.margin > 0.0, "> 0");
 }
 
+// A larger budget collects the far list more rarely, but with more pairs.
+ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& settings) {
+  double sum = 0.0;
+  for (const CollisionShape& shape : model.shapes)
+    sum += std::abs(shape.back_near - shape.back_far) + shape.radius_near + shape.radius_far;
+  const double length = sum / static_cast<double>(std::max<std::size_t>(1, model.shapes.size()));
+  ShapeMotion::Limits limits;
+  limits.most = 2.0 * length;  // what moves farther in a step may pass through
+  limits.margin = settings.margin;
+  limits.skin = 0.2 * length;
+  limits.slack = 0.2;  // for what iterations change
+  limits.ahead = 2.4;
+  return limits;
+}
+
 }  // namespace
 
 SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings)
-    : settings_(settings), count_(model.shapes.size()) {
+    : settings_(settings), motion_(model, limits_of(model, settings)) {
   check(settings);
-  const std::size_t room = (count_ + lane_count - 1) / lane_count * lane_count;
-  for (Capsules* capsules : {&start_, &now_, &far_reference_, &near_reference_})
-    capsules->resize(room);
-  for (std::vector<double>* values : {&way_, &reach_, &far_budget_, &near_budget_})
-    values->assign(room, 0.0);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const CollisionShape& shape = model.shapes[i];
-    now_[i].radius_near = start_[i].radius_near = shape.radius_near;
-    now_[i].radius_far = start_[i].radius_far = shape.radius_far;
-    sum += std::abs(shape.back_near - shape.back_far) + shape.radius_near + shape.radius_far;
-  }
-  extent_ = sum / static_cast<double>(std::max<std::size_t>(1, count_));
-  begin_step(model, drawn_state(model), 0.0);
-  now_ = start_;
   collect_left_out(model);
   collect_far();
   work_ = {};
@@ -62,23 +62,17 @@ void SelfContact::change_settings(const SelfContactSettings& settings) {
 }
 
 void SelfContact::begin_step(const RodModel& model, const RodState& start, double) {
-  const std::size_t elements = start.position.size(), longest = std::max(elements, count_);
-  start_position_.resize(elements);
-  start_orientation_.resize(elements);
-  const auto begin_some = [&](int, std::size_t first, std::size_t end) {
-    for (std::size_t e = first; e < std::min(end, elements); ++e) {
-      start_position_[e] = start.position[e];
-      start_orientation_[e] = start.orientation[e];
-    }
-    place(model, start, first, end, start_);
-  };
-  loop_.run(longest, loop_.parts(longest, worth_waking), begin_some);
+  start_ = &start;
+  loop_.run(motion_.room(), loop_.parts(motion_.room(), worth_waking),
+            [&](int, std::size_t first, std::size_t end) {
+              motion_.begin_step(model, start, first, end);
+            });
   near_list_made_ = false;
 }
 
 void SelfContact::find(const RodModel& model, const RodState& state, double dt,
                        std::vector<ContactPoint>& found) {
-  if (start_position_.size() != state.position.size()) begin_step(model, state, dt);
+  if (!start_) begin_step(model, state, dt);
   look(model, state);
   const std::size_t count = near_.size();
   work_.pairs += static_cast<long>(count);
@@ -97,9 +91,9 @@ void SelfContact::touch_some(const RodModel& model, const RodState& state, doubl
   };
   Scratch& scratch = scratch_[part];
   scratch.found.clear();
-  measure(now_, near_, first, end);
+  measure(motion_.now(), near_, first, end);
   const std::size_t meeting =
-      list_meeting(motion(), settings_.margin, near_, first, end, scratch.meeting);
+      list_meeting(moved_capsules(), settings_.margin, near_, first, end, scratch.meeting);
   for (std::size_t i = 0; i < meeting; ++i) {
     const int pair = scratch.meeting[i];
     if (is_live(model.shapes[near_.a[pair]]) && is_live(model.shapes[near_.b[pair]]))
@@ -117,7 +111,7 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
   const auto place_on = [](const Capsule& capsule, double at) -> Vec3 {
     return capsule.near_at() + at * (capsule.far_at() - capsule.near_at());
   };
-  const Vec3 between_W = place_on(now_[a], at_a) - place_on(now_[b], at_b);
+  const Vec3 between_W = place_on(motion_.now()[a], at_a) - place_on(motion_.now()[b], at_b);
   double distance = between_W.norm();
   const double radius_a = shape_a.radius_near + at_a * (shape_a.radius_far - shape_a.radius_near);
   const double radius_b = shape_b.radius_near + at_b * (shape_b.radius_far - shape_b.radius_near);
@@ -163,7 +157,7 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
 }
 
 Vec3 SelfContact::start_place(int element, const Vec3& arm_E) const {
-  return start_position_[element] + start_orientation_[element] * arm_E;
+  return start_->position[element] + start_->orientation[element] * arm_E;
 }
 
 // How far the material point moved over the step that lies `outward_W` from the axis now.

@@ -7,6 +7,7 @@
 #include "cosserat/capsules.h"
 #include "cosserat/contact.h"
 #include "cosserat/overlapping_boxes.h"
+#include "cosserat/shape_motion.h"
 
 namespace pedicel::cosserat {
 
@@ -33,9 +34,8 @@ struct SelfContactSettings {
 /// force of one spring and momentum balances. The plane is frozen within an iteration, so only
 /// block-diagonal parts of the Hessian arise.
 ///
-/// What moves is bounded by the ends of the axes: no place of an axis moves farther than the
-/// farther of its ends, and a gap changes by no more than both do. Three sieves, each on what the
-/// one before left:
+/// What moves is bounded by ShapeMotion, and a gap changes by no more than both shapes move. Three
+/// sieves, each on what the one before left:
 ///   far list   may touch while no end has moved by more than a budget that grows with its speed;
 ///              collected rarely, from boxes
 ///   near list  may touch in this step, whatever the iterations change within a slack; collected
@@ -54,6 +54,7 @@ class SelfContact : public ContactSource {
   SelfContact(const RodModel& model, const SelfContactSettings& settings);
 
   void use(ThreadPool* pool) override { loop_.pool = pool; }
+  /// `start` must stay as it is until the step's last find().
   void begin_step(const RodModel& model, const RodState& start, double dt) override;
   void find(const RodModel& model, const RodState& state, double dt,
             std::vector<ContactPoint>& found) override;
@@ -73,15 +74,11 @@ class SelfContact : public ContactSource {
   void look(const RodModel& model, const RodState& state);
   template <class Holds>
   bool for_all_shapes(const Holds& holds);
-  void place(const RodModel& model, const RodState& state, std::size_t first, std::size_t end,
-             Capsules& capsules) const;
-  bool near_list_holds(std::size_t first, std::size_t end);
-  bool foresee(std::size_t first, std::size_t end);
   void collect_near(bool far_list_holds);
   void sift_far(int part);
   void collect_far();
-  void make_box(std::size_t shape);
-  CapsuleMotion motion() const;
+  void make_boxes(std::size_t first, std::size_t end);
+  CapsuleMotion moved_capsules() const;
   void touch_some(const RodModel& model, const RodState& state, double dt, int part,
                   std::size_t first, std::size_t end);
   void touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
@@ -104,16 +101,8 @@ class SelfContact : public ContactSource {
 
   SelfContactSettings settings_;
   PartedLoop loop_;
-  std::size_t count_ = 0;      // of the shapes; what follows has room for whole vectors of them
-  double extent_ = 0.0;        // m, mean length of a shape
-  Capsules start_, now_;       // the shapes, at the step's start and at the iterate
-  std::vector<double> way_;    // m, by shape: of an end in this step, at most
-  std::vector<double> reach_;  // m, by shape: of the way still open to it
-  // Each list holds while no end of a capsule has moved by more than its `budget` (m) from its
-  // `reference`. The far list is in parts; its gaps are those at its reference. Pairs are
-  // ascending.
-  Capsules far_reference_, near_reference_;
-  std::vector<double> far_budget_, near_budget_;
+  ShapeMotion motion_;
+  // The far list is in parts; its gaps are those at its reference. Pairs are ascending.
   std::array<CapsulePairs, PartedLoop::most_parts> far_;
   int far_parts_ = 0;
   CapsulePairs near_;
@@ -121,8 +110,7 @@ class SelfContact : public ContactSource {
   std::array<Scratch, PartedLoop::most_parts> scratch_;
   OverlappingBoxes boxes_;  // m, W
   Work work_;
-  std::vector<Vec3> start_position_;
-  std::vector<Quat> start_orientation_;
+  const RodState* start_ = nullptr;  // of the step
 };
 
 }  // namespace pedicel::cosserat

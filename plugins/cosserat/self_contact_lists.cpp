@@ -9,12 +9,6 @@ namespace pedicel::cosserat {
 
 namespace {
 
-// A larger budget collects the far list more rarely, but with more pairs.
-constexpr double skin = 0.2;         // mean lengths of a shape
-constexpr double steps_ahead = 3.0;  // of the present motion
-constexpr double slack = 0.4;        // of the present motion, for what iterations change
-constexpr double most_motion = 2.0;  // mean lengths: what moves farther in a step may pass through
-
 constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
 
 using Pairs = std::vector<std::pair<int, int>>;
@@ -43,7 +37,7 @@ std::vector<std::vector<int>> neighbours(const RodModel& model) {
 // Whether holds(first, end) for all stretches of shapes, each of which is looked at.
 template <class Holds>
 bool SelfContact::for_all_shapes(const Holds& holds) {
-  const std::size_t room = now_.size();
+  const std::size_t room = motion_.room();
   const int parts = loop_.parts(room, worth_waking);
   loop_.run(room, parts, [&](int part, std::size_t first, std::size_t end) {
     scratch_[part].holds = holds(first, end);
@@ -54,69 +48,23 @@ bool SelfContact::for_all_shapes(const Holds& holds) {
 
 // A step's first look collects the near list; later ones see whether it holds.
 void SelfContact::look(const RodModel& model, const RodState& state) {
-  const bool first_look = !near_list_made_;
-  const bool holds = for_all_shapes([&](std::size_t first, std::size_t end) {
-    place(model, state, first, end, now_);
-    return first_look ? foresee(first, end) : near_list_holds(first, end);
-  });
-  if (first_look)
-    collect_near(holds);
-  else if (!holds)
-    collect_near(
-        for_all_shapes([&](std::size_t first, std::size_t end) { return foresee(first, end); }));
+  const auto look_again = [&](std::size_t first, std::size_t end) {
+    return motion_.look_again(model, state, first, end);
+  };
+  if (near_list_made_ && for_all_shapes(look_again)) return;
+  collect_near(for_all_shapes(
+      [&](std::size_t first, std::size_t end) { return motion_.look(model, state, first, end); }));
 }
 
-void SelfContact::place(const RodModel& model, const RodState& state, std::size_t first,
-                        std::size_t end, Capsules& capsules) const {
-  for (std::size_t i = first; i < std::min(end, count_); ++i) {
-    const CollisionShape& shape = model.shapes[i];
-    const Vec3 axis = state.orientation[shape.element] * Vec3::UnitZ();
-    const Vec3& position = state.position[shape.element];
-    for (int k = 0; k < 3; ++k) {
-      capsules[i].near[k] = position[k] - shape.back_near * axis[k];
-      capsules[i].far[k] = position[k] - shape.back_far * axis[k];
-    }
-  }
-}
-
-bool SelfContact::near_list_holds(std::size_t first, std::size_t end) {
-  measure_ways(now_, near_reference_, first, end, reach_);
-  bool holds = true;
-  for (std::size_t i = first; i < std::min(end, count_); ++i)
-    holds = holds && reach_[i] <= near_budget_[i];
-  return holds;
-}
-
-// Makes the iterate the near list's reference: sets how far the shapes come in this step at most,
-// and how much nearer than at the far list's reference a pair may thus come, one's share of that.
-// Whether that list foresaw it.
-bool SelfContact::foresee(std::size_t first, std::size_t end) {
-  const double most = most_motion * extent_;
-  measure_ways(now_, start_, first, end, way_);
-  measure_ways(now_, far_reference_, first, end, reach_);
-  bool holds = true;
-  for (std::size_t i = first; i < std::min(end, count_); ++i) {
-    near_reference_[i] = now_[i];
-    way_[i] = std::min(way_[i], most);
-    near_budget_[i] = settings_.margin + slack * way_[i];
-    reach_[i] += way_[i] + 2.0 * near_budget_[i];
-    holds = holds && reach_[i] <= far_budget_[i];
-  }
-  return holds;
-}
-
-CapsuleMotion SelfContact::motion() const {
-  return {start_, now_, most_motion * extent_};
+CapsuleMotion SelfContact::moved_capsules() const {
+  return {motion_.start(), motion_.now(), motion_.limits().most};
 }
 
 // A pair is needed in this step while its gap is not above margin + what the two move against each
 // other. As the iterations move both by up to their slack, the gap may shrink and that motion grow
 // by as much.
 void SelfContact::collect_near(bool far_list_holds) {
-  if (!far_list_holds) {
-    collect_far();
-    for (std::size_t i = 0; i < count_; ++i) reach_[i] = way_[i] + 2.0 * near_budget_[i];
-  }
+  if (!far_list_holds) collect_far();
   loop_.each(far_parts_, [&](int part) { sift_far(part); });
   near_.clear();
   for (int part = 0; part < far_parts_; ++part) {
@@ -137,10 +85,10 @@ void SelfContact::sift_far(int part) {
     const std::size_t end = std::min(far.size(), first + at_a_time);
     CapsulePairs& pairs = scratch.pairs;
     pairs.clear();
-    sift(far, first, end, settings_.margin, reach_, pairs);
-    measure(now_, pairs);
+    sift(far, first, end, settings_.margin, motion_.reach(), pairs);
+    measure(motion_.now(), pairs);
     scratch.measured += static_cast<long>(pairs.size());
-    keep_meeting(motion(), settings_.margin, 2.0, near_budget_, pairs);
+    keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_budget(), pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i)
       scratch.candidates.emplace_back(pairs.a[i], pairs.b[i]);
   }
@@ -148,32 +96,34 @@ void SelfContact::sift_far(int part) {
 
 void SelfContact::collect_far() {
   ++work_.collections;
-  loop_.run(count_, loop_.parts(count_, worth_waking),
+  loop_.run(motion_.room(), loop_.parts(motion_.room(), worth_waking),
             [&](int, std::size_t first, std::size_t end) {
-              for (std::size_t i = first; i < end; ++i) make_box(i);
-              boxes_.close_groups(first, end);
+              motion_.restart_far(first, end);
+              make_boxes(first, std::min(end, motion_.size()));
+              boxes_.close_groups(first, std::min(end, motion_.size()));
             });
   for (CapsulePairs& part : far_) part.clear();
   far_parts_ = boxes_.find(loop_, [&](int part, CapsulePairs& pairs) {
-    measure(now_, pairs);
-    sift(pairs, 0, pairs.size(), settings_.margin, far_budget_, far_[part]);
+    measure(motion_.now(), pairs);
+    sift(pairs, 0, pairs.size(), settings_.margin, motion_.far_budget(), far_[part]);
   });
 }
 
 // Around all of a capsule, from where it is now, until it has used up its budget.
-void SelfContact::make_box(std::size_t shape) {
-  const Capsule& capsule = far_reference_[shape] = now_[shape];
-  far_budget_[shape] = skin * extent_ + 2.0 * settings_.margin + steps_ahead * way_[shape];
-  const Vec3 near = capsule.near_at(), far = capsule.far_at();
-  const Vec3 wide = Vec3::Constant(std::max(capsule.radius_near, capsule.radius_far) +
-                                   0.5 * settings_.margin + far_budget_[shape]);
-  boxes_.set(shape, near.cwiseMin(far) - wide, near.cwiseMax(far) + wide);
+void SelfContact::make_boxes(std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) {
+    const Capsule& capsule = motion_.now()[i];
+    const Vec3 near = capsule.near_at(), far = capsule.far_at();
+    const Vec3 wide = Vec3::Constant(std::max(capsule.radius_near, capsule.radius_far) +
+                                     0.5 * settings_.margin + motion_.far_budget()[i]);
+    boxes_.set(i, near.cwiseMin(far) - wide, near.cwiseMax(far) + wide);
+  }
 }
 
 // Shapes that are near in the tree, or across a weld, and those that nearly touch as drawn.
 void SelfContact::collect_left_out(const RodModel& model) {
   std::vector<std::vector<int>> shapes(model.elements.size());  // of an element
-  for (std::size_t i = 0; i < count_; ++i)
+  for (std::size_t i = 0; i < motion_.size(); ++i)
     shapes[model.shapes[i].element].push_back(static_cast<int>(i));
   const std::vector<std::vector<int>> near = neighbours(model);
   Pairs pairs;
@@ -193,7 +143,7 @@ void SelfContact::collect_left_out(const RodModel& model) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     boxes_.leave_out(pairs);
   };
-  boxes_.resize(count_);
+  boxes_.resize(motion_.size());
   leave_out();
   collect_far();
   for (int part = 0; part < far_parts_; ++part)

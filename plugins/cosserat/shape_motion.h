@@ -1,0 +1,85 @@
+#pragma once
+
+#include <vector>
+
+#include "cosserat/capsules.h"
+#include "cosserat/lanes.h"
+#include "cosserat/rod_state.h"
+
+namespace pedicel::cosserat {
+
+/// Where the collision shapes of a plant are, and bounds of how far they move, eight at a time.
+///
+/// What moves is bounded by the ends of the axes: no place of an axis moves farther than the
+/// farther of its ends. Two references are kept, those of SelfContact's far and near list; each has
+/// a budget, and a list holds while no end is farther than that from where it was.
+///
+/// Calls for shapes `first` to `end`, multiples of lane_count up to room(), may be made at once for
+/// different ones.
+class ShapeMotion {
+ public:
+  struct Limits {
+    double most = 0.0;                // m: more than this does not count of a step's motion
+    double margin = 0.0, skin = 0.0;  // m, of the budgets
+    double slack = 0.0, ahead = 0.0;  // 1, of the motion in this step, likewise
+  };
+
+  /// All shapes stand as drawn. The model must be finished.
+  ShapeMotion(const RodModel& model, const Limits& limits);
+
+  std::size_t size() const { return count_; }
+  std::size_t room() const { return now_.size(); }
+  const Capsules& start() const { return start_; }
+  const Capsules& now() const { return now_; }
+  const Limits& limits() const { return limits_; }
+
+  /// The step starts from here.
+  void begin_step(const RodModel& model, const RodState& start, std::size_t first, std::size_t end);
+  /// Makes the iterate the near list's reference. Sets way, reach and the near budget. Whether the
+  /// far list holds for all that comes within reach.
+  bool look(const RodModel& model, const RodState& iterate, std::size_t first, std::size_t end);
+  /// Whether the near list still holds at this iterate.
+  bool look_again(const RodModel& model, const RodState& iterate, std::size_t first,
+                  std::size_t end);
+  /// Makes the last reference of the near list the far list's, too.
+  void restart_far(std::size_t first, std::size_t end);
+
+  /// m, by shape. Of an end in this step, at most.
+  const std::vector<float>& way() const { return way_; }
+  /// How much nearer than at the far list's reference a pair may come in this step, one's share.
+  const std::vector<float>& reach() const { return reach_; }
+  /// margin + slack way
+  const std::vector<float>& near_budget() const { return near_budget_; }
+  /// skin + 2 margin + ahead way
+  const std::vector<float>& far_budget() const { return far_budget_; }
+
+  /// How far the ends of eight shapes have moved (m, W).
+  struct alignas(32) EndsRow {
+    float near[3][lane_count], far[3][lane_count];
+  };
+  /// The shapes' places on their elements as in CollisionShape (m); the first `stems` ones are on
+  /// the elements of their own numbers.
+  struct Places {
+    std::size_t stems = 0;
+    std::vector<float> back_near, back_far;
+  };
+  /// What the kernels write to; named as below.
+  struct Arrays {
+    Capsules &start, &now;
+    std::vector<EndsRow>&since_far, &looked;
+    std::vector<float>&way, &reach, &near_budget, &far_budget;
+  };
+
+ private:
+  Arrays arrays();
+
+  std::size_t count_ = 0;  // what follows has room for whole vectors
+  Limits limits_;
+  Places places_;
+  Capsules start_, now_;            // at the step's start, at the iterate
+  std::vector<EndsRow> since_far_;  // from the far list's reference to the step's start
+  std::vector<EndsRow> looked_;     // from the step's start to the near list's reference
+  std::vector<float> way_, reach_, near_budget_, far_budget_;
+};
+
+}  // namespace pedicel::cosserat
