@@ -53,17 +53,19 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
   found_.clear();
   for (ContactSource* source : sources) source->find(model, iterate, dt, found_);
   active_.resize(found_.size());
-  pushes_.resize(found_.size());
+  energies_.resize(found_.size());
+  blocks_.resize(found_.size());
   for_each_stretch([&](std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
       active_[i] = activated(found_[i], model, start, iterate);
-      push_at_iterate(i);
+      push_at_iterate(i, iterate);
     }
   });
   only_with_itself_ = std::all_of(found_.begin(), found_.end(), [](const ContactPoint& point) {
     return is_self_contact(point.collider);
   });
-  share_gives();
+  share_gives(iterate);
+  energy_ = std::accumulate(energies_.begin(), energies_.end(), 0.0);
 }
 
 ContactTerms::Active ContactTerms::activated(const ContactPoint& point, const RodModel& model,
@@ -85,7 +87,7 @@ ContactTerms::Active ContactTerms::activated(const ContactPoint& point, const Ro
 
 // Contacts that push one collider together move it together: each one counts the others' share as
 // if they carried what it carries.
-void ContactTerms::share_gives() {
+void ContactTerms::share_gives(const RodState& iterate) {
   const auto pushes = [](const Active& contact) {
     return contact.point.gap < contact.point.margin;
   };
@@ -98,15 +100,18 @@ void ContactTerms::share_gives() {
       together += pushes(other) && other.point.collider == own.collider;
     contact.give = together * own.give;
     contact.stiffness = own.stiffness / (1.0 + own.stiffness * contact.give);
-    push_at_iterate(i);
+    push_at_iterate(i, iterate);
   }
 }
 
-void ContactTerms::push_at_iterate(std::size_t contact) {
-  if (is_idle(active_[contact]))
-    pushes_[contact].energy = 0.0;
-  else
-    pushes_[contact] = push(active_[contact], active_[contact].place_W);
+void ContactTerms::push_at_iterate(std::size_t contact, const RodState& iterate) {
+  const Active& active = active_[contact];
+  energies_[contact] = 0.0;
+  blocks_[contact].element = -1;
+  if (is_idle(active)) return;
+  const Push now = push(active, active.place_W);
+  energies_[contact] = now.energy;
+  blocks_[contact] = block_of(active, now, active.place_W - iterate.position[active.element]);
 }
 
 const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) const {
@@ -149,22 +154,9 @@ bool ContactTerms::is_idle(const Active& contact) {
   return contact.point.gap >= contact.point.margin && contact.limit == 0.0;
 }
 
-double ContactTerms::linearise(const RodModel&, const RodState& iterate,
-                               DiagonalBlocks& blocks) const {
-  double energy = 0.0;
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    const Active& contact = active_[i];
-    if (is_idle(contact)) continue;
-    energy += pushes_[i].energy;
-    add(contact, pushes_[i], contact.place_W - iterate.position[contact.element], blocks);
-  }
-  return energy;
-}
-
 // The spring's stiffness is one along the normal and another one across it. The sliding spring's is
 // the secant stiffness: an upper bound of its Hessian, so Newton stays stable.
-void ContactTerms::add(const Active& contact, const Push& push, const Vec3& arm,
-                       DiagonalBlocks& blocks) {
+ElementBlock ContactTerms::block_of(const Active& contact, const Push& push, const Vec3& arm) {
   const ContactPoint& point = contact.point;
   const double along = push.normal_force != Vec3::Zero() ? contact.stiffness : 0.0;
   double across = 0.0;
@@ -175,8 +167,8 @@ void ContactTerms::add(const Active& contact, const Push& push, const Vec3& arm,
                                             point.surface_motion_W,
                                         point.normal_W)
                                  .norm();
-  add_point_spring(blocks, contact.element, arm, point.normal_W, along, across,
-                   push.normal_force + push.friction_force);
+  return point_spring(contact.element, arm, point.normal_W, along, across,
+                      push.normal_force + push.friction_force);
 }
 
 double ContactTerms::potential(const RodModel&, const RodState& state) const {

@@ -32,13 +32,15 @@ class ContactTerms {
   /// bits; null: the caller's alone.
   void use(ThreadPool* pool) { loop_.pool = pool; }
 
-  /// Collects the contacts of an iterate. `start` is the state at the start of the step.
+  /// Collects the contacts of an iterate, with the potential's value, gradient and Hessian there.
+  /// `start` is the state at the start of the step.
   void find(const RodModel& model, const RodState& start, const RodState& iterate, double dt,
             std::span<ContactSource* const> sources);
 
-  /// Adds gradient and Hessian at the iterate for which find() was called; returns the potential
-  /// there.
-  double linearise(const RodModel& model, const RodState& iterate, DiagonalBlocks& blocks) const;
+  /// J, at the iterate for which find() was called.
+  double energy() const { return energy_; }
+  /// What the contacts add there, one each. Valid until the next find().
+  std::span<const ElementBlock> blocks() const { return blocks_; }
   double potential(const RodModel& model, const RodState& state) const;
 
   /// Ends the step: forces for the report, and the friction memory for the next step.
@@ -81,11 +83,11 @@ class ContactTerms {
   };
   Active activated(const ContactPoint& point, const RodModel& model, const RodState& start,
                    const RodState& iterate) const;
-  void share_gives();
-  void push_at_iterate(std::size_t contact);
+  void share_gives(const RodState& iterate);
+  void push_at_iterate(std::size_t contact, const RodState& iterate);
   static bool is_idle(const Active& contact);
   static Push push(const Active& contact, const Vec3& now_W);
-  static void add(const Active& contact, const Push& push, const Vec3& arm, DiagonalBlocks& blocks);
+  static ElementBlock block_of(const Active& contact, const Push& push, const Vec3& arm);
   const Memory* remembered(int shape, int collider) const;
   template <class Task>
   void for_each_stretch(const Task& task) const;
@@ -96,7 +98,9 @@ class ContactTerms {
   bool only_with_itself_ = true;
   std::vector<ContactPoint> found_;
   std::vector<Active> active_;
-  std::vector<Push> pushes_;          // at the iterate
+  std::vector<double> energies_;      // J, at the iterate, as `active_`
+  std::vector<ElementBlock> blocks_;  // likewise
+  double energy_ = 0.0;               // J, of them all
   mutable std::vector<double> sums_;  // scratch, J, by stretch
   std::vector<Memory> memory_;
   std::vector<ContactForce> forces_;

@@ -1,14 +1,33 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <span>
 #include <vector>
 
 #include "core/frames.h"
+#include "cosserat/lanes.h"
 
 namespace pedicel::cosserat {
 
 using Mat6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// What one spring adds to one element's block, as the rows take it (lanes.h).
+struct ElementBlock {
+  int element = -1;                         ///< -1: it adds nothing
+  std::array<double, block_size> values{};  ///< lower triangle by rows, then the right side
+
+  void add_to(Mat6& diagonal, Vec6& right_side) const {
+    int place = 0;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j <= i; ++j, ++place) {
+        diagonal(i, j) += values[place];
+        if (j < i) diagonal(j, i) += values[place];
+      }
+    for (int i = 0; i < 6; ++i) right_side[i] += values[place++];
+  }
+};
 
 /// Blocks of a few elements: what springs and contacts add to the diagonal of the step's system and
 /// to its right side. Unknowns of an element: (position, rotation vector), both in W. Does not
@@ -32,6 +51,8 @@ class DiagonalBlocks {
   Vec6& right_side(int element) { return entry(element).right_side; }
   /// In the order in which they were first asked for.
   const std::vector<Entry>& entries() const { return entries_; }
+  /// The same as the rows take them. Valid until the next call.
+  std::span<const ElementBlock> packed();
 
  private:
   Entry& entry(int element) {
@@ -44,7 +65,20 @@ class DiagonalBlocks {
 
   std::vector<int> place_;  // of an element in entries_; -1: it has none
   std::vector<Entry> entries_;
+  std::vector<ElementBlock> packed_;
 };
+
+inline std::span<const ElementBlock> DiagonalBlocks::packed() {
+  packed_.resize(entries_.size());
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    packed_[k].element = entries_[k].element;
+    auto to = packed_[k].values.begin();
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j <= i; ++j) *to++ = entries_[k].diagonal(i, j);
+    for (int i = 0; i < 6; ++i) *to++ = entries_[k].right_side[i];
+  }
+  return packed_;
+}
 
 /// Adds a spring of symmetric stiffness `hessian` (N/m, W) that pulls with `force` (N, W) on a
 /// point fixed to an element, at `arm` (m, W) from its child node. `Blocks` is anything with
@@ -64,26 +98,43 @@ void add_point_spring(Blocks& blocks, int element, const Vec3& arm, const Mat3& 
   right.template tail<3>() += arm.cross(force);
 }
 
-/// The same for a stiffness `along` the unit vector `axis` and another one `across` it (N/m):
+/// A point spring as above of stiffness `along` the unit vector `axis` and another one `across` it
+/// (N/m):
 ///   hessian = across I + (along - across) axis axis^T
-template <class Blocks>
-void add_point_spring(Blocks& blocks, int element, const Vec3& arm, const Vec3& axis, double along,
-                      double across, const Vec3& force) {
+inline ElementBlock point_spring(int element, const Vec3& arm, const Vec3& axis, double along,
+                                 double across, const Vec3& force) {
+  ElementBlock out;
+  out.element = element;
   Vec6 one;  // d (axis . point) / d (position, rotation)
   one << axis, arm.cross(axis);
-  Mat6& block = blocks.diagonal(element);
-  block += ((along - across) * one) * one.transpose();
+  int place = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j <= i; ++j) out.values[place++] = (along - across) * one[i] * one[j];
   if (across != 0.0) {
-    const Mat3 lever = -skew(arm);
-    block.template topLeftCorner<3, 3>().diagonal().array() += across;
-    block.template topRightCorner<3, 3>() += across * lever;
-    block.template bottomLeftCorner<3, 3>() -= across * lever;
-    block.template bottomRightCorner<3, 3>() -= (across * arm) * arm.transpose();
-    block.template bottomRightCorner<3, 3>().diagonal().array() += across * arm.squaredNorm();
+    // across [[I, -[arm]x], [[arm]x, arm^2 I - arm arm^T]]
+    const Vec3 a = across * arm;
+    const double square = a.dot(arm);
+    double* v = out.values.data();
+    for (const int diagonal : {0, 2, 5}) v[diagonal] += across;
+    v[7] -= a.z();
+    v[8] += a.y();
+    v[10] += a.z();
+    v[12] -= a.x();
+    v[15] -= a.y();
+    v[16] += a.x();
+    v[9] += square - a.x() * arm.x();
+    v[13] -= a.y() * arm.x();
+    v[14] += square - a.y() * arm.y();
+    v[18] -= a.z() * arm.x();
+    v[19] -= a.z() * arm.y();
+    v[20] += square - a.z() * arm.z();
   }
-  Vec6& right = blocks.right_side(element);
-  right.template head<3>() += force;
-  right.template tail<3>() += arm.cross(force);
+  const Vec3 moment = arm.cross(force);
+  for (int i = 0; i < 3; ++i) {
+    out.values[triangle6 + i] = force[i];
+    out.values[triangle6 + 3 + i] = moment[i];
+  }
+  return out;
 }
 
 }  // namespace pedicel::cosserat

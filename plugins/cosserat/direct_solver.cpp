@@ -234,12 +234,15 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     if (!plant.contacts_are_here) find_contacts(p, steps[p], dt);
     plant.contacts_are_here = false;
     plant.extras.clear();
-    const double pressed = plant.contacts.linearise(model, plant.iterate, plant.extras);
+    const double pressed = plant.contacts.energy();
     plant.presses = pressed > 0.0;
     plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
   });
-  for (int p = 0; p < size(); ++p)
-    if (wanted(p) && !plants_[p].loops) rows_.add_extras(p, plants_[p].extras);
+  for (int p = 0; p < size(); ++p) {
+    if (!wanted(p) || plants_[p].loops) continue;
+    rows_.add_extras(p, plants_[p].extras.packed());
+    rows_.add_extras(p, plants_[p].contacts.blocks());
+  }
 }
 
 void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
@@ -255,6 +258,9 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
     system.diagonal(entry.element) += entry.diagonal;
     system.right_side(entry.element) += entry.right_side;
   }
+  for (const ElementBlock& block : plant.contacts.blocks())
+    if (block.element >= 0)
+      block.add_to(system.diagonal(block.element), system.right_side(block.element));
   for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
     system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
   if (system.solve())

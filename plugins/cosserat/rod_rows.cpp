@@ -221,23 +221,17 @@ void RodRows::hold(int plant) {
 void RodRows::clear_extras() {
   for (const int row : extra_rows_) first_extra_[row] = -1;
   extra_rows_.clear();
-  extra_values_.clear();
   extras_.clear();
 }
 
-void RodRows::add_extras(int plant, const DiagonalBlocks& blocks) {
-  for (const DiagonalBlocks::Entry& entry : blocks.entries()) {
-    const Slot slot = layout_.slot(plant, entry.element);
-    std::array<double, block_size>& values = extra_values_.emplace_back();
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j <= i; ++j) values[at(i, j)] = entry.diagonal(i, j);
-      values[triangle6 + i] = entry.right_side[i];
-    }
-    extras_.push_back({nullptr, 1, slot.lane, first_extra_[slot.row]});
+void RodRows::add_extras(int plant, std::span<const ElementBlock> blocks) {
+  for (const ElementBlock& block : blocks) {
+    if (block.element < 0) continue;
+    const Slot slot = layout_.slot(plant, block.element);
+    extras_.push_back({block.values.data(), 1, slot.lane, first_extra_[slot.row]});
     first_extra_[slot.row] = static_cast<int>(extras_.size()) - 1;
     extra_rows_.push_back(slot.row);
   }
-  for (std::size_t i = 0; i < extras_.size(); ++i) extras_[i].values = extra_values_[i].data();
 }
 
 void RodRows::eliminate_pack(const RowArrays& rows, int pack) {

@@ -81,7 +81,8 @@ class RodRows {
   /// What springs and contacts add must have been given since the last call.
   void eliminate(ThreadPool& pool);
   void clear_extras();
-  void add_extras(int plant, const DiagonalBlocks& blocks);
+  /// The blocks must stay where they are until eliminate() is done.
+  void add_extras(int plant, std::span<const ElementBlock> blocks);
   /// The blocks of a plant with loops.
   void copy_blocks(int plant, BlockSystem& system) const;
   void set_change(int plant, const BlockSystem& solved);
@@ -164,7 +165,6 @@ class RodRows {
   std::vector<Extended> extended_;  // by plant
   std::vector<int> first_branch_, first_extra_;
   std::vector<BlockSource> branches_, extras_;
-  std::vector<std::array<double, block_size>> extra_values_;
   std::vector<int> extra_rows_;
   std::vector<std::array<Anchor, lane_count>> anchors_;  // by pack
   std::vector<Pose> roots_;                              // X_W of the clamps
