@@ -77,8 +77,7 @@ HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int l
   const V advance = h / drag;
   const V3 com_past = a * com - b * com_before;
   const Q rotation_past = now.orientation * exp_map(b * log_map(turn).phi);
-  store3(com_past, term.com_past, lane);
-  store4(rotation_past, term.rotation_past, lane);
+  store_pose({com_past, rotation_past}, rows.previous[row], lane);
   store3(add_scaled(com_past, advance, velocity), term.com_target, lane);
   store4(rotation_past * exp_map(advance * less_scaled(spin, h, gyroscopic)), term.rotation_target,
          lane);
@@ -290,11 +289,11 @@ void Finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
   for (int lane = 0; lane < lane_count; lane += width) {
     const V inverse_step = set(1.0) / load(pack.effective_step + lane);
     for (int row = pack.begin + 1; row < pack.end; ++row) {
-      const TermRow& term = rows.term[row];
-      const Pose pose = load_pose(rows.iterate[row], lane);
+      const Pose pose = load_pose(rows.iterate[row], lane),
+                 past = load_pose(rows.previous[row], lane);
       const V3 com = centre_of_mass(pose, load(rows.element[row].com_back + lane));
-      store3(inverse_step * (com - load3(term.com_past, lane)), end[row].velocity, lane);
-      const Q turn = times_conjugate(load4(term.rotation_past, lane), pose.orientation);
+      store3(inverse_step * (com - past.position), end[row].velocity, lane);
+      const Q turn = times_conjugate(past.orientation, pose.orientation);
       store3(inverse_step * log_map(turn).phi, end[row].angular_velocity, lane);
       if (pack.branches > 0)
         finish_joint(

@@ -38,7 +38,6 @@ struct alignas(64) StrainRow {
 ///   inertia  1/2 mass/h~^2 (1 + rate h~) |c - c_target|^2   c_target = c* + h~ v* / (1 + rate h~)
 ///   rods     1/2 K (1 + tau/h~) |strain - strain_target|^2  strain_target = strain* tau / (h~+tau)
 struct alignas(64) TermRow {
-  Lanes com_past[3], rotation_past[4];      // c* (m, W), q* (E to W)
   Lanes com_target[3], rotation_target[4];  // m, W; E to W
   Lanes inertia_scale;                      // 1/s2: (1 + rate h~)/h~^2
 };
@@ -140,7 +139,8 @@ struct alignas(64) Pack {
 struct RowArrays {
   const ElementRow* element = nullptr;
   PoseRow *start = nullptr, *iterate = nullptr;
-  const PoseRow* previous = nullptr;
+  /// One step before the start; from prepare() on c* and q* stand there, which it went into.
+  PoseRow* previous = nullptr;
   RateRow* rate = nullptr;
   const RateRow* previous_rate = nullptr;
   StrainRow* strain = nullptr;  // this and the next two where some plant needs them
