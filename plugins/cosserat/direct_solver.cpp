@@ -204,14 +204,19 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
   while (any(working_)) {
     rows_.set_active(working_);
     linearise_touched(steps, dt, pool);
+    for (int p = 0; p < size(); ++p) {
+      rows_.set_share(p, working_[p] ? 1.0 : 0.0);
+      iterates_[p] = working_[p] && plants_[p].touched ? &plants_[p].iterate : nullptr;
+    }
     if (any_loops_) {
       rows_.eliminate(pool);
       pool.for_each(size(), [&](int p) {
         if (working_[p] && plants_[p].loops) solve_loops(p, *steps[p].model);
       });
       rows_.substitute(pool);
+      rows_.move(pool, true, iterates_);
     } else {
-      rows_.eliminate_and_substitute(pool);
+      rows_.solve_and_move(pool, iterates_);
     }
     search(steps, pool);
     look_again(steps, dt, pool);
@@ -269,31 +274,33 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
     plant.extra_energy = std::numeric_limits<double>::quiet_NaN();
 }
 
+// The whole of Newton's change has been made.
 void DirectSolver::search(std::span<PlantStep> steps, ThreadPool& pool) {
-  for (int p = 0; p < size(); ++p) {
+  for (int p = 0; p < size(); ++p)
     if (working_[p]) start_search(p, steps[p].report);
-    rows_.set_share(p, working_[p] ? plants_[p].share : 0.0);
-    iterates_[p] = searching_[p] && plants_[p].touched ? &plants_[p].iterate : nullptr;
-  }
-  for (bool keep = true; any(searching_); keep = false) {
-    rows_.set_active(searching_);
-    rows_.move(pool, keep, iterates_);
+  for (bool first = true; any(searching_); first = false) {
+    if (!first) {
+      rows_.set_active(searching_);
+      rows_.move(pool, false, iterates_);
+    }
     for_each_plant(
-        steps, pool, [&](int p) { return searching_[p]; },
+        steps, pool, [&](int p) { return searching_[p] && (!first || plants_[p].share == 1.0); },
         [&](int p) { try_share(p, *steps[p].model, steps[p].report); });
   }
 }
 
 void DirectSolver::start_search(int index, StepReport& report) {
   Plant& plant = plants_[index];
-  plant.energy = rows_.energy(index) + plant.extra_energy;
+  plant.energy = rows_.energy_before(index) + plant.extra_energy;
   if (!rows_.healthy(index) || !std::isfinite(plant.energy)) {
     report.errors |= not_finite;
     working_[index] = 0;
+    iterates_[index] = nullptr;
     return;
   }
   plant.change = rows_.change(index);
   plant.share = std::min(1.0, largest_turn / std::max(plant.change.turn, 1.0e-300));
+  if (plant.share < 1.0) rows_.set_share(index, plant.share);
   searching_[index] = 1;
 }
 

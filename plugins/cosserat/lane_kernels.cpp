@@ -138,7 +138,7 @@ void eliminate_pack(const RowArrays& rows, Pack& pack) {
       if (rows.first_extra[row] >= 0) add_sources(rows.extras, rows.first_extra[row], lane, carry);
       healthy = hn::Min(healthy, eliminate(blocks, rows.factor[row], lane, carry));
     }
-    store(energy, pack.energy + lane);
+    store(energy, pack.energy_before + lane);
     store(healthy, pack.healthy + lane);
     for (int i = 0; i < triangle6; ++i) store(carry.diagonal[i], pack.branch[i] + lane);
     for (int i = 0; i < 6; ++i) store(carry.right[i], pack.branch[triangle6 + i] + lane);
@@ -172,7 +172,7 @@ void linearise_pack(const RowArrays& rows, Pack& pack) {
       const V on_parent[6] = {b.force.x, b.force.y, b.force.z, b.moment.x, b.moment.y, b.moment.z};
       for (int i = 0; i < 6; ++i) store(on_parent[i], out.on_parent[i] + lane);
     }
-    store(energy, pack.energy + lane);
+    store(energy, pack.energy_before + lane);
   }
 }
 

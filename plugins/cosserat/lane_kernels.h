@@ -19,10 +19,10 @@ namespace pedicel::cosserat {
 void prepare(const RowArrays& rows, Pack& pack);
 
 /// Gradient and Hessian at `iterate`, and the elimination of every element into its parent, from
-/// the tips to the first element. Sets `energy`, `healthy` and `branch`.
+/// the tips to the first element. Sets `energy_before`, `healthy` and `branch`.
 void linearise_and_eliminate(const RowArrays& rows, Pack& pack);
 
-/// Gradient and Hessian alone, left in `blocks`. Sets `energy`.
+/// Gradient and Hessian alone, left in `blocks`. Sets `energy_before`.
 void linearise(const RowArrays& rows, Pack& pack);
 
 /// From the parents' changes in the pack's first row to everyone's. Sets `turn`, `shift`, `change`.

@@ -123,7 +123,8 @@ struct alignas(64) Pack {
   // Extensions at the step's end: stiffness_factor(), sin(2 pi gust_frequency t).
   Lanes modulus, gust_now;  // 1
   // Results.
-  Lanes energy;               // J
+  Lanes energy_before;        // J, at the iterate that Newton's system was made at
+  Lanes energy;               // J, where the move from there led
   Lanes turn, shift, change;  // largest: rad; element lengths; m or rad
   Lanes healthy;              // 1 where all pivots were positive
   Lanes branch[block_size];   // what the first elements give to their parents' blocks

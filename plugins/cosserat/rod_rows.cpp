@@ -160,9 +160,6 @@ void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states)
     read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
   });
-  // Not in the loop above: there nothing has to wait for its parents.
-  for (int p = 0; p < layout_.packs(); ++p)
-    if (packs_[p].active) place_anchors(p, scratch_->iterate);
 }
 
 // The parents' poses into a pack's first row: theirs must have been moved already.
@@ -236,6 +233,7 @@ void RodRows::add_extras(int plant, std::span<const ElementBlock> blocks) {
 
 void RodRows::eliminate_pack(const RowArrays& rows, int pack) {
   if (!packs_[pack].active) return;
+  place_anchors(pack, scratch_->iterate);  // prepare() does not wait for parents
   if (layout_.keeps_blocks(pack))
     linearise(rows, packs_[pack]);
   else
@@ -311,10 +309,14 @@ void RodRows::substitute(ThreadPool& pool) {
   graph_.outward(pool, [&](int p) { substitute_pack(rows, p); });
 }
 
-void RodRows::eliminate_and_substitute(ThreadPool& pool) {
+void RodRows::solve_and_move(ThreadPool& pool, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
   graph_.inward_and_outward(
-      pool, [&](int p) { eliminate_pack(rows, p); }, [&](int p) { substitute_pack(rows, p); });
+      pool, [&](int p) { eliminate_pack(rows, p); },
+      [&](int p) {
+        substitute_pack(rows, p);
+        move_pack(rows, p, true, states);
+      });
 }
 
 void RodRows::set_share(int plant, double share) {
@@ -327,12 +329,15 @@ void RodRows::set_share(int plant, double share) {
 
 void RodRows::move(ThreadPool& pool, bool keep, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
-  graph_.outward(pool, [&](int p) {
-    if (!packs_[p].active) return;
-    place_anchors(p, scratch_->iterate);
-    cosserat::move(rows, packs_[p], keep);
-    write_pack(p, states);
-  });
+  graph_.outward(pool, [&](int p) { move_pack(rows, p, keep, states); });
+}
+
+void RodRows::move_pack(const RowArrays& rows, int pack, bool keep,
+                        std::span<RodState* const> states) {
+  if (!packs_[pack].active) return;
+  place_anchors(pack, scratch_->iterate);
+  cosserat::move(rows, packs_[pack], keep);
+  write_pack(pack, states);
 }
 
 void RodRows::finish(ThreadPool& pool, std::span<RodState* const> states) {
@@ -355,11 +360,11 @@ void RodRows::end_step() {
   std::copy_n(scratch_->strain.begin(), previous_strain_.size(), previous_strain_.begin());
 }
 
-double RodRows::energy(int plant) const {
+double RodRows::sum(int plant, const Lanes Pack::*energy) const {
   double sum = 0.0;
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
-    sum += packs_[chain.pack].energy[chain.lane];
+    sum += (packs_[chain.pack].*energy)[chain.lane];
   }
   return sum;
 }

@@ -87,8 +87,8 @@ class RodRows {
   void copy_blocks(int plant, BlockSystem& system) const;
   void set_change(int plant, const BlockSystem& solved);
   void substitute(ThreadPool& pool);
-  /// Both in one go, where nothing has to happen between them.
-  void eliminate_and_substitute(ThreadPool& pool);
+  /// eliminate(), substitute() and move(true) in one go, where nothing has to happen between them.
+  void solve_and_move(ThreadPool& pool, std::span<RodState* const> states);
 
   /// Moves the iterate from where the line search began by `share` of the change, by lane.
   /// `keep` first makes the iterate that beginning. Writes the iterates as write_iterate() does.
@@ -100,8 +100,10 @@ class RodRows {
   void finish(ThreadPool& pool, std::span<RodState* const> states);
   void end_step();
 
-  /// Of the last eliminate() or move(), J.
-  double energy(int plant) const;
+  /// J, where the last move() or evaluate_start() led.
+  double energy(int plant) const { return sum(plant, &Pack::energy); }
+  /// J, where the last eliminate() was.
+  double energy_before(int plant) const { return sum(plant, &Pack::energy_before); }
   bool healthy(int plant) const;
   struct Change {
     double turn = 0.0;     ///< rad, largest of an element
@@ -140,6 +142,8 @@ class RodRows {
   void read_states(int pack, std::span<const RodState* const> states);
   void eliminate_pack(const RowArrays& rows, int pack);
   void substitute_pack(const RowArrays& rows, int pack);
+  void move_pack(const RowArrays& rows, int pack, bool keep, std::span<RodState* const> states);
+  double sum(int plant, const Lanes Pack::*energy) const;
   void write_pack(int pack, std::span<RodState* const> states) const;
   void write_end(int pack, std::span<RodState* const> states) const;
   template <class Write>

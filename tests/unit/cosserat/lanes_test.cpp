@@ -139,7 +139,8 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
       ThreadPool pool(threads);
       rows.prepare(pool, states);
       rows.read_iterate(0, state);
-      rows.eliminate_and_substitute(pool);
+      rows.eliminate(pool);
+      rows.substitute(pool);
       ASSERT_TRUE(rows.healthy(0));
       double largest = 0.0, worst = 0.0;
       for (int e = 0; e < model.size(); ++e) {

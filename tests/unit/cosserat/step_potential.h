@@ -40,7 +40,7 @@ class StepPotential {
     }
     for (std::size_t w = 0; w < model.welds.size(); ++w)
       system.weld(static_cast<int>(w)) = weld_coupling(state, model.welds[w]);
-    return energy + rows_.energy(0);
+    return energy + rows_.energy_before(0);
   }
 
   double potential(const RodModel& model, const RodState& state) {
