@@ -11,8 +11,8 @@ namespace pedicel {
 /// Tasks some of which need others done first, as a tree's branches come before its stem, or, the
 /// other way round, the stem before its branches. Each thread has its own tasks, shared out
 /// beforehand, so that what they work on stays in that core's cache. A thread that needs what
-/// nobody has begun, or has come to its end, does others' tasks, too: any number of threads gets
-/// through.
+/// nobody has begun, or has come to its end where others have not begun, does their tasks, too: any
+/// number of threads gets through.
 class TaskGraph {
  public:
   /// `needs[i]`: the tasks below i that task i needs; `cost[i]` > 0, in any unit; `threads` >= 1.
@@ -85,14 +85,14 @@ class TaskGraph {
   struct alignas(64) Mark {
     std::atomic<unsigned> begun{0}, done{0};
   };
-  // How many tasks of its share a thread has come to in a walk: what is left for others to help
-  // with, without a look at each mark.
+  // In which round a thread last began a walk.
   struct alignas(64) Walk {
     std::atomic<unsigned> round{0};
-    std::atomic<int> come_to{0};
   };
 
-  // All tasks, a thread's own ones first, then those that the others have not come to.
+  // All tasks, a thread's own ones first, then those of threads that have not begun. Those that have
+  // are not helped: what a task works on is in their core's cache, and would have to come over and
+  // back again.
   template <class Do>
   void own_first(int thread, unsigned round, const Do& todo) {
     walk(thread, round, inward_walks_,
@@ -107,17 +107,12 @@ class TaskGraph {
   template <class Do>
   void walk(int thread, unsigned round, std::vector<Walk>& walks, const Do& todo) {
     Walk& own = walks[thread];
-    own.come_to.store(0, std::memory_order_relaxed);
     own.round.store(round, std::memory_order_release);
-    for (std::size_t k = 0; k < shares_[thread].size(); ++k) {
-      own.come_to.store(static_cast<int>(k) + 1, std::memory_order_relaxed);
-      todo(shares_[thread], k);
-    }
+    for (std::size_t k = 0; k < shares_[thread].size(); ++k) todo(shares_[thread], k);
     for (int other = 1; other < threads(); ++other) {
       const int helped = (thread + other) % threads();
-      const bool began = walks[helped].round.load(std::memory_order_acquire) == round;
-      const int come_to = began ? walks[helped].come_to.load(std::memory_order_relaxed) : 0;
-      for (std::size_t k = come_to; k < shares_[helped].size(); ++k) todo(shares_[helped], k);
+      if (walks[helped].round.load(std::memory_order_acquire) == round) continue;
+      for (std::size_t k = 0; k < shares_[helped].size(); ++k) todo(shares_[helped], k);
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cosserat/rotation.h"
 #include "cosserat/self_contact.h"
 
 namespace pedicel::cosserat {
@@ -74,8 +75,9 @@ ContactTerms::Active ContactTerms::activated(const ContactPoint& point, const Ro
   contact.point = point;
   contact.element = model.shapes[point.shape].element;
   const Quat& q = iterate.orientation[contact.element];
-  contact.arm_E = Vec3(0, 0, -point.back) - point.radius * (q.conjugate() * point.normal_W);
-  contact.place_W = place(iterate, contact.element, contact.arm_E);
+  const Vec3 arm_W = -point.back * third_axis(q) - point.radius * point.normal_W;
+  contact.arm_E = q.conjugate() * arm_W;
+  contact.place_W = iterate.position[contact.element] + arm_W;
   contact.start_W = place(start, contact.element, contact.arm_E);
   contact.stiffness = point.stiffness;
   if (const Memory* memory = remembered(point.shape, point.collider)) {
@@ -131,14 +133,17 @@ ContactTerms::Push ContactTerms::push(const Active& contact, const Vec3& now) {
   Push push;
   push.normal_force = contact.stiffness * overlap * point.normal_W;
   push.energy = 0.5 * contact.stiffness * overlap * overlap;
-  push.stretch = tangential(contact.stretch_W + now - contact.start_W - point.surface_motion_W,
-                            point.normal_W);
-  const double length = push.stretch.norm();
-  push.slipping = contact.stiffness * length > contact.limit || contact.limit == 0.0;
   if (contact.limit == 0.0) {
     push.friction_force.setZero();
     push.stretch.setZero();
-  } else if (push.slipping) {
+    push.slipping = true;
+    return push;
+  }
+  push.stretch = tangential(contact.stretch_W + now - contact.start_W - point.surface_motion_W,
+                            point.normal_W);
+  const double length = push.stretch.norm();
+  push.slipping = contact.stiffness * length > contact.limit;
+  if (push.slipping) {
     push.energy += contact.limit * (length - 0.5 * contact.limit / contact.stiffness);
     push.friction_force = -contact.limit / length * push.stretch;
     push.stretch *= contact.limit / (contact.stiffness * length);

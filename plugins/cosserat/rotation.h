@@ -47,6 +47,12 @@ inline Mat3 inverse_right_jacobian(const Vec3& phi) {
   return Mat3::Identity() + 0.5 * k + c * (k * k);
 }
 
+/// The third axis turned by a unit quaternion: where a segment points.
+inline Vec3 third_axis(const Quat& q) {
+  return {2.0 * (q.x() * q.z() + q.w() * q.y()), 2.0 * (q.y() * q.z() - q.w() * q.x()),
+          1.0 - 2.0 * (q.x() * q.x() + q.y() * q.y())};
+}
+
 /// The rotation with the least angle that takes unit vector a to unit vector b.
 inline Quat least_rotation(const Vec3& a, const Vec3& b) {
   return Quat::FromTwoVectors(a, b);

@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "cosserat/lanes.h"
+#include "cosserat/rotation.h"
 
 namespace pedicel::cosserat {
 
@@ -115,8 +116,7 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
   double distance = between_W.norm();
   const double radius_a = shape_a.radius_near + at_a * (shape_a.radius_far - shape_a.radius_near);
   const double radius_b = shape_b.radius_near + at_b * (shape_b.radius_far - shape_b.radius_near);
-  const Vec3 before_W =
-      start_place(element_a, Vec3(0, 0, -back_a)) - start_place(element_b, Vec3(0, 0, -back_b));
+  const Vec3 before_W = place_on(motion_.start()[a], at_a) - place_on(motion_.start()[b], at_b);
   Vec3 normal_W = distance > 0.0 ? Vec3(between_W / distance) : Vec3(Vec3::UnitZ());
   // Axes that went through each other in this step are pushed back to where they came from.
   if (before_W.dot(normal_W) < 0.0) {
@@ -156,16 +156,13 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
   add(b, a, back_b, radius_b, -normal_W);
 }
 
-Vec3 SelfContact::start_place(int element, const Vec3& arm_E) const {
-  return start_->position[element] + start_->orientation[element] * arm_E;
-}
-
 // How far the material point moved over the step that lies `outward_W` from the axis now.
 Vec3 SelfContact::moved(const RodState& state, int element, double back,
                         const Vec3& outward_W) const {
   const Quat& q = state.orientation[element];
-  const Vec3 arm_E = Vec3(0, 0, -back) + q.conjugate() * outward_W;
-  return state.position[element] + q * arm_E - start_place(element, arm_E);
+  const Vec3 arm_W = outward_W - back * third_axis(q);
+  return state.position[element] + arm_W - start_->position[element] -
+         start_->orientation[element] * (q.conjugate() * arm_W);
 }
 
 }  // namespace pedicel::cosserat

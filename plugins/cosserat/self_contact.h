@@ -83,7 +83,6 @@ class SelfContact : public ContactSource {
                   std::size_t first, std::size_t end);
   void touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
              std::vector<ContactPoint>& found) const;
-  Vec3 start_place(int element, const Vec3& arm_E) const;
   Vec3 moved(const RodState& state, int element, double back, const Vec3& outward_W) const;
 
   // Shapes and near pairs, a thread.
