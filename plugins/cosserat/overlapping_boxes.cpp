@@ -63,75 +63,103 @@ HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
 
-// Which of a vector's worth of boxes overlap the one, a bit each; low(k) and high(k) are where the
-// first one's coordinates are.
+// Which of a vector's worth of boxes overlap the one; low(k) and high(k) are where the first one's
+// coordinates are.
 template <class Tag, class Low, class High>
-HWY_INLINE unsigned overlapping(Tag d, const Box& box, const Low& low, const High& high) {
+HWY_INLINE hn::Mask<Tag> overlapping(Tag d, const Box& box, const Low& low, const High& high) {
   const auto beside = [&](int k) {
     return hn::And(hn::LoadU(d, low(k)) <= hn::Set(d, box.high[k]),
                    hn::LoadU(d, high(k)) >= hn::Set(d, box.low[k]));
   };
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, hn::And(hn::And(beside(0), beside(1)), beside(2)), bits);
-  return bits[0] | bits[1] << 8;
+  return hn::And(hn::And(beside(0), beside(1)), beside(2));
 }
 
-HWY_INLINE unsigned overlapping(const Box& box, const Group& group) {
-  const hn::CappedTag<float, group_size> d;
-  unsigned found = 0;
-  for (std::size_t i = 0; i < group_size; i += hn::Lanes(d))
-    found |= overlapping(
-                 d, box, [&](int k) { return &group.low[k][i]; },
-                 [&](int k) { return &group.high[k][i]; })
-             << i;
-  return found;
-}
+// What follows writes a vector's worth at a time, whatever of it counts: branches on which boxes
+// overlap would be guessed wrong every other time.
 
-// take(i) for those of the boxes from `first` to `end` that overlap the one, ascending.
-template <class Take>
-HWY_INLINE void for_overlapping(const Box& box, const Boxes& boxes, std::size_t first,
-                                std::size_t end, const Take& take) {
+// Lists `numbers` of those of the boxes from `first` to `end` that overlap the one, ascending.
+// Returns how many.
+template <class Numbers>
+HWY_INLINE std::size_t list_overlapping(const Box& box, const Boxes& boxes, std::size_t first,
+                                        std::size_t end, const Numbers& numbers, int* list) {
   const hn::CappedTag<float, most_floats> d;
+  const hn::RebindToSigned<decltype(d)> numbers_tag;
+  std::size_t count = 0;
   for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
-    unsigned left = overlapping(
+    const auto found = overlapping(
         d, box, [&](int k) { return &boxes.low[k][i]; }, [&](int k) { return &boxes.high[k][i]; });
-    for (; left != 0; left &= left - 1) take(i + __builtin_ctz(left));
+    count += hn::CompressStore(numbers(numbers_tag, i), hn::RebindMask(numbers_tag, found),
+                               numbers_tag, list + count);
   }
+  return count;
 }
 
 // Lists the groups from the given one on that its box overlaps; returns how many.
 HWY_INLINE std::size_t list_groups(const Groups& groups, std::size_t group, Scratch& scratch) {
-  std::size_t count = 0;
-  for_overlapping(box_of(groups.around, group), groups.around, group, groups.boxes.size(),
-                  [&](std::size_t other) {
-                    scratch.groups[count] = static_cast<int>(other);
-                    for (int k = 0; k < 3; ++k) {
-                      scratch.around.low[k][count] = groups.around.low[k][other];
-                      scratch.around.high[k][count] = groups.around.high[k][other];
-                    }
-                    ++count;
-                  });
+  const auto own = [](auto d, std::size_t i) { return hn::Iota(d, static_cast<int>(i)); };
+  const std::size_t count = list_overlapping(box_of(groups.around, group), groups.around, group,
+                                             groups.boxes.size(), own, scratch.groups.data());
+  for (std::size_t place = 0; place < count; ++place) {
+    const int other = scratch.groups[place];
+    for (int k = 0; k < 3; ++k) {
+      scratch.around.low[k][place] = groups.around.low[k][other];
+      scratch.around.high[k][place] = groups.around.high[k][other];
+    }
+  }
   // The last vector's others are empty.
   std::fill_n(&scratch.around.low[0][count], most_floats, infinity);
   return count;
 }
 
+// Adds the box's pairs with those of a group that it overlaps, from the place `count` on. Returns
+// where the next ones come.
+HWY_INLINE std::size_t add_pairs(const Groups& groups, int a, const Box& box, int group,
+                                 CapsulePairs& pairs, std::size_t count) {
+  const hn::CappedTag<float, group_size> d;
+  const hn::RebindToSigned<decltype(d)> numbers_tag;
+  const Group& others = groups.boxes[group];
+  const unsigned wanted = looked_for(groups, a, group);
+  for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
+    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(wanted >> i)};
+    const auto found = hn::And(overlapping(
+                                   d, box, [&](int k) { return &others.low[k][i]; },
+                                   [&](int k) { return &others.high[k][i]; }),
+                               hn::LoadMaskBits(d, bits));
+    const int first = group * group_size + static_cast<int>(i);
+    hn::StoreU(hn::Set(numbers_tag, a), numbers_tag, &pairs.a[count]);
+    count += hn::CompressStore(hn::Iota(numbers_tag, first), hn::RebindMask(numbers_tag, found),
+                               numbers_tag, &pairs.b[count]);
+  }
+  return count;
+}
+
+// Takes out those of the pairs from `first` on that are left out.
+std::size_t without_far(const Groups& groups, CapsulePairs& pairs, std::size_t first,
+                        std::size_t end) {
+  std::size_t count = first;
+  for (std::size_t i = first; i < end; ++i)
+    if (!is_far_left_out(groups, pairs.a[i], pairs.b[i])) pairs.b[count++] = pairs.b[i];
+  return count;
+}
+
 void Compare(const Groups& groups, std::size_t first, std::size_t end, Scratch& scratch) {
-  scratch.pairs.clear();
+  CapsulePairs& pairs = scratch.pairs;
+  pairs.clear();
+  const auto listed = [&](auto d, std::size_t i) { return hn::LoadU(d, &scratch.groups[i]); };
   for (std::size_t group = first / group_size; group * group_size < end; ++group) {
     const std::size_t count = list_groups(groups, group, scratch);
     for (int lane = 0; lane < group_size; ++lane) {
       const int a = static_cast<int>(group) * group_size + lane;
       const Box box = box_of(groups.boxes[group], lane);
-      const bool has_far = groups.first_far_left_out[a] < groups.first_far_left_out[a + 1];
-      for_overlapping(box, scratch.around, 0, count, [&](std::size_t place) {
-        const int other = scratch.groups[place];
-        unsigned left = overlapping(box, groups.boxes[other]) & looked_for(groups, a, other);
-        for (; left != 0; left &= left - 1) {
-          const int b = other * group_size + __builtin_ctz(left);
-          if (!has_far || !is_far_left_out(groups, a, b)) scratch.pairs.add(a, b);
-        }
-      });
+      const std::size_t met =
+          list_overlapping(box, scratch.around, 0, count, listed, scratch.met.data());
+      pairs.make_room(met * group_size);
+      std::size_t place = pairs.size();
+      for (std::size_t k = 0; k < met; ++k)
+        place = add_pairs(groups, a, box, scratch.met[k], pairs, place);
+      if (groups.first_far_left_out[a] < groups.first_far_left_out[a + 1])
+        place = without_far(groups, pairs, pairs.size(), place);
+      pairs.resize(place);
     }
   }
 }
@@ -158,6 +186,7 @@ void OverlappingBoxes::compare(std::size_t first, std::size_t end, Scratch& scra
   const std::size_t room = groups_.around.low[0].size();
   if (scratch.around.low[0].size() != room) make_empty(scratch.around, room);
   scratch.groups.resize(room);
+  scratch.met.resize(room);
   HWY_DYNAMIC_DISPATCH(Compare)(groups_, first, end, scratch);
 }
 

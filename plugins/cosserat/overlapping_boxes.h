@@ -66,6 +66,7 @@ class OverlappingBoxes {
     CapsulePairs pairs;
     std::vector<int> groups;  // that the box of one group overlaps
     Boxes around;             // their boxes
+    std::vector<int> met;     // those of them that one box overlaps
   };
 
  private:
