@@ -27,6 +27,12 @@ struct ContactPoint {
   /// each newton on it, other contacts of this plant not counted. It acts in series with
   /// `stiffness`; `gap` is that before it gives way.
   double give = 0.0;
+  /// Where two parts of a plant touch: of the spring that stiffens with the overlap of both.
+  struct Stiffening {
+    double stiffness = 0.0;  ///< N/m, where it begins
+    double margin = 0.0;     ///< m, gap of the two surfaces where it begins
+  };
+  Stiffening stiffening;
 };
 
 /// What a contact point carried at the end of a step: the force ON THE PLANT.
@@ -50,6 +56,8 @@ class ContactSource {
   /// Which part of its motion over the whole step what is touched makes in the steps that follow:
   /// from share `from` of the way to share `to`. All of it, 0 to 1, until told otherwise.
   virtual void cover(double /*from*/, double /*to*/) {}
+  /// Whether it finds nothing but where the plant touches itself.
+  virtual bool is_within_plant() const { return false; }
   /// A step begins at `start` (same time as the iterates that find() gets).
   virtual void begin_step(const RodModel& /*model*/, const RodState& /*start*/, double /*dt*/) {}
   virtual void find(const RodModel& model, const RodState& state, double dt,

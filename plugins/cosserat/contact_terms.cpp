@@ -56,6 +56,7 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
   active_.resize(found_.size());
   energies_.resize(found_.size());
   blocks_.resize(found_.size());
+  moves_.resize(found_.size());
   for_each_stretch([&](std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
       active_[i] = activated(found_[i], model, start, iterate);
@@ -66,6 +67,32 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
     return is_self_contact(point.collider);
   });
   share_gives(iterate);
+  energy_ = std::accumulate(energies_.begin(), energies_.end(), 0.0);
+}
+
+// Normals and places on the segments stay as they were found; the plane between the two sides of a
+// self-contact goes along with the middle of both.
+void ContactTerms::follow(const RodState& iterate) {
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      Active& contact = active_[i];
+      const Vec3 now = place(iterate, contact.element, contact.arm_E);
+      moves_[i] = now - contact.place_W;
+      contact.place_W = now;
+    }
+  });
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      Active& contact = active_[i];
+      const std::size_t other = i ^ 1;  // the two sides follow each other
+      const Vec3 plane = 0.5 * (moves_[i] + moves_[other]);
+      contact.point.gap += contact.point.normal_W.dot(moves_[i] - plane);
+      contact.point.surface_motion_W += plane;
+      take_tangent(contact.point);
+      contact.stiffness = contact.point.stiffness;
+      push_at_iterate(i, iterate);
+    }
+  });
   energy_ = std::accumulate(energies_.begin(), energies_.end(), 0.0);
 }
 

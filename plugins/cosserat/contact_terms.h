@@ -37,9 +37,13 @@ class ContactTerms {
   void find(const RodModel& model, const RodState& start, const RodState& iterate, double dt,
             std::span<ContactSource* const> sources);
 
-  /// J, at the iterate for which find() was called.
+  /// Goes on with the contacts of a plant with itself at another iterate nearby: of those that were
+  /// found there, or that it came near, normals and places on the segments are kept.
+  void follow(const RodState& iterate);
+
+  /// J, at the iterate for which find() or follow() was called.
   double energy() const { return energy_; }
-  /// What the contacts add there, one each. Valid until the next find().
+  /// What the contacts add there, one each. Valid until the next call of them.
   std::span<const ElementBlock> blocks() const { return blocks_; }
   double potential(const RodModel& model, const RodState& state) const;
 
@@ -100,6 +104,7 @@ class ContactTerms {
   std::vector<Active> active_;
   std::vector<double> energies_;      // J, at the iterate, as `active_`
   std::vector<ElementBlock> blocks_;  // likewise
+  std::vector<Vec3> moves_;           // m, W, likewise: in follow()
   double energy_ = 0.0;               // J, of them all
   mutable std::vector<double> sums_;  // scratch, J, by stretch
   std::vector<Memory> memory_;

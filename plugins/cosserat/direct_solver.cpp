@@ -25,6 +25,7 @@ constexpr int parts = 2;                     // of a step that contact keeps fro
 constexpr double rough_self_contact = 10.0;  // times the tolerance
 constexpr double stalled_gain = 0.9;         // more iterations do not help
 constexpr double left_over = 0.6;            // times the tolerance: of what is left by the series
+constexpr double followed_self_contact = 20.0;  // times the tolerance
 
 // Makes `iterate` what it will be but for where the elements are, which the rows write. It has no
 // velocities.
@@ -143,6 +144,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.presses = false;
     plant.in_parts = false;
     plant.iterate_is_here = plant.contacts_are_here = false;
+    plant.followed = std::numeric_limits<double>::infinity();
   }
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
@@ -225,7 +227,7 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
   }
 }
 
-// Contacts are found anew in every iteration, unless the search did so.
+// Contacts are found anew in every iteration, unless the search did so or they can be followed.
 void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
   rows_.clear_extras();
@@ -236,7 +238,7 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
   for_each_plant(steps, pool, wanted, [&](int p) {
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
-    if (!plant.contacts_are_here) find_contacts(p, steps[p], dt);
+    if (!plant.contacts_are_here && !follow_contacts(p, steps[p])) find_contacts(p, steps[p], dt);
     plant.contacts_are_here = false;
     plant.extras.clear();
     const double pressed = plant.contacts.energy();
@@ -253,6 +255,19 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
 void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
   Plant& plant = plants_[index];
   plant.contacts.find(*step.model, *step.state, plant.iterate, dt, step.contacts);
+  plant.followed = 0.0;
+}
+
+// Where a plant touches only itself, a small way on it still touches where it did.
+bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
+  Plant& plant = plants_[index];
+  plant.followed += plant.share * std::max(plant.change.turn, plant.change.shift);
+  const bool is_near = plant.followed <= followed_self_contact * settings_.self_contact_tolerance;
+  if (!is_near || !std::all_of(step.contacts.begin(), step.contacts.end(),
+                               [](const ContactSource* s) { return s->is_within_plant(); }))
+    return false;
+  plant.contacts.follow(plant.iterate);
+  return true;
 }
 
 void DirectSolver::solve_loops(int index, const RodModel& model) {

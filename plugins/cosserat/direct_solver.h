@@ -74,6 +74,7 @@ class DirectSolver : public RodSolver {
     RodState iterate;                    // where touched
     bool iterate_is_here = false;        // where the line search ended
     bool contacts_are_here = false;      // found there, too
+    double followed = 0.0;               // rad or lengths, moved since they were found
     bool presses = false;                // a contact did, in this iteration
     bool has_history = false;
     bool smooth = false;                      // the last step was solved to the tolerance
@@ -98,6 +99,7 @@ class DirectSolver : public RodSolver {
   void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void find_contacts(int index, const PlantStep& step, double dt);
+  bool follow_contacts(int index, const PlantStep& step);
   void solve_loops(int index, const RodModel& model);
   void search(std::span<PlantStep> steps, ThreadPool& pool);
   void start_search(int index, StepReport& report);

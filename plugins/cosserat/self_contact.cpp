@@ -47,6 +47,16 @@ ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& 
 
 }  // namespace
 
+void take_tangent(ContactPoint& point) {
+  const auto& [stiffness, margin] = point.stiffening;
+  const double overlap = std::max(0.0, margin - 2.0 * point.gap);
+  const double stiffening = std::min(overlap / margin, most_stiffening);
+  const double force = stiffness * overlap * (1.0 + stiffening);
+  point.stiffness =
+      2.0 * stiffness * (1.0 + (stiffening < most_stiffening ? 2.0 : 1.0) * stiffening);
+  point.margin = overlap > 0.0 ? point.gap + force / point.stiffness : 0.5 * margin;
+}
+
 SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings)
     : settings_(settings), motion_(model, limits_of(model, settings)) {
   check(settings);
@@ -134,14 +144,9 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
   const double lighter = std::min(model.elements[element_a].mass, model.elements[element_b].mass);
   const double stiffness =
       std::min(soft ? settings_.fruit_stiffness : settings_.stiffness, lighter / (dt * dt));
-  const double overlap = std::max(0.0, settings_.margin - gap);
-  const double stiffening = std::min(overlap / settings_.margin, most_stiffening);
-  const double force = stiffness * overlap * (1.0 + stiffening);
-  // The progressive spring's tangent: the same force and slope at this iterate.
-  point.stiffness =
-      2.0 * stiffness * (1.0 + (stiffening < most_stiffening ? 2.0 : 1.0) * stiffening);
   point.gap = 0.5 * gap;
-  point.margin = overlap > 0.0 ? point.gap + force / point.stiffness : 0.5 * settings_.margin;
+  point.stiffening = {stiffness, settings_.margin};
+  take_tangent(point);
   point.friction = settings_.friction;
   point.surface_motion_W = 0.5 * (motion_a + motion_b);
   const auto add = [&](int shape, int other, double back, double radius, const Vec3& normal) {

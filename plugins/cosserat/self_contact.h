@@ -18,6 +18,10 @@ constexpr bool is_self_contact(int collider) {
   return collider >= self_contact_base;
 }
 
+/// Sets stiffness and margin of one side of a self-contact to the tangent of its progressive
+/// spring: the same force and slope at its gap.
+void take_tangent(ContactPoint& point);
+
 struct SelfContactSettings {
   double stiffness = 1.0e5;        ///< N/m, at most, stem against stem, > 0
   double fruit_stiffness = 1.0e4;  ///< N/m, at most, where one is a fruit, > 0
@@ -54,6 +58,7 @@ class SelfContact : public ContactSource {
   SelfContact(const RodModel& model, const SelfContactSettings& settings);
 
   void use(ThreadPool* pool) override { loop_.pool = pool; }
+  bool is_within_plant() const override { return true; }
   /// `start` must stay as it is until the step's last find().
   void begin_step(const RodModel& model, const RodState& start, double dt) override;
   void find(const RodModel& model, const RodState& state, double dt,
