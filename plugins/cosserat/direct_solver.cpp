@@ -16,6 +16,7 @@ constexpr double largest_turn =
 constexpr double converged_change = 1.0e-3;  // m or rad
 constexpr double rough_change = 0.3;         // rad, or element lengths
 constexpr double looked_after = 0.1;         // likewise
+constexpr double rough_unsolved = 0.1;       // likewise
 constexpr double straight_turn = 0.03;       // rad
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
@@ -483,7 +484,9 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
     // A step whose last iteration still moved things roughly is not on a smooth path: the
     // second-order scheme, which continues that path, would feed on it. The next step is first
     // order and damps.
-    const bool rough = plant.change.turn > rough_change || plant.change.shift > rough_change;
+    const double moved = std::max(plant.change.turn, plant.change.shift);
+    const bool unsolved = plant.presses && (report.errors & not_converged);
+    const bool rough = moved > (unsolved ? rough_unsolved : rough_change);
     state.previous_dt = rough ? 0.0 : dt;
     state.time += dt;
   });
