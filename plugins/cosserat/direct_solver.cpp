@@ -183,21 +183,18 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
   rows_.set_active(fast);
   for (int p = 0; p < size(); ++p) {
     Plant& plant = plants_[p];
-    rows_.set_share(p, 0.0);
     iterates_[p] = fast[p] && plant.touched ? &plant.iterate : nullptr;
   }
-  const auto potential = [&](int p, const RodState& state) {
-    if (!plants_[p].touched) return rows_.energy(p);
-    return rows_.energy(p) + plants_[p].attachments.potential(*steps[p].model, state);
-  };
-  rows_.evaluate_start(pool);
-  for (int p = 0; p < size(); ++p)
-    if (fast[p]) plants_[p].energy = potential(p, *steps[p].state);
-  rows_.move(pool, true, iterates_);
+  rows_.compare_start(pool, iterates_);
   for (int p = 0; p < size(); ++p) {
     if (!fast[p]) continue;
-    plants_[p].iterate_is_here = potential(p, plants_[p].iterate) < plants_[p].energy;
-    if (!plants_[p].iterate_is_here) rows_.hold(p);
+    Plant& plant = plants_[p];
+    const auto attached = [&](const RodState& state) {
+      return plant.touched ? plant.attachments.potential(*steps[p].model, state) : 0.0;
+    };
+    plant.iterate_is_here = rows_.energy(p) + attached(plant.iterate) <
+                            rows_.energy_before(p) + attached(*steps[p].state);
+    if (!plant.iterate_is_here) rows_.hold(p);
     fast[p] = 0;
   }
 }

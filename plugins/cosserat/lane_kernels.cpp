@@ -285,6 +285,24 @@ void Move(const RowArrays& rows, Pack& pack, bool keep) {
   pack.extended ? move_pack<true>(rows, pack, keep) : move_pack<false>(rows, pack, keep);
 }
 
+template <bool extended>
+void evaluate_pack(const RowArrays& rows, const Pack& pack, double* sums) {
+  for (int lane = 0; lane < lane_count; lane += width) {
+    V energy = set(0.0);
+    Pose parent = load_pose(rows.iterate[pack.begin], lane);
+    for (int row = pack.begin + 1; row < pack.end; ++row) {
+      const Pose own = load_pose(rows.iterate[row], lane);
+      energy = energy + strain<extended>(rows, pack, row, lane, parent, own).energy;
+      parent = own;
+    }
+    store(energy, sums + lane);
+  }
+}
+
+void Evaluate(const RowArrays& rows, const Pack& pack, double* sums) {
+  pack.extended ? evaluate_pack<true>(rows, pack, sums) : evaluate_pack<false>(rows, pack, sums);
+}
+
 void Finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
   for (int lane = 0; lane < lane_count; lane += width) {
     const V inverse_step = set(1.0) / load(pack.effective_step + lane);
@@ -316,6 +334,7 @@ HWY_EXPORT(Linearise);
 HWY_EXPORT(Substitute);
 HWY_EXPORT(MeasureChange);
 HWY_EXPORT(Move);
+HWY_EXPORT(Evaluate);
 HWY_EXPORT(Finish);
 
 void prepare(const RowArrays& rows, Pack& pack) {
@@ -335,6 +354,9 @@ void measure_change(const RowArrays& rows, Pack& pack) {
 }
 void move(const RowArrays& rows, Pack& pack, bool keep) {
   HWY_DYNAMIC_DISPATCH(Move)(rows, pack, keep);
+}
+void evaluate(const RowArrays& rows, const Pack& pack, Lanes& energy) {
+  HWY_DYNAMIC_DISPATCH(Evaluate)(rows, pack, energy);
 }
 void finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
   HWY_DYNAMIC_DISPATCH(Finish)(rows, pack, end);

@@ -36,6 +36,9 @@ void measure_change(const RowArrays& rows, Pack& pack);
 /// `energy` to the potential there.
 void move(const RowArrays& rows, Pack& pack, bool keep);
 
+/// The potential at `iterate`, J.
+void evaluate(const RowArrays& rows, const Pack& pack, Lanes& energy);
+
 /// Velocities that the scheme gives to the end of the step, into `rate` (strains are left).
 void finish(const RowArrays& rows, const Pack& pack, RateRow* end);
 

@@ -192,13 +192,17 @@ void RodRows::change_anchors(int pack) {
 }
 
 // Nothing needs the clamps of the start any more: prepare() has taken the strains against them.
-void RodRows::evaluate_start(ThreadPool& pool) {
-  RowArrays rows = arrays();
-  rows.iterate = rows.start;
-  graph_.outward(pool, [&](int p) {
+void RodRows::compare_start(ThreadPool& pool, std::span<RodState* const> states) {
+  const RowArrays at_guess = arrays();
+  RowArrays at_start = at_guess;
+  at_start.iterate = at_start.start;
+  graph_.each(pool, [&](int p) {
     if (!packs_[p].active) return;
     place_anchors(p, scratch_->start);
-    cosserat::move(rows, packs_[p], true);
+    place_anchors(p, scratch_->iterate);
+    evaluate(at_start, packs_[p], packs_[p].energy_before);
+    evaluate(at_guess, packs_[p], packs_[p].energy);
+    write_pack(p, states);
   });
 }
 

@@ -69,8 +69,9 @@ class RodRows {
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
   /// then says how far that turns an element.
   void prepare(ThreadPool& pool, std::span<const RodState* const> states);
-  /// Sets energy(): what the step's start would have, with the clamps where they end.
-  void evaluate_start(ThreadPool& pool);
+  /// Sets energy_before() to what the step's start would have, with the clamps where they end, and
+  /// energy() to what the first guess has. Writes the iterates as write_iterate() does.
+  void compare_start(ThreadPool& pool, std::span<RodState* const> states);
   /// Makes the step's start the iterate of a plant.
   void hold(int plant);
   void read_iterate(int plant, const RodState& state);
@@ -100,7 +101,7 @@ class RodRows {
   void finish(ThreadPool& pool, std::span<RodState* const> states);
   void end_step();
 
-  /// J, where the last move() or evaluate_start() led.
+  /// J, where the last move() led.
   double energy(int plant) const { return sum(plant, &Pack::energy); }
   /// J, where the last eliminate() was.
   double energy_before(int plant) const { return sum(plant, &Pack::energy_before); }
