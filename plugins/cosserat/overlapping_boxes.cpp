@@ -77,6 +77,12 @@ HWY_INLINE hn::Mask<Tag> overlapping(Tag d, const Box& box, const Low& low, cons
 // What follows writes a vector's worth at a time, whatever of it counts: branches on which boxes
 // overlap would be guessed wrong every other time.
 
+// first, first + 1, ...: Iota() of a number that is no constant goes through memory.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> counted_from(Tag d, int first) {
+  return hn::Iota(d, 0) + hn::Set(d, first);
+}
+
 // Lists `numbers` of those of the boxes from `first` to `end` that overlap the one, ascending.
 // Returns how many.
 template <class Numbers>
@@ -96,7 +102,7 @@ HWY_INLINE std::size_t list_overlapping(const Box& box, const Boxes& boxes, std:
 
 // Lists the groups from the given one on that its box overlaps; returns how many.
 HWY_INLINE std::size_t list_groups(const Groups& groups, std::size_t group, Scratch& scratch) {
-  const auto own = [](auto d, std::size_t i) { return hn::Iota(d, static_cast<int>(i)); };
+  const auto own = [](auto d, std::size_t i) { return counted_from(d, static_cast<int>(i)); };
   const std::size_t count = list_overlapping(box_of(groups.around, group), groups.around, group,
                                              groups.boxes.size(), own, scratch.groups.data());
   for (std::size_t place = 0; place < count; ++place) {
@@ -127,7 +133,7 @@ HWY_INLINE std::size_t add_pairs(const Groups& groups, int a, const Box& box, in
                                hn::LoadMaskBits(d, bits));
     const int first = group * group_size + static_cast<int>(i);
     hn::StoreU(hn::Set(numbers_tag, a), numbers_tag, &pairs.a[count]);
-    count += hn::CompressStore(hn::Iota(numbers_tag, first), hn::RebindMask(numbers_tag, found),
+    count += hn::CompressStore(counted_from(numbers_tag, first), hn::RebindMask(numbers_tag, found),
                                numbers_tag, &pairs.b[count]);
   }
   return count;
