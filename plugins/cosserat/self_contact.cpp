@@ -39,9 +39,9 @@ ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& 
   ShapeMotion::Limits limits;
   limits.most = 2.0 * length;  // what moves farther in a step may pass through
   limits.margin = settings.margin;
-  limits.skin = 0.2 * length;
-  limits.slack = 0.2;  // for what iterations change
-  limits.ahead = 2.4;
+  limits.skin = 0.3 * length;
+  limits.slack = 0.1;  // for what iterations change
+  limits.ahead = 1.8;
   return limits;
 }
 
