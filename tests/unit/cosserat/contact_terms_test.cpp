@@ -68,6 +68,29 @@ TEST(ContactTerms, ForceIsMinusTheSlopeOfThePotential) {
   }
 }
 
+// Against the spring of any stiffness matrix: hessian = across I + (along - across) axis axis^T.
+TEST(PointSpring, IsThatOfItsStiffnessMatrix) {
+  Random random(7);
+  for (const double across : {0.0, 3.0}) {
+    const Vec3 arm = random_vector(random, 1.0), force = random_vector(random, 1.0);
+    const Vec3 axis = random_vector(random, 1.0).normalized();
+    constexpr double along = 5.0;
+    DiagonalBlocks expected(1);
+    add_point_spring(expected, 0, arm,
+                     across * Mat3::Identity() + (along - across) * axis * axis.transpose(), force);
+    Mat6 diagonal = Mat6::Zero();
+    Vec6 right_side = Vec6::Zero();
+    point_spring(0, arm, axis, along, across, force).add_to(diagonal, right_side);
+    EXPECT_LT((diagonal - expected.diagonal(0)).norm(), 1e-14);
+    EXPECT_LT((right_side - expected.right_side(0)).norm(), 1e-14);
+    for (const ElementBlock& block : expected.packed()) {
+      block.add_to(diagonal, right_side);
+      EXPECT_EQ(block.element, 0);
+    }
+    EXPECT_LT((diagonal - 2.0 * expected.diagonal(0)).norm(), 1e-14);
+  }
+}
+
 // A soft, well damped rod's tip is pressed on a sphere so large that it is a floor (radius 1 km),
 // and then pulled sideways.
 struct Pulled {
