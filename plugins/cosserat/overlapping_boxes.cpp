@@ -77,6 +77,14 @@ HWY_INLINE hn::Mask<Tag> overlapping(Tag d, const Box& box, const Low& low, cons
 // What follows writes a vector's worth at a time, whatever of it counts: branches on which boxes
 // overlap would be guessed wrong every other time.
 
+// Puts the chosen ones together; returns how many. Compressing in a register and storing all of it
+// is fast on every processor, compressing into memory on some is not.
+template <class Vector, class Mask, class Tag>
+HWY_INLINE std::size_t compress_store(Vector all, Mask chosen, Tag d, int* to) {
+  hn::StoreU(hn::Compress(all, chosen), d, to);
+  return hn::CountTrue(d, chosen);
+}
+
 // first, first + 1, ...: Iota() of a number that is no constant goes through memory.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> counted_from(Tag d, int first) {
@@ -94,8 +102,8 @@ HWY_INLINE std::size_t list_overlapping(const Box& box, const Boxes& boxes, std:
   for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
     const auto found = overlapping(
         d, box, [&](int k) { return &boxes.low[k][i]; }, [&](int k) { return &boxes.high[k][i]; });
-    count += hn::CompressStore(numbers(numbers_tag, i), hn::RebindMask(numbers_tag, found),
-                               numbers_tag, list + count);
+    count += compress_store(numbers(numbers_tag, i), hn::RebindMask(numbers_tag, found),
+                            numbers_tag, list + count);
   }
   return count;
 }
@@ -133,8 +141,8 @@ HWY_INLINE std::size_t add_pairs(const Groups& groups, int a, const Box& box, in
                                hn::LoadMaskBits(d, bits));
     const int first = group * group_size + static_cast<int>(i);
     hn::StoreU(hn::Set(numbers_tag, a), numbers_tag, &pairs.a[count]);
-    count += hn::CompressStore(counted_from(numbers_tag, first), hn::RebindMask(numbers_tag, found),
-                               numbers_tag, &pairs.b[count]);
+    count += compress_store(counted_from(numbers_tag, first), hn::RebindMask(numbers_tag, found),
+                            numbers_tag, &pairs.b[count]);
   }
   return count;
 }
