@@ -64,7 +64,7 @@ def notes(rows, machine):
         "threads a peer has half of the plants in a world of their own each, so one tree stays "
         "with one. Empty: not within "
         f"{machine['cap']} s of wall time, or not stable.",
-        "One iteration with self-contact: where branches strike each other they end up four times as "
+        "One iteration with self-contact: where branches strike each other they end up twice as "
         "far off as the time step puts them (`plugins/cosserat/README.md`).",
     ]
     for row in rows:
