@@ -112,16 +112,23 @@ HWY_INLINE std::size_t copy_chosen(const CapsulePairs& from, std::size_t i, M ch
     kept.a[to] = from.a[pair];
     kept.b[to] = from.b[pair];
     kept.gap[to] = from.gap[pair];
+    kept.closing[to] = from.closing[pair];
   }
   return to;
 }
 
-void Sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
+HWY_INLINE V sum_at(const std::vector<float>& reach, const int* a, const int* b) {
+  return look_up(reach, a) + look_up(reach, b);
+}
+
+void Sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open, double steps,
           const std::vector<float>& reach, CapsulePairs& kept) {
   std::size_t count = kept.size();
   for (std::size_t i = first; i < end; i += width) {
-    const V reached = look_up(reach, &from.a[i]) + look_up(reach, &from.b[i]);
-    const M near = hn::LoadU(D(), &from.gap[i]) <= set(open) + reached;
+    const V closing = hn::PromoteTo(D(), hn::LoadU(Floats(), &from.closing[i]));
+    const V most =
+        hn::MulAdd(set(steps), closing, set(open)) + sum_at(reach, &from.a[i], &from.b[i]);
+    const M near = hn::LoadU(D(), &from.gap[i]) <= most;
     count = copy_chosen(from, i, hn::And(near, before(i, end)), kept, count);
   }
   kept.resize(count);
@@ -142,13 +149,21 @@ HWY_INLINE V moved_apart(const CapsuleMotion& motion, const int* a, const int* b
                  set(2.0 * motion.most));
 }
 
+void CollectComing(const CapsuleMotion& motion, double open, double steps,
+                   const std::vector<float>& reach, CapsulePairs& pairs, CapsulePairs& kept) {
+  for (std::size_t i = 0; i < pairs.size(); i += width) {
+    const V closing = moved_apart(motion, &pairs.a[i], &pairs.b[i]);
+    hn::StoreU(hn::DemoteTo(Floats(), closing), Floats(), &pairs.closing[i]);
+  }
+  Sift(pairs, 0, pairs.size(), open, steps, reach, kept);
+}
+
 void KeepMeeting(const CapsuleMotion& motion, double open, double times,
                  const std::vector<float>& reach, CapsulePairs& pairs) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < pairs.size(); i += width) {
     const int *a = &pairs.a[i], *b = &pairs.b[i];
-    const V most = set(open) + set(times) * (look_up(reach, a) + look_up(reach, b)) +
-                   moved_apart(motion, a, b);
+    const V most = set(open) + set(times) * sum_at(reach, a, b) + moved_apart(motion, a, b);
     const M near = hn::LoadU(D(), &pairs.gap[i]) <= most;
     count = copy_chosen(pairs, i, hn::And(near, before(i, pairs.size())), pairs, count);
   }
@@ -176,6 +191,7 @@ namespace pedicel::cosserat {
 
 HWY_EXPORT(Measure);
 HWY_EXPORT(Sift);
+HWY_EXPORT(CollectComing);
 HWY_EXPORT(KeepMeeting);
 HWY_EXPORT(ListMeeting);
 
@@ -188,10 +204,16 @@ void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, s
   HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs, first, end);
 }
 
-void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
+void collect_coming(const CapsuleMotion& motion, double open, double steps,
+                    const std::vector<float>& reach, CapsulePairs& pairs, CapsulePairs& kept) {
+  kept.make_room(pairs.size());
+  HWY_DYNAMIC_DISPATCH(CollectComing)(motion, open, steps, reach, pairs, kept);
+}
+
+void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open, double steps,
           const std::vector<float>& reach, CapsulePairs& kept) {
   kept.make_room(end - first);
-  HWY_DYNAMIC_DISPATCH(Sift)(from, first, end, open, reach, kept);
+  HWY_DYNAMIC_DISPATCH(Sift)(from, first, end, open, steps, reach, kept);
 }
 
 void keep_meeting(const CapsuleMotion& motion, double open, double times,
@@ -206,7 +228,7 @@ std::size_t list_meeting(const CapsuleMotion& motion, double open, const Capsule
 }
 
 void CapsulePairs::add(int first, int second) {
-  if (count_ == a.size()) make_room(1);
+  make_room(1);
   a[count_] = first;
   b[count_] = second;
   ++count_;
@@ -229,6 +251,7 @@ void CapsulePairs::make_room(std::size_t more) {
   a.resize(room);
   b.resize(room);
   gap.resize(room);
+  closing.resize(room);
 }
 
 NearestFractions nearest_fractions(const Vec3& start_a, const Vec3& along_a, const Vec3& start_b,

@@ -35,6 +35,7 @@ struct CapsulePairs {
   std::vector<int> a, b;
   std::vector<double> at_a, at_b;  // fractions along the axes; not of pairs that were sifted
   std::vector<double> gap;         // m, negative where they overlap
+  std::vector<float> closing;      // m a step, of pairs that collect_coming() added
 
   std::size_t size() const { return count_; }
   void clear() { count_ = 0; }
@@ -56,11 +57,6 @@ void measure(const Capsules& capsules, CapsulePairs& pairs);
 /// been called since pairs were added.
 void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end);
 
-/// Adds to `kept` those of the measured pairs `first` to `end` whose gap is not above `open` +
-/// reach[a] + reach[b] (m), in their order, with their gaps.
-void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open,
-          const std::vector<float>& reach, CapsulePairs& kept);
-
 /// How far capsules have moved: from where to where, and no farther than `most` (m) each.
 struct CapsuleMotion {
   const Capsules& start;
@@ -68,6 +64,15 @@ struct CapsuleMotion {
   double most;
 };
 
+/// Adds to `kept` those of the measured pairs whose gap is not above `open` + reach[a] + reach[b]
+/// (m) + `steps` times what the two have moved against each other, at most, wherever on them: the
+/// latter is `closing`, by which they may come nearer a step where they go on as they moved.
+void collect_coming(const CapsuleMotion& motion, double open, double steps,
+                    const std::vector<float>& reach, CapsulePairs& pairs, CapsulePairs& kept);
+/// Adds to `kept` those of the pairs `first` to `end` so collected that `steps` steps may bring as
+/// near as that, in their order.
+void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double open, double steps,
+          const std::vector<float>& reach, CapsulePairs& kept);
 /// Keeps those of the measured pairs whose gap is not above `open` + `times` (reach[a] +
 /// reach[b]) (m) + what the two have moved against each other, at most, wherever on them.
 void keep_meeting(const CapsuleMotion& motion, double open, double times,

@@ -50,10 +50,16 @@ inline unsigned looked_for(const Groups& groups, int box, int group) {
   return 255 & ~(left_out << -first) & ~0u << -first;
 }
 
+// a < b.
 inline bool is_far_left_out(const Groups& groups, int a, int b) {
   const auto first = groups.far_left_out.begin();
   return std::binary_search(first + groups.first_far_left_out[a],
                             first + groups.first_far_left_out[a + 1], std::pair(a, b));
+}
+
+inline bool is_left_out(const Groups& groups, int a, int b) {
+  if (b - a > near) return is_far_left_out(groups, a, b);
+  return groups.near_left_out[a] >> (b - a - 1) & 1;
 }
 
 }  // namespace pedicel::cosserat
@@ -178,6 +184,32 @@ void Compare(const Groups& groups, std::size_t first, std::size_t end, Scratch& 
   }
 }
 
+void CompareOne(const Groups& groups, int box, Scratch& scratch, CapsulePairs& pairs) {
+  const hn::CappedTag<float, group_size> d;
+  const Box own = box_of(groups.boxes[box / group_size], box % group_size);
+  const std::size_t count = list_overlapping(
+      own, groups.around, 0, groups.boxes.size(),
+      [](auto tag, std::size_t i) { return counted_from(tag, static_cast<int>(i)); },
+      scratch.groups.data());
+  for (std::size_t place = 0; place < count; ++place) {
+    const Group& others = groups.boxes[scratch.groups[place]];
+    for (std::size_t i = 0; i < group_size; i += hn::Lanes(d)) {
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d,
+                        overlapping(
+                            d, own, [&](int k) { return &others.low[k][i]; },
+                            [&](int k) { return &others.high[k][i]; }),
+                        bits);
+      for (unsigned left = bits[0]; left != 0; left &= left - 1) {
+        const int other =
+            scratch.groups[place] * group_size + static_cast<int>(i) + __builtin_ctz(left);
+        const auto [a, b] = std::minmax(box, other);
+        if (a != b && !is_left_out(groups, a, b)) pairs.add(a, b);
+      }
+    }
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pedicel::cosserat
 HWY_AFTER_NAMESPACE();
@@ -186,6 +218,7 @@ HWY_AFTER_NAMESPACE();
 namespace pedicel::cosserat {
 
 HWY_EXPORT(Compare);
+HWY_EXPORT(CompareOne);
 
 namespace {
 
@@ -196,11 +229,20 @@ void make_empty(Boxes& boxes, std::size_t room) {
 
 }  // namespace
 
-void OverlappingBoxes::compare(std::size_t first, std::size_t end, Scratch& scratch) const {
+void OverlappingBoxes::make_room(Scratch& scratch) const {
   const std::size_t room = groups_.around.low[0].size();
   if (scratch.around.low[0].size() != room) make_empty(scratch.around, room);
   scratch.groups.resize(room);
   scratch.met.resize(room);
+}
+
+void OverlappingBoxes::find_with(std::size_t box, CapsulePairs& pairs) {
+  make_room(scratch_[0]);
+  HWY_DYNAMIC_DISPATCH(CompareOne)(groups_, static_cast<int>(box), scratch_[0], pairs);
+}
+
+void OverlappingBoxes::compare(std::size_t first, std::size_t end, Scratch& scratch) const {
+  make_room(scratch);
   HWY_DYNAMIC_DISPATCH(Compare)(groups_, first, end, scratch);
 }
 

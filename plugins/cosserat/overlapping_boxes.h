@@ -46,6 +46,9 @@ class OverlappingBoxes {
     return parts;
   }
 
+  /// Adds all pairs (a, b), a < b, of which `box` is one.
+  void find_with(std::size_t box, CapsulePairs& pairs);
+
   /// Eight boxes (m), by coordinate; empty ones are inside out.
   struct alignas(32) Group {
     float low[3][group_size], high[3][group_size];
@@ -72,6 +75,7 @@ class OverlappingBoxes {
  private:
   static constexpr std::size_t worth_waking = 128, at_a_time = 64;  // boxes, whole groups
 
+  void make_room(Scratch& scratch) const;
   void compare(std::size_t first, std::size_t end, Scratch& scratch) const;
 
   std::size_t count_ = 0;

@@ -39,9 +39,9 @@ ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& 
   ShapeMotion::Limits limits;
   limits.most = 2.0 * length;  // what moves farther in a step may pass through
   limits.margin = settings.margin;
-  limits.skin = 0.3 * length;
+  limits.skin = 0.2 * length;
   limits.slack = 0.1;  // for what iterations change
-  limits.ahead = 1.8;
+  limits.astray = 0.3;
   return limits;
 }
 
@@ -79,6 +79,7 @@ void SelfContact::begin_step(const RodModel& model, const RodState& start, doubl
               motion_.begin_step(model, start, first, end);
             });
   near_list_made_ = false;
+  ++far_steps_;
 }
 
 void SelfContact::find(const RodModel& model, const RodState& state, double dt,

@@ -40,8 +40,9 @@ struct SelfContactSettings {
 ///
 /// What moves is bounded by ShapeMotion, and a gap changes by no more than both shapes move. Three
 /// sieves, each on what the one before left:
-///   far list   may touch while no end has moved by more than a budget that grows with its speed;
-///              collected rarely, from boxes
+///   far list   may touch within some steps while no end leaves its course by more than a budget
+///              that grows with its speed; collected rarely, from boxes. The few that do leave it
+///              get a new course and lists of their own
 ///   near list  may touch in this step, whatever the iterations change within a slack; collected
 ///              once or twice a step
 ///   contact    is nearer than the two have moved against each other in this step
@@ -79,10 +80,10 @@ class SelfContact : public ContactSource {
   void look(const RodModel& model, const RodState& state);
   template <class Holds>
   bool for_all_shapes(const Holds& holds);
-  void collect_near(bool far_list_holds);
-  void sift_far(int part);
+  bool find_strays();
+  void collect_near();
   void collect_far();
-  void make_boxes(std::size_t first, std::size_t end);
+  void make_box(std::size_t shape, int steps);
   CapsuleMotion moved_capsules() const;
   void touch_some(const RodModel& model, const RodState& state, double dt, int part,
                   std::size_t first, std::size_t end);
@@ -103,15 +104,23 @@ class SelfContact : public ContactSource {
     bool holds = true;
   };
 
+  void sift_far(const CapsulePairs& far, Scratch& scratch) const;
+
   SelfContactSettings settings_;
   PartedLoop loop_;
   ShapeMotion motion_;
-  // The far list is in parts; its gaps are those at its reference. Pairs are ascending.
+  // The far list is in parts; its gaps are those where its courses begin. Pairs are ascending.
   std::array<CapsulePairs, PartedLoop::most_parts> far_;
   int far_parts_ = 0;
+  int far_steps_ = 0, far_steps_most_ = 0;  // since then; for which it was made
+  // Shapes that left their course, ascending, and all that they may touch; what the far list has of
+  // them does not count.
+  std::vector<int> strays_;
+  CapsulePairs stray_pairs_;
   CapsulePairs near_;
   bool near_list_made_ = false;  // in this step
   std::array<Scratch, PartedLoop::most_parts> scratch_;
+  Scratch stray_scratch_;
   OverlappingBoxes boxes_;  // m, W
   Work work_;
   const RodState* start_ = nullptr;  // of the step

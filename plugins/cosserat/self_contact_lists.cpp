@@ -10,6 +10,11 @@ namespace pedicel::cosserat {
 namespace {
 
 constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
+// The far list is made for so many steps at most, in which the fastest goes so far (1, of what
+// counts of a step's motion).
+constexpr double most_steps = 16.0, farthest = 0.7;
+constexpr std::size_t most_strays = 32;
+constexpr double strays_budget = 2.0;  // 1, of others'
 
 using Pairs = std::vector<std::pair<int, int>>;
 
@@ -52,8 +57,33 @@ void SelfContact::look(const RodModel& model, const RodState& state) {
     return motion_.look_again(model, state, first, end);
   };
   if (near_list_made_ && for_all_shapes(look_again)) return;
-  collect_near(for_all_shapes(
-      [&](std::size_t first, std::size_t end) { return motion_.look(model, state, first, end); }));
+  const bool holds = for_all_shapes(
+      [&](std::size_t first, std::size_t end) { return motion_.look(model, state, first, end); });
+  if (far_steps_ > far_steps_most_ || (!holds && !find_strays())) collect_far();
+  for (const int stray : strays_) motion_.forget_reach(stray);
+  collect_near();
+}
+
+// A few shapes that go another way than expected need not make all of the list anew: they get a new
+// course, and all pairs of theirs. Returns whether they are few.
+bool SelfContact::find_strays() {
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    if (!motion_.is_astray(i)) continue;
+    const auto place = std::lower_bound(strays_.begin(), strays_.end(), static_cast<int>(i));
+    if (place == strays_.end() || *place != static_cast<int>(i)) {
+      if (strays_.size() == most_strays) return false;
+      strays_.insert(place, static_cast<int>(i));
+    }
+    motion_.restart_far(i, strays_budget);
+    make_box(i, far_steps_most_ - far_steps_);
+    boxes_.close_groups(i / lane_count * lane_count, i + 1);
+  }
+  stray_pairs_.clear();
+  for (const int stray : strays_) boxes_.find_with(stray, stray_pairs_);
+  // They are measured whenever the near list is made.
+  std::fill_n(stray_pairs_.gap.begin(), stray_pairs_.size(), -1.0e300);
+  std::fill_n(stray_pairs_.closing.begin(), stray_pairs_.size(), 0.0F);
+  return true;
 }
 
 CapsuleMotion SelfContact::moved_capsules() const {
@@ -63,29 +93,38 @@ CapsuleMotion SelfContact::moved_capsules() const {
 // A pair is needed in this step while its gap is not above margin + what the two move against each
 // other. As the iterations move both by up to their slack, the gap may shrink and that motion grow
 // by as much.
-void SelfContact::collect_near(bool far_list_holds) {
-  if (!far_list_holds) collect_far();
-  loop_.each(far_parts_, [&](int part) { sift_far(part); });
+void SelfContact::collect_near() {
+  loop_.each(far_parts_, [&](int part) { sift_far(far_[part], scratch_[part]); });
+  sift_far(stray_pairs_, stray_scratch_);
+  Pairs& astray = stray_scratch_.candidates;  // those of two strays twice
+  std::sort(astray.begin(), astray.end());
+  astray.erase(std::unique(astray.begin(), astray.end()), astray.end());
   near_.clear();
-  for (int part = 0; part < far_parts_; ++part) {
-    for (const auto& [a, b] : scratch_[part].candidates) near_.add(a, b);
-    work_.pairs += scratch_[part].measured;
-  }
+  auto next = astray.begin();
+  const auto add_strays = [&](const auto& is_next) {
+    for (; next != astray.end() && is_next(*next); ++next) near_.add(next->first, next->second);
+  };
+  for (int part = 0; part < far_parts_; ++part)
+    for (const auto& pair : scratch_[part].candidates) {
+      add_strays([&](const auto& stray) { return stray < pair; });
+      near_.add(pair.first, pair.second);
+    }
+  add_strays([](const auto&) { return true; });
+  work_.pairs += stray_scratch_.measured;
+  for (int part = 0; part < far_parts_; ++part) work_.pairs += scratch_[part].measured;
   near_.make_places();
   near_list_made_ = true;
 }
 
-// Those of the far list's pairs that may touch in this step.
-void SelfContact::sift_far(int part) {
-  Scratch& scratch = scratch_[part];
+// Those of the pairs that may touch in this step.
+void SelfContact::sift_far(const CapsulePairs& far, Scratch& scratch) const {
   scratch.candidates.clear();
   scratch.measured = 0;
-  const CapsulePairs& far = far_[part];
   for (std::size_t first = 0; first < far.size(); first += at_a_time) {
     const std::size_t end = std::min(far.size(), first + at_a_time);
     CapsulePairs& pairs = scratch.pairs;
     pairs.clear();
-    sift(far, first, end, settings_.margin, motion_.reach(), pairs);
+    sift(far, first, end, settings_.margin, far_steps_ + 1.0, motion_.reach(), pairs);
     measure(motion_.now(), pairs);
     scratch.measured += static_cast<long>(pairs.size());
     keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_budget(), pairs);
@@ -96,28 +135,41 @@ void SelfContact::sift_far(int part) {
 
 void SelfContact::collect_far() {
   ++work_.collections;
+  far_steps_ = 0;
+  strays_.clear();
+  stray_pairs_.clear();
+  // A motion of which not all counts is not continued.
+  double fastest = 0.0;
+  for (const float way : motion_.way()) fastest = std::max<double>(fastest, way);
+  const double most = motion_.limits().most;
+  far_steps_most_ =
+      fastest < most ? static_cast<int>(std::min(most_steps, farthest * most / fastest)) : 0;
   loop_.run(motion_.room(), loop_.parts(motion_.room(), worth_waking),
             [&](int, std::size_t first, std::size_t end) {
               motion_.restart_far(first, end);
-              make_boxes(first, std::min(end, motion_.size()));
+              for (std::size_t i = first; i < std::min(end, motion_.size()); ++i)
+                make_box(i, far_steps_most_);
               boxes_.close_groups(first, std::min(end, motion_.size()));
             });
   for (CapsulePairs& part : far_) part.clear();
   far_parts_ = boxes_.find(loop_, [&](int part, CapsulePairs& pairs) {
     measure(motion_.now(), pairs);
-    sift(pairs, 0, pairs.size(), settings_.margin, motion_.far_budget(), far_[part]);
+    collect_coming(moved_capsules(), settings_.margin, far_steps_most_ + 1.0, motion_.far_budget(),
+                   pairs, far_[part]);
   });
 }
 
-// Around all of a capsule, from where it is now, until it has used up its budget.
-void SelfContact::make_boxes(std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i) {
-    const Capsule& capsule = motion_.now()[i];
-    const Vec3 near = capsule.near_at(), far = capsule.far_at();
-    const Vec3 wide = Vec3::Constant(std::max(capsule.radius_near, capsule.radius_far) +
-                                     0.5 * settings_.margin + motion_.far_budget()[i]);
-    boxes_.set(i, near.cwiseMin(far) - wide, near.cwiseMax(far) + wide);
-  }
+// Around all of a capsule, for so many steps on its course, as far as its budget reaches.
+void SelfContact::make_box(std::size_t shape, int steps) {
+  const Capsule &from = motion_.start()[shape], &now = motion_.now()[shape];
+  const Vec3 near = now.near_at(), far = now.far_at();
+  const Vec3 last_near = near + steps * (near - from.near_at());
+  const Vec3 last_far = far + steps * (far - from.far_at());
+  const double budget = motion_.way()[shape] + motion_.far_budget()[shape];
+  const Vec3 wide =
+      Vec3::Constant(std::max(now.radius_near, now.radius_far) + 0.5 * settings_.margin + budget);
+  boxes_.set(shape, near.cwiseMin(far).cwiseMin(last_near).cwiseMin(last_far) - wide,
+             near.cwiseMax(far).cwiseMax(last_near).cwiseMax(last_far) + wide);
 }
 
 // Shapes that are near in the tree, or across a weld, and those that nearly touch as drawn.

@@ -130,13 +130,13 @@ HWY_INLINE V minimum(V bound, V x) {
 }
 
 void BeginStep(const Places& places, const RodModel& model, const RodState& state,
-               std::size_t first, std::size_t end, Capsules& start,
-               std::vector<EndsRow>& since_far) {
+               std::size_t first, std::size_t end, const ShapeMotion::Arrays& out) {
   for (std::size_t i = first; i < end; i += width) {
-    const Ends before = load_all(start, i);
+    const Ends before = load_all(out.start, i);
     const AxisEnds ends = place(places, model, state, i);
-    store_ends(load_ends(since_far, i) + (ends - axis_of(before)), since_far, i);
-    store_capsules(ends, before, start, i);
+    const AxisEnds unexpected = ends - axis_of(before) - load_ends(out.course, i);
+    store_ends(load_ends(out.astray, i) + unexpected, out.astray, i);
+    store_capsules(ends, before, out.start, i);
   }
 }
 
@@ -151,7 +151,9 @@ bool Look(const Places& places, const Limits& limits, const RodModel& model, con
     store_ends(moved, out.looked, i);
     const V way = minimum(set(limits.most), longest(moved));
     const V budget = hn::MulAdd(set(limits.slack), way, set(limits.margin));
-    const V reach = longest(load_ends(out.since_far, i) + moved) + way + (budget + budget);
+    const AxisEnds unexpected = moved - load_ends(out.course, i);
+    const V reach = longest(load_ends(out.astray, i) + unexpected) +
+                    minimum(set(limits.most), longest(unexpected)) + (budget + budget);
     store_at(way, out.way, i);
     store_at(budget, out.near_budget, i);
     store_at(reach, out.reach, i);
@@ -178,10 +180,11 @@ void RestartFar(const Limits& limits, std::size_t first, std::size_t end,
   const V least = set(limits.skin + 2.0 * limits.margin), zero = set(0.0);
   const AxisEnds nothing{{zero, zero, zero}, {zero, zero, zero}};
   for (std::size_t i = first; i < end; i += width) {
-    store_ends(nothing - load_ends(out.looked, i), out.since_far, i);
-    const V way = load_at(out.way, i), budget = load_at(out.near_budget, i);
-    store_at(way + (budget + budget), out.reach, i);
-    store_at(hn::MulAdd(set(limits.ahead), way, least), out.far_budget, i);
+    store_ends(load_ends(out.looked, i), out.course, i);
+    store_ends(nothing, out.astray, i);
+    const V budget = load_at(out.near_budget, i);
+    store_at(budget + budget, out.reach, i);
+    store_at(hn::MulAdd(set(limits.astray), load_at(out.way, i), least), out.far_budget, i);
   }
 }
 
@@ -202,7 +205,8 @@ ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
   const std::size_t room = (count_ + lane_count - 1) / lane_count * lane_count;
   start_.resize(room);
   now_.resize(room);
-  since_far_.resize(room / lane_count);
+  course_.resize(room / lane_count);
+  astray_.resize(room / lane_count);
   looked_.resize(room / lane_count);
   for (std::vector<float>* values :
        {&places_.back_near, &places_.back_far, &way_, &reach_, &near_budget_, &far_budget_})
@@ -222,12 +226,12 @@ ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
 }
 
 ShapeMotion::Arrays ShapeMotion::arrays() {
-  return {start_, now_, since_far_, looked_, way_, reach_, near_budget_, far_budget_};
+  return {start_, now_, course_, astray_, looked_, way_, reach_, near_budget_, far_budget_};
 }
 
 void ShapeMotion::begin_step(const RodModel& model, const RodState& start, std::size_t first,
                              std::size_t end) {
-  HWY_DYNAMIC_DISPATCH(BeginStep)(places_, model, start, first, end, start_, since_far_);
+  HWY_DYNAMIC_DISPATCH(BeginStep)(places_, model, start, first, end, arrays());
 }
 
 bool ShapeMotion::look(const RodModel& model, const RodState& iterate, std::size_t first,
@@ -238,6 +242,17 @@ bool ShapeMotion::look(const RodModel& model, const RodState& iterate, std::size
 bool ShapeMotion::look_again(const RodModel& model, const RodState& iterate, std::size_t first,
                              std::size_t end) {
   return HWY_DYNAMIC_DISPATCH(LookAgain)(places_, model, iterate, first, end, arrays());
+}
+
+void ShapeMotion::restart_far(std::size_t shape, double times) {
+  const std::size_t row = shape / lane_count, lane = shape % lane_count;
+  for (int k = 0; k < 3; ++k) {
+    course_[row].near[k][lane] = looked_[row].near[k][lane];
+    course_[row].far[k][lane] = looked_[row].far[k][lane];
+    astray_[row].near[k][lane] = astray_[row].far[k][lane] = 0.0F;
+  }
+  far_budget_[shape] = static_cast<float>(
+      times * (limits_.skin + 2.0 * limits_.margin + limits_.astray * way_[shape]));
 }
 
 void ShapeMotion::restart_far(std::size_t first, std::size_t end) {

@@ -12,16 +12,18 @@ namespace pedicel::cosserat {
 ///
 /// What moves is bounded by the ends of the axes: no place of an axis moves farther than the
 /// farther of its ends. Two references are kept, those of SelfContact's far and near list; each has
-/// a budget, and a list holds while no end is farther than that from where it was.
+/// a budget, and a list holds while no end is farther than that from where the reference has it.
+/// The near list's reference stands; the far list's goes on as each end moved in the step in which
+/// it was taken, its course.
 ///
 /// Calls for shapes `first` to `end`, multiples of lane_count up to room(), may be made at once for
 /// different ones.
 class ShapeMotion {
  public:
   struct Limits {
-    double most = 0.0;                // m: more than this does not count of a step's motion
-    double margin = 0.0, skin = 0.0;  // m, of the budgets
-    double slack = 0.0, ahead = 0.0;  // 1, of the motion in this step, likewise
+    double most = 0.0;                 // m: more than this does not count of a step's motion
+    double margin = 0.0, skin = 0.0;   // m, of the budgets
+    double slack = 0.0, astray = 0.0;  // 1, of the motion in this step, likewise
   };
 
   /// All shapes stand as drawn. The model must be finished.
@@ -41,16 +43,24 @@ class ShapeMotion {
   /// Whether the near list still holds at this iterate.
   bool look_again(const RodModel& model, const RodState& iterate, std::size_t first,
                   std::size_t end);
-  /// Makes the last reference of the near list the far list's, too.
+  /// Makes the last reference of the near list the far list's, too, and the motion of this step its
+  /// course.
   void restart_far(std::size_t first, std::size_t end);
+
+  /// Likewise for one shape alone, with so many times the budget.
+  void restart_far(std::size_t shape, double times);
+  /// Whether it is farther from its course than its far budget allows for, after look().
+  bool is_astray(std::size_t shape) const { return !(reach_[shape] <= far_budget_[shape]); }
+  /// Nothing is within its reach, until the next look().
+  void forget_reach(std::size_t shape) { reach_[shape] = -1.0e30F; }
 
   /// m, by shape. Of an end in this step, at most.
   const std::vector<float>& way() const { return way_; }
-  /// How much nearer than at the far list's reference a pair may come in this step, one's share.
+  /// How much nearer than by their courses a pair may come in this step, one's share.
   const std::vector<float>& reach() const { return reach_; }
   /// margin + slack way
   const std::vector<float>& near_budget() const { return near_budget_; }
-  /// skin + 2 margin + ahead way
+  /// skin + 2 margin + astray way
   const std::vector<float>& far_budget() const { return far_budget_; }
 
   /// How far the ends of eight shapes have moved (m, W).
@@ -66,7 +76,7 @@ class ShapeMotion {
   /// What the kernels write to; named as below.
   struct Arrays {
     Capsules &start, &now;
-    std::vector<EndsRow>&since_far, &looked;
+    std::vector<EndsRow>&course, &astray, &looked;
     std::vector<float>&way, &reach, &near_budget, &far_budget;
   };
 
@@ -76,9 +86,10 @@ class ShapeMotion {
   std::size_t count_ = 0;  // what follows has room for whole vectors
   Limits limits_;
   Places places_;
-  Capsules start_, now_;            // at the step's start, at the iterate
-  std::vector<EndsRow> since_far_;  // from the far list's reference to the step's start
-  std::vector<EndsRow> looked_;     // from the step's start to the near list's reference
+  Capsules start_, now_;         // at the step's start, at the iterate
+  std::vector<EndsRow> course_;  // of the far list, a step
+  std::vector<EndsRow> astray_;  // from there at the step's start
+  std::vector<EndsRow> looked_;  // from the step's start to the near list's reference
   std::vector<float> way_, reach_, near_budget_, far_budget_;
 };
 
