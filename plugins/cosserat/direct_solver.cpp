@@ -40,6 +40,11 @@ void follow(const RodState& state, RodState& iterate) {
   iterate.time = state.time;
 }
 
+// The gain of a step that did not measure it.
+double trusted_less(double gain) {
+  return std::pow(gain, 0.8);
+}
+
 bool any(const std::vector<char>& flags) {
   return std::find(flags.begin(), flags.end(), 1) != flags.end();
 }
@@ -400,19 +405,20 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   const bool last = report.iterations >= most;
   // Self-contact leaves its coupling out of the Hessian: what the last iterations would do is below
   // what can be seen, and would cost most of the time.
-  const bool is_settled =
-      moved <= settled || (gain < 1.0 && gain / (1.0 - gain) * moved <= left_over * settled);
+  const double series = gain < 1.0 ? gain / (1.0 - gain) : std::numeric_limits<double>::infinity();
+  const bool nothing_left = series * moved <= left_over * settled;
+  const bool is_settled = moved <= settled || nothing_left;
   if (last && (with_itself ? !is_settled : change > converged_change))
     report.errors |= not_converged;
   if (with_itself) {
     plant.smooth = is_settled;
-    return last || (is_settled && !first);
+    if (nothing_left && first) plant.gain = trusted_less(plant.gain);
+    return last || (first ? nothing_left : is_settled);
   }
   // Contacts are found anew in every iteration: there a small change is not yet the end.
   if (plant.presses) return last || change <= 1.0e-4 * settings_.tolerance;
-  const bool small = change <= settings_.tolerance ||
-                     (gain < 1.0 && gain / (1.0 - gain) * change <= settings_.tolerance);
-  if (small && first) plant.gain = std::pow(plant.gain, 0.8);
+  const bool small = change <= settings_.tolerance || series * change <= settings_.tolerance;
+  if (small && first) plant.gain = trusted_less(plant.gain);
   plant.smooth = small;
   return last || small;
 }
