@@ -1,6 +1,7 @@
 #include "core/task_graph.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <queue>
 #include <string>
@@ -14,6 +15,11 @@ namespace pedicel {
 namespace {
 
 using Lists = std::vector<std::vector<int>>;
+
+// What tasks with numbers side by side work on lies side by side, too: threads that have such tasks
+// mixed fetch it from each other. On two threads that costs the rods a quarter of the walks that
+// wait for nothing.
+constexpr double worth_waiting = 1.25;
 
 struct Schedule {
   Lists shares;      // by thread
@@ -54,6 +60,46 @@ Schedule schedule(const Lists& needs, const Lists& needed_by, const std::vector<
   return result;
 }
 
+// Which thread gets which task if each gets tasks whose numbers follow each other: of each level,
+// in order, as many as make the threads' costs equal so far.
+std::vector<int> shared_out_by_number(const std::vector<int>& level,
+                                      const std::vector<double>& cost, int threads) {
+  std::vector<int> tasks(level.size()), thread_of(level.size());
+  std::iota(tasks.begin(), tasks.end(), 0);
+  std::ranges::stable_sort(tasks, std::ranges::less{}, [&](int i) { return level[i]; });
+  std::vector<double> load(threads, 0.0);
+  double total = 0.0;
+  for (std::size_t first = 0, end = 0; first < tasks.size(); first = end) {
+    for (; end < tasks.size() && level[tasks[end]] == level[tasks[first]]; ++end)
+      total += cost[tasks[end]];
+    int thread = 0;
+    for (std::size_t k = first; k < end; ++k) {
+      const int task = tasks[k];
+      while (thread + 1 < threads && load[thread] + 0.5 * cost[task] > total / threads) ++thread;
+      thread_of[task] = thread;
+      load[thread] += cost[task];
+    }
+  }
+  return thread_of;
+}
+
+// Each thread does its tasks in the order given, in which what a task needs comes first.
+Schedule in_order(const Lists& needs, const std::vector<double>& cost,
+                  const std::vector<int>& order, const std::vector<int>& thread_of, int threads) {
+  Schedule result;
+  result.shares.resize(threads);
+  std::vector<double> done(order.size(), 0.0), free_at(threads, 0.0);
+  for (const int task : order) {
+    double& time = free_at[thread_of[task]];
+    for (const int other : needs[task]) time = std::max(time, done[other]);
+    time += cost[task];
+    done[task] = time;
+    result.end = std::max(result.end, time);
+    result.shares[thread_of[task]].push_back(task);
+  }
+  return result;
+}
+
 }  // namespace
 
 TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int threads)
@@ -89,16 +135,23 @@ TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int th
   std::vector<int> level(n, 0), order(n), rank(n);
   for (int i = 0; i < n; ++i)
     for (const int other : needs[i]) level[i] = std::max(level[i], level[other] + 1);
+  const std::vector<int> thread_of = shared_out_by_number(level, cost, threads);
   std::iota(order.begin(), order.end(), 0);
-  const auto scheduled = [&] {
+  Schedule quick, neighbours;
+  quick.end = neighbours.end = std::numeric_limits<double>::infinity();
+  const auto try_order = [&] {
     for (int k = 0; k < n; ++k) rank[order[k]] = k;
-    return schedule(needs, needed_by, cost, rank, threads);
+    const auto take_better = [](Schedule& best, Schedule found) {
+      if (found.end < best.end) best = std::move(found);
+    };
+    take_better(quick, schedule(needs, needed_by, cost, rank, threads));
+    take_better(neighbours, in_order(needs, cost, order, thread_of, threads));
   };
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](int i) { return hangs_on[i]; });
-  Schedule by_way = scheduled();
+  try_order();
   std::ranges::stable_sort(order, std::ranges::less{}, [&](int i) { return level[i]; });
-  Schedule by_level = scheduled();
-  shares_ = std::move((by_level.end < by_way.end ? by_level : by_way).shares);
+  try_order();
+  shares_ = std::move((neighbours.end <= worth_waiting * quick.end ? neighbours : quick).shares);
 }
 
 }  // namespace pedicel

@@ -10,9 +10,9 @@ namespace pedicel {
 
 /// Tasks some of which need others done first, as a tree's branches come before its stem, or, the
 /// other way round, the stem before its branches. Each thread has its own tasks, shared out
-/// beforehand, so that what they work on stays in that core's cache. A thread that needs what
-/// nobody has begun, or has come to its end where others have not begun, does their tasks, too: any
-/// number of threads gets through.
+/// beforehand, mostly with numbers side by side, so that what they work on stays in that core's
+/// cache. A thread that needs what nobody has begun, or has come to its end where others have not
+/// begun, does their tasks, too: any number of threads gets through.
 class TaskGraph {
  public:
   /// `needs[i]`: the tasks below i that task i needs; `cost[i]` > 0, in any unit; `threads` >= 1.
@@ -90,9 +90,9 @@ class TaskGraph {
     std::atomic<unsigned> round{0};
   };
 
-  // All tasks, a thread's own ones first, then those of threads that have not begun. Those that have
-  // are not helped: what a task works on is in their core's cache, and would have to come over and
-  // back again.
+  // All tasks, a thread's own ones first, then those of threads that have not begun. Those that
+  // have are not helped: what a task works on is in their core's cache, and would have to come over
+  // and back again.
   template <class Do>
   void own_first(int thread, unsigned round, const Do& todo) {
     walk(thread, round, inward_walks_,

@@ -28,17 +28,18 @@ HWY_INLINE void clear(Carry& carry) {
 
 // Branches that start here, springs and contacts.
 HWY_NOINLINE void add_sources(const BlockSource* sources, int first, int lane, Carry& block) {
-  alignas(64) double values[block_size][width];
-  for (int i = 0; i < triangle6; ++i) store(block.diagonal[i], values[i]);
-  for (int i = 0; i < 6; ++i) store(block.right[i], values[triangle6 + i]);
+  const V lanes = hn::Iota(D(), lane);
   for (int s = first; s >= 0; s = sources[s].next) {
     const BlockSource& source = sources[s];
-    const int place = source.lane - lane;
-    if (place < 0 || place >= width) continue;
-    for (int i = 0; i < block_size; ++i) values[i][place] += source.values[i * source.stride];
+    const M own = lanes == set(source.lane);
+    const double* value = source.values;
+    const auto add = [&](V& x) {
+      x = x + hn::IfThenElseZero(own, set(*value));
+      value += source.stride;
+    };
+    for (V& x : block.diagonal) add(x);
+    for (V& x : block.right) add(x);
   }
-  for (int i = 0; i < triangle6; ++i) block.diagonal[i] = load(values[i]);
-  for (int i = 0; i < 6; ++i) block.right[i] = load(values[triangle6 + i]);
 }
 
 constexpr int at(int i, int j) {  // in a lower triangle by rows

@@ -36,7 +36,7 @@ class OverlappingBoxes {
   /// parts there are.
   template <class Take>
   int find(const PartedLoop& loop, const Take& take) {
-    const int parts = loop.parts(count_, worth_waking, 2);
+    const int parts = loop.parts(count_, worth_waking);
     loop.run(count_, parts, [&](int part, std::size_t first, std::size_t end) {
       for (; first < end; first += at_a_time) {
         compare(first, std::min(end, first + at_a_time), scratch_[part]);

@@ -7,18 +7,17 @@
 
 namespace pedicel::cosserat {
 
-/// A loop cut into parts that threads take: equal stretches, in order, each a multiple of eight
-/// long but the last. Short loops, and those without threads, are one part.
+/// A loop cut into parts, one a thread and always the same one, so that what it works on stays in
+/// that core's cache: equal stretches, in order, each a multiple of eight long but the last. Short
+/// loops, and those without threads, are one part.
 struct PartedLoop {
   ThreadPool* pool = nullptr;
   static constexpr int most_parts = 16;
 
-  /// One part a thread, always the same one: where a turn takes as long as another. Several where
-  /// they do not, for whoever is idle.
-  int parts(std::size_t count, std::size_t worth_waking, int a_thread = 1) const {
+  int parts(std::size_t count, std::size_t worth_waking) const {
     if (!pool || pool->threads() == 1 || count < 2 * worth_waking) return 1;
-    return static_cast<int>(std::min(
-        {count / worth_waking, std::size_t(a_thread * pool->threads()), std::size_t(most_parts)}));
+    return static_cast<int>(
+        std::min({count / worth_waking, std::size_t(pool->threads()), std::size_t(most_parts)}));
   }
 
   /// task(part, first, end), perhaps at once.

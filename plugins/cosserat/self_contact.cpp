@@ -88,7 +88,7 @@ void SelfContact::find(const RodModel& model, const RodState& state, double dt,
   look(model, state);
   const std::size_t count = near_.size();
   work_.pairs += static_cast<long>(count);
-  const int parts = loop_.parts(count, worth_touching, 2);
+  const int parts = loop_.parts(count, worth_touching);
   loop_.run(count, parts, [&](int part, std::size_t first, std::size_t end) {
     touch_some(model, state, dt, part, first, end);
   });
