@@ -100,14 +100,25 @@ TEST(TaskGraph, GoesBackOverWhatIsDone) {
   }
 }
 
-// A stem of three pieces with three branches of 40 (the hanging tree without its twigs): two
-// branches side by side, then the last one beside the pieces that carry the others.
-TEST(TaskGraph, SharesOutByWhatHangsOnATask) {
+// A stem of three pieces with three branches of 40 (the hanging tree without its twigs): each thread
+// gets branches side by side, and first those that the outer pieces wait for. What is done after
+// 94 that way is not done before with any other.
+TEST(TaskGraph, SharesOutNeighboursTogether) {
   const Needs needs = {{}, {}, {}, {2}, {1, 3}, {0, 4}};
   const std::vector<double> cost = {40, 40, 40, 14, 14, 14};
   const TaskGraph graph(needs, cost, 2);
-  EXPECT_THAT(graph.tasks_of(0), testing::ElementsAre(2, 0, 5));
-  EXPECT_THAT(graph.tasks_of(1), testing::ElementsAre(1, 3, 4));
+  EXPECT_THAT(graph.tasks_of(0), testing::ElementsAre(1, 0));
+  EXPECT_THAT(graph.tasks_of(1), testing::ElementsAre(2, 3, 4, 5));
+}
+
+// Side by side, 2 and 3 would take 60 before the long task that needs them begins, and all 120; one
+// a thread, all take 90.
+TEST(TaskGraph, SharesOutByWhatHangsOnATaskWhereNeighboursWait) {
+  const Needs needs = {{}, {}, {}, {}, {2, 3}};
+  const std::vector<double> cost = {30, 30, 30, 30, 60};
+  const TaskGraph graph(needs, cost, 2);
+  EXPECT_THAT(graph.tasks_of(0), testing::ElementsAre(2, 0, 1));
+  EXPECT_THAT(graph.tasks_of(1), testing::ElementsAre(3, 4));
 }
 
 TEST(TaskGraph, NeedsAThread) {
