@@ -72,14 +72,9 @@ void SelfContact::change_settings(const SelfContactSettings& settings) {
   settings_ = settings;
 }
 
-void SelfContact::begin_step(const RodModel& model, const RodState& start, double) {
+void SelfContact::begin_step(const RodModel&, const RodState& start, double) {
   start_ = &start;
-  loop_.run(motion_.room(), loop_.parts(motion_.room(), worth_waking),
-            [&](int, std::size_t first, std::size_t end) {
-              motion_.begin_step(model, start, first, end);
-            });
-  near_list_made_ = false;
-  ++far_steps_;
+  step_begins_ = true;
 }
 
 void SelfContact::find(const RodModel& model, const RodState& state, double dt,

@@ -118,7 +118,7 @@ class SelfContact : public ContactSource {
   std::vector<int> strays_;
   CapsulePairs stray_pairs_;
   CapsulePairs near_;
-  bool near_list_made_ = false;  // in this step
+  bool step_begins_ = false;  // nobody has looked yet
   std::array<Scratch, PartedLoop::most_parts> scratch_;
   Scratch stray_scratch_;
   OverlappingBoxes boxes_;  // m, W

@@ -1,7 +1,7 @@
 // The lists of pairs that SelfContact keeps.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include "cosserat/self_contact.h"
 
@@ -56,9 +56,12 @@ void SelfContact::look(const RodModel& model, const RodState& state) {
   const auto look_again = [&](std::size_t first, std::size_t end) {
     return motion_.look_again(model, state, first, end);
   };
-  if (near_list_made_ && for_all_shapes(look_again)) return;
-  const bool holds = for_all_shapes(
-      [&](std::size_t first, std::size_t end) { return motion_.look(model, state, first, end); });
+  if (!step_begins_ && for_all_shapes(look_again)) return;
+  if (step_begins_) ++far_steps_;
+  const RodState* const begins = std::exchange(step_begins_, false) ? start_ : nullptr;
+  const bool holds = for_all_shapes([&](std::size_t first, std::size_t end) {
+    return motion_.look(model, begins, state, first, end);
+  });
   if (far_steps_ > far_steps_most_ || (!holds && !find_strays())) collect_far();
   for (const int stray : strays_) motion_.forget_reach(stray);
   collect_near();
@@ -113,7 +116,6 @@ void SelfContact::collect_near() {
   work_.pairs += stray_scratch_.measured;
   for (int part = 0; part < far_parts_; ++part) work_.pairs += scratch_[part].measured;
   near_.make_places();
-  near_list_made_ = true;
 }
 
 // Those of the pairs that may touch in this step.

@@ -129,21 +129,21 @@ HWY_INLINE V minimum(V bound, V x) {
   return hn::IfThenElse(x < bound, x, bound);
 }
 
-void BeginStep(const Places& places, const RodModel& model, const RodState& state,
-               std::size_t first, std::size_t end, const ShapeMotion::Arrays& out) {
-  for (std::size_t i = first; i < end; i += width) {
-    const Ends before = load_all(out.start, i);
-    const AxisEnds ends = place(places, model, state, i);
-    const AxisEnds unexpected = ends - axis_of(before) - load_ends(out.course, i);
-    store_ends(load_ends(out.astray, i) + unexpected, out.astray, i);
-    store_capsules(ends, before, out.start, i);
-  }
+HWY_INLINE void begin_step(const Places& places, const RodModel& model, const RodState& state,
+                           std::size_t i, const ShapeMotion::Arrays& out) {
+  const Ends before = load_all(out.start, i);
+  const AxisEnds ends = place(places, model, state, i);
+  const AxisEnds unexpected = ends - axis_of(before) - load_ends(out.course, i);
+  store_ends(load_ends(out.astray, i) + unexpected, out.astray, i);
+  store_capsules(ends, before, out.start, i);
 }
 
-bool Look(const Places& places, const Limits& limits, const RodModel& model, const RodState& state,
-          std::size_t first, std::size_t end, const ShapeMotion::Arrays& out) {
+bool Look(const Places& places, const Limits& limits, const RodModel& model, const RodState* begins,
+          const RodState& state, std::size_t first, std::size_t end,
+          const ShapeMotion::Arrays& out) {
   M holds = hn::FirstN(D(), width);
   for (std::size_t i = first; i < end; i += width) {
+    if (begins) begin_step(places, model, *begins, i, out);
     const Ends start = load_all(out.start, i);
     const AxisEnds now = place(places, model, state, i);
     store_capsules(now, start, out.now, i);
@@ -195,7 +195,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pedicel::cosserat {
 
-HWY_EXPORT(BeginStep);
 HWY_EXPORT(Look);
 HWY_EXPORT(LookAgain);
 HWY_EXPORT(RestartFar);
@@ -220,8 +219,7 @@ ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
     if (places_.stems == i && shape.element == static_cast<int>(i)) ++places_.stems;
   }
   const RodState drawn = drawn_state(model);
-  begin_step(model, drawn, 0, room);
-  look(model, drawn, 0, room);
+  look(model, &drawn, drawn, 0, room);
   restart_far(0, room);
 }
 
@@ -229,14 +227,9 @@ ShapeMotion::Arrays ShapeMotion::arrays() {
   return {start_, now_, course_, astray_, looked_, way_, reach_, near_budget_, far_budget_};
 }
 
-void ShapeMotion::begin_step(const RodModel& model, const RodState& start, std::size_t first,
-                             std::size_t end) {
-  HWY_DYNAMIC_DISPATCH(BeginStep)(places_, model, start, first, end, arrays());
-}
-
-bool ShapeMotion::look(const RodModel& model, const RodState& iterate, std::size_t first,
-                       std::size_t end) {
-  return HWY_DYNAMIC_DISPATCH(Look)(places_, limits_, model, iterate, first, end, arrays());
+bool ShapeMotion::look(const RodModel& model, const RodState* begins, const RodState& iterate,
+                       std::size_t first, std::size_t end) {
+  return HWY_DYNAMIC_DISPATCH(Look)(places_, limits_, model, begins, iterate, first, end, arrays());
 }
 
 bool ShapeMotion::look_again(const RodModel& model, const RodState& iterate, std::size_t first,

@@ -35,11 +35,11 @@ class ShapeMotion {
   const Capsules& now() const { return now_; }
   const Limits& limits() const { return limits_; }
 
-  /// The step starts from here.
-  void begin_step(const RodModel& model, const RodState& start, std::size_t first, std::size_t end);
   /// Makes the iterate the near list's reference. Sets way, reach and the near budget. Whether the
-  /// far list holds for all that comes within reach.
-  bool look(const RodModel& model, const RodState& iterate, std::size_t first, std::size_t end);
+  /// far list holds for all that comes within reach. A step's first look says where the step
+  /// `begins`; then null.
+  bool look(const RodModel& model, const RodState* begins, const RodState& iterate,
+            std::size_t first, std::size_t end);
   /// Whether the near list still holds at this iterate.
   bool look_again(const RodModel& model, const RodState& iterate, std::size_t first,
                   std::size_t end);
