@@ -216,33 +216,42 @@ double ContactTerms::potential(const RodModel&, const RodState& state) const {
 // The two sides of a self-contact, which follow each other, meet in the middle of where both went
 // in the last iteration: so they carry the same force.
 void ContactTerms::finish(const RodModel&, const RodState& end) {
-  memory_.clear();
-  forces_.clear();
-  const auto moved = [&](const Active& contact) -> Vec3 {
-    return place(end, contact.element, contact.arm_E) - contact.place_W;
-  };
-  const auto are_sides = [](const ContactPoint& a, const ContactPoint& b) {
+  const std::size_t count = active_.size();
+  const auto are_sides = [&](std::size_t i) {  // it and the next one
+    if (i + 1 >= count) return false;
+    const ContactPoint &a = active_[i].point, &b = active_[i + 1].point;
     return a.collider == self_contact_base + b.shape && b.collider == self_contact_base + a.shape;
   };
-  for (std::size_t i = 0; i + 1 < active_.size(); ++i) {
-    Active &a = active_[i], &b = active_[i + 1];
-    if (!are_sides(a.point, b.point)) continue;
-    const Vec3 middle = 0.5 * (moved(a) + moved(b));
-    for (Active* side : {&a, &b}) {
-      side->place_W += middle;
-      side->start_W += middle;
+  ends_.resize(count);
+  for_each_stretch([&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      moves_[i] = place(end, active_[i].element, active_[i].arm_E) - active_[i].place_W;
+  });
+  for_each_stretch([&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      Active& contact = active_[i];
+      const Vec3 now_W = contact.place_W + moves_[i];
+      const bool is_first = are_sides(i);
+      if (is_first || (i > 0 && are_sides(i - 1))) {
+        const Vec3 middle = 0.5 * (moves_[i] + moves_[is_first ? i + 1 : i - 1]);
+        contact.place_W += middle;
+        contact.start_W += middle;
+      }
+      ends_[i] = push(contact, now_W);
     }
-    ++i;
-  }
-  for (const Active& contact : active_) {
-    const Vec3 place_W = place(end, contact.element, contact.arm_E);
-    const Push now = push(contact, place_W);
+  });
+  memory_.clear();
+  forces_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Push& now = ends_[i];
     const double normal = now.normal_force.norm();
     if (normal == 0.0) continue;
+    const Active& contact = active_[i];
     ContactPoint point = contact.point;
     point.gap += contact.give * normal;
     memory_.push_back({point.shape, point.collider, now.stretch, normal});
-    forces_.push_back({point, place_W, normal, now.friction_force, now.slipping});
+    forces_.push_back({point, place(end, contact.element, contact.arm_E), normal,
+                       now.friction_force, now.slipping});
   }
   std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) {
     return before(a.shape, a.collider, b.shape, b.collider);

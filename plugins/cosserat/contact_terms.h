@@ -104,7 +104,8 @@ class ContactTerms {
   std::vector<Active> active_;
   std::vector<double> energies_;      // J, at the iterate, as `active_`
   std::vector<ElementBlock> blocks_;  // likewise
-  std::vector<Vec3> moves_;           // m, W, likewise: in follow()
+  std::vector<Vec3> moves_;           // m, W, likewise: in follow() and finish()
+  std::vector<Push> ends_;            // likewise, at the step's end
   double energy_ = 0.0;               // J, of them all
   mutable std::vector<double> sums_;  // scratch, J, by stretch
   std::vector<Memory> memory_;

@@ -17,7 +17,7 @@ constexpr double converged_change = 1.0e-3;  // m or rad
 constexpr double rough_change = 0.3;         // rad, or element lengths
 constexpr double looked_after = 0.1;         // likewise
 constexpr double rough_unsolved = 0.1;       // likewise
-constexpr double straight_turn = 0.1;      // rad
+constexpr double straight_turn = 0.03;       // rad
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
@@ -26,6 +26,7 @@ constexpr int parts = 2;                     // of a step that contact keeps fro
 constexpr double rough_self_contact = 10.0;  // times the tolerance
 constexpr double stalled_gain = 0.9;         // more iterations do not help
 constexpr double left_over = 0.6;            // times the tolerance: of what is left by the series
+constexpr double left_over_ahead = 0.2;      // likewise, by the gain of an earlier step
 constexpr double followed_self_contact = 20.0;  // times the tolerance
 
 // Makes `iterate` what it will be but for where the elements are, which the rows write. It has no
@@ -406,14 +407,15 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   // Self-contact leaves its coupling out of the Hessian: what the last iterations would do is below
   // what can be seen, and would cost most of the time.
   const double series = gain < 1.0 ? gain / (1.0 - gain) : std::numeric_limits<double>::infinity();
-  const bool nothing_left = series * moved <= left_over * settled;
-  const bool is_settled = moved <= settled || nothing_left;
+  const double left = series * moved;
+  const bool is_settled = moved <= settled || left <= left_over * settled;
   if (last && (with_itself ? !is_settled : change > converged_change))
     report.errors |= not_converged;
   if (with_itself) {
     plant.smooth = is_settled;
-    if (nothing_left && first) plant.gain = trusted_less(plant.gain);
-    return last || (first ? nothing_left : is_settled);
+    const bool ends = first ? left <= left_over_ahead * settled : is_settled;
+    if (ends && first) plant.gain = trusted_less(plant.gain);
+    return last || ends;
   }
   // Contacts are found anew in every iteration: there a small change is not yet the end.
   if (plant.presses) return last || change <= 1.0e-4 * settings_.tolerance;
@@ -465,6 +467,9 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
   for (int p = 0; p < size(); ++p)  // what steps in parts leave is not in the rows
     if (plants_[p].in_parts || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
   rows_.finish(pool, states_);
+  for_each_plant(
+      steps, pool, [&](int p) { return states_[p] != nullptr; },
+      [&](int p) { plants_[p].contacts.finish(*steps[p].model, *states_[p]); });
   pool.for_each(size(), [&](int p) {
     Plant& plant = plants_[p];
     RodState& state = *steps[p].state;
@@ -481,7 +486,6 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
       return;
     }
     if (report.errors != none) report.element = rows_.largest_change(p, state.size());
-    plant.contacts.finish(*steps[p].model, state);
     report.contacts = static_cast<int>(plant.contacts.forces().size());
     report.deepest = plant.contacts.deepest();
     // A step whose last iteration still moved things roughly is not on a smooth path: the
