@@ -39,7 +39,7 @@ ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& 
   ShapeMotion::Limits limits;
   limits.most = 2.0 * length;  // what moves farther in a step may pass through
   limits.margin = settings.margin;
-  limits.skin = 0.2 * length;
+  limits.skin = 0.3 * length;
   limits.slack = 0.1;  // for what iterations change
   limits.astray = 0.3;
   return limits;

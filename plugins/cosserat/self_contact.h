@@ -83,8 +83,10 @@ class SelfContact : public ContactSource {
   bool find_strays();
   void collect_near();
   void collect_far();
-  void make_box(std::size_t shape, int steps);
+  void make_box(std::size_t shape, int steps_left);
   CapsuleMotion moved_capsules() const;
+  // How often a pair's motion of a step may have brought it nearer by the end of that step.
+  double motions_until(int far_step) const { return far_stands_ ? 0.0 : far_step + 1.0; }
   void touch_some(const RodModel& model, const RodState& state, double dt, int part,
                   std::size_t first, std::size_t end);
   void touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
@@ -112,6 +114,7 @@ class SelfContact : public ContactSource {
   // The far list is in parts; its gaps are those where its courses begin. Pairs are ascending.
   std::array<CapsulePairs, PartedLoop::most_parts> far_;
   int far_parts_ = 0;
+  bool far_stands_ = true;                  // there are no courses
   int far_steps_ = 0, far_steps_most_ = 0;  // since then; for which it was made
   // Shapes that left their course, ascending, and all that they may touch; what the far list has of
   // them does not count.

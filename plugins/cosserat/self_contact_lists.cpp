@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
 // The far list is made for so many steps at most, in which the fastest goes so far (1, of what
-// counts of a step's motion).
-constexpr double most_steps = 16.0, farthest = 0.7;
+// counts of a step's motion). Where it goes no farther than so many skins, nothing has a course.
+constexpr double most_steps = 16.0, farthest = 0.7, still = 2.0;
 constexpr std::size_t most_strays = 32;
 constexpr double strays_budget = 2.0;  // 1, of others'
 
@@ -62,7 +62,8 @@ void SelfContact::look(const RodModel& model, const RodState& state) {
   const bool holds = for_all_shapes([&](std::size_t first, std::size_t end) {
     return motion_.look(model, begins, state, first, end);
   });
-  if (far_steps_ > far_steps_most_ || (!holds && !find_strays())) collect_far();
+  const bool goes_on = far_steps_ <= far_steps_most_ || (far_stands_ && strays_.empty());
+  if (!goes_on || (!holds && !find_strays())) collect_far();
   for (const int stray : strays_) motion_.forget_reach(stray);
   collect_near();
 }
@@ -77,7 +78,7 @@ bool SelfContact::find_strays() {
       if (strays_.size() == most_strays) return false;
       strays_.insert(place, static_cast<int>(i));
     }
-    motion_.restart_far(i, strays_budget);
+    motion_.restart_far(i, !far_stands_, strays_budget);
     make_box(i, far_steps_most_ - far_steps_);
     boxes_.close_groups(i / lane_count * lane_count, i + 1);
   }
@@ -126,7 +127,7 @@ void SelfContact::sift_far(const CapsulePairs& far, Scratch& scratch) const {
     const std::size_t end = std::min(far.size(), first + at_a_time);
     CapsulePairs& pairs = scratch.pairs;
     pairs.clear();
-    sift(far, first, end, settings_.margin, far_steps_ + 1.0, motion_.reach(), pairs);
+    sift(far, first, end, settings_.margin, motions_until(far_steps_), motion_.reach(), pairs);
     measure(motion_.now(), pairs);
     scratch.measured += static_cast<long>(pairs.size());
     keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_budget(), pairs);
@@ -140,15 +141,16 @@ void SelfContact::collect_far() {
   far_steps_ = 0;
   strays_.clear();
   stray_pairs_.clear();
-  // A motion of which not all counts is not continued.
   double fastest = 0.0;
   for (const float way : motion_.way()) fastest = std::max<double>(fastest, way);
   const double most = motion_.limits().most;
+  far_stands_ = most_steps * fastest <= still * motion_.limits().skin;
+  // A motion of which not all counts is not continued.
   far_steps_most_ =
       fastest < most ? static_cast<int>(std::min(most_steps, farthest * most / fastest)) : 0;
   loop_.run(motion_.room(), loop_.parts(motion_.room(), worth_waking),
             [&](int, std::size_t first, std::size_t end) {
-              motion_.restart_far(first, end);
+              motion_.restart_far(first, end, !far_stands_);
               for (std::size_t i = first; i < std::min(end, motion_.size()); ++i)
                 make_box(i, far_steps_most_);
               boxes_.close_groups(first, std::min(end, motion_.size()));
@@ -156,13 +158,14 @@ void SelfContact::collect_far() {
   for (CapsulePairs& part : far_) part.clear();
   far_parts_ = boxes_.find(loop_, [&](int part, CapsulePairs& pairs) {
     measure(motion_.now(), pairs);
-    collect_coming(moved_capsules(), settings_.margin, far_steps_most_ + 1.0, motion_.far_budget(),
-                   pairs, far_[part]);
+    collect_coming(moved_capsules(), settings_.margin, motions_until(far_steps_most_),
+                   motion_.far_budget(), pairs, far_[part]);
   });
 }
 
 // Around all of a capsule, for so many steps on its course, as far as its budget reaches.
-void SelfContact::make_box(std::size_t shape, int steps) {
+void SelfContact::make_box(std::size_t shape, int steps_left) {
+  const int steps = far_stands_ ? 0 : steps_left;
   const Capsule &from = motion_.start()[shape], &now = motion_.now()[shape];
   const Vec3 near = now.near_at(), far = now.far_at();
   const Vec3 last_near = near + steps * (near - from.near_at());

@@ -175,13 +175,14 @@ bool LookAgain(const Places& places, const RodModel& model, const RodState& stat
   return hn::AllTrue(D(), holds);
 }
 
-void RestartFar(const Limits& limits, std::size_t first, std::size_t end,
+void RestartFar(const Limits& limits, std::size_t first, std::size_t end, bool on_course,
                 const ShapeMotion::Arrays& out) {
   const V least = set(limits.skin + 2.0 * limits.margin), zero = set(0.0);
   const AxisEnds nothing{{zero, zero, zero}, {zero, zero, zero}};
   for (std::size_t i = first; i < end; i += width) {
-    store_ends(load_ends(out.looked, i), out.course, i);
-    store_ends(nothing, out.astray, i);
+    const AxisEnds moved = load_ends(out.looked, i);
+    store_ends(on_course ? moved : nothing, out.course, i);
+    store_ends(on_course ? nothing : nothing - moved, out.astray, i);
     const V budget = load_at(out.near_budget, i);
     store_at(budget + budget, out.reach, i);
     store_at(hn::MulAdd(set(limits.astray), load_at(out.way, i), least), out.far_budget, i);
@@ -220,7 +221,7 @@ ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
   }
   const RodState drawn = drawn_state(model);
   look(model, &drawn, drawn, 0, room);
-  restart_far(0, room);
+  restart_far(0, room, false);
 }
 
 ShapeMotion::Arrays ShapeMotion::arrays() {
@@ -237,19 +238,23 @@ bool ShapeMotion::look_again(const RodModel& model, const RodState& iterate, std
   return HWY_DYNAMIC_DISPATCH(LookAgain)(places_, model, iterate, first, end, arrays());
 }
 
-void ShapeMotion::restart_far(std::size_t shape, double times) {
+void ShapeMotion::restart_far(std::size_t shape, bool on_course, double times) {
   const std::size_t row = shape / lane_count, lane = shape % lane_count;
-  for (int k = 0; k < 3; ++k) {
-    course_[row].near[k][lane] = looked_[row].near[k][lane];
-    course_[row].far[k][lane] = looked_[row].far[k][lane];
-    astray_[row].near[k][lane] = astray_[row].far[k][lane] = 0.0F;
-  }
+  const auto restart = [&](const float(&looked)[3][lane_count], float(&course)[3][lane_count],
+                           float(&astray)[3][lane_count]) {
+    for (int k = 0; k < 3; ++k) {
+      course[k][lane] = on_course ? looked[k][lane] : 0.0F;
+      astray[k][lane] = on_course ? 0.0F : -looked[k][lane];
+    }
+  };
+  restart(looked_[row].near, course_[row].near, astray_[row].near);
+  restart(looked_[row].far, course_[row].far, astray_[row].far);
   far_budget_[shape] = static_cast<float>(
       times * (limits_.skin + 2.0 * limits_.margin + limits_.astray * way_[shape]));
 }
 
-void ShapeMotion::restart_far(std::size_t first, std::size_t end) {
-  HWY_DYNAMIC_DISPATCH(RestartFar)(limits_, first, end, arrays());
+void ShapeMotion::restart_far(std::size_t first, std::size_t end, bool on_course) {
+  HWY_DYNAMIC_DISPATCH(RestartFar)(limits_, first, end, on_course, arrays());
 }
 
 }  // namespace pedicel::cosserat

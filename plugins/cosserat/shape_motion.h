@@ -44,11 +44,11 @@ class ShapeMotion {
   bool look_again(const RodModel& model, const RodState& iterate, std::size_t first,
                   std::size_t end);
   /// Makes the last reference of the near list the far list's, too, and the motion of this step its
-  /// course.
-  void restart_far(std::size_t first, std::size_t end);
+  /// course, or, not `on_course`, none.
+  void restart_far(std::size_t first, std::size_t end, bool on_course);
 
   /// Likewise for one shape alone, with so many times the budget.
-  void restart_far(std::size_t shape, double times);
+  void restart_far(std::size_t shape, bool on_course, double times);
   /// Whether it is farther from its course than its far budget allows for, after look().
   bool is_astray(std::size_t shape) const { return !(reach_[shape] <= far_budget_[shape]); }
   /// Nothing is within its reach, until the next look().
