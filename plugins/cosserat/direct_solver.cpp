@@ -467,10 +467,8 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
   for (int p = 0; p < size(); ++p)  // what steps in parts leave is not in the rows
     if (plants_[p].in_parts || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
   rows_.finish(pool, states_);
-  for_each_plant(
-      steps, pool, [&](int p) { return states_[p] != nullptr; },
-      [&](int p) { plants_[p].contacts.finish(*steps[p].model, *states_[p]); });
-  pool.for_each(size(), [&](int p) {
+  const auto all = [](int) { return true; };
+  for_each_plant(steps, pool, all, [&](int p) {
     Plant& plant = plants_[p];
     RodState& state = *steps[p].state;
     StepReport& report = steps[p].report;
@@ -486,6 +484,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
       return;
     }
     if (report.errors != none) report.element = rows_.largest_change(p, state.size());
+    plant.contacts.finish(*steps[p].model, state);
     report.contacts = static_cast<int>(plant.contacts.forces().size());
     report.deepest = plant.contacts.deepest();
     // A step whose last iteration still moved things roughly is not on a smooth path: the
