@@ -152,6 +152,9 @@ TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int th
   std::ranges::stable_sort(order, std::ranges::less{}, [&](int i) { return level[i]; });
   try_order();
   shares_ = std::move((neighbours.end <= worth_waiting * quick.end ? neighbours : quick).shares);
+  owner_.resize(n);
+  for (int thread = 0; thread < threads; ++thread)
+    for (const int task : shares_[thread]) owner_[task] = thread;
 }
 
 }  // namespace pedicel

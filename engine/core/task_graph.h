@@ -11,8 +11,8 @@ namespace pedicel {
 /// Tasks some of which need others done first, as a tree's branches come before its stem, or, the
 /// other way round, the stem before its branches. Each thread has its own tasks, shared out
 /// beforehand, mostly with numbers side by side, so that what they work on stays in that core's
-/// cache. A thread that needs what nobody has begun, or has come to its end where others have not
-/// begun, does their tasks, too: any number of threads gets through.
+/// cache. A thread that needs what another one is about to do waits for it a while, then does it;
+/// and so it does the tasks of threads that have not begun: any number of threads gets through.
 class TaskGraph {
  public:
   /// `needs[i]`: the tasks below i that task i needs; `cost[i]` > 0, in any unit; `threads` >= 1.
@@ -41,7 +41,7 @@ class TaskGraph {
   void inward(ThreadPool& pool, const Task& task) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_first(thread, round, [&](int i) { do_inward(i, round, task); });
+      own_first(thread, round, [&](int i) { do_inward(thread, i, round, task); });
     });
   }
 
@@ -52,7 +52,7 @@ class TaskGraph {
     pool.for_each(threads(), [&](int thread) {
       own_last(thread, round, [&](int i) {
         do_outward(
-            i, round, [](int) {}, task);
+            thread, i, round, [](int) {}, task);
       });
     });
   }
@@ -62,13 +62,14 @@ class TaskGraph {
   void inward_and_outward(ThreadPool& pool, const Inward& in, const Outward& out) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_first(thread, round, [&](int i) { do_inward(i, round, in); });
+      own_first(thread, round, [&](int i) { do_inward(thread, i, round, in); });
       own_last(thread, round, [&](int i) {
         const auto before = [&](int task) {
-          do_inward(task, round, in);
+          leave_to_owner(thread, task, inward_[task], round,
+                         [&] { do_inward(thread, task, round, in); });
           await_end(inward_[task], round);
         };
-        do_outward(i, round, before, out);
+        do_outward(thread, i, round, before, out);
       });
     });
   }
@@ -126,29 +127,51 @@ class TaskGraph {
     task();
     mark.done.store(round, std::memory_order_release);
   }
+  // Does it unless its own thread does so within some microseconds, if that is under way. Each
+  // thread has its tasks in an order in which what they need comes first, so who is waited for does
+  // not wait for this one.
+  template <class Do>
+  void leave_to_owner(int thread, int task, const Mark& mark, unsigned round, const Do& todo) {
+    const int owner = owner_[task];
+    const auto is_under_way = [&](const Walk& walk) {
+      return walk.round.load(std::memory_order_relaxed) == round;
+    };
+    if (owner != thread &&
+        (is_under_way(inward_walks_[owner]) || is_under_way(outward_walks_[owner])) &&
+        await([&] { return mark.begun.load(std::memory_order_relaxed) == round; }, patience))
+      return;
+    todo();
+  }
   // Nobody waits in a circle: who waits for a task stands behind one that needs it.
   static void await_end(const Mark& mark, unsigned round) {
     await([&] { return mark.done.load(std::memory_order_acquire) == round; });
   }
   template <class Task>
-  void do_inward(int i, unsigned round, const Task& task) {
+  void do_inward(int thread, int i, unsigned round, const Task& task) {
     const auto others = [&] {
-      for (const int other : needs_.of(i)) do_inward(other, round, task);
+      for (const int other : needs_.of(i))
+        leave_to_owner(thread, other, inward_[other], round,
+                       [&] { do_inward(thread, other, round, task); });
       for (const int other : needs_.of(i)) await_end(inward_[other], round);
     };
     do_once(inward_[i], round, others, [&] { task(i); });
   }
   template <class First, class Task>
-  void do_outward(int i, unsigned round, const First& first, const Task& task) {
+  void do_outward(int thread, int i, unsigned round, const First& first, const Task& task) {
     const auto others = [&] {
       first(i);
-      for (const int other : needed_by_.of(i)) do_outward(other, round, first, task);
+      for (const int other : needed_by_.of(i))
+        leave_to_owner(thread, other, outward_[other], round,
+                       [&] { do_outward(thread, other, round, first, task); });
       for (const int other : needed_by_.of(i)) await_end(outward_[other], round);
     };
     do_once(outward_[i], round, others, [&] { task(i); });
   }
 
+  static constexpr unsigned patience = 2048;  // turns of waiting
+
   FlatLists needs_, needed_by_;
+  std::vector<int> owner_;  // by task
   std::vector<std::vector<int>> shares_;
   std::vector<Mark> inward_, outward_;              // by task
   std::vector<Walk> inward_walks_, outward_walks_;  // by thread

@@ -12,16 +12,6 @@ namespace {
 // microseconds, in which a thread that is awake has begun.
 constexpr unsigned half_a_millisecond = 8192, microseconds = 128;  // turns
 
-// True as soon as `ready` is.
-template <class Ready>
-bool becomes_ready_soon(const Ready& ready, unsigned turns = half_a_millisecond) {
-  for (unsigned turn = 0; turn < turns; ++turn) {
-    if (ready()) return true;
-    wait_a_moment(turn);
-  }
-  return false;
-}
-
 }  // namespace
 
 // Leaves the core's other thread and the memory bus alone, and lets others have the core at times.
@@ -64,9 +54,9 @@ void ThreadPool::run(int count, Call call, const void* object) {
   }
   take_tasks(0, generation);
   const auto done = [&] { return all_done(generation); };
-  if (becomes_ready_soon(done, microseconds)) return;
+  if (await(done, microseconds)) return;
   take_left_tasks(generation);
-  if (becomes_ready_soon(done)) return;
+  if (await(done, half_a_millisecond)) return;
   std::unique_lock lock(mutex_);
   caller_sleeps_.store(true);
   done_.wait(lock, done);
@@ -103,7 +93,7 @@ void ThreadPool::work(int thread) {
     return stop_.load(std::memory_order_relaxed) || job_.generation.load() != seen;
   };
   while (true) {
-    if (!becomes_ready_soon(called)) {
+    if (!await(called, half_a_millisecond)) {
       std::unique_lock lock(mutex_);
       asleep_.fetch_add(1);
       wake_.wait(lock, called);

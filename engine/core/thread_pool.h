@@ -17,6 +17,16 @@ void await(const Ready& ready) {
   for (unsigned turn = 0; !ready(); ++turn) wait_a_moment(turn);
 }
 
+/// Likewise, but for so many turns at most. Whether it is ready.
+template <class Ready>
+bool await(const Ready& ready, unsigned turns) {
+  for (unsigned turn = 0; turn < turns; ++turn) {
+    if (ready()) return true;
+    wait_a_moment(turn);
+  }
+  return false;
+}
+
 /// Runs independent tasks on a fixed number of threads. Which thread takes which task is not
 /// fixed, so tasks must not depend on each other: then any number of threads gives the same bits.
 /// Task i of the first threads() is thread i's unless another one is idle before it comes to it:
