@@ -56,7 +56,8 @@ class ContactSource {
   /// Which part of its motion over the whole step what is touched makes in the steps that follow:
   /// from share `from` of the way to share `to`. All of it, 0 to 1, until told otherwise.
   virtual void cover(double /*from*/, double /*to*/) {}
-  /// Whether it finds nothing but where the plant touches itself.
+  /// Whether it finds nothing but where the plant touches itself: the two sides of each contact one
+  /// after the other, with `stiffening`.
   virtual bool is_within_plant() const { return false; }
   /// A step begins at `start` (same time as the iterates that find() gets).
   virtual void begin_step(const RodModel& /*model*/, const RodState& /*start*/, double /*dt*/) {}

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cosserat/contact.h"
+#include "cosserat/contact_lanes.h"
 #include "cosserat/diagonal_blocks.h"
 #include "cosserat/parted_loop.h"
 
@@ -43,7 +44,7 @@ class ContactTerms {
 
   /// J, at the iterate for which find() or follow() was called.
   double energy() const { return energy_; }
-  /// What the contacts add there, one each. Valid until the next call of them.
+  /// What the contacts add there, at most one each. Valid until the next call of them.
   std::span<const ElementBlock> blocks() const { return blocks_; }
   double potential(const RodModel& model, const RodState& state) const;
 
@@ -51,11 +52,11 @@ class ContactTerms {
   void finish(const RodModel& model, const RodState& end);
 
   const std::vector<ContactForce>& forces() const { return forces_; }
-  int size() const { return static_cast<int>(active_.size()); }
+  int size() const { return static_cast<int>(found_.size()); }
   double deepest() const;
   /// Whether all that was found is the plant's contact with itself.
-  bool only_with_itself() const { return only_with_itself_; }
-  void forget() { memory_.clear(); }
+  bool only_with_itself() const { return sides_ == found_.size(); }
+  void forget();
   /// Adds its forces to those of a longer step of which its own was this share: springs of that
   /// share of the stiffness, whose impulse, work and energy are a part's of the longer step.
   void add_to(std::vector<ContactForce>& forces, double share) const;
@@ -63,52 +64,35 @@ class ContactTerms {
   void report(const std::vector<ContactForce>& forces) { forces_ = forces; }
 
  private:
-  struct Active {
-    ContactPoint point;
-    int element = 0;
-    Vec3 arm_E = Vec3::Zero();      // m, from the child node to the touching surface
-    Vec3 place_W = Vec3::Zero();    // m, at the iterate
-    Vec3 start_W = Vec3::Zero();    // m, where that point of the plant was at the step's start
-    Vec3 stretch_W = Vec3::Zero();  // m, of the friction spring at the step's start
-    double limit = 0.0;             // N, mu N
-    double give = 0.0;              // m/N, of the collider, with what pushes it beside this contact
-    double stiffness = 0.0;         // N/m, of contact and collider in series
-  };
   struct Memory {
-    int shape, collider;
+    int collider;
+    int next;  // of the same shape; -1: none
     Vec3 stretch_W;
     double normal;  // N
   };
-  struct Push {
-    Vec3 normal_force, friction_force;  // N, W, on the plant
-    Vec3 stretch;                       // m, friction spring after sliding
-    double energy;
-    bool slipping;
-  };
-  Active activated(const ContactPoint& point, const RodModel& model, const RodState& start,
-                   const RodState& iterate) const;
-  void share_gives(const RodState& iterate);
-  void push_at_iterate(std::size_t contact, const RodState& iterate);
-  static bool is_idle(const Active& contact);
-  static Push push(const Active& contact, const Vec3& now_W);
-  static ElementBlock block_of(const Active& contact, const Push& push, const Vec3& arm);
+  void place(const RodModel& model, const RodState& start, const RodState& iterate);
+  void put(std::size_t contact, const RodModel& model);
+  void share_gives();
+  void push(const RodState& iterate);
   const Memory* remembered(int shape, int collider) const;
+  void remember(const ContactPoint& point, const Vec3& stretch_W, double normal);
   template <class Task>
   void for_each_stretch(const Task& task) const;
-  template <class EnergyOf>
-  double sum(const EnergyOf& energy_of) const;
+  std::span<ContactRow> stretch(std::size_t first, std::size_t end) {
+    return std::span(rows_).subspan(first, end - first);
+  }
 
   PartedLoop loop_;
-  bool only_with_itself_ = true;
   std::vector<ContactPoint> found_;
-  std::vector<Active> active_;
-  std::vector<double> energies_;      // J, at the iterate, as `active_`
-  std::vector<ElementBlock> blocks_;  // likewise
-  std::vector<Vec3> moves_;           // m, W, likewise: in follow() and finish()
-  std::vector<Push> ends_;            // likewise, at the step's end
+  std::size_t sides_ = 0;      // the first ones are where the plant touches itself
+  std::vector<double> gives_;  // m/N, of the colliders, with what pushes them beside each contact
+  std::vector<ContactRow> rows_;
+  std::vector<ElementBlock> blocks_;  // eight a row
+  std::vector<ContactEndRow> ends_;   // by row
   double energy_ = 0.0;               // J, of them all
   mutable std::vector<double> sums_;  // scratch, J, by stretch
   std::vector<Memory> memory_;
+  std::vector<int> last_of_shape_;  // index of its last one in memory_; -1: it has none
   std::vector<ContactForce> forces_;
 };
 

@@ -12,8 +12,6 @@ namespace pedicel::cosserat {
 
 namespace {
 
-constexpr double most_stiffening = 10.0;  // 1, of the progressive spring
-
 double back_at(const CollisionShape& shape, double fraction) {
   return shape.back_near + fraction * (shape.back_far - shape.back_near);
 }

@@ -18,6 +18,8 @@ constexpr bool is_self_contact(int collider) {
   return collider >= self_contact_base;
 }
 
+constexpr double most_stiffening = 10.0;  ///< 1, of the progressive spring
+
 /// Sets stiffness and margin of one side of a self-contact to the tangent of its progressive
 /// spring: the same force and slope at its gap.
 void take_tangent(ContactPoint& point);
