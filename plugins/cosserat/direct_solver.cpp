@@ -18,6 +18,7 @@ constexpr double rough_change = 0.3;         // rad, or element lengths
 constexpr double looked_after = 0.1;         // likewise
 constexpr double rough_unsolved = 0.1;       // likewise
 constexpr double straight_turn = 0.03;       // rad
+constexpr double unsearched_change = 0.03;   // rad, or element lengths
 constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (stable below 2.41)
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
@@ -210,9 +211,11 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
   while (any(working_)) {
     rows_.set_active(working_);
     linearise_touched(steps, dt, pool);
+    bool measured = false;
     for (int p = 0; p < size(); ++p) {
       rows_.set_share(p, working_[p] ? 1.0 : 0.0);
       iterates_[p] = working_[p] && plants_[p].touched ? &plants_[p].iterate : nullptr;
+      measured = measured || (working_[p] && plants_[p].is_searched());
     }
     if (any_loops_) {
       rows_.eliminate(pool);
@@ -220,11 +223,11 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
         if (working_[p] && plants_[p].loops) solve_loops(p, *steps[p].model);
       });
       rows_.substitute(pool);
-      rows_.move(pool, true, iterates_);
+      rows_.move(pool, true, measured, iterates_);
     } else {
-      rows_.solve_and_move(pool, iterates_);
+      rows_.solve_and_move(pool, measured, iterates_);
     }
-    search(steps, pool);
+    search(steps, measured, pool);
     look_again(steps, dt, pool);
     for (int p = 0; p < size(); ++p)
       if (working_[p] && is_done(plants_[p], steps[p].report)) working_[p] = 0;
@@ -294,13 +297,17 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
 }
 
 // The whole of Newton's change has been made.
-void DirectSolver::search(std::span<PlantStep> steps, ThreadPool& pool) {
+void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool& pool) {
   for (int p = 0; p < size(); ++p)
-    if (working_[p]) start_search(p, steps[p].report);
+    if (working_[p]) start_search(p, *steps[p].model, steps[p].report);
+  if (!measured && any(searching_)) {
+    rows_.set_active(searching_);
+    rows_.measure(pool);
+  }
   for (bool first = true; any(searching_); first = false) {
     if (!first) {
       rows_.set_active(searching_);
-      rows_.move(pool, false, iterates_);
+      rows_.move(pool, false, true, iterates_);
     }
     for_each_plant(
         steps, pool, [&](int p) { return searching_[p] && (!first || plants_[p].share == 1.0); },
@@ -308,7 +315,7 @@ void DirectSolver::search(std::span<PlantStep> steps, ThreadPool& pool) {
   }
 }
 
-void DirectSolver::start_search(int index, StepReport& report) {
+void DirectSolver::start_search(int index, const RodModel& model, StepReport& report) {
   Plant& plant = plants_[index];
   plant.energy = rows_.energy_before(index) + plant.extra_energy;
   if (!rows_.healthy(index) || !std::isfinite(plant.energy)) {
@@ -320,7 +327,18 @@ void DirectSolver::start_search(int index, StepReport& report) {
   plant.change = rows_.change(index);
   plant.share = std::min(1.0, largest_turn / std::max(plant.change.turn, 1.0e-300));
   if (plant.share < 1.0) rows_.set_share(index, plant.share);
-  searching_[index] = 1;
+  searching_[index] = plant.is_searched();
+  if (searching_[index] || !plant.touched) return;
+  plant.pressed = plant.contacts.potential(model, plant.iterate);
+  plant.presses = plant.presses || plant.pressed > 0.0;
+  plant.iterate_is_here = true;
+}
+
+// What a small change leaves out of the potential's quadratic model is too little to climb by.
+// Before the first change of a step is known, that of the step before stands for it. Contact with
+// things outside is stiff enough to be searched always.
+bool DirectSolver::Plant::is_searched() const {
+  return std::max(change.turn, change.shift) > unsearched_change || !contacts.only_with_itself();
 }
 
 void DirectSolver::try_share(int index, const RodModel& model, StepReport& report) {
@@ -375,7 +393,7 @@ void DirectSolver::look_again(std::span<PlantStep> steps, double dt, ThreadPool&
     }
     if (!cut) break;
     rows_.set_active(searching_);
-    rows_.move(pool, false, iterates_);
+    rows_.move(pool, false, true, iterates_);
   }
 }
 

@@ -87,6 +87,8 @@ class DirectSolver : public RodSolver {
     double gain = 1.0, gain_change = 0.0;
     std::unique_ptr<DirectSolver> parts;  // for steps in parts, once there was one
     bool in_parts = false;                // this step was taken so
+
+    bool is_searched() const;
   };
 
   void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
@@ -101,8 +103,8 @@ class DirectSolver : public RodSolver {
   void find_contacts(int index, const PlantStep& step, double dt);
   bool follow_contacts(int index, const PlantStep& step);
   void solve_loops(int index, const RodModel& model);
-  void search(std::span<PlantStep> steps, ThreadPool& pool);
-  void start_search(int index, StepReport& report);
+  void search(std::span<PlantStep> steps, bool measured, ThreadPool& pool);
+  void start_search(int index, const RodModel& model, StepReport& report);
   void try_share(int index, const RodModel& model, StepReport& report);
   void look_again(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   bool is_done(Plant& plant, StepReport& report) const;

@@ -1,5 +1,7 @@
 #include "cosserat/lane_kernels.h"
 
+#include <algorithm>
+
 // Compiled once for each of these instruction sets; a processor without AVX2 takes the portable
 // one.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -118,6 +120,14 @@ void Prepare(const RowArrays& rows, Pack& pack) {
 
 // ---- Elimination --------------------------------------------------------------------------------
 
+// What another thread has just written comes from its core's cache: asked for early, nothing waits
+// for it.
+HWY_INLINE void fetch_sources(const RowArrays& rows, int row) {
+  for (int s = rows.first_extra[std::max(row, 0)]; s >= 0; s = rows.extras[s].next)
+    for (int line = 0; line < block_size; line += lane_count)
+      __builtin_prefetch(rows.extras[s].values + line);
+}
+
 template <bool extended>
 void eliminate_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
@@ -133,6 +143,7 @@ void eliminate_pack(const RowArrays& rows, Pack& pack) {
       energy = energy + s.energy;
       const Blocks blocks = blocks_of<extended>(rows, pack, row, lane, s);
       add(blocks, carry);
+      fetch_sources(rows, row - 2);
       if (rows.first_branch[row] >= 0)
         add_sources(rows.branches, rows.first_branch[row], lane, carry);
       if (rows.first_extra[row] >= 0) add_sources(rows.extras, rows.first_extra[row], lane, carry);
@@ -254,7 +265,7 @@ void MeasureChange(const RowArrays& rows, Pack& pack) {
   }
 }
 
-template <bool extended>
+template <bool extended, bool measured>
 void move_pack(const RowArrays& rows, Pack& pack, bool keep) {
   for (int lane = 0; lane < lane_count; lane += width) {
     const V share = load(pack.share + lane);
@@ -274,15 +285,22 @@ void move_pack(const RowArrays& rows, Pack& pack, bool keep) {
       const Q turned = normalized(exp_map(share * V3{d[3], d[4], d[5]}) * base.orientation);
       moved.orientation = select(moves, turned, base.orientation);
       store_pose(moved, rows.iterate[row], lane);
-      energy = energy + strain<extended>(rows, pack, row, lane, parent, moved).energy;
-      parent = moved;
+      if constexpr (measured) {
+        energy = energy + strain<extended>(rows, pack, row, lane, parent, moved).energy;
+        parent = moved;
+      }
     }
-    store(energy, pack.energy + lane);
+    if constexpr (measured) store(energy, pack.energy + lane);
   }
 }
 
-void Move(const RowArrays& rows, Pack& pack, bool keep) {
-  pack.extended ? move_pack<true>(rows, pack, keep) : move_pack<false>(rows, pack, keep);
+void Move(const RowArrays& rows, Pack& pack, bool keep, bool measured) {
+  if (!measured)
+    move_pack<false, false>(rows, pack, keep);
+  else if (pack.extended)
+    move_pack<true, true>(rows, pack, keep);
+  else
+    move_pack<false, true>(rows, pack, keep);
 }
 
 template <bool extended>
@@ -352,8 +370,8 @@ void substitute(const RowArrays& rows, Pack& pack) {
 void measure_change(const RowArrays& rows, Pack& pack) {
   HWY_DYNAMIC_DISPATCH(MeasureChange)(rows, pack);
 }
-void move(const RowArrays& rows, Pack& pack, bool keep) {
-  HWY_DYNAMIC_DISPATCH(Move)(rows, pack, keep);
+void move(const RowArrays& rows, Pack& pack, bool keep, bool measured) {
+  HWY_DYNAMIC_DISPATCH(Move)(rows, pack, keep, measured);
 }
 void evaluate(const RowArrays& rows, const Pack& pack, Lanes& energy) {
   HWY_DYNAMIC_DISPATCH(Evaluate)(rows, pack, energy);

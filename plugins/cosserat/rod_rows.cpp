@@ -313,13 +313,13 @@ void RodRows::substitute(ThreadPool& pool) {
   graph_.outward(pool, [&](int p) { substitute_pack(rows, p); });
 }
 
-void RodRows::solve_and_move(ThreadPool& pool, std::span<RodState* const> states) {
+void RodRows::solve_and_move(ThreadPool& pool, bool measured, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
   graph_.inward_and_outward(
       pool, [&](int p) { eliminate_pack(rows, p); },
       [&](int p) {
         substitute_pack(rows, p);
-        move_pack(rows, p, true, states);
+        move_pack(rows, p, true, measured, states);
       });
 }
 
@@ -331,17 +331,24 @@ void RodRows::set_share(int plant, double share) {
   }
 }
 
-void RodRows::move(ThreadPool& pool, bool keep, std::span<RodState* const> states) {
+void RodRows::move(ThreadPool& pool, bool keep, bool measured, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
-  graph_.outward(pool, [&](int p) { move_pack(rows, p, keep, states); });
+  graph_.outward(pool, [&](int p) { move_pack(rows, p, keep, measured, states); });
 }
 
-void RodRows::move_pack(const RowArrays& rows, int pack, bool keep,
+void RodRows::move_pack(const RowArrays& rows, int pack, bool keep, bool measured,
                         std::span<RodState* const> states) {
   if (!packs_[pack].active) return;
   place_anchors(pack, scratch_->iterate);
-  cosserat::move(rows, packs_[pack], keep);
+  cosserat::move(rows, packs_[pack], keep, measured);
   write_pack(pack, states);
+}
+
+void RodRows::measure(ThreadPool& pool) {
+  const RowArrays rows = arrays();
+  graph_.each(pool, [&](int p) {
+    if (packs_[p].active) evaluate(rows, packs_[p], packs_[p].energy);
+  });
 }
 
 void RodRows::finish(ThreadPool& pool, std::span<RodState* const> states) {

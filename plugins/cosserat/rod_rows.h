@@ -88,20 +88,24 @@ class RodRows {
   void copy_blocks(int plant, BlockSystem& system) const;
   void set_change(int plant, const BlockSystem& solved);
   void substitute(ThreadPool& pool);
-  /// eliminate(), substitute() and move(true) in one go, where nothing has to happen between them.
-  void solve_and_move(ThreadPool& pool, std::span<RodState* const> states);
+  /// eliminate(), substitute() and move(true, measured) in one go, where nothing has to happen
+  /// between them.
+  void solve_and_move(ThreadPool& pool, bool measured, std::span<RodState* const> states);
 
   /// Moves the iterate from where the line search began by `share` of the change, by lane.
-  /// `keep` first makes the iterate that beginning. Writes the iterates as write_iterate() does.
+  /// `keep` first makes the iterate that beginning; energy() follows where it is `measured`. Writes
+  /// the iterates as write_iterate() does.
   void set_share(int plant, double share);
-  void move(ThreadPool& pool, bool keep, std::span<RodState* const> states);
+  void move(ThreadPool& pool, bool keep, bool measured, std::span<RodState* const> states);
+  /// Sets energy() where move() did not.
+  void measure(ThreadPool& pool);
 
   /// Ends the step: velocities, written to the plants' states, with the iterate, where there is
   /// one. Then end_step() makes this step the past.
   void finish(ThreadPool& pool, std::span<RodState* const> states);
   void end_step();
 
-  /// J, where the last move() led.
+  /// J, where the last move() that was measured led, or of the last measure().
   double energy(int plant) const { return sum(plant, &Pack::energy); }
   /// J, where the last eliminate() was.
   double energy_before(int plant) const { return sum(plant, &Pack::energy_before); }
@@ -143,7 +147,8 @@ class RodRows {
   void read_states(int pack, std::span<const RodState* const> states);
   void eliminate_pack(const RowArrays& rows, int pack);
   void substitute_pack(const RowArrays& rows, int pack);
-  void move_pack(const RowArrays& rows, int pack, bool keep, std::span<RodState* const> states);
+  void move_pack(const RowArrays& rows, int pack, bool keep, bool measured,
+                 std::span<RodState* const> states);
   double sum(int plant, const Lanes Pack::*energy) const;
   void write_pack(int pack, std::span<RodState* const> states) const;
   void write_end(int pack, std::span<RodState* const> states) const;

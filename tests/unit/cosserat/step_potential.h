@@ -45,8 +45,7 @@ class StepPotential {
 
   double potential(const RodModel& model, const RodState& state) {
     rows_.read_iterate(0, state);
-    rows_.set_share(0, 0.0);
-    rows_.move(alone_, true, std::array<RodState*, 1>{});
+    rows_.measure(alone_);
     return rows_.energy(0) + attachments_.potential(model, state);
   }
 
