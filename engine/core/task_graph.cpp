@@ -100,6 +100,34 @@ Schedule in_order(const Lists& needs, const std::vector<double>& cost,
   return result;
 }
 
+// Moves the borders between neighbouring threads' tasks of a level, one task at a time, while that
+// ends sooner.
+Schedule with_better_borders(const Lists& needs, const std::vector<double>& cost,
+                             const std::vector<int>& order, const std::vector<int>& level,
+                             std::vector<int> thread_of, int threads) {
+  const int n = static_cast<int>(level.size());
+  Schedule best = in_order(needs, cost, order, thread_of, threads);
+  for (bool better = true; better;) {
+    better = false;
+    for (int i = 0; i < n; ++i) {
+      for (const int step : {-1, 1}) {
+        int other = i + step;  // the next one of the same level
+        while (other >= 0 && other < n && level[other] != level[i]) other += step;
+        if (other < 0 || other >= n || thread_of[other] == thread_of[i]) continue;
+        const int before = std::exchange(thread_of[i], thread_of[other]);
+        Schedule found = in_order(needs, cost, order, thread_of, threads);
+        if (found.end < best.end) {
+          best = std::move(found);
+          better = true;
+        } else {
+          thread_of[i] = before;
+        }
+      }
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int threads)
@@ -145,7 +173,7 @@ TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int th
       if (found.end < best.end) best = std::move(found);
     };
     take_better(quick, schedule(needs, needed_by, cost, rank, threads));
-    take_better(neighbours, in_order(needs, cost, order, thread_of, threads));
+    take_better(neighbours, with_better_borders(needs, cost, order, level, thread_of, threads));
   };
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](int i) { return hangs_on[i]; });
   try_order();

@@ -11,6 +11,7 @@
 
 #include "cosserat/capsule_lanes-inl.h"
 #include "cosserat/self_contact.h"
+#include "cosserat/state_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
@@ -18,20 +19,8 @@ namespace HWY_NAMESPACE {
 
 using Rows = std::span<ContactRow>;
 
-struct GatheredPose {
-  V3 position;
-  M3 rotation;
-};
-
 HWY_INLINE GatheredPose pose_of(const RodState& state, const ContactRow& row, int lane) {
-  const hn::Rebind<std::int64_t, D> integers;
-  const auto element = hn::Load(integers, row.element + lane);
-  const auto four = hn::ShiftLeft<2>(element), three = hn::Sub(four, element);
-  const double* p = state.position.data()->data();
-  const double* q = state.orientation.data()->coeffs().data();
-  const auto gather = [](const double* from, auto at) { return hn::GatherIndex(D(), from, at); };
-  return {{gather(p, three), gather(p + 1, three), gather(p + 2, three)},
-          matrix({gather(q, four), gather(q + 1, four), gather(q + 2, four), gather(q + 3, four)})};
+  return gather_pose(state, row.element + lane);
 }
 
 HWY_INLINE V3 surface_of(const RodState& state, const ContactRow& row, int lane) {

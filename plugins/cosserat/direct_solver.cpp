@@ -298,6 +298,7 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
 
 // The whole of Newton's change has been made.
 void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool& pool) {
+  rows_.fetch_results();
   for (int p = 0; p < size(); ++p)
     if (working_[p]) start_search(p, *steps[p].model, steps[p].report);
   if (!measured && any(searching_)) {

@@ -105,6 +105,8 @@ class RodRows {
   void finish(ThreadPool& pool, std::span<RodState* const> states);
   void end_step();
 
+  /// Asks for all that the next four tell, so that they need not wait for it one by one.
+  void fetch_results() const;
   /// J, where the last move() that was measured led, or of the last measure().
   double energy(int plant) const { return sum(plant, &Pack::energy); }
   /// J, where the last eliminate() was.

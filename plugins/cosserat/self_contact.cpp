@@ -5,8 +5,7 @@
 #include <string>
 
 #include "core/check.h"
-#include "cosserat/lanes.h"
-#include "cosserat/rotation.h"
+#include "cosserat/lane_access.h"
 
 namespace pedicel::cosserat {
 
@@ -99,50 +98,48 @@ void SelfContact::touch_some(const RodModel& model, const RodState& state, doubl
   measure(motion_.now(), near_, first, end);
   const std::size_t meeting =
       list_meeting(moved_capsules(), settings_.margin, near_, first, end, scratch.meeting);
+  TouchingRow row{};
+  int lanes = 0;
+  const auto touch_row = [&] {
+    touch(motion_.start(), motion_.now(), *start_, state, row);
+    for (int lane = 0; lane < lanes; ++lane) add_contact(model, dt, row, lane, scratch.found);
+    lanes = 0;
+  };
   for (std::size_t i = 0; i < meeting; ++i) {
     const int pair = scratch.meeting[i];
-    if (is_live(model.shapes[near_.a[pair]]) && is_live(model.shapes[near_.b[pair]]))
-      touch(model, state, dt, pair, scratch.found);
+    const CollisionShape &a = model.shapes[near_.a[pair]], &b = model.shapes[near_.b[pair]];
+    if (!is_live(a) || !is_live(b)) continue;
+    row.a[lanes] = near_.a[pair];
+    row.b[lanes] = near_.b[pair];
+    row.element_a[lanes] = a.element;
+    row.element_b[lanes] = b.element;
+    row.at_a[lanes] = near_.at_a[pair];
+    row.at_b[lanes] = near_.at_b[pair];
+    row.back_a[lanes] = back_at(a, near_.at_a[pair]);
+    row.back_b[lanes] = back_at(b, near_.at_b[pair]);
+    if (++lanes == lane_count) touch_row();
   }
+  if (lanes > 0) touch_row();
 }
 
-void SelfContact::touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
-                        std::vector<ContactPoint>& found) const {
-  const int a = near_.a[pair], b = near_.b[pair];
-  const double at_a = near_.at_a[pair], at_b = near_.at_b[pair];
-  const CollisionShape &shape_a = model.shapes[a], &shape_b = model.shapes[b];
-  const int element_a = shape_a.element, element_b = shape_b.element;
-  const double back_a = back_at(shape_a, at_a), back_b = back_at(shape_b, at_b);
-  const auto place_on = [](const Capsule& capsule, double at) -> Vec3 {
-    return capsule.near_at() + at * (capsule.far_at() - capsule.near_at());
-  };
-  const Vec3 between_W = place_on(motion_.now()[a], at_a) - place_on(motion_.now()[b], at_b);
-  double distance = between_W.norm();
-  const double radius_a = shape_a.radius_near + at_a * (shape_a.radius_far - shape_a.radius_near);
-  const double radius_b = shape_b.radius_near + at_b * (shape_b.radius_far - shape_b.radius_near);
-  const Vec3 before_W = place_on(motion_.start()[a], at_a) - place_on(motion_.start()[b], at_b);
-  Vec3 normal_W = distance > 0.0 ? Vec3(between_W / distance) : Vec3(Vec3::UnitZ());
-  // Axes that went through each other in this step are pushed back to where they came from.
-  if (before_W.dot(normal_W) < 0.0) {
-    normal_W = -normal_W;
-    distance = -distance;
-  }
-  const double gap = distance - radius_a - radius_b;
-  const Vec3 motion_a = moved(state, element_a, back_a, -radius_a * normal_W);
-  const Vec3 motion_b = moved(state, element_b, back_b, radius_b * normal_W);
+void SelfContact::add_contact(const RodModel& model, double dt, const TouchingRow& row, int lane,
+                              std::vector<ContactPoint>& found) const {
+  const double gap = row.gap[lane];
   // What is farther apart than it moved in this step is not met in the next iteration either.
-  if (!(gap <= settings_.margin + (motion_a - motion_b).norm())) return;
-
-  ContactPoint point;
+  if (!(gap <= settings_.margin + row.apart[lane])) return;
+  const int a = row.a[lane], b = row.b[lane];
+  const CollisionShape &shape_a = model.shapes[a], &shape_b = model.shapes[b];
   const bool soft = shape_a.fruit >= 0 || shape_b.fruit >= 0;
-  const double lighter = std::min(model.elements[element_a].mass, model.elements[element_b].mass);
+  const double lighter =
+      std::min(model.elements[shape_a.element].mass, model.elements[shape_b.element].mass);
   const double stiffness =
       std::min(soft ? settings_.fruit_stiffness : settings_.stiffness, lighter / (dt * dt));
+  ContactPoint point;
   point.gap = 0.5 * gap;
   point.stiffening = {stiffness, settings_.margin};
   take_tangent(point);
   point.friction = settings_.friction;
-  point.surface_motion_W = 0.5 * (motion_a + motion_b);
+  point.surface_motion_W = vector_at(row.motion, lane);
   const auto add = [&](int shape, int other, double back, double radius, const Vec3& normal) {
     point.shape = shape;
     point.collider = self_contact_base + other;
@@ -151,17 +148,9 @@ void SelfContact::touch(const RodModel& model, const RodState& state, double dt,
     point.normal_W = normal;
     found.push_back(point);
   };
-  add(a, b, back_a, radius_a, normal_W);
-  add(b, a, back_b, radius_b, -normal_W);
-}
-
-// How far the material point moved over the step that lies `outward_W` from the axis now.
-Vec3 SelfContact::moved(const RodState& state, int element, double back,
-                        const Vec3& outward_W) const {
-  const Quat& q = state.orientation[element];
-  const Vec3 arm_W = outward_W - back * third_axis(q);
-  return state.position[element] + arm_W - start_->position[element] -
-         start_->orientation[element] * (q.conjugate() * arm_W);
+  const Vec3 normal_W = vector_at(row.normal, lane);
+  add(a, b, row.back_a[lane], row.radius_a[lane], normal_W);
+  add(b, a, row.back_b[lane], row.radius_b[lane], -normal_W);
 }
 
 }  // namespace pedicel::cosserat

@@ -8,6 +8,7 @@
 #include "cosserat/contact.h"
 #include "cosserat/overlapping_boxes.h"
 #include "cosserat/shape_motion.h"
+#include "cosserat/touching_pairs.h"
 
 namespace pedicel::cosserat {
 
@@ -91,12 +92,11 @@ class SelfContact : public ContactSource {
   double motions_until(int far_step) const { return far_stands_ ? 0.0 : far_step + 1.0; }
   void touch_some(const RodModel& model, const RodState& state, double dt, int part,
                   std::size_t first, std::size_t end);
-  void touch(const RodModel& model, const RodState& state, double dt, std::size_t pair,
-             std::vector<ContactPoint>& found) const;
-  Vec3 moved(const RodState& state, int element, double back, const Vec3& outward_W) const;
+  void add_contact(const RodModel& model, double dt, const TouchingRow& row, int lane,
+                   std::vector<ContactPoint>& found) const;
 
   // Shapes and near pairs, a thread.
-  static constexpr std::size_t worth_waking = 256, worth_touching = 48;
+  static constexpr std::size_t worth_waking = 256, worth_touching = 192;
 
   // What the parts of a loop need for themselves.
   struct Scratch {
