@@ -83,7 +83,7 @@ void Place(Rows rows, const RodState& start, const RodState& iterate) {
 // The spring's stiffness is one along the normal and another one across it. The sliding spring's is
 // the secant stiffness: an upper bound of its Hessian, so Newton stays stable. So
 //   hessian = across I + (along - across) n n^T
-// and the block is that of a point at `arm` from the child node (point_spring()).
+// and the block is that of a point at `arm` from the child node (add_point_spring()).
 HWY_INLINE void block_of(const Push& push, V k, const V3& normal, const V3& arm, V* v) {
   const V zero = set(0.0), &across = push.across;
   const V along = hn::IfThenElseZero(push.normal > zero, k);

@@ -98,43 +98,4 @@ void add_point_spring(Blocks& blocks, int element, const Vec3& arm, const Mat3& 
   right.template tail<3>() += arm.cross(force);
 }
 
-/// A point spring as above of stiffness `along` the unit vector `axis` and another one `across` it
-/// (N/m):
-///   hessian = across I + (along - across) axis axis^T
-inline ElementBlock point_spring(int element, const Vec3& arm, const Vec3& axis, double along,
-                                 double across, const Vec3& force) {
-  ElementBlock out;
-  out.element = element;
-  Vec6 one;  // d (axis . point) / d (position, rotation)
-  one << axis, arm.cross(axis);
-  int place = 0;
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j <= i; ++j) out.values[place++] = (along - across) * one[i] * one[j];
-  if (across != 0.0) {
-    // across [[I, -[arm]x], [[arm]x, arm^2 I - arm arm^T]]
-    const Vec3 a = across * arm;
-    const double square = a.dot(arm);
-    double* v = out.values.data();
-    for (const int diagonal : {0, 2, 5}) v[diagonal] += across;
-    v[7] -= a.z();
-    v[8] += a.y();
-    v[10] += a.z();
-    v[12] -= a.x();
-    v[15] -= a.y();
-    v[16] += a.x();
-    v[9] += square - a.x() * arm.x();
-    v[13] -= a.y() * arm.x();
-    v[14] += square - a.y() * arm.y();
-    v[18] -= a.z() * arm.x();
-    v[19] -= a.z() * arm.y();
-    v[20] += square - a.z() * arm.z();
-  }
-  const Vec3 moment = arm.cross(force);
-  for (int i = 0; i < 3; ++i) {
-    out.values[triangle6 + i] = force[i];
-    out.values[triangle6 + 3 + i] = moment[i];
-  }
-  return out;
-}
-
 }  // namespace pedicel::cosserat

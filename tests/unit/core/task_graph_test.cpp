@@ -100,9 +100,9 @@ TEST(TaskGraph, GoesBackOverWhatIsDone) {
   }
 }
 
-// A stem of three pieces with three branches of 40 (the hanging tree without its twigs): each thread
-// gets branches side by side, and first those that the outer pieces wait for. What is done after
-// 94 that way is not done before with any other.
+// A stem of three pieces with three branches of 40 (the hanging tree without its twigs): each
+// thread gets branches side by side, and first those that the outer pieces wait for. What is done
+// after 94 that way is not done before with any other.
 TEST(TaskGraph, SharesOutNeighboursTogether) {
   const Needs needs = {{}, {}, {}, {2}, {1, 3}, {0, 4}};
   const std::vector<double> cost = {40, 40, 40, 14, 14, 14};
@@ -119,6 +119,52 @@ TEST(TaskGraph, SharesOutByWhatHangsOnATaskWhereNeighboursWait) {
   const TaskGraph graph(needs, cost, 2);
   EXPECT_THAT(graph.tasks_of(0), testing::ElementsAre(2, 0, 1));
   EXPECT_THAT(graph.tasks_of(1), testing::ElementsAre(3, 4));
+}
+
+// When the last task is done if each thread does its own in order.
+double end_of(const TaskGraph& graph, const Needs& needs, const std::vector<double>& cost) {
+  std::vector<double> done(needs.size(), -1.0), free_at(graph.threads(), 0.0);
+  std::vector<std::size_t> next(graph.threads(), 0);
+  for (bool any = true; any;) {
+    any = false;
+    for (int thread = 0; thread < graph.threads(); ++thread) {
+      if (next[thread] == graph.tasks_of(thread).size()) continue;
+      const int task = graph.tasks_of(thread)[next[thread]];
+      double time = free_at[thread];
+      bool ready = true;
+      for (const int other : needs[task]) {
+        ready = ready && done[other] >= 0.0;
+        time = std::max(time, done[other]);
+      }
+      if (!ready) continue;
+      done[task] = free_at[thread] = time + cost[task];
+      ++next[thread];
+      any = true;
+    }
+  }
+  return *std::ranges::max_element(done);
+}
+
+// The hanging tree: 17 packs of twigs of 10 rows on three of branches of 40, on a stem in pieces of
+// 11, 15 and 16. Shared out by number each thread has half of the branches and twigs and one has
+// the stem, and all is done after 191; with one pack of twigs moved over to it, after 182, when the
+// branches of the stem's last two pieces come just in time.
+TEST(TaskGraph, MovesBordersBetweenThreadsWhereThatEndsSooner) {
+  Needs needs(23);
+  std::vector<double> cost(23, 10.0);
+  for (int twigs = 0; twigs < 17; ++twigs)
+    for (int branches = 17; branches < 20; ++branches)
+      if (twigs * 8 < 48 * (branches - 16) && std::min(twigs * 8 + 8, 132) > 48 * (branches - 17))
+        needs[branches].push_back(twigs);
+  for (int branches = 17; branches < 20; ++branches) cost[branches] = 40.0;
+  cost[20] = 11.0;
+  cost[21] = 15.0;
+  cost[22] = 16.0;
+  needs[20] = {19};
+  needs[21] = {18, 20};
+  needs[22] = {17, 21};
+  const TaskGraph graph(needs, cost, 2);
+  EXPECT_EQ(end_of(graph, needs, cost), 182.0);
 }
 
 TEST(TaskGraph, NeedsAThread) {

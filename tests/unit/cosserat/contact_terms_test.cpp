@@ -7,6 +7,8 @@
 
 #include "analytic/rod_cases.h"
 #include "analytic/sphere_source.h"
+#include "cosserat/lane_kernels.h"
+#include "cosserat/rotation.h"
 #include "unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
@@ -28,67 +30,109 @@ SphereSource touching_spheres(const RodModel& model, const RodState& state, Rand
   return source;
 }
 
-// The friction limit and the direction are frozen at the iterate: there the force is exactly the
-// slope of the frozen potential, sticking or sliding.
-TEST(ContactTerms, ForceIsMinusTheSlopeOfThePotential) {
-  for (const double friction : {0.0, 0.2, 50.0}) {
-    Random random(5);
-    const RodModel model = random_plant(random, 8, false);
-    const RodState start = random_state(model, random, 1e-3, 0.1);
-    RodState state = start;
+// A plant of which every other shape was pressed by a sphere in the step before, so that what
+// touches it now rubs: with contacts found at an iterate.
+struct Rubbed {
+  explicit Rubbed(double friction) {
     for (Vec3& p : state.position) p += random_vector(random, 3e-4);
-    SphereSource source = touching_spheres(model, state, random);
+    source = touching_spheres(model, state, random);
     source.friction = friction;
-    ContactSource* pointer = &source;
-    ContactTerms terms;
     terms.find(model, start, state, 1e-3, {&pointer, 1});
-    ASSERT_GT(terms.size(), 3);
-    std::vector<Mat6> diagonal(model.size(), Mat6::Zero());
-    std::vector<Vec6> right_side(model.size(), Vec6::Zero());
-    for (const ElementBlock& block : terms.blocks())
-      if (block.element >= 0) block.add_to(diagonal[block.element], right_side[block.element]);
-    EXPECT_NEAR(terms.energy(), terms.potential(model, state), 1e-15);
-    double largest = 0.0, worst = 0.0;
-    constexpr double step =
-        1e-8;  // small against the overlap: the potential has a kink at its edge
-    for (int e = 0; e < model.size(); ++e) {
-      for (int i = 0; i < 6; ++i) {
-        const double slope = (terms.potential(model, nudged(state, e, i, step)) -
-                              terms.potential(model, nudged(state, e, i, -step))) /
-                             (2 * step);
-        largest = std::max(largest, std::abs(slope));
-        worst = std::max(worst, std::abs(right_side[e][i] + slope));
+    terms.finish(model, state);
+    terms.find(model, start, state, 1e-3, {&pointer, 1});
+    source.find(model, state, 1e-3, points);
+  }
+  Random random{5};
+  RodModel model = random_plant(random, 8, false);
+  RodState start = random_state(model, random, 1e-3, 0.1);
+  RodState state = start;
+  SphereSource source;
+  ContactSource* pointer = &source;
+  ContactTerms terms;
+  std::vector<ContactPoint> points;
+};
+
+// The friction limit and the direction are frozen at the iterate: there the force is exactly the
+// slope of the frozen potential, sticking or sliding; with every instruction set.
+TEST(ContactTerms, ForceIsMinusTheSlopeOfThePotential) {
+  for (const std::string& set : available_instruction_sets()) {
+    use_instruction_set(set);
+    for (const double friction : {0.0, 0.2, 50.0}) {
+      const Rubbed rubbed(friction);
+      const RodModel& model = rubbed.model;
+      const RodState& state = rubbed.state;
+      const ContactTerms& terms = rubbed.terms;
+      ASSERT_GT(terms.size(), 3);
+      std::vector<Mat6> diagonal(model.size(), Mat6::Zero());
+      std::vector<Vec6> right_side(model.size(), Vec6::Zero());
+      for (const ElementBlock& block : terms.blocks())
+        if (block.element >= 0) block.add_to(diagonal[block.element], right_side[block.element]);
+      EXPECT_NEAR(terms.energy(), terms.potential(model, state), 1e-15);
+      double largest = 0.0, worst = 0.0;
+      constexpr double step =
+          1e-8;  // small against the overlap: the potential has a kink at its edge
+      for (int e = 0; e < model.size(); ++e) {
+        for (int i = 0; i < 6; ++i) {
+          const double slope = (terms.potential(model, nudged(state, e, i, step)) -
+                                terms.potential(model, nudged(state, e, i, -step))) /
+                               (2 * step);
+          largest = std::max(largest, std::abs(slope));
+          worst = std::max(worst, std::abs(right_side[e][i] + slope));
+        }
+      }
+      EXPECT_LT(worst, 1e-5 * largest) << friction << " " << set;
+      for (const Mat6& block : diagonal) {
+        const Eigen::SelfAdjointEigenSolver<Mat6> eigen(block);
+        EXPECT_GE(eigen.eigenvalues().minCoeff(), -1e-12 * eigen.eigenvalues().maxCoeff());
       }
     }
-    EXPECT_LT(worst, 1e-5 * largest) << friction;
-    for (const Mat6& block : diagonal) {
-      const Eigen::SelfAdjointEigenSolver<Mat6> eigen(block);
-      EXPECT_GE(eigen.eigenvalues().minCoeff(), -1e-12 * eigen.eigenvalues().maxCoeff());
-    }
   }
+  use_instruction_set("");
 }
 
-// Against the spring of any stiffness matrix: hessian = across I + (along - across) axis axis^T.
-TEST(PointSpring, IsThatOfItsStiffnessMatrix) {
-  Random random(7);
-  for (const double across : {0.0, 3.0}) {
-    const Vec3 arm = random_vector(random, 1.0), force = random_vector(random, 1.0);
-    const Vec3 axis = random_vector(random, 1.0).normalized();
-    constexpr double along = 5.0;
-    DiagonalBlocks expected(1);
-    add_point_spring(expected, 0, arm,
-                     across * Mat3::Identity() + (along - across) * axis * axis.transpose(), force);
-    Mat6 diagonal = Mat6::Zero();
-    Vec6 right_side = Vec6::Zero();
-    point_spring(0, arm, axis, along, across, force).add_to(diagonal, right_side);
-    EXPECT_LT((diagonal - expected.diagonal(0)).norm(), 1e-14);
-    EXPECT_LT((right_side - expected.right_side(0)).norm(), 1e-14);
-    for (const ElementBlock& block : expected.packed()) {
-      block.add_to(diagonal, right_side);
-      EXPECT_EQ(block.element, 0);
+// Each block is that of a spring on the touching point (add_point_spring()) of stiffness k along
+// the normal; across it none without friction, k where it sticks and less where it slides.
+TEST(ContactTerms, BlocksAreThoseOfSpringsOnTheTouchingPoints) {
+  for (const std::string& set : available_instruction_sets()) {
+    use_instruction_set(set);
+    for (const double friction : {0.0, 0.2, 50.0}) {
+      const Rubbed rubbed(friction);
+      const double k = rubbed.source.stiffness;
+      ASSERT_EQ(rubbed.points.size(), static_cast<std::size_t>(rubbed.terms.size()));
+      int pushing = 0;
+      for (std::size_t i = 0; i < rubbed.points.size(); ++i) {
+        const ContactPoint& point = rubbed.points[i];
+        const ElementBlock& block = rubbed.terms.blocks()[i];
+        EXPECT_EQ(block.element >= 0, point.gap < point.margin);
+        if (block.element < 0) continue;
+        ++pushing;
+        ASSERT_EQ(block.element, rubbed.model.shapes[point.shape].element);
+        Mat6 found = Mat6::Zero();
+        Vec6 right_side = Vec6::Zero();
+        block.add_to(found, right_side);
+        const Vec3& n = point.normal_W;
+        const Vec3 arm =
+            -point.back * third_axis(rubbed.state.orientation[block.element]) - point.radius * n;
+        const Mat3 hessian = found.topLeftCorner<3, 3>();
+        DiagonalBlocks expected(rubbed.model.size());
+        add_point_spring(expected, block.element, arm, hessian, right_side.head<3>());
+        EXPECT_LT((found - expected.diagonal(block.element)).norm(), 1e-12 * k);
+        EXPECT_LT((right_side - expected.right_side(block.element)).norm(), 1e-12 * k);
+        EXPECT_LT((hessian * n - k * n).norm(), 1e-12 * k);
+        EXPECT_NEAR(n.dot(right_side.head<3>()), k * (point.margin - point.gap), 1e-12 * k);
+        const Vec3 across = hessian * n.unitOrthogonal();
+        EXPECT_LT((across - across.norm() * n.unitOrthogonal()).norm(), 1e-12 * k);
+        if (friction == 0.0)
+          EXPECT_LT(across.norm(), 1e-12 * k);
+        else if (friction == 50.0)
+          EXPECT_NEAR(across.norm(), k, 1e-12 * k);
+        else
+          EXPECT_LT(across.norm(), 0.9 * k);
+      }
+      EXPECT_GT(pushing, 3);
     }
-    EXPECT_LT((diagonal - 2.0 * expected.diagonal(0)).norm(), 1e-14);
   }
+  use_instruction_set("");
 }
 
 // A soft, well damped rod's tip is pressed on a sphere so large that it is a floor (radius 1 km),
