@@ -9,8 +9,8 @@ namespace pedicel::cosserat {
 
 namespace {
 
-constexpr std::size_t stretch_length = 32;  // rows of contacts that a thread takes at a time
-constexpr std::size_t worth_waking = 4;     // stretches, a thread
+constexpr std::size_t stretch_length = 8;  // rows of contacts that a thread takes at a time
+constexpr std::size_t worth_waking = 2;     // stretches, a thread
 
 }  // namespace
 
