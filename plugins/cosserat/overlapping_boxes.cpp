@@ -241,6 +241,21 @@ void OverlappingBoxes::find_with(std::size_t box, CapsulePairs& pairs) {
   HWY_DYNAMIC_DISPATCH(CompareOne)(groups_, static_cast<int>(box), scratch_[0], pairs);
 }
 
+// The stretches at which the parts begin that had equal shares of the work the last time.
+std::array<std::size_t, PartedLoop::most_parts + 1> OverlappingBoxes::share_out(int parts) const {
+  std::array<std::size_t, PartedLoop::most_parts + 1> begins{};
+  const double all = std::accumulate(work_.begin(), work_.end(), 0.0);
+  double before = 0.0;
+  int part = 1;
+  for (std::size_t stretch = 0; stretch < work_.size(); ++stretch) {
+    while (part < parts && before + 0.5 * work_[stretch] > all * part / parts)
+      begins[part++] = stretch;
+    before += work_[stretch];
+  }
+  std::fill(begins.begin() + part, begins.end(), work_.size());
+  return begins;
+}
+
 void OverlappingBoxes::compare(std::size_t first, std::size_t end, Scratch& scratch) const {
   make_room(scratch);
   HWY_DYNAMIC_DISPATCH(Compare)(groups_, first, end, scratch);
@@ -253,6 +268,7 @@ void OverlappingBoxes::resize(std::size_t count) {
   std::fill_n(&empty.low[0][0], 3 * group_size, infinity);
   std::fill_n(&empty.high[0][0], 3 * group_size, -infinity);
   groups_.boxes.assign(groups, empty);
+  work_.assign((count + at_a_time - 1) / at_a_time, comparing);
   make_empty(groups_.around, groups + most_floats);
   leave_out({});
 }

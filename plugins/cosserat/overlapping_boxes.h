@@ -37,9 +37,12 @@ class OverlappingBoxes {
   template <class Take>
   int find(const PartedLoop& loop, const Take& take) {
     const int parts = loop.parts(count_, worth_waking);
-    loop.run(count_, parts, [&](int part, std::size_t first, std::size_t end) {
-      for (; first < end; first += at_a_time) {
-        compare(first, std::min(end, first + at_a_time), scratch_[part]);
+    const auto begins = share_out(parts);
+    loop.each(parts, [&](int part) {
+      for (std::size_t stretch = begins[part]; stretch < begins[part + 1]; ++stretch) {
+        const std::size_t first = stretch * at_a_time;
+        compare(first, std::min(count_, first + at_a_time), scratch_[part]);
+        work_[stretch] = comparing + static_cast<double>(scratch_[part].pairs.size());
         take(part, scratch_[part].pairs);
       }
     });
@@ -74,12 +77,15 @@ class OverlappingBoxes {
 
  private:
   static constexpr std::size_t worth_waking = 128, at_a_time = 64;  // boxes, whole groups
+  static constexpr double comparing = 300.0;  // pairs found, in the time of comparing at_a_time
 
   void make_room(Scratch& scratch) const;
+  std::array<std::size_t, PartedLoop::most_parts + 1> share_out(int parts) const;
   void compare(std::size_t first, std::size_t end, Scratch& scratch) const;
 
   std::size_t count_ = 0;
   Groups groups_;
+  std::vector<double> work_;  // by stretch of boxes, when they were compared last
   std::array<Scratch, PartedLoop::most_parts> scratch_;
 };
 
