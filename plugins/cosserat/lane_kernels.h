@@ -33,8 +33,8 @@ void measure_change(const RowArrays& rows, Pack& pack);
 
 /// iterate = base moved by `share` of the change; `keep` first makes base the iterate, which ends
 /// the use of the factors (FactorRow). The pack's first row must hold the parents' new poses.
-/// `measured`: sets `energy` to the potential there, as evaluate() does, which takes longer than the
-/// move itself.
+/// `measured`: sets `energy` to the potential there, as evaluate() does, which takes longer than
+/// the move itself.
 void move(const RowArrays& rows, Pack& pack, bool keep, bool measured);
 
 /// The potential at `iterate`, J.
