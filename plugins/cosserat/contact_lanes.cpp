@@ -239,7 +239,7 @@ HWY_EXPORT(Follow);
 HWY_EXPORT(Potential);
 HWY_EXPORT(End);
 
-// Neither pushes nor rubs, and is nowhere ill-defined.
+// Nothing of it is ill-defined either.
 ContactRow empty_contact_row() {
   ContactRow row{};
   for (int lane = 0; lane < lane_count; ++lane)

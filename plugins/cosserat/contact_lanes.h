@@ -30,6 +30,7 @@ struct alignas(64) ContactRow {
   Lanes energy;    // J
 };
 
+/// Neither pushes nor rubs.
 ContactRow empty_contact_row();
 
 /// What eight contacts carry at a step's end.
@@ -41,9 +42,8 @@ struct alignas(64) ContactEndRow {
   Lanes slipping;     // 1 or 0
 };
 
-/// All of these take the contacts of one plant, eight at a time on the widest vectors that the
-/// processor has. Lanes 2 i and 2 i + 1 of the first `sides` contacts of all rows are the two sides
-/// of one self-contact.
+/// All of these take contacts of one plant, eight at a time on the widest vectors that the processor
+/// has. The two sides of a self-contact stand in lanes 2 i and 2 i + 1 of a row.
 
 /// Sets arm, place and start of contacts just found.
 void place_contacts(std::span<ContactRow> rows, const RodState& start, const RodState& iterate);
@@ -55,8 +55,9 @@ void push_contacts(std::span<ContactRow> rows, const RodState& iterate, ElementB
 void follow_contacts(std::span<ContactRow> rows, const RodState& iterate);
 /// J, of all the rows at a state.
 double potential_of_contacts(std::span<const ContactRow> rows, const RodState& state);
-/// What they carry at the end of a step. Two sides meet in the middle of where both went since the
-/// last iterate.
+/// What they carry at the end of a step, one row of `ends` each. The first `sides` contacts, none
+/// where it is negative, are sides of self-contacts: two meet in the middle of where both went since
+/// the last iterate.
 void end_contacts(std::span<ContactRow> rows, int sides, const RodState& end, ContactEndRow* ends);
 
 }  // namespace pedicel::cosserat

@@ -152,6 +152,36 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
   }
 }
 
+// To the same place, and the potential there is the same when it is asked for afterwards.
+TEST(RodRows, AMoveNeedNotBeMeasured) {
+  for (const double damping_time : {0.0, 0.05}) {
+    Random random(2);
+    RodModel model = random_plant(random, 60, false);
+    for (Element& element : model.elements) element.damping_time = damping_time;
+    finish(model);
+    const RodState state = random_state(model, random, 1e-3, 0.3);
+    const RodHistory history = random_history(model, state, random, dt);
+    ThreadPool pool(1);
+    std::vector<double> energies;
+    std::vector<RodState> ends;
+    for (const bool measured : {true, false}) {
+      RodRows rows(std::array{&model}, 1);
+      rows.set_gravity(gravity);
+      rows.set_scheme(0, dt, dt, state.root);
+      rows.set_history(0, history);
+      rows.prepare(pool, std::array{&state});
+      rows.set_share(0, 1.0);
+      ends.push_back(state);
+      rows.solve_and_move(pool, measured, std::array{&ends.back()});
+      if (!measured) rows.measure(pool);
+      energies.push_back(rows.energy(0));
+      EXPECT_LT(energies.back(), rows.energy_before(0));
+    }
+    EXPECT_EQ(energies[0], energies[1]);
+    EXPECT_EQ(ends[0].position, ends[1].position);
+  }
+}
+
 TEST(RodRows, APlantAloneMovesAsItDoesAmongOthers) {
   const std::vector<RodModel> plants = garden();
   const std::vector<Vec3> together = tips_after(plants, 1, 100);
