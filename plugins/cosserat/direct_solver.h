@@ -40,10 +40,13 @@ class DirectSolver : public RodSolver {
   };
   /// Steps all the plants that it was made for, in that order.
   void step(std::span<PlantStep> plants, double dt, const Vec3& gravity, ThreadPool& pool);
-  /// The same in the caller's thread alone.
-  void step(std::span<PlantStep> plants, double dt, const Vec3& gravity) {
+  /// The same in the caller's thread alone, which fetches meanwhile what it works on next.
+  void step(std::span<PlantStep> plants, double dt, const Vec3& gravity,
+            FetchAhead* ahead = nullptr) {
+    rows_.fetch_along(ahead);
     step(plants, dt, gravity, alone_);
   }
+  void add_to(FetchAhead& ahead) const { rows_.add_to(ahead); }
   StepReport step(const RodModel& model, RodState& state, const StepInput& input) override;
 
   const std::vector<ContactForce>& contact_forces() const override { return contact_forces(0); }

@@ -128,6 +128,11 @@ HWY_INLINE void fetch_sources(const RowArrays& rows, int row) {
       __builtin_prefetch(rows.extras[s].values + line);
 }
 
+// Once a row, however many vectors it takes.
+HWY_INLINE void fetch_ahead(const RowArrays& rows, int lane) {
+  if (rows.ahead && lane == 0) rows.ahead->some();
+}
+
 template <bool extended>
 void eliminate_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
@@ -144,6 +149,7 @@ void eliminate_pack(const RowArrays& rows, Pack& pack) {
       const Blocks blocks = blocks_of<extended>(rows, pack, row, lane, s);
       add(blocks, carry);
       fetch_sources(rows, row - 2);
+      fetch_ahead(rows, lane);
       if (rows.first_branch[row] >= 0)
         add_sources(rows.branches, rows.first_branch[row], lane, carry);
       if (rows.first_extra[row] >= 0) add_sources(rows.extras, rows.first_extra[row], lane, carry);
@@ -228,6 +234,7 @@ void Substitute(const RowArrays& rows, Pack& pack) {
     for (int row = pack.begin + 1; row < pack.end; ++row) {
       FactorRow& factor = rows.factor[row];
       const auto* lower = factor.factors + FactorRow::coupling_size;
+      fetch_ahead(rows, lane);
       V x[6];
       load_change(factor, lane, x);
       int place = 0;
@@ -275,6 +282,7 @@ void move_pack(const RowArrays& rows, Pack& pack, bool keep) {
     for (int row = pack.begin + 1; row < pack.end; ++row) {
       FactorRow& factor = rows.factor[row];
       PoseRow& kept = factor.base;
+      fetch_ahead(rows, lane);
       const Pose base = load_pose(keep ? rows.iterate[row] : kept, lane);
       if (keep) store_pose(base, kept, lane);
       V d[6];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cosserat/fetch_ahead.h"
+
 namespace pedicel::cosserat {
 
 /// Structure of arrays for the direct solver: a row holds eight elements side by side, one a lane,
@@ -160,6 +162,7 @@ struct RowArrays {
   int law_branches = 0;
   double axis_share = 1.0;              // 1, by which ExtensionTermRow::axis follows the iterate
   double gravity[3] = {0.0, 0.0, 0.0};  // m/s2, W
+  FetchAhead* ahead = nullptr;          // where there is something to fetch meanwhile
 };
 
 }  // namespace pedicel::cosserat

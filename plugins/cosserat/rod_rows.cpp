@@ -43,15 +43,20 @@ constexpr int at(int i, int j) {  // in a lower triangle by rows
 
 }  // namespace
 
+RowScratch::RowScratch(bool on_huge_pages)
+    : pages_(on_huge_pages ? std::make_unique<HugePages>() : nullptr),
+      memory(pages_ ? pages_.get() : std::pmr::get_default_resource()) {}
+
 RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep_blocks,
                  std::shared_ptr<RowScratch> scratch)
-    : layout_(plants, keep_blocks),
+    : scratch_(scratch ? std::move(scratch) : std::make_shared<RowScratch>()),
+      layout_(plants, keep_blocks),
       graph_(graph_of(layout_, plants, threads)),
       packs_(layout_.packs()),
-      element_(layout_.rows(), empty_row()),
-      previous_(layout_.rows(), identity_row()),
-      previous_rate_(layout_.rows(), RateRow{}),
-      scratch_(scratch ? std::move(scratch) : std::make_shared<RowScratch>()),
+      element_(layout_.rows(), empty_row(), scratch_->memory),
+      previous_(layout_.rows(), identity_row(), scratch_->memory),
+      previous_rate_(layout_.rows(), RateRow{}, scratch_->memory),
+      previous_strain_(scratch_->memory),
       extended_(plants.size()),
       first_branch_(layout_.rows(), -1),
       first_extra_(layout_.rows(), -1),
@@ -120,6 +125,7 @@ RowArrays RodRows::arrays() {
   rows.law_branches = branches_a_row_;
   rows.axis_share = axis_share_;
   for (int i = 0; i < 3; ++i) rows.gravity[i] = gravity_[i];
+  rows.ahead = ahead_;
   return rows;
 }
 
@@ -144,6 +150,22 @@ void RodRows::set_gravity(const Vec3& gravity) {
   gravity_ = gravity;
 }
 
+void RodRows::add_to(FetchAhead& ahead) const {
+  ahead.add(element_);
+  ahead.add(previous_);
+  ahead.add(previous_rate_);
+  ahead.add(previous_strain_);
+  ahead.add(extension_);
+  ahead.add(branch_);
+  ahead.add(packs_);
+}
+
+void RodRows::fetch_along(FetchAhead* ahead) {
+  constexpr int passes = 4;  // over the rows: states are read, elimination, solution, move
+  ahead_ = ahead;
+  if (ahead) ahead->share_out(passes * (layout_.rows() - layout_.packs()));
+}
+
 // Packs that stay as they are are not written to: a thread has them in its core's cache.
 void RodRows::set_active(std::span<const char> plants) {
   active_.assign(packs_.size(), 0);
@@ -163,7 +185,7 @@ void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states)
 }
 
 // The parents' poses into a pack's first row: theirs must have been moved already.
-void RodRows::place_anchors(int pack, std::vector<PoseRow>& poses) const {
+void RodRows::place_anchors(int pack, std::span<PoseRow> poses) const {
   PoseRow& row = poses[packs_[pack].begin];
   for (int lane = 0; lane < lane_count; ++lane) {
     const auto [plant, parent] = anchors_[pack][lane];

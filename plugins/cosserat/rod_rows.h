@@ -2,9 +2,11 @@
 
 #include <array>
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "core/huge_pages.h"
 #include "core/task_graph.h"
 #include "cosserat/block_system.h"
 #include "cosserat/diagonal_blocks.h"
@@ -24,14 +26,25 @@ struct RodHistory {
 
 /// What a step needs and leaves nothing in: RodRows that are never stepped at once may share it,
 /// and then stay in a core's cache.
-struct RowScratch {
-  std::vector<PoseRow> start, iterate;
-  std::vector<RateRow> rate;
-  std::vector<StrainRow> strain;
-  std::vector<ViscousRow> viscous;
-  std::vector<TermRow> term;
-  std::vector<FactorRow> factor;
-  std::vector<BlocksRow> blocks;
+class RowScratch {
+ public:
+  explicit RowScratch(bool on_huge_pages = false);
+
+ private:
+  std::unique_ptr<HugePages> pages_;
+
+ public:
+  template <class Row>
+  using Rows = std::pmr::vector<Row>;
+  /// What lasts of those RodRows stands there, too.
+  std::pmr::memory_resource* const memory;
+  Rows<PoseRow> start{memory}, iterate{memory};
+  Rows<RateRow> rate{memory};
+  Rows<StrainRow> strain{memory};
+  Rows<ViscousRow> viscous{memory};
+  Rows<TermRow> term{memory};
+  Rows<FactorRow> factor{memory};
+  Rows<BlocksRow> blocks{memory};
 };
 
 /// The incremental potential of some plants over one step, without loads, supports, welds and
@@ -65,6 +78,11 @@ class RodRows {
   /// Which plants the calls below are for, until told otherwise (others may be computed along,
   /// without effect).
   void set_active(std::span<const char> plants);
+
+  /// Adds what a step reads of what was left by the one before.
+  void add_to(FetchAhead& ahead) const;
+  /// Fetches that along with the rows of the next step.
+  void fetch_along(FetchAhead* ahead);
 
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
   /// then says how far that turns an element.
@@ -156,18 +174,18 @@ class RodRows {
   void write_end(int pack, std::span<RodState* const> states) const;
   template <class Write>
   void for_each_element(int pack, std::span<RodState* const> states, const Write& write) const;
-  void place_anchors(int pack, std::vector<PoseRow>& poses) const;
+  void place_anchors(int pack, std::span<PoseRow> poses) const;
   void change_anchors(int pack);
 
+  std::shared_ptr<RowScratch> scratch_;
   LaneLayout layout_;
   TaskGraph graph_;  // of the packs
   std::vector<Pack> packs_;
   std::vector<char> active_;  // scratch, by pack
-  std::vector<ElementRow> element_;
-  std::vector<PoseRow> previous_;
-  std::vector<RateRow> previous_rate_;  // between finish() and end_step() the end's
-  std::vector<StrainRow> previous_strain_;
-  std::shared_ptr<RowScratch> scratch_;
+  std::pmr::vector<ElementRow> element_;
+  std::pmr::vector<PoseRow> previous_;
+  std::pmr::vector<RateRow> previous_rate_;  // between finish() and end_step() the end's
+  std::pmr::vector<StrainRow> previous_strain_;
   // Empty unless some plant is extended; branch_: branches_a_row_ a row.
   std::vector<ExtensionRow> extension_;
   std::vector<ExtensionTermRow> extension_term_;
@@ -181,6 +199,7 @@ class RodRows {
   std::vector<std::array<Anchor, lane_count>> anchors_;  // by pack
   std::vector<Pose> roots_;                              // X_W of the clamps
   Vec3 gravity_ = Vec3::Zero();
+  FetchAhead* ahead_ = nullptr;
 };
 
 }  // namespace pedicel::cosserat

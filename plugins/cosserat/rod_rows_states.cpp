@@ -57,6 +57,7 @@ void RodRows::read_states(int pack, std::span<const RodState* const> states) {
       put(start, lane, states[plant]->position[parent], states[plant]->orientation[parent]);
   }
   for (int row = begin + 1; row < packs_[pack].end; ++row) {
+    if (ahead_) ahead_->some();
     PoseRow& start = scratch_->start[row];
     RateRow& rate = scratch_->rate[row];
     for (int lane = 0; lane < lane_count; ++lane) {

@@ -12,6 +12,8 @@ namespace {
 // Elements. A bed of the first size stays in a core's own cache. Below the second, for each thread,
 // full lanes and even shares count for more, as far as dividing would cost any.
 constexpr int bed_size = 480, undivided = 2400, equal_undivided = 1100;
+// Likewise: from here on rows stand on huge pages.
+constexpr int large = 8000;
 
 struct Share {
   int plants = 0, thread = 0;
@@ -94,12 +96,13 @@ void RodSystem::step(double dt, const Vec3& gravity) {
 
 void RodSystem::make_beds() {
   const int threads = pool_.threads();
-  // The beds of a thread share the memory that a step needs.
-  std::vector<std::shared_ptr<RowScratch>> scratch;
-  for (int thread = 0; thread < threads; ++thread)
-    scratch.push_back(std::make_shared<RowScratch>());
   std::vector<int> elements;
   for (const Plant& plant : plants_) elements.push_back(plant.model.size());
+  // The beds of a thread share the memory that a step needs.
+  const bool is_large = std::accumulate(elements.begin(), elements.end(), 0) >= large;
+  std::vector<std::shared_ptr<RowScratch>> scratch;
+  for (int thread = 0; thread < threads; ++thread)
+    scratch.push_back(std::make_shared<RowScratch>(is_large));
   const std::vector<Share> shares = share_out(elements, threads);
   int next = 0;
   for (const Share& share : shares) {
@@ -116,6 +119,7 @@ void RodSystem::make_beds() {
                                                 scratch[bed.thread]);
     bed.steps.resize(models.size());
   }
+  ahead_.resize(threads);
 }
 
 // Without a pool it is one of several beds, and a thread steps it alone.
@@ -128,9 +132,32 @@ void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* p
   if (pool)
     bed.solver->step(bed.steps, dt, gravity, *pool);
   else
-    bed.solver->step(bed.steps, dt, gravity);
+    bed.solver->step(bed.steps, dt, gravity, what_follows(bed));
   for (std::size_t i = 0; i < bed.steps.size(); ++i)
     plants_[bed.first + i].report = bed.steps[i].report;
+}
+
+// The bed that its thread steps next, in the next step the first one again; nullptr where that is
+// the same.
+FetchAhead* RodSystem::what_follows(const Bed& bed) {
+  const auto count = beds_.size();
+  auto after = static_cast<std::size_t>(&bed - beds_.data());
+  do after = (after + 1) % count;
+  while (beds_[after].thread != bed.thread);
+  const Bed& next = beds_[after];
+  if (&next == &bed) return nullptr;
+  FetchAhead& ahead = ahead_[bed.thread].next_bed;
+  ahead.clear();
+  next.solver->add_to(ahead);
+  for (std::size_t i = 0; i < next.steps.size(); ++i) {
+    const RodState& state = plants_[next.first + i].state;
+    ahead.add(state.position);
+    ahead.add(state.orientation);
+    ahead.add(state.velocity);
+    ahead.add(state.angular_velocity);
+    ahead.add(state.alive);
+  }
+  return &ahead;
 }
 
 const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {

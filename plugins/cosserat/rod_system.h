@@ -82,11 +82,16 @@ class RodSystem {
   };
   void make_beds();
   void step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool);
+  FetchAhead* what_follows(const Bed& bed);
 
   RodSettings settings_;
   ThreadPool pool_;
   std::vector<Plant> plants_;
   std::vector<Bed> beds_;  // direct solver; made by the first step after add_plant()
+  struct alignas(64) Ahead {
+    FetchAhead next_bed;
+  };
+  std::vector<Ahead> ahead_;  // by thread
 };
 
 }  // namespace pedicel::cosserat

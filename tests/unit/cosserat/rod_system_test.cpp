@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <numeric>
+#include <span>
 
 #include "analytic/rod_cases.h"
 #include "analytic/sphere_source.h"
+#include "plant/reference_plants.h"
 #include "unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
@@ -45,6 +49,36 @@ TEST(RodSystem, SameBitsWithOneAndTwoThreads) {
     EXPECT_EQ(one, hash_after(settings, 2, 120));
     EXPECT_EQ(one, hash_after(settings, 1, 120));
     EXPECT_NE(one, hash_after(settings, 1, 121));
+  }
+}
+
+// Many plants are stepped in beds, a few plants each, and from 8,000 elements on their rows stand
+// on huge pages. Damping that a plant gets on the way takes more of them.
+TEST(RodSystem, ManyPlantsMoveAsOneAlone) {
+  constexpr int plants = 140;  // 8,260 elements
+  const auto states_after = [](int threads, std::span<const int> numbers) {
+    RodSystem system({}, threads);
+    for (const int p : numbers) system.add_plant(plant::forest_plant(p));
+    for (int i = 0; i < 10; ++i) system.step(dt, gravity);
+    for (int p = 0; p < system.size(); ++p) {
+      RodModel damped = system.model(p);
+      for (Element& element : damped.elements) element.damping_time = 0.01;
+      system.change_constants(p, std::move(damped));
+    }
+    for (int i = 0; i < 10; ++i) system.step(dt, gravity);
+    std::vector<RodState> states;
+    for (int p = 0; p < system.size(); ++p) states.push_back(system.state(p));
+    return states;
+  };
+  std::vector<int> all(plants);
+  std::iota(all.begin(), all.end(), 0);
+  for (const int threads : {1, 2}) {
+    const std::vector<RodState> together = states_after(threads, all);
+    for (const int p : {0, 1, 69, 70, plants - 1}) {
+      const RodState alone = states_after(1, std::array{p}).front();
+      EXPECT_EQ(together[p].position, alone.position) << threads << " threads, plant " << p;
+      EXPECT_EQ(together[p].velocity, alone.velocity) << threads << " threads, plant " << p;
+    }
   }
 }
 
