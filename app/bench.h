@@ -16,7 +16,7 @@ struct BenchOptions {
   std::string name = "rods_2242";  ///< one of bench_names()
   int threads = 1;
   double dt = 1.0 / 240.0;    ///< s
-  double duration = 2.0;      ///< s, simulated, after the warm-up
+  double duration = 2.0;      ///< s, simulated, after the warm-up; repeated if that is over soon
   bool self_contact = false;  ///< organs of one plant may touch each other
   bool accuracy = true;       ///< measure BenchAccuracy, too (some seconds)
   cosserat::RodSettings rods;
