@@ -37,6 +37,12 @@ TaskGraph graph_of(const LaneLayout& layout, std::span<const RodModel* const> pl
   return {layout.packs_on(), rows, std::clamp(elements / smallest_share, 1, threads)};
 }
 
+// What stays as it is is not written: it lies in the cache of the core that works on it.
+template <class Value>
+void renew(Value& held, Value value) {
+  if (held != value) held = value;
+}
+
 constexpr int at(int i, int j) {  // in a lower triangle by rows
   return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
 }
@@ -139,10 +145,10 @@ void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& r
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
     Pack& pack = packs_[chain.pack];
-    pack.past_now[chain.lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
-    pack.past_before[chain.lane] = ratio * ratio / divisor;
-    pack.effective_step[chain.lane] = dt * ((1.0 + ratio) / divisor);
-    pack.accelerate[chain.lane] = accelerate ? dt : 0.0;
+    renew(pack.past_now[chain.lane], (1.0 + ratio) * (1.0 + ratio) / divisor);
+    renew(pack.past_before[chain.lane], ratio * ratio / divisor);
+    renew(pack.effective_step[chain.lane], dt * ((1.0 + ratio) / divisor));
+    renew(pack.accelerate[chain.lane], accelerate ? dt : 0.0);
   }
 }
 
@@ -166,13 +172,12 @@ void RodRows::fetch_along(FetchAhead* ahead) {
   if (ahead) ahead->share_out(passes * (layout_.rows() - layout_.packs()));
 }
 
-// Packs that stay as they are are not written to: a thread has them in its core's cache.
 void RodRows::set_active(std::span<const char> plants) {
   active_.assign(packs_.size(), 0);
   for (const Chain& chain : layout_.chains())
     if (plants[chain.plant]) active_[chain.pack] = 1;
   for (std::size_t p = 0; p < packs_.size(); ++p)
-    if (packs_[p].active != (active_[p] != 0)) packs_[p].active = active_[p] != 0;
+    renew(packs_[p].active, active_[p] != 0);
 }
 
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
@@ -348,8 +353,7 @@ void RodRows::solve_and_move(ThreadPool& pool, bool measured, std::span<RodState
 void RodRows::set_share(int plant, double share) {
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
-    double& own = packs_[chain.pack].share[chain.lane];
-    if (own != share) own = share;  // as in set_active()
+    renew(packs_[chain.pack].share[chain.lane], share);
   }
 }
 
