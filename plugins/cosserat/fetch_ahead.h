@@ -15,7 +15,7 @@ class FetchAhead {
     ranges_.clear();
     lines_ = next_ = 0;
   }
-  /// It may be gone when it is asked for: then that is in vain.
+  /// Where it is gone when it is asked for, that is in vain and does no harm.
   template <class Vector>
   void add(const Vector& values) {
     const auto begin = reinterpret_cast<const char*>(values.data());
@@ -29,6 +29,7 @@ class FetchAhead {
     calls = std::max<std::size_t>(calls, 1);
     lines_a_call_ = (lines_ + calls - 1) / calls;
   }
+  /// Asks for the next lines.
   void some() {
     for (std::size_t wanted = lines_a_call_; wanted > 0 && next_ < ranges_.size();) {
       Range& range = ranges_[next_];
@@ -37,6 +38,7 @@ class FetchAhead {
       if (range.begin >= range.end) ++next_;
     }
   }
+  /// Whether all of it has been asked for.
   bool is_done() const { return next_ == ranges_.size(); }
 
  private:

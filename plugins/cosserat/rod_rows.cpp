@@ -67,7 +67,9 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
       first_branch_(layout_.rows(), -1),
       first_extra_(layout_.rows(), -1),
       anchors_(layout_.packs()),
-      roots_(plants.size()) {
+      roots_(plants.size()),
+      schemes_(plants.size()),
+      shares_(plants.size(), 0.0) {
   std::vector<int> order;
   for (int thread = 0; thread < graph_.threads(); ++thread)
     order.insert(order.end(), graph_.tasks_of(thread).begin(), graph_.tasks_of(thread).end());
@@ -139,6 +141,9 @@ RowArrays RodRows::arrays() {
 void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& root,
                          bool accelerate) {
   roots_[plant] = root;
+  const Scheme scheme{dt, previous_dt, accelerate};
+  if (scheme == schemes_[plant]) return;  // as most steps do
+  schemes_[plant] = scheme;
   const bool first_order = previous_dt == 0.0;
   const double ratio = first_order ? 0.0 : dt / previous_dt;
   const double divisor = 1.0 + 2.0 * ratio;
@@ -173,11 +178,12 @@ void RodRows::fetch_along(FetchAhead* ahead) {
 }
 
 void RodRows::set_active(std::span<const char> plants) {
+  if (std::ranges::equal(plants, active_plants_)) return;
+  active_plants_.assign(plants.begin(), plants.end());
   active_.assign(packs_.size(), 0);
   for (const Chain& chain : layout_.chains())
     if (plants[chain.plant]) active_[chain.pack] = 1;
-  for (std::size_t p = 0; p < packs_.size(); ++p)
-    renew(packs_[p].active, active_[p] != 0);
+  for (std::size_t p = 0; p < packs_.size(); ++p) renew(packs_[p].active, active_[p] != 0);
 }
 
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
@@ -351,6 +357,8 @@ void RodRows::solve_and_move(ThreadPool& pool, bool measured, std::span<RodState
 }
 
 void RodRows::set_share(int plant, double share) {
+  if (share == shares_[plant]) return;
+  shares_[plant] = share;
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
     renew(packs_[chain.pack].share[chain.lane], share);

@@ -28,6 +28,7 @@ struct RodHistory {
 /// and then stay in a core's cache.
 class RowScratch {
  public:
+  /// `on_huge_pages`: it and what lasts of those RodRows stand on HugePages.
   explicit RowScratch(bool on_huge_pages = false);
 
  private:
@@ -36,7 +37,6 @@ class RowScratch {
  public:
   template <class Row>
   using Rows = std::pmr::vector<Row>;
-  /// What lasts of those RodRows stands there, too.
   std::pmr::memory_resource* const memory;
   Rows<PoseRow> start{memory}, iterate{memory};
   Rows<RateRow> rate{memory};
@@ -81,7 +81,7 @@ class RodRows {
 
   /// Adds what a step reads of what was left by the one before.
   void add_to(FetchAhead& ahead) const;
-  /// Fetches that along with the rows of the next step.
+  /// What is fetched along with the rows of the next step; null: nothing.
   void fetch_along(FetchAhead* ahead);
 
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
@@ -157,6 +157,13 @@ class RodRows {
     double dt = 0.0;   // s
   };
 
+  // How a plant steps (s).
+  struct Scheme {
+    double dt = 0.0, previous_dt = 0.0;
+    bool accelerate = false;
+    bool operator==(const Scheme&) const = default;
+  };
+
   RowArrays arrays();
   void make_viscous(int chain);
   void make_extension_rows(int branches);
@@ -181,7 +188,7 @@ class RodRows {
   LaneLayout layout_;
   TaskGraph graph_;  // of the packs
   std::vector<Pack> packs_;
-  std::vector<char> active_;  // scratch, by pack
+  std::vector<char> active_plants_, active_;  // set_active(); by pack
   std::pmr::vector<ElementRow> element_;
   std::pmr::vector<PoseRow> previous_;
   std::pmr::vector<RateRow> previous_rate_;  // between finish() and end_step() the end's
@@ -198,8 +205,10 @@ class RodRows {
   std::vector<int> extra_rows_;
   std::vector<std::array<Anchor, lane_count>> anchors_;  // by pack
   std::vector<Pose> roots_;                              // X_W of the clamps
+  std::vector<Scheme> schemes_;                          // by plant
+  std::vector<double> shares_;                           // 1, by plant
   Vec3 gravity_ = Vec3::Zero();
-  FetchAhead* ahead_ = nullptr;
+  FetchAhead* ahead_ = nullptr;  // not its own
 };
 
 }  // namespace pedicel::cosserat
