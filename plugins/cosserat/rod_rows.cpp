@@ -37,12 +37,6 @@ TaskGraph graph_of(const LaneLayout& layout, std::span<const RodModel* const> pl
   return {layout.packs_on(), rows, std::clamp(elements / smallest_share, 1, threads)};
 }
 
-// What stays as it is is not written: it lies in the cache of the core that works on it.
-template <class Value>
-void renew(Value& held, Value value) {
-  if (held != value) held = value;
-}
-
 constexpr int at(int i, int j) {  // in a lower triangle by rows
   return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
 }
@@ -142,7 +136,7 @@ void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& r
                          bool accelerate) {
   roots_[plant] = root;
   const Scheme scheme{dt, previous_dt, accelerate};
-  if (scheme == schemes_[plant]) return;  // as most steps do
+  if (scheme == schemes_[plant]) return;  // mostly; see set_active()
   schemes_[plant] = scheme;
   const bool first_order = previous_dt == 0.0;
   const double ratio = first_order ? 0.0 : dt / previous_dt;
@@ -150,10 +144,10 @@ void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& r
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
     Pack& pack = packs_[chain.pack];
-    renew(pack.past_now[chain.lane], (1.0 + ratio) * (1.0 + ratio) / divisor);
-    renew(pack.past_before[chain.lane], ratio * ratio / divisor);
-    renew(pack.effective_step[chain.lane], dt * ((1.0 + ratio) / divisor));
-    renew(pack.accelerate[chain.lane], accelerate ? dt : 0.0);
+    pack.past_now[chain.lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
+    pack.past_before[chain.lane] = ratio * ratio / divisor;
+    pack.effective_step[chain.lane] = dt * ((1.0 + ratio) / divisor);
+    pack.accelerate[chain.lane] = accelerate ? dt : 0.0;
   }
 }
 
@@ -177,13 +171,15 @@ void RodRows::fetch_along(FetchAhead* ahead) {
   if (ahead) ahead->share_out(passes * (layout_.rows() - layout_.packs()));
 }
 
+// Packs that stay as they are are not written to: a thread has them in its core's cache.
 void RodRows::set_active(std::span<const char> plants) {
   if (std::ranges::equal(plants, active_plants_)) return;
   active_plants_.assign(plants.begin(), plants.end());
   active_.assign(packs_.size(), 0);
   for (const Chain& chain : layout_.chains())
     if (plants[chain.plant]) active_[chain.pack] = 1;
-  for (std::size_t p = 0; p < packs_.size(); ++p) renew(packs_[p].active, active_[p] != 0);
+  for (std::size_t p = 0; p < packs_.size(); ++p)
+    if (packs_[p].active != (active_[p] != 0)) packs_[p].active = active_[p] != 0;
 }
 
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
@@ -361,7 +357,7 @@ void RodRows::set_share(int plant, double share) {
   shares_[plant] = share;
   for (const int c : layout_.chains_of_plant(plant)) {
     const Chain& chain = layout_.chains()[c];
-    renew(packs_[chain.pack].share[chain.lane], share);
+    packs_[chain.pack].share[chain.lane] = share;
   }
 }
 

@@ -65,6 +65,23 @@ TEST(Allocation, NoneWithLawsAndWind) {
       EXPECT_EQ(allocations_of_a_warm_run({}, threads, loops, false, true), 0);
 }
 
+// Enough for several beds a thread, whose rows stand on huge pages.
+TEST(Allocation, NoneInARowOfManyPlants) {
+  for (const int threads : {1, 2}) {
+    RodSystem system({}, threads);
+    int elements = 0;
+    for (int p = 0; p < 140; ++p) {
+      Random random(p);
+      elements += system.model(system.add_plant(random_plant(random, 60, false))).size();
+    }
+    ASSERT_GE(elements, 8000);
+    for (int i = 0; i < 20; ++i) system.step(1.0 / 240.0, gravity);
+    const long before = allocations();
+    for (int i = 0; i < 20; ++i) system.step(1.0 / 240.0, gravity);
+    EXPECT_EQ(allocations() - before, 0) << threads << " threads";
+  }
+}
+
 // With loops the element takes its weld with it: the symbolic phase of the factorisation lasts.
 TEST(Allocation, NoneWhenAnElementComesOff) {
   for (const bool loops : {false, true})
