@@ -83,6 +83,19 @@ std::vector<int> shared_out_by_number(const std::vector<int>& level,
   return thread_of;
 }
 
+// That, and with what is alone on its level, as the pieces of a stem are, all on one thread, on
+// each in turn: which of them waits least for the branches is not to be told beforehand.
+Lists ways_to_share_out(const std::vector<int>& level, const std::vector<double>& cost,
+                        int threads) {
+  Lists ways{shared_out_by_number(level, cost, threads)};
+  for (int thread = 0; thread < threads; ++thread) {
+    ways.push_back(ways.front());
+    for (std::size_t i = 0; i < level.size(); ++i)
+      if (std::ranges::count(level, level[i]) == 1) ways.back()[i] = thread;
+  }
+  return ways;
+}
+
 // Each thread does its tasks in the order given, in which what a task needs comes first.
 Schedule in_order(const Lists& needs, const std::vector<double>& cost,
                   const std::vector<int>& order, const std::vector<int>& thread_of, int threads) {
@@ -163,7 +176,7 @@ TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int th
   std::vector<int> level(n, 0), order(n), rank(n);
   for (int i = 0; i < n; ++i)
     for (const int other : needs[i]) level[i] = std::max(level[i], level[other] + 1);
-  const std::vector<int> thread_of = shared_out_by_number(level, cost, threads);
+  const Lists by_number = ways_to_share_out(level, cost, threads);
   std::iota(order.begin(), order.end(), 0);
   Schedule quick, neighbours;
   quick.end = neighbours.end = std::numeric_limits<double>::infinity();
@@ -173,7 +186,8 @@ TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int th
       if (found.end < best.end) best = std::move(found);
     };
     take_better(quick, schedule(needs, needed_by, cost, rank, threads));
-    take_better(neighbours, with_better_borders(needs, cost, order, level, thread_of, threads));
+    for (const std::vector<int>& thread_of : by_number)
+      take_better(neighbours, with_better_borders(needs, cost, order, level, thread_of, threads));
   };
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](int i) { return hangs_on[i]; });
   try_order();
