@@ -20,6 +20,8 @@ class TaskGraph {
             int threads);
 
   int size() const { return static_cast<int>(needs_.begin.size()) - 1; }
+  /// What task i needs.
+  std::span<const int> needs(int i) const { return needs_.of(i); }
   /// The share of each thread, in order.
   std::span<const int> tasks_of(int thread) const { return shares_[thread]; }
   int threads() const { return static_cast<int>(shares_.size()); }

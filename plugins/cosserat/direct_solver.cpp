@@ -330,8 +330,7 @@ void DirectSolver::start_search(int index, const RodModel& model, StepReport& re
   if (plant.share < 1.0) rows_.set_share(index, plant.share);
   searching_[index] = plant.is_searched();
   if (searching_[index] || !plant.touched) return;
-  plant.pressed = plant.contacts.potential(model, plant.iterate);
-  plant.presses = plant.presses || plant.pressed > 0.0;
+  plant.presses = plant.presses || plant.contacts.potential(model, plant.iterate) > 0.0;
   plant.iterate_is_here = true;
 }
 

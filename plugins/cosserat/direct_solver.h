@@ -82,7 +82,7 @@ class DirectSolver : public RodSolver {
     bool has_history = false;
     bool smooth = false;                      // the last step was solved to the tolerance
     double energy = 0.0, extra_energy = 0.0;  // J, where the line search began; of `touched`
-    double pressed = 0.0;                     // J, of the known contacts where it ended
+    double pressed = 0.0;                     // J, of the known contacts where a search ended
     double share = 0.0;                       // 1, of Newton's change that is tried
     RodRows::Change change;
     double last_change = 0.0;  // of the iteration before; 0: there was none

@@ -120,8 +120,9 @@ void Prepare(const RowArrays& rows, Pack& pack) {
 
 // ---- Elimination --------------------------------------------------------------------------------
 
-// What another thread has just written comes from its core's cache: asked for early, nothing waits
-// for it.
+// What another thread has just written comes from its core's cache: asked for so many rows early,
+// nothing waits for it.
+constexpr int sources_ahead = 3;
 HWY_INLINE void fetch_sources(const RowArrays& rows, int row) {
   for (int s = rows.first_extra[std::max(row, 0)]; s >= 0; s = rows.extras[s].next)
     for (int line = 0; line < block_size; line += lane_count)
@@ -139,6 +140,7 @@ void eliminate_pack(const RowArrays& rows, Pack& pack) {
     Carry carry;
     clear(carry);
     V energy = set(0.0), healthy = set(1.0);
+    for (int k = 1; k <= sources_ahead; ++k) fetch_sources(rows, pack.end - k);
     for (int row = pack.end - 1; row > pack.begin; --row) {
       if constexpr (extended)
         if (pack.windy) set_axis(rows, row, lane, rows.axis_share);
@@ -148,7 +150,7 @@ void eliminate_pack(const RowArrays& rows, Pack& pack) {
       energy = energy + s.energy;
       const Blocks blocks = blocks_of<extended>(rows, pack, row, lane, s);
       add(blocks, carry);
-      fetch_sources(rows, row - 2);
+      fetch_sources(rows, row - sources_ahead);
       fetch_ahead(rows, lane);
       if (rows.first_branch[row] >= 0)
         add_sources(rows.branches, rows.first_branch[row], lane, carry);

@@ -91,6 +91,10 @@ LaneLayout::LaneLayout(std::span<const RodModel* const> plants, bool keep_blocks
     add_chains(std::move(chains));
   }
   pack(keeps);
+  for (const std::vector<int>& chains : chains_of_plant_) {
+    std::vector<PackLane>& lanes = lanes_of_plant_.emplace_back();
+    for (const int c : chains) lanes.push_back({chains_[c].pack, chains_[c].lane});
+  }
 }
 
 // Those of the next plant.

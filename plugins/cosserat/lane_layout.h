@@ -14,6 +14,11 @@ struct Slot {
   int row = -1, lane = 0;
 };
 
+/// A pack and a lane of it.
+struct PackLane {
+  int pack = -1, lane = 0;
+};
+
 /// A path of elements, each the parent of the next: where a plant forks, the child of the same
 /// organ goes on, else the one with the longest path below it, and the others start chains of their
 /// own. So equal branches are equal chains, and a stem does not go on into the last of them. The
@@ -39,6 +44,8 @@ class LaneLayout {
   const std::vector<Chain>& chains() const { return chains_; }
   /// Chains in the order of their first elements.
   std::span<const int> chains_of_plant(int plant) const { return chains_of_plant_[plant]; }
+  /// Where they stand, in the same order.
+  std::span<const PackLane> lanes_of_plant(int plant) const { return lanes_of_plant_[plant]; }
   Slot slot(int plant, int element) const { return slots_[plant][element]; }
 
   /// Which elements, of the plants of its lanes, stand in a row; -1: none.
@@ -61,6 +68,7 @@ class LaneLayout {
 
   std::vector<Chain> chains_;
   std::vector<std::vector<int>> chains_of_plant_;
+  std::vector<std::vector<PackLane>> lanes_of_plant_;
   std::vector<std::vector<Slot>> slots_;
   std::vector<std::array<int, lane_count>> elements_;  // by row
   std::vector<int> first_row_, end_row_;               // by pack

@@ -141,13 +141,12 @@ void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& r
   const bool first_order = previous_dt == 0.0;
   const double ratio = first_order ? 0.0 : dt / previous_dt;
   const double divisor = 1.0 + 2.0 * ratio;
-  for (const int c : layout_.chains_of_plant(plant)) {
-    const Chain& chain = layout_.chains()[c];
-    Pack& pack = packs_[chain.pack];
-    pack.past_now[chain.lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
-    pack.past_before[chain.lane] = ratio * ratio / divisor;
-    pack.effective_step[chain.lane] = dt * ((1.0 + ratio) / divisor);
-    pack.accelerate[chain.lane] = accelerate ? dt : 0.0;
+  for (const auto [p, lane] : layout_.lanes_of_plant(plant)) {
+    Pack& pack = packs_[p];
+    pack.past_now[lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
+    pack.past_before[lane] = ratio * ratio / divisor;
+    pack.effective_step[lane] = dt * ((1.0 + ratio) / divisor);
+    pack.accelerate[lane] = accelerate ? dt : 0.0;
   }
 }
 
@@ -244,8 +243,8 @@ void RodRows::hold(int plant) {
     };
     for (const int e : chain.elements) copy(layout_.slot(plant, e).row);
   }
-  for (const int c : layout_.chains_of_plant(plant))
-    place_anchors(layout_.chains()[c].pack, scratch_->iterate);
+  for (const PackLane& at : layout_.lanes_of_plant(plant))
+    place_anchors(at.pack, scratch_->iterate);
 }
 
 void RodRows::clear_extras() {
@@ -266,6 +265,8 @@ void RodRows::add_extras(int plant, std::span<const ElementBlock> blocks) {
 
 void RodRows::eliminate_pack(const RowArrays& rows, int pack) {
   if (!packs_[pack].active) return;
+  for (const int branch : graph_.needs(pack))  // perhaps in another core's cache
+    for (const Lanes& values : packs_[branch].branch) __builtin_prefetch(values);
   place_anchors(pack, scratch_->iterate);  // prepare() does not wait for parents
   if (layout_.keeps_blocks(pack))
     linearise(rows, packs_[pack]);
@@ -355,10 +356,7 @@ void RodRows::solve_and_move(ThreadPool& pool, bool measured, std::span<RodState
 void RodRows::set_share(int plant, double share) {
   if (share == shares_[plant]) return;
   shares_[plant] = share;
-  for (const int c : layout_.chains_of_plant(plant)) {
-    const Chain& chain = layout_.chains()[c];
-    packs_[chain.pack].share[chain.lane] = share;
-  }
+  for (const auto [pack, lane] : layout_.lanes_of_plant(plant)) packs_[pack].share[lane] = share;
 }
 
 void RodRows::move(ThreadPool& pool, bool keep, bool measured, std::span<RodState* const> states) {
@@ -411,29 +409,23 @@ void RodRows::fetch_results() const {
 
 double RodRows::sum(int plant, const Lanes Pack::*energy) const {
   double sum = 0.0;
-  for (const int c : layout_.chains_of_plant(plant)) {
-    const Chain& chain = layout_.chains()[c];
-    sum += (packs_[chain.pack].*energy)[chain.lane];
-  }
+  for (const auto [pack, lane] : layout_.lanes_of_plant(plant)) sum += (packs_[pack].*energy)[lane];
   return sum;
 }
 
 bool RodRows::healthy(int plant) const {
-  const auto chains = layout_.chains_of_plant(plant);
-  return std::all_of(chains.begin(), chains.end(), [&](int c) {
-    const Chain& chain = layout_.chains()[c];
-    return layout_.keeps_blocks(chain.pack) || packs_[chain.pack].healthy[chain.lane] > 0.0;
+  return std::ranges::all_of(layout_.lanes_of_plant(plant), [&](const PackLane& at) {
+    return layout_.keeps_blocks(at.pack) || packs_[at.pack].healthy[at.lane] > 0.0;
   });
 }
 
 RodRows::Change RodRows::change(int plant) const {
   Change change;
-  for (const int c : layout_.chains_of_plant(plant)) {
-    const Chain& chain = layout_.chains()[c];
-    const Pack& pack = packs_[chain.pack];
-    change.turn = std::max(change.turn, pack.turn[chain.lane]);
-    change.shift = std::max(change.shift, pack.shift[chain.lane]);
-    change.largest = std::max(change.largest, pack.change[chain.lane]);
+  for (const auto [p, lane] : layout_.lanes_of_plant(plant)) {
+    const Pack& pack = packs_[p];
+    change.turn = std::max(change.turn, pack.turn[lane]);
+    change.shift = std::max(change.shift, pack.shift[lane]);
+    change.largest = std::max(change.largest, pack.change[lane]);
   }
   return change;
 }

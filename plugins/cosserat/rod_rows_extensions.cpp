@@ -109,10 +109,9 @@ void RodRows::set_extensions(int plant, const RodModel& model, double time, doub
   if (!extended.any && !extended.fresh) return;
   const double end = settled ? time : time + dt;
   const double gust = settled ? 0.0 : std::sin(2.0 * pi * model.gust_frequency * end);
-  for (const int c : layout_.chains_of_plant(plant)) {
-    const Chain& chain = layout_.chains()[c];
-    packs_[chain.pack].modulus[chain.lane] = stiffness_factor(model, end);
-    packs_[chain.pack].gust_now[chain.lane] = gust;
+  for (const auto [pack, lane] : layout_.lanes_of_plant(plant)) {
+    packs_[pack].modulus[lane] = stiffness_factor(model, end);
+    packs_[pack].gust_now[lane] = gust;
   }
   if (!extended.fresh && extended.dt == dt && extended.settled == settled) return;
   extended.fresh = false;
