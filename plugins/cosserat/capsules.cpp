@@ -227,13 +227,6 @@ std::size_t list_meeting(const CapsuleMotion& motion, double open, const Capsule
   return HWY_DYNAMIC_DISPATCH(ListMeeting)(motion, open, pairs, first, end, which);
 }
 
-void CapsulePairs::add(int first, int second) {
-  make_room(1);
-  a[count_] = first;
-  b[count_] = second;
-  ++count_;
-}
-
 // Pairs of the first capsule with itself fill the last vector up.
 void CapsulePairs::make_places() {
   make_room(0);
@@ -244,10 +237,7 @@ void CapsulePairs::make_places() {
 }
 
 // The numbers beyond the last pair are indices of capsules, too.
-void CapsulePairs::make_room(std::size_t more) {
-  const std::size_t wanted = count_ + more + lane_count;
-  if (wanted <= a.size()) return;
-  const std::size_t room = wanted + wanted / 2;
+void CapsulePairs::grow(std::size_t room) {
   a.resize(room);
   b.resize(room);
   gap.resize(room);

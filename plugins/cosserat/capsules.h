@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "cosserat/lanes.h"
 
 namespace pedicel::cosserat {
 
@@ -30,8 +31,9 @@ struct alignas(64) Capsule {
 using Capsules = std::vector<Capsule>;
 
 /// Pairs of capsules and, once measured, where their axes are nearest and the gap there. The arrays
-/// keep their room, and have some beyond the last pair.
-struct CapsulePairs {
+/// keep their room, and have some beyond the last pair. In lines of the cache of their own, so that
+/// threads which fill some side by side do not take them from each other.
+struct alignas(64) CapsulePairs {
   std::vector<int> a, b;
   std::vector<double> at_a, at_b;  // fractions along the axes; not of pairs that were sifted
   std::vector<double> gap;         // m, negative where they overlap
@@ -39,15 +41,25 @@ struct CapsulePairs {
 
   std::size_t size() const { return count_; }
   void clear() { count_ = 0; }
-  void add(int first, int second);
+  void add(int first, int second) {
+    make_room(1);
+    a[count_] = first;
+    b[count_] = second;
+    ++count_;
+  }
   /// Drops all pairs beyond the first ones, or takes up what was written into the room made.
   void resize(std::size_t count) { count_ = count; }
   /// For so many more, in whole vectors.
-  void make_room(std::size_t more);
+  void make_room(std::size_t more) {
+    const std::size_t wanted = count_ + more + lane_count;
+    if (wanted > a.size()) grow(wanted + wanted / 2);
+  }
   /// For what measure() sets.
   void make_places();
 
  private:
+  void grow(std::size_t room);
+
   std::size_t count_ = 0;
 };
 

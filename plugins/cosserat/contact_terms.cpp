@@ -9,8 +9,8 @@ namespace pedicel::cosserat {
 
 namespace {
 
-constexpr std::size_t stretch_length = 8;  // rows of contacts that a thread takes at a time
-constexpr std::size_t worth_waking = 2;     // stretches, a thread
+constexpr std::size_t stretch_length = 4;  // rows of contacts that a thread takes at a time
+constexpr std::size_t worth_waking = 1;    // stretches, a thread
 
 }  // namespace
 
@@ -38,8 +38,14 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
   for (ContactSource* source : sources)
     if (!source->is_within_plant()) source->find(model, iterate, dt, found_);
   share_gives();
-  place(model, start, iterate);
-  push(iterate);
+  make_rows(model);
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first * lane_count; i < std::min(found_.size(), end * lane_count); ++i)
+      put(i, model);
+    place_contacts(stretch(first, end), start, iterate);
+    push(first, end, iterate);
+  });
+  sum_energy();
 }
 
 // Contacts that push one collider together move it together: each one counts the others' share as
@@ -57,18 +63,13 @@ void ContactTerms::share_gives() {
   }
 }
 
-void ContactTerms::place(const RodModel& model, const RodState& start, const RodState& iterate) {
+void ContactTerms::make_rows(const RodModel& model) {
   const std::size_t rows = (found_.size() + lane_count - 1) / lane_count;
   rows_.resize(rows);
   blocks_.resize(rows * lane_count);
   ends_.resize(rows);
   last_of_shape_.resize(model.shapes.size(), -1);
   if (rows > 0) rows_.back() = empty_contact_row();
-  for_each_stretch([&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first * lane_count; i < std::min(found_.size(), end * lane_count); ++i)
-      put(i, model);
-    place_contacts(stretch(first, end), start, iterate);
-  });
 }
 
 void ContactTerms::put(std::size_t contact, const RodModel& model) {
@@ -90,19 +91,22 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
   row.limit[lane] = memory ? point.friction * memory->normal : 0.0;
 }
 
-void ContactTerms::push(const RodState& iterate) {
-  for_each_stretch([&](std::size_t first, std::size_t end) {
-    push_contacts(stretch(first, end), iterate, blocks_.data() + first * lane_count);
-  });
+void ContactTerms::push(std::size_t first, std::size_t end, const RodState& iterate) {
+  push_contacts(stretch(first, end), iterate, blocks_.data() + first * lane_count);
+}
+
+void ContactTerms::sum_energy() {
   energy_ = 0.0;
   for (const ContactRow& row : rows_)
     energy_ = std::accumulate(std::begin(row.energy), std::end(row.energy), energy_);
 }
 
 void ContactTerms::follow(const RodState& iterate) {
-  for_each_stretch(
-      [&](std::size_t first, std::size_t end) { follow_contacts(stretch(first, end), iterate); });
-  push(iterate);
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    follow_contacts(stretch(first, end), iterate);
+    push(first, end, iterate);
+  });
+  sum_energy();
 }
 
 const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) const {

@@ -70,10 +70,11 @@ class ContactTerms {
     Vec3 stretch_W;
     double normal;  // N
   };
-  void place(const RodModel& model, const RodState& start, const RodState& iterate);
-  void put(std::size_t contact, const RodModel& model);
   void share_gives();
-  void push(const RodState& iterate);
+  void make_rows(const RodModel& model);
+  void put(std::size_t contact, const RodModel& model);
+  void push(std::size_t first, std::size_t end, const RodState& iterate);
+  void sum_energy();
   const Memory* remembered(int shape, int collider) const;
   void remember(const ContactPoint& point, const Vec3& stretch_W, double normal);
   template <class Task>

@@ -165,6 +165,7 @@ std::size_t without_far(const Groups& groups, CapsulePairs& pairs, std::size_t f
 void Compare(const Groups& groups, std::size_t first, std::size_t end, Scratch& scratch) {
   CapsulePairs& pairs = scratch.pairs;
   pairs.clear();
+  scratch.all_met = 0;
   const auto listed = [&](auto d, std::size_t i) { return hn::LoadU(d, &scratch.groups[i]); };
   for (std::size_t group = first / group_size; group * group_size < end; ++group) {
     const std::size_t count = list_groups(groups, group, scratch);
@@ -173,6 +174,7 @@ void Compare(const Groups& groups, std::size_t first, std::size_t end, Scratch& 
       const Box box = box_of(groups.boxes[group], lane);
       const std::size_t met =
           list_overlapping(box, scratch.around, 0, count, listed, scratch.met.data());
+      scratch.all_met += met;
       pairs.make_room(met * group_size);
       std::size_t place = pairs.size();
       for (std::size_t k = 0; k < met; ++k)
@@ -256,6 +258,15 @@ std::array<std::size_t, PartedLoop::most_parts + 1> OverlappingBoxes::share_out(
   return begins;
 }
 
+// Boxes from `first` on that other threads have just set come from their cores' caches: all asked
+// for at once, they are not waited for one by one.
+void OverlappingBoxes::fetch_from(std::size_t first) const {
+  constexpr std::size_t a_line = 64 / sizeof(float);
+  for (std::size_t g = first / group_size; g < groups_.boxes.size(); ++g)
+    for (std::size_t i = 0; i < sizeof(Group) / sizeof(float); i += a_line)
+      __builtin_prefetch(&groups_.boxes[g].low[0][0] + i);
+}
+
 void OverlappingBoxes::compare(std::size_t first, std::size_t end, Scratch& scratch) const {
   make_room(scratch);
   HWY_DYNAMIC_DISPATCH(Compare)(groups_, first, end, scratch);
@@ -268,7 +279,7 @@ void OverlappingBoxes::resize(std::size_t count) {
   std::fill_n(&empty.low[0][0], 3 * group_size, infinity);
   std::fill_n(&empty.high[0][0], 3 * group_size, -infinity);
   groups_.boxes.assign(groups, empty);
-  work_.assign((count + at_a_time - 1) / at_a_time, comparing);
+  work_.assign((count + at_a_time - 1) / at_a_time, with_groups);
   make_empty(groups_.around, groups + most_floats);
   leave_out({});
 }

@@ -39,10 +39,11 @@ class OverlappingBoxes {
     const int parts = loop.parts(count_, worth_waking);
     const auto begins = share_out(parts);
     loop.each(parts, [&](int part) {
+      if (parts > 1) fetch_from(begins[part] * at_a_time);
       for (std::size_t stretch = begins[part]; stretch < begins[part + 1]; ++stretch) {
         const std::size_t first = stretch * at_a_time;
         compare(first, std::min(count_, first + at_a_time), scratch_[part]);
-        work_[stretch] = comparing + static_cast<double>(scratch_[part].pairs.size());
+        work_[stretch] = work_of(scratch_[part]);
         take(part, scratch_[part].pairs);
       }
     });
@@ -53,7 +54,7 @@ class OverlappingBoxes {
   void find_with(std::size_t box, CapsulePairs& pairs);
 
   /// Eight boxes (m), by coordinate; empty ones are inside out.
-  struct alignas(32) Group {
+  struct alignas(64) Group {
     float low[3][group_size], high[3][group_size];
   };
   /// As many as the arrays hold, and a vector's worth of empty ones beyond the last.
@@ -73,13 +74,21 @@ class OverlappingBoxes {
     std::vector<int> groups;  // that the box of one group overlaps
     Boxes around;             // their boxes
     std::vector<int> met;     // those of them that one box overlaps
+    std::size_t all_met = 0;  // how many they were, of all boxes that were compared
   };
 
  private:
   static constexpr std::size_t worth_waking = 128, at_a_time = 64;  // boxes, whole groups
-  static constexpr double comparing = 300.0;  // pairs found, in the time of comparing at_a_time
+  // As many pairs are found and taken in the time of comparing at_a_time boxes with the groups'
+  // boxes, and with the boxes of one group that one of them overlaps.
+  static constexpr double with_groups = 70.0, with_group = 0.35;
 
+  static double work_of(const Scratch& scratch) {
+    return with_groups + with_group * static_cast<double>(scratch.all_met) +
+           static_cast<double>(scratch.pairs.size());
+  }
   void make_room(Scratch& scratch) const;
+  void fetch_from(std::size_t first) const;
   std::array<std::size_t, PartedLoop::most_parts + 1> share_out(int parts) const;
   void compare(std::size_t first, std::size_t end, Scratch& scratch) const;
 

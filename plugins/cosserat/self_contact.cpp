@@ -82,31 +82,33 @@ void SelfContact::find(const RodModel& model, const RodState& state, double dt,
   work_.pairs += static_cast<long>(count);
   const int parts = loop_.parts(count, worth_touching);
   loop_.run(count, parts, [&](int part, std::size_t first, std::size_t end) {
-    touch_some(model, state, dt, part, first, end);
+    Scratch& scratch = scratch_[part];
+    scratch.found.clear();
+    touch_some(model, state, dt, first, end, scratch.meeting, part == 0 ? found : scratch.found);
   });
-  for (int part = 0; part < parts; ++part)
+  for (int part = 1; part < parts; ++part)
     found.insert(found.end(), scratch_[part].found.begin(), scratch_[part].found.end());
 }
 
-void SelfContact::touch_some(const RodModel& model, const RodState& state, double dt, int part,
-                             std::size_t first, std::size_t end) {
+// Adds the contacts of some of the near pairs; `meeting` is scratch.
+void SelfContact::touch_some(const RodModel& model, const RodState& state, double dt,
+                             std::size_t first, std::size_t end, std::vector<int>& meeting,
+                             std::vector<ContactPoint>& found) {
   const auto is_live = [&](const CollisionShape& shape) {
     return state.alive[shape.element] && (shape.fruit < 0 || !state.fruit_gone[shape.fruit]);
   };
-  Scratch& scratch = scratch_[part];
-  scratch.found.clear();
   measure(motion_.now(), near_, first, end);
-  const std::size_t meeting =
-      list_meeting(moved_capsules(), settings_.margin, near_, first, end, scratch.meeting);
+  const std::size_t count =
+      list_meeting(moved_capsules(), settings_.margin, near_, first, end, meeting);
   TouchingRow row{};
   int lanes = 0;
   const auto touch_row = [&] {
     touch(motion_.start(), motion_.now(), *start_, state, row);
-    for (int lane = 0; lane < lanes; ++lane) add_contact(model, dt, row, lane, scratch.found);
+    for (int lane = 0; lane < lanes; ++lane) add_contact(model, dt, row, lane, found);
     lanes = 0;
   };
-  for (std::size_t i = 0; i < meeting; ++i) {
-    const int pair = scratch.meeting[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    const int pair = meeting[i];
     const CollisionShape &a = model.shapes[near_.a[pair]], &b = model.shapes[near_.b[pair]];
     if (!is_live(a) || !is_live(b)) continue;
     row.a[lanes] = near_.a[pair];

@@ -90,25 +90,27 @@ class SelfContact : public ContactSource {
   CapsuleMotion moved_capsules() const;
   // How often a pair's motion of a step may have brought it nearer by the end of that step.
   double motions_until(int far_step) const { return far_stands_ ? 0.0 : far_step + 1.0; }
-  void touch_some(const RodModel& model, const RodState& state, double dt, int part,
-                  std::size_t first, std::size_t end);
+  void touch_some(const RodModel& model, const RodState& state, double dt, std::size_t first,
+                  std::size_t end, std::vector<int>& meeting, std::vector<ContactPoint>& found);
   void add_contact(const RodModel& model, double dt, const TouchingRow& row, int lane,
                    std::vector<ContactPoint>& found) const;
 
   // Shapes and near pairs, a thread.
-  static constexpr std::size_t worth_waking = 256, worth_touching = 192;
+  static constexpr std::size_t worth_waking = 256, worth_touching = 48;
 
+  using Pairs = std::vector<std::pair<int, int>>;
   // What the parts of a loop need for themselves.
   struct Scratch {
     CapsulePairs pairs;
-    std::vector<std::pair<int, int>> candidates;
+    Pairs candidates, astray;  // of the far list, of strays
     std::vector<int> meeting;
     std::vector<ContactPoint> found;
     long measured = 0;
     bool holds = true;
   };
 
-  void sift_far(const CapsulePairs& far, Scratch& scratch) const;
+  void sift_far(const CapsulePairs& far, std::size_t begin, std::size_t end, Scratch& scratch,
+                Pairs& kept) const;
 
   SelfContactSettings settings_;
   PartedLoop loop_;
@@ -125,7 +127,7 @@ class SelfContact : public ContactSource {
   CapsulePairs near_;
   bool step_begins_ = false;  // nobody has looked yet
   std::array<Scratch, PartedLoop::most_parts> scratch_;
-  Scratch stray_scratch_;
+  Pairs astray_;            // scratch
   OverlappingBoxes boxes_;  // m, W
   Work work_;
   const RodState* start_ = nullptr;  // of the step

@@ -16,8 +16,6 @@ constexpr double most_steps = 16.0, farthest = 0.7, still = 2.0;
 constexpr std::size_t most_strays = 32;
 constexpr double strays_budget = 2.0;  // 1, of others'
 
-using Pairs = std::vector<std::pair<int, int>>;
-
 // Elements at most two joints apart from each other, by element, each with itself.
 std::vector<std::vector<int>> neighbours(const RodModel& model) {
   std::vector<std::vector<int>> children(model.elements.size() + 1);  // the first: at the clamp
@@ -98,15 +96,25 @@ CapsuleMotion SelfContact::moved_capsules() const {
 // other. As the iterations move both by up to their slack, the gap may shrink and that motion grow
 // by as much.
 void SelfContact::collect_near() {
-  loop_.each(far_parts_, [&](int part) { sift_far(far_[part], scratch_[part]); });
-  sift_far(stray_pairs_, stray_scratch_);
-  Pairs& astray = stray_scratch_.candidates;  // those of two strays twice
-  std::sort(astray.begin(), astray.end());
-  astray.erase(std::unique(astray.begin(), astray.end()), astray.end());
+  loop_.each(far_parts_, [&](int part) {
+    Scratch& scratch = scratch_[part];
+    scratch.measured = 0;
+    scratch.candidates.clear();
+    scratch.astray.clear();
+    sift_far(far_[part], 0, far_[part].size(), scratch, scratch.candidates);
+    const std::size_t count = stray_pairs_.size();  // each part sifts its share
+    sift_far(stray_pairs_, count * part / far_parts_, count * (part + 1) / far_parts_, scratch,
+             scratch.astray);
+  });
+  astray_.clear();
+  for (int part = 0; part < far_parts_; ++part)
+    astray_.insert(astray_.end(), scratch_[part].astray.begin(), scratch_[part].astray.end());
+  std::sort(astray_.begin(), astray_.end());  // those of two strays come twice
+  astray_.erase(std::unique(astray_.begin(), astray_.end()), astray_.end());
   near_.clear();
-  auto next = astray.begin();
+  auto next = astray_.begin();
   const auto add_strays = [&](const auto& is_next) {
-    for (; next != astray.end() && is_next(*next); ++next) near_.add(next->first, next->second);
+    for (; next != astray_.end() && is_next(*next); ++next) near_.add(next->first, next->second);
   };
   for (int part = 0; part < far_parts_; ++part)
     for (const auto& pair : scratch_[part].candidates) {
@@ -114,25 +122,22 @@ void SelfContact::collect_near() {
       near_.add(pair.first, pair.second);
     }
   add_strays([](const auto&) { return true; });
-  work_.pairs += stray_scratch_.measured;
   for (int part = 0; part < far_parts_; ++part) work_.pairs += scratch_[part].measured;
   near_.make_places();
 }
 
-// Those of the pairs that may touch in this step.
-void SelfContact::sift_far(const CapsulePairs& far, Scratch& scratch) const {
-  scratch.candidates.clear();
-  scratch.measured = 0;
-  for (std::size_t first = 0; first < far.size(); first += at_a_time) {
-    const std::size_t end = std::min(far.size(), first + at_a_time);
+// Adds those of the pairs `begin` to `end` that may touch in this step.
+void SelfContact::sift_far(const CapsulePairs& far, std::size_t begin, std::size_t end,
+                           Scratch& scratch, Pairs& kept) const {
+  for (std::size_t first = begin; first < end; first += at_a_time) {
     CapsulePairs& pairs = scratch.pairs;
     pairs.clear();
-    sift(far, first, end, settings_.margin, motions_until(far_steps_), motion_.reach(), pairs);
+    sift(far, first, std::min(end, first + at_a_time), settings_.margin, motions_until(far_steps_),
+         motion_.reach(), pairs);
     measure(motion_.now(), pairs);
     scratch.measured += static_cast<long>(pairs.size());
     keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_budget(), pairs);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      scratch.candidates.emplace_back(pairs.a[i], pairs.b[i]);
+    for (std::size_t i = 0; i < pairs.size(); ++i) kept.emplace_back(pairs.a[i], pairs.b[i]);
   }
 }
 
