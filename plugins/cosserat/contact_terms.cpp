@@ -9,8 +9,8 @@ namespace pedicel::cosserat {
 
 namespace {
 
-constexpr std::size_t stretch_length = 4;  // rows of contacts that a thread takes at a time
-constexpr std::size_t worth_waking = 1;    // stretches, a thread
+constexpr std::size_t stretch_length = 2;  // rows of contacts that a thread takes at a time
+constexpr std::size_t worth_waking = 2;    // stretches, a thread
 
 }  // namespace
 

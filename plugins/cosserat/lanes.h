@@ -131,8 +131,9 @@ struct alignas(64) Pack {
   Lanes healthy;              // 1 where all pivots were positive
   Lanes branch[block_size];   // what the first elements give to their parents' blocks
   int begin = 0, end = 0;
-  bool active = true;    // some plant in it is still being solved
-  bool viscous = false;  // some element has Kelvin-Voigt damping, or an extension
+  bool active = true;     // some plant in it is still being solved
+  bool anchored = false;  // row `begin` holds the parents' iterate
+  bool viscous = false;   // some element has Kelvin-Voigt damping, or an extension
   // Extensions.
   bool extended = false, windy = false;  // some plant in it has any; drag
   int branches = 0, sliders = 0;         // of its joints at most

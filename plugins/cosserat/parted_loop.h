@@ -23,11 +23,10 @@ struct PartedLoop {
   /// task(part, first, end), perhaps at once.
   template <class Task>
   void run(std::size_t count, int parts, const Task& task) const {
-    const std::size_t length = (count / parts + 8) / 8 * 8;
-    each(parts, [&](int part) {
-      const std::size_t first = std::min(count, part * length);
-      task(part, first, std::min(count, first + length));
-    });
+    const auto begin = [&](int part) {
+      return part < parts ? (count * part / parts + 4) / 8 * 8 : count;
+    };
+    each(parts, [&](int part) { task(part, begin(part), begin(part + 1)); });
   }
 
   /// task(part), perhaps at once.

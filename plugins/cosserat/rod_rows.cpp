@@ -61,6 +61,7 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
       first_branch_(layout_.rows(), -1),
       first_extra_(layout_.rows(), -1),
       anchors_(layout_.packs()),
+      carriers_(layout_.packs()),
       roots_(plants.size()),
       schemes_(plants.size()),
       shares_(plants.size(), 0.0) {
@@ -94,12 +95,18 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
     const RodModel& model = *plants[chain.plant];
     const int parent = model.elements[chain.elements.front()].parent;
     anchors_[chain.pack][chain.lane] = {chain.plant, parent};
-    if (parent < 0 || layout_.keeps_blocks(chain.pack)) continue;
+    if (parent < 0) continue;
     const Slot slot = layout_.slot(chain.plant, parent);
+    carriers_[layout_.chains()[chain.parent].pack].push_back(
+        {slot, {packs_[chain.pack].begin, chain.lane}});
+    if (layout_.keeps_blocks(chain.pack)) continue;
     branches_.push_back({packs_[chain.pack].branch[0] + chain.lane, lane_count, slot.lane,
                          first_branch_[slot.row]});
     first_branch_[slot.row] = static_cast<int>(branches_.size()) - 1;
   }
+  for (std::vector<Carrier>& carriers : carriers_)
+    std::ranges::sort(carriers, std::ranges::less{},
+                      [](const Carrier& c) { return c.element.row; });
   for (int p = 0; p < static_cast<int>(plants.size()); ++p) read_model(p, *plants[p]);
 }
 
@@ -184,6 +191,7 @@ void RodRows::set_active(std::span<const char> plants) {
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
   graph_.each(pool, [&](int p) {
+    packs_[p].anchored = false;
     if (!packs_[p].active) return;
     read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
@@ -208,14 +216,29 @@ void RodRows::place_anchors(int pack, std::span<PoseRow> poses) const {
   }
 }
 
-// Likewise their changes; a clamp has none.
-void RodRows::change_anchors(int pack) {
-  FactorRow& row = scratch_->factor[packs_[pack].begin];
-  for (int lane = 0; lane < lane_count; ++lane) {
-    const auto [plant, parent] = anchors_[pack][lane];
-    const Slot slot = parent < 0 ? Slot{} : layout_.slot(plant, parent);
+// The iterate's, where prepare() has just made it, which does not wait for parents. Clamps do not
+// change; what else does is passed on.
+void RodRows::take_anchors(int pack) {
+  place_anchors(pack, scratch_->iterate);
+  for (Lanes& change : scratch_->factor[packs_[pack].begin].right)
+    std::fill(std::begin(change), std::end(change), 0.0);
+  packs_[pack].anchored = true;
+}
+
+// To the first rows of the packs that are carried: each of them would fetch eight times as much
+// from all over this one, perhaps out of another core's cache.
+void RodRows::pass_on_changes(int pack) {
+  for (const auto& [from, to] : carriers_[pack])
     for (int i = 0; i < 6; ++i)
-      row.right[i][lane] = parent < 0 ? 0.0 : scratch_->factor[slot.row].right[i][slot.lane];
+      scratch_->factor[to.row].right[i][to.lane] = scratch_->factor[from.row].right[i][from.lane];
+}
+
+void RodRows::pass_on_poses(int pack) {
+  for (const auto& [from, to] : carriers_[pack]) {
+    const PoseRow& own = scratch_->iterate[from.row];
+    PoseRow& anchor = scratch_->iterate[to.row];
+    for (int i = 0; i < 3; ++i) anchor.position[i][to.lane] = own.position[i][from.lane];
+    for (int i = 0; i < 4; ++i) anchor.orientation[i][to.lane] = own.orientation[i][from.lane];
   }
 }
 
@@ -227,7 +250,7 @@ void RodRows::compare_start(ThreadPool& pool, std::span<RodState* const> states)
   graph_.each(pool, [&](int p) {
     if (!packs_[p].active) return;
     place_anchors(p, scratch_->start);
-    place_anchors(p, scratch_->iterate);
+    take_anchors(p);
     evaluate(at_start, packs_[p], packs_[p].energy_before);
     evaluate(at_guess, packs_[p], packs_[p].energy);
     write_pack(p, states);
@@ -267,7 +290,7 @@ void RodRows::eliminate_pack(const RowArrays& rows, int pack) {
   if (!packs_[pack].active) return;
   for (const int branch : graph_.needs(pack))  // perhaps in another core's cache
     for (const Lanes& values : packs_[branch].branch) __builtin_prefetch(values);
-  place_anchors(pack, scratch_->iterate);  // prepare() does not wait for parents
+  if (!packs_[pack].anchored) take_anchors(pack);
   if (layout_.keeps_blocks(pack))
     linearise(rows, packs_[pack]);
   else
@@ -333,8 +356,8 @@ void RodRows::substitute_pack(const RowArrays& rows, int pack) {
   if (layout_.keeps_blocks(pack)) {
     measure_change(rows, packs_[pack]);
   } else {
-    change_anchors(pack);
     cosserat::substitute(rows, packs_[pack]);
+    pass_on_changes(pack);
   }
 }
 
@@ -367,8 +390,8 @@ void RodRows::move(ThreadPool& pool, bool keep, bool measured, std::span<RodStat
 void RodRows::move_pack(const RowArrays& rows, int pack, bool keep, bool measured,
                         std::span<RodState* const> states) {
   if (!packs_[pack].active) return;
-  place_anchors(pack, scratch_->iterate);
   cosserat::move(rows, packs_[pack], keep, measured);
+  pass_on_poses(pack);
   write_pack(pack, states);
 }
 

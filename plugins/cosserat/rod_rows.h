@@ -147,6 +147,10 @@ class RodRows {
   struct Anchor {  // what stands in a lane of a pack's first row: an element of the same plant
     int plant = -1, element = -1;
   };
+  // An element that a chain of another pack starts from, and the slot of that pack's first row.
+  struct Carrier {
+    Slot element, anchor;
+  };
 
   // How a plant's extensions were read last.
   struct Extended {
@@ -182,7 +186,9 @@ class RodRows {
   template <class Write>
   void for_each_element(int pack, std::span<RodState* const> states, const Write& write) const;
   void place_anchors(int pack, std::span<PoseRow> poses) const;
-  void change_anchors(int pack);
+  void take_anchors(int pack);
+  void pass_on_changes(int pack);
+  void pass_on_poses(int pack);
 
   std::shared_ptr<RowScratch> scratch_;
   LaneLayout layout_;
@@ -204,6 +210,7 @@ class RodRows {
   std::vector<BlockSource> branches_, extras_;
   std::vector<int> extra_rows_;
   std::vector<std::array<Anchor, lane_count>> anchors_;  // by pack
+  std::vector<std::vector<Carrier>> carriers_;           // by pack
   std::vector<Pose> roots_;                              // X_W of the clamps
   std::vector<Scheme> schemes_;                          // by plant
   std::vector<double> shares_;                           // 1, by plant
