@@ -48,8 +48,9 @@ struct alignas(64) ContactEndRow {
 /// Sets arm, place and start of contacts just found.
 void place_contacts(std::span<ContactRow> rows, const RodState& start, const RodState& iterate);
 /// Sets the energy at the iterate where place was taken, and the blocks, eight a row: without an
-/// element where a contact neither pushes nor rubs.
-void push_contacts(std::span<ContactRow> rows, const RodState& iterate, ElementBlock* blocks);
+/// element where a contact neither pushes nor rubs. Returns whether each block has the element that
+/// it had before.
+bool push_contacts(std::span<ContactRow> rows, const RodState& iterate, ElementBlock* blocks);
 /// Takes self-contacts along to another iterate: normals and arms stay, the plane between two sides
 /// goes along with the middle of both, and the spring gets the tangent there.
 void follow_contacts(std::span<ContactRow> rows, const RodState& iterate);

@@ -46,6 +46,7 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
     push(first, end, iterate);
   });
   sum_energy();
+  blocks_stay_ = false;
 }
 
 // Contacts that push one collider together move it together: each one counts the others' share as
@@ -68,6 +69,7 @@ void ContactTerms::make_rows(const RodModel& model) {
   rows_.resize(rows);
   blocks_.resize(rows * lane_count);
   ends_.resize(rows);
+  stay_.resize((rows + stretch_length - 1) / stretch_length);
   last_of_shape_.resize(model.shapes.size(), -1);
   if (rows > 0) rows_.back() = empty_contact_row();
 }
@@ -92,7 +94,8 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
 }
 
 void ContactTerms::push(std::size_t first, std::size_t end, const RodState& iterate) {
-  push_contacts(stretch(first, end), iterate, blocks_.data() + first * lane_count);
+  stay_[first / stretch_length] =
+      push_contacts(stretch(first, end), iterate, blocks_.data() + first * lane_count);
 }
 
 void ContactTerms::sum_energy() {
@@ -107,6 +110,7 @@ void ContactTerms::follow(const RodState& iterate) {
     push(first, end, iterate);
   });
   sum_energy();
+  blocks_stay_ = std::ranges::all_of(stay_, [](char stays) { return stays; });
 }
 
 const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) const {

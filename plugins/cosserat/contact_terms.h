@@ -46,6 +46,8 @@ class ContactTerms {
   double energy() const { return energy_; }
   /// What the contacts add there, at most one each. Valid until the next call of them.
   std::span<const ElementBlock> blocks() const { return blocks_; }
+  /// Whether they stand where they stood before, for the same elements: after follow(), mostly.
+  bool blocks_stay() const { return blocks_stay_; }
   double potential(const RodModel& model, const RodState& state) const;
 
   /// Ends the step: forces for the report, and the friction memory for the next step.
@@ -90,6 +92,8 @@ class ContactTerms {
   std::vector<ContactRow> rows_;
   std::vector<ElementBlock> blocks_;  // eight a row
   std::vector<ContactEndRow> ends_;   // by row
+  bool blocks_stay_ = false;
+  std::vector<char> stay_;            // likewise, by stretch
   double energy_ = 0.0;               // J, of them all
   mutable std::vector<double> sums_;  // scratch, J, by stretch
   std::vector<Memory> memory_;

@@ -237,7 +237,6 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
 // Contacts are found anew in every iteration, unless the search did so or they can be followed.
 void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
-  rows_.clear_extras();
   for (int p = 0; p < size(); ++p)
     iterates_[p] = wanted(p) && !plants_[p].iterate_is_here ? &plants_[p].iterate : nullptr;
   if (std::any_of(iterates_.begin(), iterates_.end(), [](const RodState* s) { return s; }))
@@ -252,6 +251,22 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     plant.presses = pressed > 0.0;
     plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
   });
+  hand_over_blocks();
+}
+
+// To the rows, which may have the same ones already.
+void DirectSolver::hand_over_blocks() {
+  bool any = false, stay = only_contacts_;
+  only_contacts_ = true;
+  const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
+  for (int p = 0; p < size(); ++p) {
+    if (!wanted(p)) continue;
+    any = true;
+    only_contacts_ = only_contacts_ && plants_[p].extras.entries().empty();
+    stay = stay && only_contacts_ && plants_[p].contacts.blocks_stay();
+  }
+  if (any && stay) return;
+  rows_.clear_extras();
   for (int p = 0; p < size(); ++p) {
     if (!wanted(p) || plants_[p].loops) continue;
     rows_.add_extras(p, plants_[p].extras.packed());

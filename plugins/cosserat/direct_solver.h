@@ -103,6 +103,7 @@ class DirectSolver : public RodSolver {
   void choose_start(std::span<PlantStep> steps, ThreadPool& pool);
   void solve(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   void linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool);
+  void hand_over_blocks();
   void find_contacts(int index, const PlantStep& step, double dt);
   bool follow_contacts(int index, const PlantStep& step);
   void solve_loops(int index, const RodModel& model);
@@ -122,6 +123,7 @@ class DirectSolver : public RodSolver {
   std::vector<RodState*> states_, iterates_;  // nullptr where not to be written
   std::vector<char> working_, searching_;     // Newton, its line search: not done yet
   bool any_loops_ = false;
+  bool only_contacts_ = false;  // the rows have no other blocks
   bool settling_ = false;
   bool is_part_ = false;              // takes the steps of another one in parts
   std::vector<ContactForce> forces_;  // of the parts

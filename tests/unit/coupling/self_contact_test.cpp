@@ -11,6 +11,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "cosserat/contact_terms.h"
 #include "cosserat/lane_kernels.h"
 #include "cosserat/rotation.h"
 #include "support/allocation_counter.h"
@@ -237,6 +238,36 @@ TEST(SelfContact, GivesTwoContactsThatCarryTheForceOfOneSpring) {
     // Only the upper rod moved: the middle moves with half of its motion.
     EXPECT_NEAR(point.surface_motion_W.z(), -0.5 * (above - 2 * radius + overlap), 1e-9);
   }
+}
+
+// The rows need not be told again where contacts act that press on as they did: not of the first
+// ones, of those that press deeper or less, of those that have let go, and then of those that have
+// stayed apart.
+TEST(ContactTerms, SayWhetherTheirBlocksStay) {
+  const double radius = 0.003, above = 0.02, touching = above - 2 * radius;
+  const RodModel model = crossing_rods(above, radius);
+  SelfContact source(model, {});
+  ContactSource* const pointer = &source;
+  const RodState start = drawn_state(model);
+  ContactTerms terms;
+  source.begin_step(model, start, 0.01);
+  terms.find(model, start, lowered(model, touching + 5e-4), 0.01, {&pointer, 1});
+  const auto pressing = [&] {
+    return std::ranges::count_if(terms.blocks(), [](const auto& b) { return b.element >= 0; });
+  };
+  EXPECT_FALSE(terms.blocks_stay());
+  EXPECT_EQ(pressing(), 2);
+  for (const double depth : {6e-4, 3e-4}) {
+    terms.follow(lowered(model, touching + depth));
+    EXPECT_TRUE(terms.blocks_stay()) << depth;
+    EXPECT_EQ(pressing(), 2);
+  }
+  const RodState apart = lowered(model, touching - 1e-3);
+  terms.follow(apart);
+  EXPECT_FALSE(terms.blocks_stay());
+  EXPECT_EQ(pressing(), 0);
+  terms.follow(apart);
+  EXPECT_TRUE(terms.blocks_stay());
 }
 
 TEST(SelfContact, PushesBackAnAxisThatWentThroughInOneStep) {
