@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "cosserat/rod_state.h"
@@ -35,6 +36,42 @@ struct ContactPoint {
   Stiffening stiffening;
 };
 
+/// Contacts in order, in lists one after another: several threads can fill one each, and nobody
+/// copies what another one found.
+class ContactLists {
+ public:
+  void clear() {
+    for (List& list : lists_) list.points.clear();
+    used_ = 1;
+  }
+  std::size_t size() const {
+    std::size_t size = 0;
+    for (const List& list : lists_) size += list.points.size();
+    return size;
+  }
+  const ContactPoint& operator[](std::size_t i) const {
+    std::size_t list = 0;
+    for (; i >= lists_[list].points.size(); ++list) i -= lists_[list].points.size();
+    return lists_[list].points[i];
+  }
+  /// So many more after all that were used. Returns the first one's number.
+  std::size_t add(std::size_t count) {
+    const std::size_t first = used_;
+    used_ += count;
+    if (lists_.size() < used_) lists_.resize(used_);
+    return first;
+  }
+  std::vector<ContactPoint>& list(std::size_t number) { return lists_[number].points; }
+  std::vector<ContactPoint>& last() { return list(used_ - 1); }
+
+ private:
+  struct alignas(64) List {  // in lines of the cache of their own
+    std::vector<ContactPoint> points;
+  };
+  std::vector<List> lists_{1};
+  std::size_t used_ = 1;
+};
+
 /// What a contact point carried at the end of a step: the force ON THE PLANT.
 struct ContactForce {
   ContactPoint point;
@@ -63,6 +100,11 @@ class ContactSource {
   virtual void begin_step(const RodModel& /*model*/, const RodState& /*start*/, double /*dt*/) {}
   virtual void find(const RodModel& model, const RodState& state, double dt,
                     std::vector<ContactPoint>& found) = 0;
+  /// The same, in the same order.
+  virtual void find_lists(const RodModel& model, const RodState& state, double dt,
+                          ContactLists& found) {
+    find(model, state, dt, found.last());
+  }
 };
 
 }  // namespace pedicel::cosserat

@@ -130,11 +130,12 @@ HWY_INLINE void block_of(const Push& push, V k, const V3& normal, const V3& arm,
   v[26] = moment.z;
 }
 
-bool PushAll(Rows rows, const RodState& iterate, ElementBlock* blocks) {
+bool PushAll(Rows rows, const RodState& iterate, int* elements, ElementBlock* blocks) {
   bool stay = true;
-  const auto set_element = [&](ElementBlock& block, int element) {
-    stay = stay && block.element == element;
-    block.element = element;
+  const auto set_element = [&](int lane, int element) {
+    if (elements[lane] == element) return;
+    elements[lane] = element;
+    stay = false;
   };
   for (ContactRow& row : rows) {
     for (int lane = 0; lane < lane_count; lane += width) {
@@ -143,7 +144,7 @@ bool PushAll(Rows rows, const RodState& iterate, ElementBlock* blocks) {
       store(now.energy, row.energy + lane);
       const M acts = hn::Or(now.normal > set(0.0), load(row.limit + lane) > set(0.0));
       if (hn::AllFalse(D(), acts)) {
-        for (int k = lane; k < lane + width; ++k) set_element(blocks[k], -1);
+        for (int k = lane; k < lane + width; ++k) set_element(k, -1);
         continue;
       }
       const V3 node = pose_of(iterate, row, lane).position;
@@ -165,9 +166,9 @@ bool PushAll(Rows rows, const RodState& iterate, ElementBlock* blocks) {
         }
       }
       for (int k = 0; k < width; ++k)
-        set_element(blocks[lane + k],
-                    active[k] != 0.0 ? static_cast<int>(row.element[lane + k]) : -1);
+        set_element(lane + k, active[k] != 0.0 ? static_cast<int>(row.element[lane + k]) : -1);
     }
+    elements += lane_count;
     blocks += lane_count;
   }
   return stay;
@@ -258,8 +259,9 @@ ContactRow empty_contact_row() {
 void place_contacts(std::span<ContactRow> rows, const RodState& start, const RodState& iterate) {
   HWY_DYNAMIC_DISPATCH(Place)(rows, start, iterate);
 }
-bool push_contacts(std::span<ContactRow> rows, const RodState& iterate, ElementBlock* blocks) {
-  return HWY_DYNAMIC_DISPATCH(PushAll)(rows, iterate, blocks);
+bool push_contacts(std::span<ContactRow> rows, const RodState& iterate, int* elements,
+                   ElementBlock* blocks) {
+  return HWY_DYNAMIC_DISPATCH(PushAll)(rows, iterate, elements, blocks);
 }
 void follow_contacts(std::span<ContactRow> rows, const RodState& iterate) {
   HWY_DYNAMIC_DISPATCH(Follow)(rows, iterate);

@@ -24,10 +24,11 @@ struct alignas(64) ContactRow {
   Lanes stretch[3];  // m, W, of the friction spring at the step's start
   Lanes limit;       // N, mu N
   // At the iterate.
-  Lanes arm[3];    // m, E, from the child node to the touching surface
-  Lanes place[3];  // m, W
-  Lanes start[3];  // m, W, where that point of the plant began the step
-  Lanes energy;    // J
+  Lanes arm[3];              // m, E, from the child node to the touching surface
+  Lanes place[3];            // m, W
+  Lanes start[3];            // m, W, where that point of the plant began the step
+  Lanes energy;              // J
+  int collider[lane_count];  // as found; last, since vectors are loaded from whole lines
 };
 
 /// Neither pushes nor rubs.
@@ -47,10 +48,11 @@ struct alignas(64) ContactEndRow {
 
 /// Sets arm, place and start of contacts just found.
 void place_contacts(std::span<ContactRow> rows, const RodState& start, const RodState& iterate);
-/// Sets the energy at the iterate where place was taken, and the blocks, eight a row: without an
-/// element where a contact neither pushes nor rubs. Returns whether each block has the element that
+/// Sets the energy at the iterate where place was taken, and the blocks and their elements, eight a
+/// row: -1 where a contact neither pushes nor rubs. Returns whether each block has the element that
 /// it had before.
-bool push_contacts(std::span<ContactRow> rows, const RodState& iterate, ElementBlock* blocks);
+bool push_contacts(std::span<ContactRow> rows, const RodState& iterate, int* elements,
+                   ElementBlock* blocks);
 /// Takes self-contacts along to another iterate: normals and arms stay, the plane between two sides
 /// goes along with the middle of both, and the spring gets the tangent there.
 void follow_contacts(std::span<ContactRow> rows, const RodState& iterate);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "cosserat/lane_access.h"
 
@@ -32,11 +33,12 @@ void ContactTerms::for_each_stretch(const Task& task) const {
 void ContactTerms::find(const RodModel& model, const RodState& start, const RodState& iterate,
                         double dt, std::span<ContactSource* const> sources) {
   found_.clear();
+  report({});
   for (ContactSource* source : sources)
-    if (source->is_within_plant()) source->find(model, iterate, dt, found_);
+    if (source->is_within_plant()) source->find_lists(model, iterate, dt, found_);
   sides_ = found_.size();
   for (ContactSource* source : sources)
-    if (!source->is_within_plant()) source->find(model, iterate, dt, found_);
+    if (!source->is_within_plant()) source->find_lists(model, iterate, dt, found_);
   share_gives();
   make_rows(model);
   for_each_stretch([&](std::size_t first, std::size_t end) {
@@ -58,8 +60,8 @@ void ContactTerms::share_gives() {
     const ContactPoint& own = found_[i];
     if (own.give <= 0.0) continue;
     int together = pushes(own) ? 0 : 1;
-    for (const ContactPoint& other : found_)
-      together += pushes(other) && other.collider == own.collider;
+    for (std::size_t k = 0; k < found_.size(); ++k)
+      together += pushes(found_[k]) && found_[k].collider == own.collider;
     gives_[i] = together * own.give;
   }
 }
@@ -67,6 +69,7 @@ void ContactTerms::share_gives() {
 void ContactTerms::make_rows(const RodModel& model) {
   const std::size_t rows = (found_.size() + lane_count - 1) / lane_count;
   rows_.resize(rows);
+  block_elements_.resize(rows * lane_count, -1);
   blocks_.resize(rows * lane_count);
   ends_.resize(rows);
   stay_.resize((rows + stretch_length - 1) / stretch_length);
@@ -79,6 +82,7 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
   ContactRow& row = rows_[contact / lane_count];
   const int lane = static_cast<int>(contact % lane_count);
   row.element[lane] = model.shapes[point.shape].element;
+  row.collider[lane] = point.collider;
   row.back[lane] = point.back;
   row.radius[lane] = point.radius;
   cosserat::put(row.normal, lane, point.normal_W);
@@ -95,7 +99,8 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
 
 void ContactTerms::push(std::size_t first, std::size_t end, const RodState& iterate) {
   stay_[first / stretch_length] =
-      push_contacts(stretch(first, end), iterate, blocks_.data() + first * lane_count);
+      push_contacts(stretch(first, end), iterate, block_elements_.data() + first * lane_count,
+                    blocks_.data() + first * lane_count);
 }
 
 void ContactTerms::sum_energy() {
@@ -114,19 +119,12 @@ void ContactTerms::follow(const RodState& iterate) {
 }
 
 const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) const {
-  for (int i = last_of_shape_[shape]; i >= 0; i = memory_[i].next)
-    if (memory_[i].collider == collider) return &memory_[i];
+  for (int i = last_of_shape_[shape]; i >= 0; i = before_[i])
+    if (memory_[i].collider == collider && memory_[i].normal != 0.0) return &memory_[i];
   return nullptr;
 }
 
-void ContactTerms::remember(const ContactPoint& point, const Vec3& stretch_W, double normal) {
-  int& last = last_of_shape_[point.shape];
-  memory_.push_back({point.collider, last, stretch_W, normal});
-  last = static_cast<int>(memory_.size()) - 1;
-}
-
 void ContactTerms::forget() {
-  memory_.clear();
   std::fill(last_of_shape_.begin(), last_of_shape_.end(), -1);
 }
 
@@ -140,11 +138,63 @@ double ContactTerms::potential(const RodModel&, const RodState& state) const {
 }
 
 void ContactTerms::finish(const RodModel&, const RodState& end) {
+  memory_.resize(rows_.size() * lane_count);
+  carried_.resize(stay_.size());
   for_each_stretch([&](std::size_t first, std::size_t last) {
     const int sides = static_cast<int>(sides_) - static_cast<int>(first * lane_count);
     end_contacts(stretch(first, last), sides, end, ends_.data() + first);
+    carried_[first / stretch_length] = remember(first, last);
   });
+  remember_shapes();
+  carrying_ = 0;
+  deepest_ = 0.0;
+  for (const Carried& carried : carried_) {
+    carrying_ += carried.contacts;
+    deepest_ = std::max(deepest_, carried.deepest);
+  }
+  forces_listed_ = false;
+}
+
+// Of the rows `first` to `end`.
+ContactTerms::Carried ContactTerms::remember(std::size_t first, std::size_t end) {
+  Carried carried;
+  for (std::size_t i = first * lane_count; i < std::min(found_.size(), end * lane_count); ++i) {
+    const ContactRow& row = rows_[i / lane_count];
+    const ContactEndRow& last = ends_[i / lane_count];
+    const int lane = static_cast<int>(i % lane_count);
+    const double normal = last.normal[lane];
+    memory_[i] = {vector_at(last.stretch, lane), normal, row.collider[lane]};
+    if (normal == 0.0) continue;
+    ++carried.contacts;
+    carried.deepest = std::max(carried.deepest, -gap_of(i));
+  }
+  return carried;
+}
+
+void ContactTerms::remember_shapes() {
   forget();
+  before_.resize(found_.size());
+  for (std::size_t i = 0; i < found_.size(); ++i)
+    before_[i] = std::exchange(last_of_shape_[found_[i].shape], static_cast<int>(i));
+}
+
+// As it is after the collider gave way.
+double ContactTerms::gap_of(std::size_t contact) const {
+  const std::size_t row = contact / lane_count, lane = contact % lane_count;
+  return rows_[row].gap[lane] + gives_[contact] * ends_[row].normal[lane];
+}
+
+void ContactTerms::report(const std::vector<ContactForce>& forces) {
+  forces_ = forces;
+  forces_listed_ = true;
+}
+
+const std::vector<ContactForce>& ContactTerms::forces() const {
+  if (!std::exchange(forces_listed_, true)) list_forces();
+  return forces_;
+}
+
+void ContactTerms::list_forces() const {
   forces_.clear();
   for (std::size_t i = 0; i < found_.size(); ++i) {
     const ContactEndRow& last = ends_[i / lane_count];
@@ -154,32 +204,24 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
     ContactPoint point = found_[i];
     if (i < sides_) {  // they may have been followed
       const ContactRow& row = rows_[i / lane_count];
-      point.gap = row.gap[lane];
       point.margin = row.margin[lane];
       point.stiffness = row.stiffness[lane];
       point.surface_motion_W = vector_at(row.surface_motion, lane);
     }
-    point.gap += gives_[i] * normal;
-    remember(point, vector_at(last.stretch, lane), normal);
+    point.gap = gap_of(i);
     forces_.push_back({point, vector_at(last.place, lane), normal, vector_at(last.friction, lane),
                        last.slipping[lane] != 0.0});
   }
 }
 
 void ContactTerms::add_to(std::vector<ContactForce>& forces, double share) const {
-  for (ContactForce force : forces_) {
+  for (ContactForce force : this->forces()) {
     force.normal *= share;
     force.tangential_W *= share;
     force.point.stiffness *= share;
     force.point.surface_motion_W /= share;
     forces.push_back(force);
   }
-}
-
-double ContactTerms::deepest() const {
-  double deepest = 0.0;
-  for (const ContactForce& force : forces_) deepest = std::max(deepest, -force.point.gap);
-  return deepest;
 }
 
 }  // namespace pedicel::cosserat

@@ -45,7 +45,7 @@ class ContactTerms {
   /// J, at the iterate for which find() or follow() was called.
   double energy() const { return energy_; }
   /// What the contacts add there, at most one each. Valid until the next call of them.
-  std::span<const ElementBlock> blocks() const { return blocks_; }
+  ElementBlocks blocks() const { return {block_elements_, blocks_}; }
   /// Whether they stand where they stood before, for the same elements: after follow(), mostly.
   bool blocks_stay() const { return blocks_stay_; }
   double potential(const RodModel& model, const RodState& state) const;
@@ -53,9 +53,13 @@ class ContactTerms {
   /// Ends the step: forces for the report, and the friction memory for the next step.
   void finish(const RodModel& model, const RodState& end);
 
-  const std::vector<ContactForce>& forces() const { return forces_; }
+  /// Of a step that has ended, until the next one begins; listed when they are first asked for.
+  const std::vector<ContactForce>& forces() const;
+  /// How many there are.
+  int carrying() const { return carrying_; }
   int size() const { return static_cast<int>(found_.size()); }
-  double deepest() const;
+  /// m, where they overlap most, or 0.
+  double deepest() const { return deepest_; }
   /// Whether all that was found is the plant's contact with itself.
   bool only_with_itself() const { return sides_ == found_.size(); }
   void forget();
@@ -63,14 +67,18 @@ class ContactTerms {
   /// share of the stiffness, whose impulse, work and energy are a part's of the longer step.
   void add_to(std::vector<ContactForce>& forces, double share) const;
   /// Reports these in place of its own.
-  void report(const std::vector<ContactForce>& forces) { forces_ = forces; }
+  void report(const std::vector<ContactForce>& forces);
 
  private:
   struct Memory {
-    int collider;
-    int next;  // of the same shape; -1: none
     Vec3 stretch_W;
     double normal;  // N
+    int collider;
+  };
+  // What some contacts carry at a step's end.
+  struct Carried {
+    int contacts = 0;
+    double deepest = 0.0;  // m
   };
   void share_gives();
   void make_rows(const RodModel& model);
@@ -78,7 +86,10 @@ class ContactTerms {
   void push(std::size_t first, std::size_t end, const RodState& iterate);
   void sum_energy();
   const Memory* remembered(int shape, int collider) const;
-  void remember(const ContactPoint& point, const Vec3& stretch_W, double normal);
+  void remember_shapes();
+  Carried remember(std::size_t first, std::size_t end);
+  double gap_of(std::size_t contact) const;
+  void list_forces() const;
   template <class Task>
   void for_each_stretch(const Task& task) const;
   std::span<ContactRow> stretch(std::size_t first, std::size_t end) {
@@ -86,19 +97,26 @@ class ContactTerms {
   }
 
   PartedLoop loop_;
-  std::vector<ContactPoint> found_;
+  ContactLists found_;
   std::size_t sides_ = 0;      // the first ones are where the plant touches itself
   std::vector<double> gives_;  // m/N, of the colliders, with what pushes them beside each contact
   std::vector<ContactRow> rows_;
-  std::vector<ElementBlock> blocks_;  // eight a row
+  std::vector<int> block_elements_;   // eight a row
+  std::vector<ElementBlock> blocks_;  // likewise
   std::vector<ContactEndRow> ends_;   // by row
   bool blocks_stay_ = false;
   std::vector<char> stay_;            // likewise, by stretch
   double energy_ = 0.0;               // J, of them all
   mutable std::vector<double> sums_;  // scratch, J, by stretch
+  // Of the contacts of the step before. Those of a shape follow each other: its last one, and which
+  // one comes before it; -1: none.
   std::vector<Memory> memory_;
-  std::vector<int> last_of_shape_;  // index of its last one in memory_; -1: it has none
-  std::vector<ContactForce> forces_;
+  std::vector<int> last_of_shape_, before_;
+  std::vector<Carried> carried_;  // by stretch
+  int carrying_ = 0;
+  double deepest_ = 0.0;
+  mutable std::vector<ContactForce> forces_;
+  mutable bool forces_listed_ = true;
 };
 
 }  // namespace pedicel::cosserat

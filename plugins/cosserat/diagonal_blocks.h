@@ -15,7 +15,6 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// What one spring adds to one element's block, as the rows take it (lanes.h).
 struct ElementBlock {
-  int element = -1;                         ///< -1: it adds nothing
   std::array<double, block_size> values{};  ///< lower triangle by rows, then the right side
 
   void add_to(Mat6& diagonal, Vec6& right_side) const {
@@ -27,6 +26,13 @@ struct ElementBlock {
       }
     for (int i = 0; i < 6; ++i) right_side[i] += values[place++];
   }
+};
+
+/// What some springs add. The elements stand by themselves: who hands blocks on does not look at
+/// their values, which may lie in other cores' caches.
+struct ElementBlocks {
+  std::span<const int> elements;  ///< -1: it adds nothing
+  std::span<const ElementBlock> values;
 };
 
 /// Blocks of a few elements: what springs and contacts add to the diagonal of the step's system and
@@ -52,7 +58,7 @@ class DiagonalBlocks {
   /// In the order in which they were first asked for.
   const std::vector<Entry>& entries() const { return entries_; }
   /// The same as the rows take them. Valid until the next call.
-  std::span<const ElementBlock> packed();
+  ElementBlocks packed();
 
  private:
   Entry& entry(int element) {
@@ -65,19 +71,21 @@ class DiagonalBlocks {
 
   std::vector<int> place_;  // of an element in entries_; -1: it has none
   std::vector<Entry> entries_;
+  std::vector<int> packed_elements_;
   std::vector<ElementBlock> packed_;
 };
 
-inline std::span<const ElementBlock> DiagonalBlocks::packed() {
+inline ElementBlocks DiagonalBlocks::packed() {
+  packed_elements_.resize(entries_.size());
   packed_.resize(entries_.size());
   for (std::size_t k = 0; k < entries_.size(); ++k) {
-    packed_[k].element = entries_[k].element;
+    packed_elements_[k] = entries_[k].element;
     auto to = packed_[k].values.begin();
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j) *to++ = entries_[k].diagonal(i, j);
     for (int i = 0; i < 6; ++i) *to++ = entries_[k].right_side[i];
   }
-  return packed_;
+  return {packed_elements_, packed_};
 }
 
 /// Adds a spring of symmetric stiffness `hessian` (N/m, W) that pulls with `force` (N, W) on a

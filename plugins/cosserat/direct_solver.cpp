@@ -300,9 +300,11 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
     system.diagonal(entry.element) += entry.diagonal;
     system.right_side(entry.element) += entry.right_side;
   }
-  for (const ElementBlock& block : plant.contacts.blocks())
-    if (block.element >= 0)
-      block.add_to(system.diagonal(block.element), system.right_side(block.element));
+  const ElementBlocks blocks = plant.contacts.blocks();
+  for (std::size_t i = 0; i < blocks.elements.size(); ++i) {
+    const int element = blocks.elements[i];
+    if (element >= 0) blocks.values[i].add_to(system.diagonal(element), system.right_side(element));
+  }
   for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
     system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
   if (system.solve())
@@ -518,7 +520,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
     }
     if (report.errors != none) report.element = rows_.largest_change(p, state.size());
     plant.contacts.finish(*steps[p].model, state);
-    report.contacts = static_cast<int>(plant.contacts.forces().size());
+    report.contacts = plant.contacts.carrying();
     report.deepest = plant.contacts.deepest();
     // A step whose last iteration still moved things roughly is not on a smooth path: the
     // second-order scheme, which continues that path, would feed on it. The next step is first

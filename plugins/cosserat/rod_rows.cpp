@@ -276,11 +276,11 @@ void RodRows::clear_extras() {
   extras_.clear();
 }
 
-void RodRows::add_extras(int plant, std::span<const ElementBlock> blocks) {
-  for (const ElementBlock& block : blocks) {
-    if (block.element < 0) continue;
-    const Slot slot = layout_.slot(plant, block.element);
-    extras_.push_back({block.values.data(), 1, slot.lane, first_extra_[slot.row]});
+void RodRows::add_extras(int plant, const ElementBlocks& blocks) {
+  for (std::size_t i = 0; i < blocks.elements.size(); ++i) {
+    if (blocks.elements[i] < 0) continue;
+    const Slot slot = layout_.slot(plant, blocks.elements[i]);
+    extras_.push_back({blocks.values[i].values.data(), 1, slot.lane, first_extra_[slot.row]});
     first_extra_[slot.row] = static_cast<int>(extras_.size()) - 1;
     extra_rows_.push_back(slot.row);
   }

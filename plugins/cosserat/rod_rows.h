@@ -101,7 +101,7 @@ class RodRows {
   void eliminate(ThreadPool& pool);
   void clear_extras();
   /// The blocks must stay where they are until eliminate() is done.
-  void add_extras(int plant, std::span<const ElementBlock> blocks);
+  void add_extras(int plant, const ElementBlocks& blocks);
   /// The blocks of a plant with loops.
   void copy_blocks(int plant, BlockSystem& system) const;
   void set_change(int plant, const BlockSystem& solved);

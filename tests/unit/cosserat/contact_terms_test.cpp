@@ -52,6 +52,27 @@ struct Rubbed {
   std::vector<ContactPoint> points;
 };
 
+TEST(ContactLists, FollowEachOtherInOrder) {
+  const auto of_shape = [](int shape) {
+    ContactPoint point;
+    point.shape = shape;
+    return point;
+  };
+  ContactLists lists;
+  for (int round = 0; round < 2; ++round) {  // lists keep nothing but their room
+    EXPECT_EQ(lists.size(), 0u);
+    lists.last().push_back(of_shape(0));
+    const std::size_t first = lists.add(3);
+    lists.list(first + 2).push_back(of_shape(3));
+    lists.list(first).push_back(of_shape(1));  // the one in between stays empty
+    lists.list(first).push_back(of_shape(2));
+    lists.last().push_back(of_shape(4));
+    ASSERT_EQ(lists.size(), 5u);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(lists[i].shape, i);
+    lists.clear();
+  }
+}
+
 // The friction limit and the direction are frozen at the iterate: there the force is exactly the
 // slope of the frozen potential, sticking or sliding; with every instruction set.
 TEST(ContactTerms, ForceIsMinusTheSlopeOfThePotential) {
@@ -65,8 +86,9 @@ TEST(ContactTerms, ForceIsMinusTheSlopeOfThePotential) {
       ASSERT_GT(terms.size(), 3);
       std::vector<Mat6> diagonal(model.size(), Mat6::Zero());
       std::vector<Vec6> right_side(model.size(), Vec6::Zero());
-      for (const ElementBlock& block : terms.blocks())
-        if (block.element >= 0) block.add_to(diagonal[block.element], right_side[block.element]);
+      const auto [elements, blocks] = terms.blocks();
+      for (std::size_t i = 0; i < blocks.size(); ++i)
+        if (elements[i] >= 0) blocks[i].add_to(diagonal[elements[i]], right_side[elements[i]]);
       EXPECT_NEAR(terms.energy(), terms.potential(model, state), 1e-15);
       double largest = 0.0, worst = 0.0;
       constexpr double step =
@@ -102,22 +124,23 @@ TEST(ContactTerms, BlocksAreThoseOfSpringsOnTheTouchingPoints) {
       int pushing = 0;
       for (std::size_t i = 0; i < rubbed.points.size(); ++i) {
         const ContactPoint& point = rubbed.points[i];
-        const ElementBlock& block = rubbed.terms.blocks()[i];
-        EXPECT_EQ(block.element >= 0, point.gap < point.margin);
-        if (block.element < 0) continue;
+        const ElementBlock& block = rubbed.terms.blocks().values[i];
+        const int element = rubbed.terms.blocks().elements[i];
+        EXPECT_EQ(element >= 0, point.gap < point.margin);
+        if (element < 0) continue;
         ++pushing;
-        ASSERT_EQ(block.element, rubbed.model.shapes[point.shape].element);
+        ASSERT_EQ(element, rubbed.model.shapes[point.shape].element);
         Mat6 found = Mat6::Zero();
         Vec6 right_side = Vec6::Zero();
         block.add_to(found, right_side);
         const Vec3& n = point.normal_W;
         const Vec3 arm =
-            -point.back * third_axis(rubbed.state.orientation[block.element]) - point.radius * n;
+            -point.back * third_axis(rubbed.state.orientation[element]) - point.radius * n;
         const Mat3 hessian = found.topLeftCorner<3, 3>();
         DiagonalBlocks expected(rubbed.model.size());
-        add_point_spring(expected, block.element, arm, hessian, right_side.head<3>());
-        EXPECT_LT((found - expected.diagonal(block.element)).norm(), 1e-12 * k);
-        EXPECT_LT((right_side - expected.right_side(block.element)).norm(), 1e-12 * k);
+        add_point_spring(expected, element, arm, hessian, right_side.head<3>());
+        EXPECT_LT((found - expected.diagonal(element)).norm(), 1e-12 * k);
+        EXPECT_LT((right_side - expected.right_side(element)).norm(), 1e-12 * k);
         EXPECT_LT((hessian * n - k * n).norm(), 1e-12 * k);
         EXPECT_NEAR(n.dot(right_side.head<3>()), k * (point.margin - point.gap), 1e-12 * k);
         const Vec3 across = hessian * n.unitOrthogonal();

@@ -253,7 +253,7 @@ TEST(ContactTerms, SayWhetherTheirBlocksStay) {
   source.begin_step(model, start, 0.01);
   terms.find(model, start, lowered(model, touching + 5e-4), 0.01, {&pointer, 1});
   const auto pressing = [&] {
-    return std::ranges::count_if(terms.blocks(), [](const auto& b) { return b.element >= 0; });
+    return std::ranges::count_if(terms.blocks().elements, [](int e) { return e >= 0; });
   };
   EXPECT_FALSE(terms.blocks_stay());
   EXPECT_EQ(pressing(), 2);
