@@ -71,9 +71,9 @@ HWY_INLINE V radius(const Ends& of, V fraction) {
   return hn::MulAdd(fraction, of.radius_far - of.radius_near, of.radius_near);
 }
 
-void Measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end) {
+void Measure(const Capsules& capsules, CapsulePairs& pairs) {
   const D d;
-  for (std::size_t i = first; i < end; i += width) {
+  for (std::size_t i = 0; i < pairs.size(); i += width) {
     const Ends a = gather(capsules, &pairs.a[i]), b = gather(capsules, &pairs.b[i]);
     const V3 along_a = a.far - a.near, along_b = b.far - b.near;
     const Fractions at = nearest(a.near - b.near, along_a, along_b);
@@ -171,11 +171,11 @@ void KeepMeeting(const CapsuleMotion& motion, double open, double times,
 }
 
 std::size_t ListMeeting(const CapsuleMotion& motion, double open, const CapsulePairs& pairs,
-                        std::size_t first, std::size_t end, std::vector<int>& which) {
+                        std::vector<int>& which) {
   std::size_t count = 0;
-  for (std::size_t i = first; i < end; i += width) {
+  for (std::size_t i = 0; i < pairs.size(); i += width) {
     const V most = set(open) + moved_apart(motion, &pairs.a[i], &pairs.b[i]);
-    const M near = hn::And(hn::LoadU(D(), &pairs.gap[i]) <= most, before(i, end));
+    const M near = hn::And(hn::LoadU(D(), &pairs.gap[i]) <= most, before(i, pairs.size()));
     for (unsigned left = bits_of(near); left != 0; left &= left - 1)
       which[count++] = static_cast<int>(i) + __builtin_ctz(left);
   }
@@ -197,11 +197,7 @@ HWY_EXPORT(ListMeeting);
 
 void measure(const Capsules& capsules, CapsulePairs& pairs) {
   pairs.make_places();
-  measure(capsules, pairs, 0, pairs.size());
-}
-
-void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end) {
-  HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs, first, end);
+  HWY_DYNAMIC_DISPATCH(Measure)(capsules, pairs);
 }
 
 void collect_coming(const CapsuleMotion& motion, double open, double steps,
@@ -222,9 +218,9 @@ void keep_meeting(const CapsuleMotion& motion, double open, double times,
 }
 
 std::size_t list_meeting(const CapsuleMotion& motion, double open, const CapsulePairs& pairs,
-                         std::size_t first, std::size_t end, std::vector<int>& which) {
-  if (which.size() < end - first) which.resize(2 * (end - first));
-  return HWY_DYNAMIC_DISPATCH(ListMeeting)(motion, open, pairs, first, end, which);
+                         std::vector<int>& which) {
+  if (which.size() < pairs.size()) which.resize(2 * pairs.size());
+  return HWY_DYNAMIC_DISPATCH(ListMeeting)(motion, open, pairs, which);
 }
 
 // Pairs of the first capsule with itself fill the last vector up.

@@ -65,9 +65,6 @@ struct alignas(64) CapsulePairs {
 
 /// Sets at_a, at_b and gap of all pairs, several at a time: nearest_fractions() up to rounding.
 void measure(const Capsules& capsules, CapsulePairs& pairs);
-/// Likewise of the pairs from `first`, a multiple of lane_count, to `end`; make_places() must have
-/// been called since pairs were added.
-void measure(const Capsules& capsules, CapsulePairs& pairs, std::size_t first, std::size_t end);
 
 /// How far capsules have moved: from where to where, and no farther than `most` (m) each.
 struct CapsuleMotion {
@@ -89,9 +86,9 @@ void sift(const CapsulePairs& from, std::size_t first, std::size_t end, double o
 /// reach[b]) (m) + what the two have moved against each other, at most, wherever on them.
 void keep_meeting(const CapsuleMotion& motion, double open, double times,
                   const std::vector<float>& reach, CapsulePairs& pairs);
-/// Lists those of the measured pairs `first` to `end` that are not farther apart than `open` + what
-/// they have so moved; returns how many.
+/// Lists those of the measured pairs that are not farther apart than `open` + what they have so
+/// moved; returns how many.
 std::size_t list_meeting(const CapsuleMotion& motion, double open, const CapsulePairs& pairs,
-                         std::size_t first, std::size_t end, std::vector<int>& which);
+                         std::vector<int>& which);
 
 }  // namespace pedicel::cosserat

@@ -76,30 +76,36 @@ void SelfContact::begin_step(const RodModel&, const RodState& start, double) {
 
 void SelfContact::find(const RodModel& model, const RodState& state, double dt,
                        std::vector<ContactPoint>& found) {
-  if (!start_) begin_step(model, state, dt);
-  look(model, state);
-  const std::size_t count = near_.size();
-  work_.pairs += static_cast<long>(count);
-  const int parts = loop_.parts(count, worth_touching);
-  loop_.run(count, parts, [&](int part, std::size_t first, std::size_t end) {
-    Scratch& scratch = scratch_[part];
-    scratch.found.clear();
-    touch_some(model, state, dt, first, end, scratch.meeting, part == 0 ? found : scratch.found);
-  });
-  for (int part = 1; part < parts; ++part)
-    found.insert(found.end(), scratch_[part].found.begin(), scratch_[part].found.end());
+  found_.clear();
+  find_lists(model, state, dt, found_);
+  for (std::size_t i = 0; i < found_.size(); ++i) found.push_back(found_[i]);
 }
 
-// Adds the contacts of some of the near pairs; `meeting` is scratch.
-void SelfContact::touch_some(const RodModel& model, const RodState& state, double dt,
-                             std::size_t first, std::size_t end, std::vector<int>& meeting,
-                             std::vector<ContactPoint>& found) {
+void SelfContact::find_lists(const RodModel& model, const RodState& state, double dt,
+                             ContactLists& found) {
+  if (!start_) begin_step(model, state, dt);
+  const bool near_holds = look(model, state);
+  const std::size_t first = found.add(far_parts_);
+  loop_.each(far_parts_, [&](int part) {
+    Scratch& scratch = scratch_[part];
+    scratch.measured = 0;
+    if (!near_holds) collect_near(part);
+    touch_near(model, state, dt, scratch, found.list(first + part));
+  });
+  for (int part = 0; part < far_parts_; ++part) work_.pairs += scratch_[part].measured;
+  if (!near_holds) share_out_far();
+}
+
+// Adds the contacts of a part of the near list.
+void SelfContact::touch_near(const RodModel& model, const RodState& state, double dt,
+                             Scratch& scratch, std::vector<ContactPoint>& found) const {
   const auto is_live = [&](const CollisionShape& shape) {
     return state.alive[shape.element] && (shape.fruit < 0 || !state.fruit_gone[shape.fruit]);
   };
-  measure(motion_.now(), near_, first, end);
-  const std::size_t count =
-      list_meeting(moved_capsules(), settings_.margin, near_, first, end, meeting);
+  CapsulePairs& near = scratch.near;
+  measure(motion_.now(), near);
+  scratch.measured += static_cast<long>(near.size());
+  const std::size_t count = list_meeting(moved_capsules(), settings_.margin, near, scratch.meeting);
   TouchingRow row{};
   int lanes = 0;
   const auto touch_row = [&] {
@@ -108,17 +114,17 @@ void SelfContact::touch_some(const RodModel& model, const RodState& state, doubl
     lanes = 0;
   };
   for (std::size_t i = 0; i < count; ++i) {
-    const int pair = meeting[i];
-    const CollisionShape &a = model.shapes[near_.a[pair]], &b = model.shapes[near_.b[pair]];
+    const int pair = scratch.meeting[i];
+    const CollisionShape &a = model.shapes[near.a[pair]], &b = model.shapes[near.b[pair]];
     if (!is_live(a) || !is_live(b)) continue;
-    row.a[lanes] = near_.a[pair];
-    row.b[lanes] = near_.b[pair];
+    row.a[lanes] = near.a[pair];
+    row.b[lanes] = near.b[pair];
     row.element_a[lanes] = a.element;
     row.element_b[lanes] = b.element;
-    row.at_a[lanes] = near_.at_a[pair];
-    row.at_b[lanes] = near_.at_b[pair];
-    row.back_a[lanes] = back_at(a, near_.at_a[pair]);
-    row.back_b[lanes] = back_at(b, near_.at_b[pair]);
+    row.at_a[lanes] = near.at_a[pair];
+    row.at_b[lanes] = near.at_b[pair];
+    row.back_a[lanes] = back_at(a, near.at_a[pair]);
+    row.back_b[lanes] = back_at(b, near.at_b[pair]);
     if (++lanes == lane_count) touch_row();
   }
   if (lanes > 0) touch_row();

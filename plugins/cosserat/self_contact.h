@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,8 @@ class SelfContact : public ContactSource {
   void begin_step(const RodModel& model, const RodState& start, double dt) override;
   void find(const RodModel& model, const RodState& state, double dt,
             std::vector<ContactPoint>& found) override;
+  void find_lists(const RodModel& model, const RodState& state, double dt,
+                  ContactLists& found) override;
 
   /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
   void change_settings(const SelfContactSettings& settings);
@@ -80,37 +83,43 @@ class SelfContact : public ContactSource {
 
  private:
   void collect_left_out(const RodModel& model);
-  void look(const RodModel& model, const RodState& state);
-  template <class Holds>
-  bool for_all_shapes(const Holds& holds);
-  bool find_strays();
-  void collect_near();
+  bool look(const RodModel& model, const RodState& state);
+  template <class LookAt>
+  int for_all_shapes(const LookAt& look_at);
   void collect_far();
   void make_box(std::size_t shape, int steps_left);
   CapsuleMotion moved_capsules() const;
   // How often a pair's motion of a step may have brought it nearer by the end of that step.
   double motions_until(int far_step) const { return far_stands_ ? 0.0 : far_step + 1.0; }
-  void touch_some(const RodModel& model, const RodState& state, double dt, std::size_t first,
-                  std::size_t end, std::vector<int>& meeting, std::vector<ContactPoint>& found);
+  void share_out_far();
   void add_contact(const RodModel& model, double dt, const TouchingRow& row, int lane,
                    std::vector<ContactPoint>& found) const;
 
-  // Shapes and near pairs, a thread.
-  static constexpr std::size_t worth_waking = 256, worth_touching = 48;
+  static constexpr std::size_t worth_waking = 256;  // shapes, a thread
 
-  using Pairs = std::vector<std::pair<int, int>>;
+  using Pair = std::pair<int, int>;
+  using Pairs = std::vector<Pair>;
   // What the parts of a loop need for themselves.
   struct Scratch {
+    CapsulePairs near;  // this part of the near list
     CapsulePairs pairs;
-    Pairs candidates, astray;  // of the far list, of strays
+    Pairs astray;
     std::vector<int> meeting;
-    std::vector<ContactPoint> found;
     long measured = 0;
-    bool holds = true;
+    double work = 0.0;                // of collecting its part of the near list
+    bool holds = true;                // of its shapes, the near list
+    ShapeMotion::Astray left_course;  // of its shapes
   };
 
-  void sift_far(const CapsulePairs& far, std::size_t begin, std::size_t end, Scratch& scratch,
-                Pairs& kept) const;
+  bool find_strays(std::span<const Scratch> parts);
+  void collect_near(int part);
+  Pair far_pair(std::size_t i) const;
+  void sift_far(const CapsulePairs& far, std::size_t begin, std::size_t end,
+                Scratch& scratch) const;
+  void keep_near(Scratch& scratch) const;
+  void add_strays(const Pair& begin, const Pair& end, Scratch& scratch) const;
+  void touch_near(const RodModel& model, const RodState& state, double dt, Scratch& scratch,
+                  std::vector<ContactPoint>& found) const;
 
   SelfContactSettings settings_;
   PartedLoop loop_;
@@ -118,16 +127,17 @@ class SelfContact : public ContactSource {
   // The far list is in parts; its gaps are those where its courses begin. Pairs are ascending.
   std::array<CapsulePairs, PartedLoop::most_parts> far_;
   int far_parts_ = 0;
+  // Where the parts of the near list begin in it (1, of its length).
+  std::array<double, PartedLoop::most_parts + 1> near_begins_{};
   bool far_stands_ = true;                  // there are no courses
   int far_steps_ = 0, far_steps_most_ = 0;  // since then; for which it was made
   // Shapes that left their course, ascending, and all that they may touch; what the far list has of
   // them does not count.
   std::vector<int> strays_;
   CapsulePairs stray_pairs_;
-  CapsulePairs near_;
   bool step_begins_ = false;  // nobody has looked yet
   std::array<Scratch, PartedLoop::most_parts> scratch_;
-  Pairs astray_;            // scratch
+  ContactLists found_;      // scratch
   OverlappingBoxes boxes_;  // m, W
   Work work_;
   const RodState* start_ = nullptr;  // of the step

@@ -1,6 +1,10 @@
 // The lists of pairs that SelfContact keeps.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <ranges>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "cosserat/self_contact.h"
@@ -9,7 +13,10 @@ namespace pedicel::cosserat {
 
 namespace {
 
+constexpr std::pair beyond{std::numeric_limits<int>::max(), 0};  // all pairs
 constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
+// Measuring a pair that a sieve has left takes as long as sifting so many.
+constexpr double sifted = 10.0, measured = 30.0;  // from the far list, from the near list
 // The far list is made for so many steps at most, in which the fastest goes so far (1, of what
 // counts of a step's motion). Where it goes no farther than so many skins, nothing has a course.
 constexpr double most_steps = 16.0, farthest = 0.7, still = 2.0;
@@ -37,54 +44,55 @@ std::vector<std::vector<int>> neighbours(const RodModel& model) {
 
 }  // namespace
 
-// Whether holds(first, end) for all stretches of shapes, each of which is looked at.
-template <class Holds>
-bool SelfContact::for_all_shapes(const Holds& holds) {
+// look_at(part, first, end) for stretches of all shapes. Returns the number of parts.
+template <class LookAt>
+int SelfContact::for_all_shapes(const LookAt& look_at) {
   const std::size_t room = motion_.room();
   const int parts = loop_.parts(room, worth_waking);
-  loop_.run(room, parts, [&](int part, std::size_t first, std::size_t end) {
-    scratch_[part].holds = holds(first, end);
-  });
-  return std::all_of(scratch_.begin(), scratch_.begin() + parts,
-                     [](const Scratch& scratch) { return scratch.holds; });
+  loop_.run(room, parts, look_at);
+  return parts;
 }
 
-// A step's first look collects the near list; later ones see whether it holds.
-void SelfContact::look(const RodModel& model, const RodState& state) {
-  const auto look_again = [&](std::size_t first, std::size_t end) {
-    return motion_.look_again(model, state, first, end);
-  };
-  if (!step_begins_ && for_all_shapes(look_again)) return;
+// Whether the near list holds, which a step's first look never finds.
+bool SelfContact::look(const RodModel& model, const RodState& state) {
+  const auto of_parts = [&](int parts) { return std::span(scratch_).first(parts); };
+  if (!step_begins_) {
+    const int parts = for_all_shapes([&](int part, std::size_t first, std::size_t end) {
+      scratch_[part].holds = motion_.look_again(model, state, first, end);
+    });
+    if (std::ranges::all_of(of_parts(parts), [](const Scratch& s) { return s.holds; })) return true;
+  }
   if (step_begins_) ++far_steps_;
   const RodState* const begins = std::exchange(step_begins_, false) ? start_ : nullptr;
-  const bool holds = for_all_shapes([&](std::size_t first, std::size_t end) {
-    return motion_.look(model, begins, state, first, end);
+  const int parts = for_all_shapes([&](int part, std::size_t first, std::size_t end) {
+    scratch_[part].left_course.count = 0;
+    motion_.look(model, begins, state, first, end, scratch_[part].left_course);
   });
   const bool goes_on = far_steps_ <= far_steps_most_ || (far_stands_ && strays_.empty());
-  if (!goes_on || (!holds && !find_strays())) collect_far();
+  if (!goes_on || !find_strays(of_parts(parts))) collect_far();
   for (const int stray : strays_) motion_.forget_reach(stray);
-  collect_near();
+  return false;
 }
 
 // A few shapes that go another way than expected need not make all of the list anew: they get a new
 // course, and all pairs of theirs. Returns whether they are few.
-bool SelfContact::find_strays() {
-  for (std::size_t i = 0; i < motion_.size(); ++i) {
-    if (!motion_.is_astray(i)) continue;
-    const auto place = std::lower_bound(strays_.begin(), strays_.end(), static_cast<int>(i));
-    if (place == strays_.end() || *place != static_cast<int>(i)) {
-      if (strays_.size() == most_strays) return false;
-      strays_.insert(place, static_cast<int>(i));
+bool SelfContact::find_strays(std::span<const Scratch> parts) {
+  bool any = false;
+  for (const Scratch& part : parts)
+    for (const int i : part.left_course.listed()) {
+      any = true;
+      const auto place = std::lower_bound(strays_.begin(), strays_.end(), i);
+      if (place == strays_.end() || *place != i) {
+        if (strays_.size() == most_strays) return false;
+        strays_.insert(place, i);
+      }
+      motion_.restart_far(i, !far_stands_, strays_budget);
+      make_box(i, far_steps_most_ - far_steps_);
+      boxes_.close_groups(i / lane_count * lane_count, i + 1);
     }
-    motion_.restart_far(i, !far_stands_, strays_budget);
-    make_box(i, far_steps_most_ - far_steps_);
-    boxes_.close_groups(i / lane_count * lane_count, i + 1);
-  }
+  if (!any) return true;
   stray_pairs_.clear();
   for (const int stray : strays_) boxes_.find_with(stray, stray_pairs_);
-  // They are measured whenever the near list is made.
-  std::fill_n(stray_pairs_.gap.begin(), stray_pairs_.size(), -1.0e300);
-  std::fill_n(stray_pairs_.closing.begin(), stray_pairs_.size(), 0.0F);
   return true;
 }
 
@@ -92,52 +100,97 @@ CapsuleMotion SelfContact::moved_capsules() const {
   return {motion_.start(), motion_.now(), motion_.limits().most};
 }
 
-// A pair is needed in this step while its gap is not above margin + what the two move against each
-// other. As the iterations move both by up to their slack, the gap may shrink and that motion grow
-// by as much.
-void SelfContact::collect_near() {
-  loop_.each(far_parts_, [&](int part) {
-    Scratch& scratch = scratch_[part];
-    scratch.measured = 0;
-    scratch.candidates.clear();
-    scratch.astray.clear();
-    sift_far(far_[part], 0, far_[part].size(), scratch, scratch.candidates);
-    const std::size_t count = stray_pairs_.size();  // each part sifts its share
-    sift_far(stray_pairs_, count * part / far_parts_, count * (part + 1) / far_parts_, scratch,
-             scratch.astray);
-  });
-  astray_.clear();
-  for (int part = 0; part < far_parts_; ++part)
-    astray_.insert(astray_.end(), scratch_[part].astray.begin(), scratch_[part].astray.end());
-  std::sort(astray_.begin(), astray_.end());  // those of two strays come twice
-  astray_.erase(std::unique(astray_.begin(), astray_.end()), astray_.end());
-  near_.clear();
-  auto next = astray_.begin();
-  const auto add_strays = [&](const auto& is_next) {
-    for (; next != astray_.end() && is_next(*next); ++next) near_.add(next->first, next->second);
-  };
-  for (int part = 0; part < far_parts_; ++part)
-    for (const auto& pair : scratch_[part].candidates) {
-      add_strays([&](const auto& stray) { return stray < pair; });
-      near_.add(pair.first, pair.second);
-    }
-  add_strays([](const auto&) { return true; });
-  for (int part = 0; part < far_parts_; ++part) work_.pairs += scratch_[part].measured;
-  near_.make_places();
+// One of the pairs of all parts of the far list, or one beyond them.
+SelfContact::Pair SelfContact::far_pair(std::size_t i) const {
+  for (int part = 0; part < far_parts_; i -= far_[part++].size())
+    if (i < far_[part].size()) return {far_[part].a[i], far_[part].b[i]};
+  return beyond;
 }
 
-// Adds those of the pairs `begin` to `end` that may touch in this step.
+// The part's share of the far list, and the strays' pairs in between.
+void SelfContact::collect_near(int part) {
+  Scratch& scratch = scratch_[part];
+  scratch.near.clear();
+  std::size_t all = 0, before = 0;
+  for (int p = 0; p < far_parts_; ++p) all += far_[p].size();
+  const auto begin_of = [&](int p) {
+    return static_cast<std::size_t>(near_begins_[p] * static_cast<double>(all));
+  };
+  const std::size_t first = begin_of(part), end = begin_of(part + 1);
+  for (int p = 0; p < far_parts_; ++p) {
+    const std::size_t size = far_[p].size();
+    const auto place = [&](std::size_t i) { return std::clamp(i, before, before + size) - before; };
+    sift_far(far_[p], place(first), place(end), scratch);
+    before += size;
+  }
+  add_strays(part == 0 ? Pair{0, 0} : far_pair(first), far_pair(end), scratch);
+  scratch.work = static_cast<double>(end - first) + sifted * static_cast<double>(scratch.measured) +
+                 measured * static_cast<double>(scratch.near.size());
+}
+
 void SelfContact::sift_far(const CapsulePairs& far, std::size_t begin, std::size_t end,
-                           Scratch& scratch, Pairs& kept) const {
+                           Scratch& scratch) const {
   for (std::size_t first = begin; first < end; first += at_a_time) {
     CapsulePairs& pairs = scratch.pairs;
     pairs.clear();
     sift(far, first, std::min(end, first + at_a_time), settings_.margin, motions_until(far_steps_),
          motion_.reach(), pairs);
-    measure(motion_.now(), pairs);
-    scratch.measured += static_cast<long>(pairs.size());
-    keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_budget(), pairs);
-    for (std::size_t i = 0; i < pairs.size(); ++i) kept.emplace_back(pairs.a[i], pairs.b[i]);
+    keep_near(scratch);
+    for (std::size_t i = 0; i < pairs.size(); ++i) scratch.near.add(pairs.a[i], pairs.b[i]);
+  }
+}
+
+// A pair is needed in this step while its gap is not above margin + what the two move against each
+// other. As the iterations move both by up to their slack, the gap may shrink and that motion grow
+// by as much.
+void SelfContact::keep_near(Scratch& scratch) const {
+  measure(motion_.now(), scratch.pairs);
+  scratch.measured += static_cast<long>(scratch.pairs.size());
+  keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_budget(), scratch.pairs);
+}
+
+// Those from `begin` on that are before `end`; pairs of two strays come twice.
+void SelfContact::add_strays(const Pair& begin, const Pair& end, Scratch& scratch) const {
+  CapsulePairs& pairs = scratch.pairs;
+  pairs.clear();
+  for (std::size_t i = 0; i < stray_pairs_.size(); ++i) {
+    const Pair pair{stray_pairs_.a[i], stray_pairs_.b[i]};
+    if (begin <= pair && pair < end) pairs.add(pair.first, pair.second);
+  }
+  if (pairs.size() == 0) return;
+  keep_near(scratch);
+  Pairs& astray = scratch.astray;
+  astray.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) astray.emplace_back(pairs.a[i], pairs.b[i]);
+  std::sort(astray.begin(), astray.end());
+  astray.erase(std::unique(astray.begin(), astray.end()), astray.end());
+  // From the last pair to the first, each to where it comes.
+  CapsulePairs& near = scratch.near;
+  std::size_t left = near.size(), to = left + astray.size();
+  near.make_room(astray.size());
+  near.resize(to);
+  for (auto next = astray.rbegin(); next != astray.rend(); ++next) {
+    for (; left > 0 && *next < Pair{near.a[left - 1], near.b[left - 1]}; --left) {
+      --to;
+      near.a[to] = near.a[left - 1];
+      near.b[to] = near.b[left - 1];
+    }
+    --to;
+    std::tie(near.a[to], near.b[to]) = *next;
+  }
+}
+
+// So that each part would have had as much to do, were the work even within them.
+void SelfContact::share_out_far() {
+  const auto begins = near_begins_;
+  double all = 0.0, before = 0.0;
+  for (int part = 0; part < far_parts_; ++part) all += scratch_[part].work;
+  int next = 1;
+  for (int part = 0; part < far_parts_; ++part) {
+    const double work = scratch_[part].work, length = begins[part + 1] - begins[part];
+    for (; next < far_parts_ && all * next < far_parts_ * (before + work); ++next)
+      near_begins_[next] = begins[part] + length * (all * next / far_parts_ - before) / work;
+    before += work;
   }
 }
 
@@ -161,11 +214,14 @@ void SelfContact::collect_far() {
               boxes_.close_groups(first, std::min(end, motion_.size()));
             });
   for (CapsulePairs& part : far_) part.clear();
-  far_parts_ = boxes_.find(loop_, [&](int part, CapsulePairs& pairs) {
+  const int parts = boxes_.find(loop_, [&](int part, CapsulePairs& pairs) {
     measure(motion_.now(), pairs);
     collect_coming(moved_capsules(), settings_.margin, motions_until(far_steps_most_),
                    motion_.far_budget(), pairs, far_[part]);
   });
+  if (parts == far_parts_) return;
+  far_parts_ = parts;
+  for (int part = 0; part <= parts; ++part) near_begins_[part] = part / double(parts);
 }
 
 // Around all of a capsule, for so many steps on its course, as far as its budget reaches.

@@ -138,10 +138,9 @@ HWY_INLINE void begin_step(const Places& places, const RodModel& model, const Ro
   store_capsules(ends, before, out.start, i);
 }
 
-bool Look(const Places& places, const Limits& limits, const RodModel& model, const RodState* begins,
-          const RodState& state, std::size_t first, std::size_t end,
-          const ShapeMotion::Arrays& out) {
-  M holds = hn::FirstN(D(), width);
+void Look(const Places& places, const Limits& limits, const RodModel& model, const RodState* begins,
+          const RodState& state, std::size_t first, std::size_t end, const ShapeMotion::Arrays& out,
+          ShapeMotion::Astray& astray) {
   for (std::size_t i = first; i < end; i += width) {
     if (begins) begin_step(places, model, *begins, i, out);
     const Ends start = load_all(out.start, i);
@@ -157,9 +156,15 @@ bool Look(const Places& places, const Limits& limits, const RodModel& model, con
     store_at(way, out.way, i);
     store_at(budget, out.near_budget, i);
     store_at(reach, out.reach, i);
-    holds = hn::And(holds, reach <= load_at(out.far_budget, i));
+    const std::size_t shapes = model.shapes.size() - std::min(i, model.shapes.size());
+    const M astray_here =
+        hn::And(hn::Not(reach <= load_at(out.far_budget, i)), hn::FirstN(D(), shapes));
+    if (hn::AllFalse(D(), astray_here)) continue;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(D(), astray_here, bits);
+    for (unsigned left = bits[0]; left != 0; left &= left - 1)
+      astray.add(static_cast<int>(i) + __builtin_ctz(left));
   }
-  return hn::AllTrue(D(), holds);
 }
 
 bool LookAgain(const Places& places, const RodModel& model, const RodState& state,
@@ -220,7 +225,8 @@ ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
     if (places_.stems == i && shape.element == static_cast<int>(i)) ++places_.stems;
   }
   const RodState drawn = drawn_state(model);
-  look(model, &drawn, drawn, 0, room);
+  Astray astray;
+  look(model, &drawn, drawn, 0, room, astray);
   restart_far(0, room, false);
 }
 
@@ -228,9 +234,10 @@ ShapeMotion::Arrays ShapeMotion::arrays() {
   return {start_, now_, course_, astray_, looked_, way_, reach_, near_budget_, far_budget_};
 }
 
-bool ShapeMotion::look(const RodModel& model, const RodState* begins, const RodState& iterate,
-                       std::size_t first, std::size_t end) {
-  return HWY_DYNAMIC_DISPATCH(Look)(places_, limits_, model, begins, iterate, first, end, arrays());
+void ShapeMotion::look(const RodModel& model, const RodState* begins, const RodState& iterate,
+                       std::size_t first, std::size_t end, Astray& astray) {
+  HWY_DYNAMIC_DISPATCH(Look)
+  (places_, limits_, model, begins, iterate, first, end, arrays(), astray);
 }
 
 bool ShapeMotion::look_again(const RodModel& model, const RodState& iterate, std::size_t first,

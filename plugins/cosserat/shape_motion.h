@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "cosserat/capsules.h"
@@ -26,6 +28,17 @@ class ShapeMotion {
     double slack = 0.0, astray = 0.0;  // 1, of the motion in this step, likewise
   };
 
+  /// Some shapes, ascending; of many only the first ones.
+  struct Astray {
+    std::array<int, 64> shapes;
+    std::size_t count = 0;
+
+    void add(int shape) {
+      if (count < shapes.size()) shapes[count++] = shape;
+    }
+    std::span<const int> listed() const { return {shapes.data(), count}; }
+  };
+
   /// All shapes stand as drawn. The model must be finished.
   ShapeMotion(const RodModel& model, const Limits& limits);
 
@@ -35,11 +48,12 @@ class ShapeMotion {
   const Capsules& now() const { return now_; }
   const Limits& limits() const { return limits_; }
 
-  /// Makes the iterate the near list's reference. Sets way, reach and the near budget. Whether the
-  /// far list holds for all that comes within reach. A step's first look says where the step
+  /// Makes the iterate the near list's reference. Sets way, reach and the near budget. Lists in
+  /// `astray` those that are farther from their course than their far budget allows for: the far
+  /// list holds for all others that come within reach. A step's first look says where the step
   /// `begins`; then null.
-  bool look(const RodModel& model, const RodState* begins, const RodState& iterate,
-            std::size_t first, std::size_t end);
+  void look(const RodModel& model, const RodState* begins, const RodState& iterate,
+            std::size_t first, std::size_t end, Astray& astray);
   /// Whether the near list still holds at this iterate.
   bool look_again(const RodModel& model, const RodState& iterate, std::size_t first,
                   std::size_t end);
@@ -49,8 +63,6 @@ class ShapeMotion {
 
   /// Likewise for one shape alone, with so many times the budget.
   void restart_far(std::size_t shape, bool on_course, double times);
-  /// Whether it is farther from its course than its far budget allows for, after look().
-  bool is_astray(std::size_t shape) const { return !(reach_[shape] <= far_budget_[shape]); }
   /// Nothing is within its reach, until the next look().
   void forget_reach(std::size_t shape) { reach_[shape] = -1.0e30F; }
 
