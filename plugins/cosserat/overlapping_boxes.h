@@ -81,7 +81,7 @@ class OverlappingBoxes {
   static constexpr std::size_t worth_waking = 128, at_a_time = 64;  // boxes, whole groups
   // As many pairs are found and taken in the time of comparing at_a_time boxes with the groups'
   // boxes, and with the boxes of one group that one of them overlaps.
-  static constexpr double with_groups = 70.0, with_group = 0.35;
+  static constexpr double with_groups = 30.0, with_group = 1.2;
 
   static double work_of(const Scratch& scratch) {
     return with_groups + with_group * static_cast<double>(scratch.all_met) +
