@@ -55,12 +55,13 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
 // if they carried what it carries.
 void ContactTerms::share_gives() {
   const auto pushes = [](const ContactPoint& point) { return point.gap < point.margin; };
-  gives_.assign(found_.size(), 0.0);
-  for (std::size_t i = sides_; i < found_.size(); ++i) {
+  const std::size_t count = found_.size();
+  gives_.assign(count, 0.0);
+  for (std::size_t i = sides_; i < count; ++i) {
     const ContactPoint& own = found_[i];
     if (own.give <= 0.0) continue;
     int together = pushes(own) ? 0 : 1;
-    for (std::size_t k = 0; k < found_.size(); ++k)
+    for (std::size_t k = 0; k < count; ++k)
       together += pushes(found_[k]) && found_[k].collider == own.collider;
     gives_[i] = together * own.give;
   }

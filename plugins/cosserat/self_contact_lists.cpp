@@ -21,6 +21,8 @@ constexpr double sifted = 10.0, measured = 30.0;  // from the far list, from the
 // counts of a step's motion). Where it goes no farther than so many skins, nothing has a course.
 constexpr double most_steps = 16.0, farthest = 0.7, still = 2.0;
 constexpr std::size_t most_strays = 32;
+// So what is not listed is more than may be kept.
+static_assert(std::tuple_size_v<decltype(ShapeMotion::Astray::shapes)> > most_strays);
 constexpr double strays_budget = 2.0;  // 1, of others'
 
 // Elements at most two joints apart from each other, by element, each with itself.

@@ -384,13 +384,16 @@ TEST(SelfContact, FindsThePairsOfABruteForceSearch) {
 }
 
 // A cloud of segments that fly and turn, a few of which are hit at times and fly elsewhere; fast
-// and falling, or so slowly that nothing gets a course. Lists that are kept from step to step give
-// what lists made for the one step give, and are made rarely.
+// and falling, or so slowly that nothing gets a course. Lists that are kept from step to step, in
+// parts of two threads, give what lists made for the one step by one thread give, in the same
+// order, and are made rarely.
 TEST(SelfContact, KeepsNoPairFromMeetingByItsLists) {
   constexpr double dt = 1.0 / 240.0;
+  constexpr int count = 300;  // enough for two threads
+  ThreadPool pool(2);
   RodModel model;
   // Drawn far apart, so that nothing is left out for its drawn overlap.
-  for (int i = 0; i < 200; ++i) add_stem(model, -1, {0.1 * i, 0, 0.02}, 0.002);
+  for (int i = 0; i < count; ++i) add_stem(model, -1, {0.1 * i, 0, 0.02}, 0.002);
   model.organs = {"plant/stem"};
   finish(model);
   for (CollisionShape& shape : model.shapes) shape.back_near = 0.02;
@@ -404,6 +407,7 @@ TEST(SelfContact, KeepsNoPairFromMeetingByItsLists) {
   for (const double speed : {0.3, 0.04}) {  // m/s
     Random random(5);
     SelfContact kept(model, {});
+    kept.use(&pool);
     RodState start = drawn_state(model);
     std::vector<Vec3> velocity(model.size()), turning(model.size());
     for (int i = 0; i < model.size(); ++i) {
@@ -417,7 +421,7 @@ TEST(SelfContact, KeepsNoPairFromMeetingByItsLists) {
     constexpr int steps = 60;
     for (int step = 0; step < steps; ++step) {
       RodState end = start;
-      for (int hit = 0; hit < 2; ++hit) velocity[random.integer(0, 199)] *= -1.0;
+      for (int hit = 0; hit < 2; ++hit) velocity[random.integer(0, count - 1)] *= -1.0;
       for (int i = 0; i < model.size(); ++i) {
         if (speed > 0.1) velocity[i].z() -= 9.81 * dt;
         end.position[i] += velocity[i] * dt;
