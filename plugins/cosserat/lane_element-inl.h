@@ -130,11 +130,16 @@ HWY_INLINE Strained strain(const RowArrays& rows, const Pack& pack, int row, int
   return s;
 }
 
-// The blocks of one element. Lower triangles by rows. The coupling's rows are the element's, its
-// columns the parent's; it is minus what stands here, and its upper right quarter is zero.
-struct Blocks {
+// A block on the diagonal, its lower triangle by rows, and its right side.
+struct Block {
   V diagonal[triangle6];
   V right[6];
+};
+
+// The blocks of one element. The coupling's rows are the element's, its columns the parent's; it is
+// minus what stands here, and its upper right quarter is zero.
+struct Blocks {
+  Block own;
   S3 stretch;        // upper left
   V3 lever[3];       // lower left, by rows
   S3 bend;           // lower right
@@ -178,7 +183,7 @@ HWY_INLINE Blocks blocks_of(const RowArrays& rows, const Pack& pack, int row, in
   const V3 arm = load(element.com_back + lane) * axis;  // from the centre of mass to the node
   const V3 warm = w * arm;
 
-  V* d = out.diagonal;
+  V* d = out.own.diagonal;
   d[0] = w + out.stretch.xx;
   d[1] = out.stretch.yx;
   d[2] = w + out.stretch.yy;
@@ -224,15 +229,16 @@ HWY_INLINE Blocks blocks_of(const RowArrays& rows, const Pack& pack, int row, in
   const V3 rotary_moment = s.r * (s.turn.w * conjugate_turn - cross(vec, conjugate_turn));
   const V3 head = pull - out.force;
   const V3 tail = l * cross(a, out.force) - out.moment - cross(arm, pull) - rotary_moment;
-  out.right[0] = head.x;
-  out.right[1] = head.y;
-  out.right[2] = head.z;
-  out.right[3] = tail.x;
-  out.right[4] = tail.y;
-  out.right[5] = tail.z;
+  V* g = out.own.right;
+  g[0] = head.x;
+  g[1] = head.y;
+  g[2] = head.z;
+  g[3] = tail.x;
+  g[4] = tail.y;
+  g[5] = tail.z;
   if constexpr (extended)
     if (pack.windy)
-      add_drag(rows, pack, row, lane, middle_of(s.own, l), set(-0.5) * l * axis, d, out.right);
+      add_drag(rows, pack, row, lane, middle_of(s.own, l), set(-0.5) * l * axis, d, g);
   return out;
 }
 

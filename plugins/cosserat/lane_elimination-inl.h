@@ -15,19 +15,20 @@ namespace HWY_NAMESPACE {
 
 constexpr int width = static_cast<int>(hn::MaxLanes(D()));
 
-// A block and its right side on its way to the root.
-struct Carry {
-  V diagonal[triangle6];
-  V right[6];
-};
-
-HWY_INLINE void clear(Carry& carry) {
+HWY_INLINE void clear(Block& carry) {
   for (V& x : carry.diagonal) x = set(0.0);
   for (V& x : carry.right) x = set(0.0);
 }
 
+HWY_INLINE void add(const Block& block, Block& carry) {
+#pragma GCC unroll 21
+  for (int i = 0; i < triangle6; ++i) carry.diagonal[i] = carry.diagonal[i] + block.diagonal[i];
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i) carry.right[i] = carry.right[i] + block.right[i];
+}
+
 // Branches that start here, springs and contacts.
-HWY_NOINLINE void add_sources(const BlockSource* sources, int first, int lane, Carry& block) {
+HWY_NOINLINE void add_sources(const BlockSource* sources, int first, int lane, Block& block) {
   const V lanes = hn::Iota(D(), lane);
   for (int s = first; s >= 0; s = sources[s].next) {
     const BlockSource& source = sources[s];
@@ -80,10 +81,8 @@ HWY_INLINE void forward(const V* l, V* x) {
     for (int i = k + 1; i < 6; ++i) x[i] = hn::NegMulAdd(l[at(i, k)], x[k], x[i]);
 }
 
-// What the parent gets: its own share of the element's energies less V^T W, and V^T y with V = D W,
-// all minus what comes of the coupling.
-HWY_INLINE void carry_to_parent(const Blocks& b, const V (&v)[6][6], const V (&w)[6][6], const V* y,
-                                Carry& carry) {
+// The parent's own share of the element's energies.
+HWY_INLINE void share_of_parent(const Blocks& b, Block& carry) {
   V* d = carry.diagonal;
   d[0] = b.stretch.xx;
   d[1] = b.stretch.yx;
@@ -105,6 +104,11 @@ HWY_INLINE void carry_to_parent(const Blocks& b, const V (&v)[6][6], const V (&w
   g[3] = b.moment.x;
   g[4] = b.moment.y;
   g[5] = b.moment.z;
+}
+
+// What comes of the coupling, to whom an element is eliminated into: -V^T W and V^T y with V = D W.
+HWY_INLINE void carry_on(const V (&v)[6][6], const V (&w)[6][6], const V* y, Block& carry) {
+  V *d = carry.diagonal, *g = carry.right;
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j) {  // v[j] is column j
     const int first = j < 3 ? 0 : 3;
@@ -119,7 +123,11 @@ HWY_INLINE void carry_to_parent(const Blocks& b, const V (&v)[6][6], const V (&w
   }
 }
 
-HWY_INLINE V eliminate(const Blocks& b, FactorRow& out, int lane, Carry& carry) {
+// Into the parent, which gets its share of the energies too; or, where `b` is turned(), into the
+// child, whose own block has it.
+enum class Into { parent, child };
+template <Into into>
+HWY_INLINE V eliminate(const Blocks& b, FactorRow& out, int lane, Block& carry) {
   V* l = carry.diagonal;  // so far: what the tips gave
   V* y = carry.right;
   const V smallest = factorise(l);
@@ -160,15 +168,57 @@ HWY_INLINE V eliminate(const Blocks& b, FactorRow& out, int lane, Carry& carry) 
   for (int i = 1; i < 6; ++i)
 #pragma GCC unroll 6
     for (int j = 0; j < i; ++j) store(l[at(i, j)], out.factors[place++] + lane);
-  carry_to_parent(b, v, w, kept, carry);
+  if constexpr (into == Into::parent)
+    share_of_parent(b, carry);
+  else
+    clear(carry);
+  carry_on(v, w, kept, carry);
   return smallest;
 }
 
-HWY_INLINE void add(const Blocks& blocks, Carry& carry) {
-#pragma GCC unroll 21
-  for (int i = 0; i < triangle6; ++i) carry.diagonal[i] = carry.diagonal[i] + blocks.diagonal[i];
+// With its unknowns in the order (q, x). The coupling of a child to its parent in that order has the
+// zeros of one of a parent to its child in the order (x, q): so the same code does both.
+HWY_INLINE Block turned(const Block& block) {
+  Block out;
 #pragma GCC unroll 6
-  for (int i = 0; i < 6; ++i) carry.right[i] = carry.right[i] + blocks.right[i];
+  for (int i = 0; i < 6; ++i) {
+    const int a = (i + 3) % 6;
+#pragma GCC unroll 6
+    for (int j = 0; j <= i; ++j) {
+      const int b = (j + 3) % 6;
+      out.diagonal[at(i, j)] = block.diagonal[a >= b ? at(a, b) : at(b, a)];
+    }
+    out.right[i] = block.right[a];
+  }
+  return out;
+}
+
+// The coupling from the parent's side, in that order.
+HWY_INLINE Blocks turned(const Blocks& b) {
+  Blocks out;
+  out.stretch = b.bend;
+  out.bend = b.stretch;
+  const V3(&lever)[3] = b.lever;
+  out.lever[0] = {lever[0].x, lever[1].x, lever[2].x};
+  out.lever[1] = {lever[0].y, lever[1].y, lever[2].y};
+  out.lever[2] = {lever[0].z, lever[1].z, lever[2].z};
+  return out;
+}
+
+// From y to the solution, given that of whom the element was eliminated into.
+HWY_INLINE void back_substitute(const FactorRow& factor, int lane, const V* other, V* x) {
+  const auto* lower = factor.factors + FactorRow::coupling_size;
+  int place = 0;
+#pragma GCC unroll 6
+  for (int j = 0; j < 6; ++j)
+#pragma GCC unroll 6
+    for (int i = j < 3 ? 0 : 3; i < 6; ++i)
+      x[i] = hn::MulAdd(load(factor.factors[place++] + lane), other[j], x[i]);
+#pragma GCC unroll 6
+  for (int k = 5; k > 0; --k)
+#pragma GCC unroll 6
+    for (int i = 0; i < k; ++i)
+      x[i] = hn::NegMulAdd(load(lower[k * (k - 1) / 2 + i] + lane), x[k], x[i]);
 }
 
 }  // namespace HWY_NAMESPACE

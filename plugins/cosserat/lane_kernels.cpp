@@ -134,33 +134,72 @@ HWY_INLINE void fetch_ahead(const RowArrays& rows, int lane) {
   if (rows.ahead && lane == 0) rows.ahead->some();
 }
 
+HWY_INLINE void add_sources_of(const RowArrays& rows, int row, int lane, Block& block) {
+  if (rows.first_branch[row] >= 0) add_sources(rows.branches, rows.first_branch[row], lane, block);
+  if (rows.first_extra[row] >= 0) add_sources(rows.extras, rows.first_extra[row], lane, block);
+}
+
+HWY_INLINE void store(const Block& block, Lanes* to, int lane) {
+  for (int i = 0; i < triangle6; ++i) store(block.diagonal[i], to[i] + lane);
+  for (int i = 0; i < 6; ++i) store(block.right[i], to[triangle6 + i] + lane);
+}
+
+// A row's blocks at the iterate; its energy is added.
+template <bool extended>
+HWY_INLINE Blocks linearised(const RowArrays& rows, const Pack& pack, int row, int lane,
+                             V& energy) {
+  if constexpr (extended)
+    if (pack.windy) set_axis(rows, row, lane, rows.axis_share);
+  const Strained s = strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[row - 1], lane),
+                                      load_pose(rows.iterate[row], lane));
+  energy = energy + s.energy;
+  return blocks_of<extended>(rows, pack, row, lane, s);
+}
+
 template <bool extended>
 void eliminate_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
-    Carry carry;
+    Block carry;
     clear(carry);
     V energy = set(0.0), healthy = set(1.0);
     for (int k = 1; k <= sources_ahead; ++k) fetch_sources(rows, pack.end - k);
     for (int row = pack.end - 1; row > pack.begin; --row) {
-      if constexpr (extended)
-        if (pack.windy) set_axis(rows, row, lane, rows.axis_share);
-      const Strained s =
-          strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[row - 1], lane),
-                           load_pose(rows.iterate[row], lane));
-      energy = energy + s.energy;
-      const Blocks blocks = blocks_of<extended>(rows, pack, row, lane, s);
-      add(blocks, carry);
+      const Blocks blocks = linearised<extended>(rows, pack, row, lane, energy);
+      add(blocks.own, carry);
       fetch_sources(rows, row - sources_ahead);
       fetch_ahead(rows, lane);
-      if (rows.first_branch[row] >= 0)
-        add_sources(rows.branches, rows.first_branch[row], lane, carry);
-      if (rows.first_extra[row] >= 0) add_sources(rows.extras, rows.first_extra[row], lane, carry);
-      healthy = hn::Min(healthy, eliminate(blocks, rows.factor[row], lane, carry));
+      add_sources_of(rows, row, lane, carry);
+      healthy = hn::Min(healthy, eliminate<Into::parent>(blocks, rows.factor[row], lane, carry));
     }
     store(energy, pack.energy_before + lane);
     store(healthy, pack.healthy + lane);
-    for (int i = 0; i < triangle6; ++i) store(carry.diagonal[i], pack.branch[i] + lane);
-    for (int i = 0; i < 6; ++i) store(carry.right[i], pack.branch[triangle6 + i] + lane);
+    store(carry, pack.branch, lane);
+  }
+}
+
+// What an element couples to its child is known when the child is linearised; `carry` has the order
+// (q, x), which turned() explains.
+template <bool extended>
+void eliminate_from_clamp_pack(const RowArrays& rows, Pack& pack) {
+  for (int lane = 0; lane < lane_count; lane += width) {
+    V energy = set(0.0), healthy = set(1.0);
+    for (int k = 1; k <= sources_ahead; ++k) fetch_sources(rows, pack.begin + k);
+    Block carry = turned(linearised<extended>(rows, pack, pack.begin + 1, lane, energy).own);
+    for (int row = pack.begin + 1; row < pack.end - 1; ++row) {
+      const Blocks child = linearised<extended>(rows, pack, row + 1, lane, energy);
+      Block block;
+      share_of_parent(child, block);
+      fetch_sources(rows, std::min(row + sources_ahead, pack.end - 1));
+      fetch_ahead(rows, lane);
+      add_sources_of(rows, row, lane, block);
+      add(turned(block), carry);
+      healthy =
+          hn::Min(healthy, eliminate<Into::child>(turned(child), rows.factor[row], lane, carry));
+      add(turned(child.own), carry);
+    }
+    store(energy, pack.energy_before + lane);
+    store(healthy, pack.healthy + lane);
+    store(turned(carry), pack.branch, lane);
   }
 }
 
@@ -169,18 +208,12 @@ void linearise_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
     V energy = set(0.0);
     for (int row = pack.end - 1; row > pack.begin; --row) {
-      if constexpr (extended)
-        if (pack.windy) set_axis(rows, row, lane, rows.axis_share);
-      const Strained s =
-          strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[row - 1], lane),
-                           load_pose(rows.iterate[row], lane));
-      energy = energy + s.energy;
-      const Blocks b = blocks_of<extended>(rows, pack, row, lane, s);
+      const Blocks b = linearised<extended>(rows, pack, row, lane, energy);
       BlocksRow& out = rows.blocks[row];
-      for (int i = 0; i < triangle6; ++i) store(b.diagonal[i], out.diagonal[i] + lane);
+      for (int i = 0; i < triangle6; ++i) store(b.own.diagonal[i], out.diagonal[i] + lane);
       // Lanes without an element must not seem to move.
       const V alive = load(rows.element[row].alive + lane);
-      for (int i = 0; i < 6; ++i) store(alive * b.right[i], out.right[i] + lane);
+      for (int i = 0; i < 6; ++i) store(alive * b.own.right[i], out.right[i] + lane);
       const S3 &s3 = b.stretch, &t3 = b.bend;
       const V3(&lever)[3] = b.lever;
       const V coupling[21] = {
@@ -197,6 +230,11 @@ void linearise_pack(const RowArrays& rows, Pack& pack) {
 
 void LineariseAndEliminate(const RowArrays& rows, Pack& pack) {
   pack.extended ? eliminate_pack<true>(rows, pack) : eliminate_pack<false>(rows, pack);
+}
+
+void EliminateFromClamp(const RowArrays& rows, Pack& pack) {
+  pack.extended ? eliminate_from_clamp_pack<true>(rows, pack)
+                : eliminate_from_clamp_pack<false>(rows, pack);
 }
 
 void Linearise(const RowArrays& rows, Pack& pack) {
@@ -235,21 +273,10 @@ void Substitute(const RowArrays& rows, Pack& pack) {
     load_change(rows.factor[pack.begin], lane, parent);
     for (int row = pack.begin + 1; row < pack.end; ++row) {
       FactorRow& factor = rows.factor[row];
-      const auto* lower = factor.factors + FactorRow::coupling_size;
       fetch_ahead(rows, lane);
       V x[6];
       load_change(factor, lane, x);
-      int place = 0;
-#pragma GCC unroll 6
-      for (int j = 0; j < 6; ++j)
-#pragma GCC unroll 6
-        for (int i = j < 3 ? 0 : 3; i < 6; ++i)
-          x[i] = hn::MulAdd(load(factor.factors[place++] + lane), parent[j], x[i]);
-#pragma GCC unroll 6
-      for (int k = 5; k > 0; --k)
-#pragma GCC unroll 6
-        for (int i = 0; i < k; ++i)
-          x[i] = hn::NegMulAdd(load(lower[k * (k - 1) / 2 + i] + lane), x[k], x[i]);
+      back_substitute(factor, lane, parent, x);
       const V alive = load(rows.element[row].alive + lane);
 #pragma GCC unroll 6
       for (int i = 0; i < 6; ++i) {
@@ -257,6 +284,55 @@ void Substitute(const RowArrays& rows, Pack& pack) {
         store(parent[i], factor.right[i] + lane);
       }
       measure(parent, load(rows.element[row].length + lane), largest);
+    }
+    report(largest, pack, lane);
+  }
+}
+
+void SolveLast(const RowArrays& rows, Pack& pack) {
+  const int row = pack.end - 1;
+  for (int lane = 0; lane < lane_count; lane += width) {
+    Block block;
+    for (int i = 0; i < triangle6; ++i) block.diagonal[i] = load(pack.branch[i] + lane);
+    for (int i = 0; i < 6; ++i) block.right[i] = load(pack.branch[triangle6 + i] + lane);
+    fetch_ahead(rows, lane);
+    add_sources_of(rows, row, lane, block);
+    V *l = block.diagonal, *x = block.right;
+    store(hn::Min(load(pack.healthy + lane), factorise(l)), pack.healthy + lane);
+    forward<0>(l, x);
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) x[i] = l[at(i, i)] * x[i];
+#pragma GCC unroll 6
+    for (int k = 5; k > 0; --k)
+#pragma GCC unroll 6
+      for (int i = 0; i < k; ++i) x[i] = hn::NegMulAdd(l[at(k, i)], x[k], x[i]);
+    const V alive = load(rows.element[row].alive + lane);
+    for (int i = 0; i < 6; ++i) store(alive * x[i], rows.factor[row].right[i] + lane);
+  }
+}
+
+void SubstituteToClamp(const RowArrays& rows, Pack& pack) {
+  for (int lane = 0; lane < lane_count; lane += width) {
+    Largest largest{set(0.0), set(0.0), set(0.0)};
+    V change[6], child[6];
+    for (int row = pack.end - 1; row > pack.begin; --row) {
+      FactorRow& factor = rows.factor[row];
+      fetch_ahead(rows, lane);
+      load_change(factor, lane, change);
+      if (row < pack.end - 1) {
+        back_substitute(factor, lane, child, change);  // both in turned() order
+        const V alive = load(rows.element[row].alive + lane);
+#pragma GCC unroll 3
+        for (int i = 0; i < 3; ++i) {
+          const V turn = alive * change[i];
+          change[i] = alive * change[3 + i];
+          change[3 + i] = turn;
+        }
+        for (int i = 0; i < 6; ++i) store(change[i], factor.right[i] + lane);
+      }
+      measure(change, load(rows.element[row].length + lane), largest);
+#pragma GCC unroll 6
+      for (int i = 0; i < 6; ++i) child[i] = change[(i + 3) % 6];
     }
     report(largest, pack, lane);
   }
@@ -275,13 +351,13 @@ void MeasureChange(const RowArrays& rows, Pack& pack) {
 }
 
 template <bool extended, bool measured>
-void move_pack(const RowArrays& rows, Pack& pack, bool keep) {
+void move_rows(const RowArrays& rows, Pack& pack, int first, int end, bool keep) {
   for (int lane = 0; lane < lane_count; lane += width) {
     const V share = load(pack.share + lane);
     const M moves = share > set(0.0);
     V energy = set(0.0);
-    Pose parent = load_pose(rows.iterate[pack.begin], lane);
-    for (int row = pack.begin + 1; row < pack.end; ++row) {
+    Pose parent = load_pose(rows.iterate[first - 1], lane);
+    for (int row = first; row < end; ++row) {
       FactorRow& factor = rows.factor[row];
       PoseRow& kept = factor.base;
       fetch_ahead(rows, lane);
@@ -304,13 +380,13 @@ void move_pack(const RowArrays& rows, Pack& pack, bool keep) {
   }
 }
 
-void Move(const RowArrays& rows, Pack& pack, bool keep, bool measured) {
+void Move(const RowArrays& rows, Pack& pack, int first, int end, bool keep, bool measured) {
   if (!measured)
-    move_pack<false, false>(rows, pack, keep);
+    move_rows<false, false>(rows, pack, first, end, keep);
   else if (pack.extended)
-    move_pack<true, true>(rows, pack, keep);
+    move_rows<true, true>(rows, pack, first, end, keep);
   else
-    move_pack<false, true>(rows, pack, keep);
+    move_rows<false, true>(rows, pack, first, end, keep);
 }
 
 template <bool extended>
@@ -358,6 +434,9 @@ namespace pedicel::cosserat {
 
 HWY_EXPORT(Prepare);
 HWY_EXPORT(LineariseAndEliminate);
+HWY_EXPORT(EliminateFromClamp);
+HWY_EXPORT(SolveLast);
+HWY_EXPORT(SubstituteToClamp);
 HWY_EXPORT(Linearise);
 HWY_EXPORT(Substitute);
 HWY_EXPORT(MeasureChange);
@@ -371,6 +450,15 @@ void prepare(const RowArrays& rows, Pack& pack) {
 void linearise_and_eliminate(const RowArrays& rows, Pack& pack) {
   HWY_DYNAMIC_DISPATCH(LineariseAndEliminate)(rows, pack);
 }
+void eliminate_from_clamp(const RowArrays& rows, Pack& pack) {
+  HWY_DYNAMIC_DISPATCH(EliminateFromClamp)(rows, pack);
+}
+void solve_last(const RowArrays& rows, Pack& pack) {
+  HWY_DYNAMIC_DISPATCH(SolveLast)(rows, pack);
+}
+void substitute_to_clamp(const RowArrays& rows, Pack& pack) {
+  HWY_DYNAMIC_DISPATCH(SubstituteToClamp)(rows, pack);
+}
 void linearise(const RowArrays& rows, Pack& pack) {
   HWY_DYNAMIC_DISPATCH(Linearise)(rows, pack);
 }
@@ -380,8 +468,8 @@ void substitute(const RowArrays& rows, Pack& pack) {
 void measure_change(const RowArrays& rows, Pack& pack) {
   HWY_DYNAMIC_DISPATCH(MeasureChange)(rows, pack);
 }
-void move(const RowArrays& rows, Pack& pack, bool keep, bool measured) {
-  HWY_DYNAMIC_DISPATCH(Move)(rows, pack, keep, measured);
+void move(const RowArrays& rows, Pack& pack, int first, int end, bool keep, bool measured) {
+  HWY_DYNAMIC_DISPATCH(Move)(rows, pack, first, end, keep, measured);
 }
 void evaluate(const RowArrays& rows, const Pack& pack, Lanes& energy) {
   HWY_DYNAMIC_DISPATCH(Evaluate)(rows, pack, energy);

@@ -22,6 +22,18 @@ void prepare(const RowArrays& rows, Pack& pack);
 /// the tips to the first element. Sets `energy_before`, `healthy` and `branch`.
 void linearise_and_eliminate(const RowArrays& rows, Pack& pack);
 
+/// The same of a stem's first piece, the other way round: every element into its child, from the
+/// clamp to the last one, where the rest of the plant meets them (a twisted factorisation: Meurant
+/// 1992, SIAM J. Matrix Anal. Appl. 13). So two threads can work on a stem, one from each end. Sets
+/// `energy_before`, `healthy`, and `branch` to the block of the last row without what starts there.
+void eliminate_from_clamp(const RowArrays& rows, Pack& pack);
+
+/// The change of such a pack's last row, when all has been eliminated into it.
+void solve_last(const RowArrays& rows, Pack& pack);
+
+/// From there to everyone's in the pack. Sets `turn`, `shift`, `change`.
+void substitute_to_clamp(const RowArrays& rows, Pack& pack);
+
 /// Gradient and Hessian alone, left in `blocks`. Sets `energy_before`.
 void linearise(const RowArrays& rows, Pack& pack);
 
@@ -31,11 +43,11 @@ void substitute(const RowArrays& rows, Pack& pack);
 /// `turn`, `shift`, `change` of a solution that is in `factor` already.
 void measure_change(const RowArrays& rows, Pack& pack);
 
-/// iterate = base moved by `share` of the change; `keep` first makes base the iterate, which ends
-/// the use of the factors (FactorRow). The pack's first row must hold the parents' new poses.
-/// `measured`: sets `energy` to the potential there, as evaluate() does, which takes longer than
-/// the move itself.
-void move(const RowArrays& rows, Pack& pack, bool keep, bool measured);
+/// iterate = base moved by `share` of the change, in the rows from `first` to before `end`; `keep`
+/// first makes base the iterate, which ends the use of the factors (FactorRow). The row before
+/// `first` must hold the parents' new poses. `measured`: sets `energy` to the potential there, as
+/// evaluate() does, which takes longer than the move itself.
+void move(const RowArrays& rows, Pack& pack, int first, int end, bool keep, bool measured);
 
 /// The potential at `iterate`, J.
 void evaluate(const RowArrays& rows, const Pack& pack, Lanes& energy);

@@ -29,6 +29,21 @@ std::vector<int> next_of_chains(const RodModel& model) {
   return next;
 }
 
+bool starts_at_end_of(const Chain& chain, const Chain& parent) {
+  return chain.from == parent.elements.back();
+}
+
+// What comes together in the last element of a first piece is no matter of the piece.
+void set_levels(std::vector<Chain>& chains) {
+  for (Chain& chain : chains) chain.level = 0;
+  for (auto chain = chains.rbegin(); chain != chains.rend(); ++chain) {
+    if (chain->parent < 0) continue;
+    Chain& parent = chains[chain->parent];
+    if (parent.from_clamp && starts_at_end_of(*chain, parent)) continue;
+    parent.level = std::max(parent.level, chain->level + 1);
+  }
+}
+
 // In the order of their first elements; parents are indices here.
 std::vector<Chain> chains_of(const RodModel& model, const std::vector<int>& next) {
   std::vector<int> chain_of(model.size(), -1);
@@ -38,15 +53,14 @@ std::vector<Chain> chains_of(const RodModel& model, const std::vector<int>& next
     if (p >= 0 && next[p] == e) continue;
     Chain chain;
     chain.parent = p < 0 ? -1 : chain_of[p];
+    chain.from = p;
     for (int i = e; i >= 0; i = next[i]) {
       chain_of[i] = static_cast<int>(chains.size());
       chain.elements.push_back(i);
     }
     chains.push_back(std::move(chain));
   }
-  for (auto chain = chains.rbegin(); chain != chains.rend(); ++chain)
-    if (chain->parent >= 0)
-      chains[chain->parent].level = std::max(chains[chain->parent].level, chain->level + 1);
+  set_levels(chains);
   return chains;
 }
 
@@ -56,8 +70,7 @@ void cut_few_stems(const RodModel& model, const std::vector<Chain>& chains,
                    std::vector<int>& next) {
   std::vector<int> on(model.size()), of_level(1);  // chains
   for (const Chain& chain : chains) {
-    const int parent = model.elements[chain.elements.front()].parent;
-    if (parent >= 0) ++on[parent];
+    if (chain.from >= 0) ++on[chain.from];
     if (chain.level >= static_cast<int>(of_level.size())) of_level.resize(chain.level + 1);
     ++of_level[chain.level];
   }
@@ -75,6 +88,17 @@ void cut_few_stems(const RodModel& model, const std::vector<Chain>& chains,
   }
 }
 
+// A chain ends where something starts only if it was cut there.
+void mark_first_pieces(std::vector<Chain>& chains) {
+  for (const Chain& chain : chains) {
+    if (chain.parent < 0) continue;
+    Chain& parent = chains[chain.parent];
+    if (parent.parent < 0 && parent.elements.size() > 1 && starts_at_end_of(chain, parent))
+      parent.from_clamp = true;
+  }
+  set_levels(chains);
+}
+
 }  // namespace
 
 LaneLayout::LaneLayout(std::span<const RodModel* const> plants, bool keep_blocks) {
@@ -82,12 +106,13 @@ LaneLayout::LaneLayout(std::span<const RodModel* const> plants, bool keep_blocks
   for (const RodModel* const plant : plants) {
     std::vector<int> next = next_of_chains(*plant);
     std::vector<Chain> chains = chains_of(*plant, next);
+    keeps.push_back(keep_blocks || !plant->welds.empty());
     if (plant->size() >= large_plant) {
       cut_few_stems(*plant, chains, next);
       chains = chains_of(*plant, next);
+      if (!keeps.back()) mark_first_pieces(chains);
     }
     slots_.emplace_back(plant->elements.size());
-    keeps.push_back(keep_blocks || !plant->welds.empty());
     add_chains(std::move(chains));
   }
   pack(keeps);
@@ -110,10 +135,14 @@ void LaneLayout::add_chains(std::vector<Chain> chains) {
   }
 }
 
-std::vector<std::vector<int>> LaneLayout::packs_on() const {
-  std::vector<std::vector<int>> result(packs());
-  for (const Chain& chain : chains_)
-    if (chain.parent >= 0) result[chains_[chain.parent].pack].push_back(chain.pack);
+std::vector<std::vector<int>> LaneLayout::needs() const {
+  std::vector<std::vector<int>> result(tasks());
+  for (const Chain& chain : chains_) {
+    if (chain.parent < 0) continue;
+    const int parent = chains_[chain.parent].pack;
+    result[task_of(parent, slot(chain.plant, chain.from).row)].push_back(chain.pack);
+  }
+  for (const int pack : packs_from_clamp_) result[last_row_task_[pack]].push_back(pack);
   for (std::vector<int>& on : result) {
     std::sort(on.begin(), on.end());
     on.erase(std::unique(on.begin(), on.end()), on.end());
@@ -143,9 +172,15 @@ void LaneLayout::pack(const std::vector<bool>& keeps) {
   const auto kept = [&](int c) { return static_cast<bool>(keeps[chains_[c].plant]); };
   const auto key = [&](int c) {
     const Chain& chain = chains_[c];
-    return std::tuple(chain.level, kept(c), -static_cast<int>(chain.elements.size()), c);
+    return std::tuple(chain.level, kept(c), !chain.from_clamp,
+                      -static_cast<int>(chain.elements.size()), c);
   };
   std::sort(chains.begin(), chains.end(), [&](int a, int b) { return key(a) < key(b); });
+  const auto side_by_side = [&](int c, int first) {
+    const Chain &a = chains_[c], &b = chains_[first];
+    return a.level == b.level && kept(c) == kept(first) && a.from_clamp == b.from_clamp &&
+           (!a.from_clamp || a.elements.size() == b.elements.size());
+  };
   for (std::size_t i = 0; i < chains.size();) {
     const int first = chains[i], begin = rows();
     std::array<int, lane_count> nothing;
@@ -154,7 +189,7 @@ void LaneLayout::pack(const std::vector<bool>& keeps) {
     for (int lane = 0; lane < lane_count && i < chains.size(); ++lane, ++i) {
       const int c = chains[i];
       Chain& chain = chains_[c];
-      if (chain.level != chains_[first].level || kept(c) != kept(first)) break;
+      if (!side_by_side(c, first)) break;
       chain.pack = packs();
       chain.lane = lane;
       int row = begin;
@@ -166,6 +201,12 @@ void LaneLayout::pack(const std::vector<bool>& keeps) {
     keeps_blocks_.push_back(kept(first));
     first_row_.push_back(begin);
     end_row_.push_back(rows());
+  }
+  last_row_task_.assign(packs(), -1);
+  for (const Chain& chain : chains_) {
+    if (!chain.from_clamp || from_clamp(chain.pack)) continue;
+    last_row_task_[chain.pack] = tasks();
+    packs_from_clamp_.push_back(chain.pack);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cosserat/lane_access.h"
 #include "cosserat/lane_kernels.h"
@@ -30,11 +31,11 @@ PoseRow identity_row() {
 constexpr int smallest_share = 400;  // elements: less is not worth waking a thread for
 
 TaskGraph graph_of(const LaneLayout& layout, std::span<const RodModel* const> plants, int threads) {
-  std::vector<double> rows;
-  for (int p = 0; p < layout.packs(); ++p) rows.push_back(layout.end_row(p) - layout.first_row(p));
+  std::vector<double> rows(layout.tasks(), 1.0);
+  for (int p = 0; p < layout.packs(); ++p) rows[p] = layout.end_row(p) - layout.first_row(p);
   int elements = 0;
   for (const RodModel* const plant : plants) elements += plant->size();
-  return {layout.packs_on(), rows, std::clamp(elements / smallest_share, 1, threads)};
+  return {layout.needs(), rows, std::clamp(elements / smallest_share, 1, threads)};
 }
 
 constexpr int at(int i, int j) {  // in a lower triangle by rows
@@ -61,13 +62,14 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
       first_branch_(layout_.rows(), -1),
       first_extra_(layout_.rows(), -1),
       anchors_(layout_.packs()),
-      carriers_(layout_.packs()),
+      carriers_(layout_.tasks()),
       roots_(plants.size()),
       schemes_(plants.size()),
       shares_(plants.size(), 0.0) {
   std::vector<int> order;
   for (int thread = 0; thread < graph_.threads(); ++thread)
-    order.insert(order.end(), graph_.tasks_of(thread).begin(), graph_.tasks_of(thread).end());
+    std::ranges::copy_if(graph_.tasks_of(thread), std::back_inserter(order),
+                         [&](int task) { return layout_.is_pack(task); });
   layout_.place(order);
   const auto grow = [&](auto& rows) {
     if (static_cast<int>(rows.size()) < layout_.rows()) rows.resize(layout_.rows());
@@ -92,12 +94,10 @@ RodRows::RodRows(std::span<const RodModel* const> plants, int threads, bool keep
   // From the last chain to the first, so that the sources of a row are taken in their order.
   for (int c = static_cast<int>(layout_.chains().size()) - 1; c >= 0; --c) {
     const Chain& chain = layout_.chains()[c];
-    const RodModel& model = *plants[chain.plant];
-    const int parent = model.elements[chain.elements.front()].parent;
-    anchors_[chain.pack][chain.lane] = {chain.plant, parent};
-    if (parent < 0) continue;
-    const Slot slot = layout_.slot(chain.plant, parent);
-    carriers_[layout_.chains()[chain.parent].pack].push_back(
+    anchors_[chain.pack][chain.lane] = {chain.plant, chain.from};
+    if (chain.from < 0) continue;
+    const Slot slot = layout_.slot(chain.plant, chain.from);
+    carriers_[layout_.task_of(layout_.chains()[chain.parent].pack, slot.row)].push_back(
         {slot, {packs_[chain.pack].begin, chain.lane}});
     if (layout_.keeps_blocks(chain.pack)) continue;
     branches_.push_back({packs_[chain.pack].branch[0] + chain.lane, lane_count, slot.lane,
@@ -188,9 +188,16 @@ void RodRows::set_active(std::span<const char> plants) {
     if (packs_[p].active != (active_[p] != 0)) packs_[p].active = active_[p] != 0;
 }
 
+template <class Do>
+void RodRows::each_pack(ThreadPool& pool, const Do& todo) {
+  graph_.each(pool, [&](int task) {
+    if (layout_.is_pack(task)) todo(task);
+  });
+}
+
 void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
   const RowArrays rows = arrays();
-  graph_.each(pool, [&](int p) {
+  each_pack(pool, [&](int p) {
     packs_[p].anchored = false;
     if (!packs_[p].active) return;
     read_states(p, states);
@@ -227,14 +234,14 @@ void RodRows::take_anchors(int pack) {
 
 // To the first rows of the packs that are carried: each of them would fetch eight times as much
 // from all over this one, perhaps out of another core's cache.
-void RodRows::pass_on_changes(int pack) {
-  for (const auto& [from, to] : carriers_[pack])
+void RodRows::pass_on_changes(int task) {
+  for (const auto& [from, to] : carriers_[task])
     for (int i = 0; i < 6; ++i)
       scratch_->factor[to.row].right[i][to.lane] = scratch_->factor[from.row].right[i][from.lane];
 }
 
-void RodRows::pass_on_poses(int pack) {
-  for (const auto& [from, to] : carriers_[pack]) {
+void RodRows::pass_on_poses(int task) {
+  for (const auto& [from, to] : carriers_[task]) {
     const PoseRow& own = scratch_->iterate[from.row];
     PoseRow& anchor = scratch_->iterate[to.row];
     for (int i = 0; i < 3; ++i) anchor.position[i][to.lane] = own.position[i][from.lane];
@@ -242,12 +249,16 @@ void RodRows::pass_on_poses(int pack) {
   }
 }
 
+void RodRows::write_iterate(ThreadPool& pool, std::span<RodState* const> states) {
+  each_pack(pool, [&](int p) { write_pack(p, states); });
+}
+
 // Nothing needs the clamps of the start any more: prepare() has taken the strains against them.
 void RodRows::compare_start(ThreadPool& pool, std::span<RodState* const> states) {
   const RowArrays at_guess = arrays();
   RowArrays at_start = at_guess;
   at_start.iterate = at_start.start;
-  graph_.each(pool, [&](int p) {
+  each_pack(pool, [&](int p) {
     if (!packs_[p].active) return;
     place_anchors(p, scratch_->start);
     take_anchors(p);
@@ -286,20 +297,27 @@ void RodRows::add_extras(int plant, const ElementBlocks& blocks) {
   }
 }
 
-void RodRows::eliminate_pack(const RowArrays& rows, int pack) {
+void RodRows::eliminate_task(const RowArrays& rows, int task) {
+  const int pack = layout_.pack_of(task);
   if (!packs_[pack].active) return;
-  for (const int branch : graph_.needs(pack))  // perhaps in another core's cache
+  for (const int branch : graph_.needs(task))  // perhaps in another core's cache
     for (const Lanes& values : packs_[branch].branch) __builtin_prefetch(values);
+  if (!layout_.is_pack(task)) {
+    solve_last(rows, packs_[pack]);
+    return;
+  }
   if (!packs_[pack].anchored) take_anchors(pack);
   if (layout_.keeps_blocks(pack))
     linearise(rows, packs_[pack]);
+  else if (layout_.from_clamp(pack))
+    eliminate_from_clamp(rows, packs_[pack]);
   else
     linearise_and_eliminate(rows, packs_[pack]);
 }
 
 void RodRows::eliminate(ThreadPool& pool) {
   const RowArrays rows = arrays();
-  graph_.inward(pool, [&](int p) { eliminate_pack(rows, p); });
+  graph_.inward(pool, [&](int task) { eliminate_task(rows, task); });
 }
 
 void RodRows::copy_blocks(int plant, BlockSystem& system) const {
@@ -351,28 +369,34 @@ void RodRows::set_change(int plant, const BlockSystem& solved) {
   }
 }
 
-void RodRows::substitute_pack(const RowArrays& rows, int pack) {
+void RodRows::substitute_task(const RowArrays& rows, int task) {
+  const int pack = layout_.pack_of(task);
   if (!packs_[pack].active) return;
   if (layout_.keeps_blocks(pack)) {
     measure_change(rows, packs_[pack]);
-  } else {
-    cosserat::substitute(rows, packs_[pack]);
-    pass_on_changes(pack);
+    return;
   }
+  if (layout_.is_pack(task)) {
+    if (layout_.from_clamp(pack))
+      substitute_to_clamp(rows, packs_[pack]);
+    else
+      cosserat::substitute(rows, packs_[pack]);
+  }
+  pass_on_changes(task);
 }
 
 void RodRows::substitute(ThreadPool& pool) {
   const RowArrays rows = arrays();
-  graph_.outward(pool, [&](int p) { substitute_pack(rows, p); });
+  graph_.outward(pool, [&](int task) { substitute_task(rows, task); });
 }
 
 void RodRows::solve_and_move(ThreadPool& pool, bool measured, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
   graph_.inward_and_outward(
-      pool, [&](int p) { eliminate_pack(rows, p); },
-      [&](int p) {
-        substitute_pack(rows, p);
-        move_pack(rows, p, true, measured, states);
+      pool, [&](int task) { eliminate_task(rows, task); },
+      [&](int task) {
+        substitute_task(rows, task);
+        move_task(rows, task, true, measured, states);
       });
 }
 
@@ -384,27 +408,37 @@ void RodRows::set_share(int plant, double share) {
 
 void RodRows::move(ThreadPool& pool, bool keep, bool measured, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
-  graph_.outward(pool, [&](int p) { move_pack(rows, p, keep, measured, states); });
+  graph_.outward(pool, [&](int task) { move_task(rows, task, keep, measured, states); });
 }
 
-void RodRows::move_pack(const RowArrays& rows, int pack, bool keep, bool measured,
+void RodRows::move_task(const RowArrays& rows, int task, bool keep, bool measured,
                         std::span<RodState* const> states) {
-  if (!packs_[pack].active) return;
-  cosserat::move(rows, packs_[pack], keep, measured);
-  pass_on_poses(pack);
-  write_pack(pack, states);
+  Pack& pack = packs_[layout_.pack_of(task)];
+  if (!pack.active) return;
+  const bool from_clamp = layout_.from_clamp(layout_.pack_of(task));
+  const int last = pack.end - 1;
+  if (!from_clamp)
+    cosserat::move(rows, pack, pack.begin + 1, pack.end, keep, measured);
+  else if (!layout_.is_pack(task))
+    cosserat::move(rows, pack, last, pack.end, keep, false);
+  else
+    cosserat::move(rows, pack, pack.begin + 1, last, keep, false);
+  pass_on_poses(task);
+  if (!layout_.is_pack(task)) return;
+  if (from_clamp && measured) evaluate(rows, pack, pack.energy);
+  write_pack(task, states);
 }
 
 void RodRows::measure(ThreadPool& pool) {
   const RowArrays rows = arrays();
-  graph_.each(pool, [&](int p) {
+  each_pack(pool, [&](int p) {
     if (packs_[p].active) evaluate(rows, packs_[p], packs_[p].energy);
   });
 }
 
 void RodRows::finish(ThreadPool& pool, std::span<RodState* const> states) {
   const RowArrays rows = arrays();
-  graph_.each(pool, [&](int p) {
+  each_pack(pool, [&](int p) {
     cosserat::finish(rows, packs_[p], previous_rate_.data());
     write_end(p, states);
   });

@@ -176,10 +176,13 @@ class RodRows {
   void mark_extended(int plant, const RodModel& model);
   void read_memory(int plant, const RodState& state, int element, int row, int lane);
   void read_states(int pack, std::span<const RodState* const> states);
-  void eliminate_pack(const RowArrays& rows, int pack);
-  void substitute_pack(const RowArrays& rows, int pack);
-  void move_pack(const RowArrays& rows, int pack, bool keep, bool measured,
+  // Tasks are those of LaneLayout.
+  void eliminate_task(const RowArrays& rows, int task);
+  void substitute_task(const RowArrays& rows, int task);
+  void move_task(const RowArrays& rows, int task, bool keep, bool measured,
                  std::span<RodState* const> states);
+  template <class Do>
+  void each_pack(ThreadPool& pool, const Do& todo);
   double sum(int plant, const Lanes Pack::*energy) const;
   void write_pack(int pack, std::span<RodState* const> states) const;
   void write_end(int pack, std::span<RodState* const> states) const;
@@ -187,12 +190,12 @@ class RodRows {
   void for_each_element(int pack, std::span<RodState* const> states, const Write& write) const;
   void place_anchors(int pack, std::span<PoseRow> poses) const;
   void take_anchors(int pack);
-  void pass_on_changes(int pack);
-  void pass_on_poses(int pack);
+  void pass_on_changes(int task);
+  void pass_on_poses(int task);
 
   std::shared_ptr<RowScratch> scratch_;
   LaneLayout layout_;
-  TaskGraph graph_;  // of the packs
+  TaskGraph graph_;  // of the layout's tasks
   std::vector<Pack> packs_;
   std::vector<char> active_plants_, active_;  // set_active(); by pack
   std::pmr::vector<ElementRow> element_;
@@ -210,7 +213,7 @@ class RodRows {
   std::vector<BlockSource> branches_, extras_;
   std::vector<int> extra_rows_;
   std::vector<std::array<Anchor, lane_count>> anchors_;  // by pack
-  std::vector<std::vector<Carrier>> carriers_;           // by pack
+  std::vector<std::vector<Carrier>> carriers_;           // by task
   std::vector<Pose> roots_;                              // X_W of the clamps
   std::vector<Scheme> schemes_;                          // by plant
   std::vector<double> shares_;                           // 1, by plant

@@ -131,10 +131,6 @@ void RodRows::write_pack(int pack, std::span<RodState* const> states) const {
   });
 }
 
-void RodRows::write_iterate(ThreadPool& pool, std::span<RodState* const> states) {
-  graph_.each(pool, [&](int p) { write_pack(p, states); });
-}
-
 void RodRows::write_end(int pack, std::span<RodState* const> states) const {
   for_each_element(pack, states, [&](RodState& state, int e, int row, int lane) {
     if (!state.alive[e]) return;

@@ -9,7 +9,7 @@
 #include "cosserat/lane_layout.h"
 #include "plant/reference_plants.h"
 #include "support/rod_tips.h"
-#include "unit/cosserat/random_plants.h"
+#include "unit/cosserat/extension_cases.h"
 #include "unit/cosserat/step_potential.h"
 
 namespace pedicel::cosserat::cases {
@@ -64,8 +64,9 @@ TEST(LaneLayout, EveryElementHasOneSlotUnderItsParents) {
 TEST(LaneLayout, BranchesComeBeforeWhatCarriesThem) {
   const std::vector<RodModel> plants = garden();
   const LaneLayout layout(pointers(plants), false);
-  const std::vector<std::vector<int>> on = layout.packs_on();
+  const std::vector<std::vector<int>> on = layout.needs();
   for (const Chain& chain : layout.chains()) {
+    EXPECT_FALSE(layout.from_clamp(chain.pack));
     if (chain.parent < 0) continue;
     const int from = layout.chains()[chain.parent].pack;
     EXPECT_LT(chain.pack, from);
@@ -81,17 +82,47 @@ TEST(LaneLayout, FillsLanesWithEqualPlantsAndEqualBranches) {
 }
 
 // Its last branch, with a longer path below it, is no part of the trunk, and each piece of the
-// trunk carries one pack of branches.
+// trunk carries one pack of branches. What the first piece carries is eliminated into it from the
+// clamp on, while the others are from the tip; they meet in its last element.
 TEST(LaneLayout, CutsTheTrunkOfALargePlantAlone) {
   const std::vector<RodModel> tree = {plant::hanging_tree()};
   LaneLayout layout(pointers(tree), false);
   // 132 twigs of 10, 22 branches of 40, a trunk of 42 in three pieces; one more row a pack.
   EXPECT_EQ(layout.rows(), 17 * 10 + 3 * 40 + 42 + 17 + 3 + 3);
-  const std::vector<std::vector<int>> on = layout.packs_on();
-  ASSERT_EQ(on.size(), 23u);
-  EXPECT_EQ(on[20], (std::vector<int>{19}));
-  EXPECT_EQ(on[21], (std::vector<int>{18, 20}));
-  EXPECT_EQ(on[22], (std::vector<int>{17, 21}));
+  const std::vector<std::vector<int>> on = layout.needs();
+  ASSERT_EQ(layout.packs(), 23);
+  ASSERT_EQ(on.size(), 24u);
+  for (int p = 0; p < layout.packs(); ++p) EXPECT_EQ(layout.from_clamp(p), p == 20);
+  EXPECT_EQ(layout.slot(0, 0).row, layout.first_row(20) + 1);
+  EXPECT_EQ(layout.pack_of(23), 20);
+  EXPECT_EQ(layout.task_of(20, layout.end_row(20) - 2), 20);
+  EXPECT_EQ(layout.task_of(20, layout.end_row(20) - 1), 23);
+  EXPECT_EQ(on[20], (std::vector<int>{17}));
+  EXPECT_EQ(on[21], (std::vector<int>{19}));
+  EXPECT_EQ(on[22], (std::vector<int>{18, 21}));
+  EXPECT_EQ(on[23], (std::vector<int>{20, 22}));
+}
+
+// Only first pieces of the same length stand side by side, since their last elements must; and a
+// plant with loops, which is not eliminated row by row, has none.
+TEST(LaneLayout, FirstPiecesOfTrunksEndInTheSameRow) {
+  Random random(1);
+  const std::vector<RodModel> plants = {plant::hanging_tree(), random_plant(random, 900, false),
+                                        plant::hanging_tree(), random_plant(random, 900, true)};
+  const LaneLayout layout(pointers(plants), false);
+  std::vector<int> pack_of_plant(plants.size(), -1);
+  for (const Chain& chain : layout.chains()) {
+    EXPECT_EQ(chain.from_clamp, layout.from_clamp(chain.pack));
+    if (!chain.from_clamp) continue;
+    EXPECT_EQ(chain.parent, -1);
+    EXPECT_EQ(layout.slot(chain.plant, chain.elements.back()).row, layout.end_row(chain.pack) - 1);
+    pack_of_plant[chain.plant] = chain.pack;
+  }
+  EXPECT_GE(pack_of_plant[0], 0);
+  EXPECT_GE(pack_of_plant[1], 0);
+  EXPECT_NE(pack_of_plant[1], pack_of_plant[0]);
+  EXPECT_EQ(pack_of_plant[2], pack_of_plant[0]);
+  EXPECT_EQ(pack_of_plant[3], -1);
 }
 
 TEST(LaneLayout, RowsLieInTheOrderThatIsAskedFor) {
@@ -117,25 +148,39 @@ TEST(LaneLayout, RowsLieInTheOrderThatIsAskedFor) {
 // The rows' elimination against the block system, which is tested against dense matrices. The rows
 // keep L and W in single precision: each number is off by up to 6e-8 of itself, and what an element
 // gets follows from its parent's, so that such errors add up along a branch as those of lengths do.
-// Found: 4e-8 of the largest change.
+// Found: 4e-8 of the largest change. The large plants are eliminated towards the end of their
+// stem's first piece.
 TEST(RodRows, SolvesAsTheBlockSystemDoes) {
   for (const int threads : {1, 2}) {
-    for (int seed = 0; seed < 5; ++seed) {
+    for (int seed = 0; seed < 8; ++seed) {
       Random random(seed);
-      const RodModel model = random_plant(random, seed < 4 ? 40 : 900, false);
-      const RodState state = random_state(model, random, 1e-3, 0.3);
+      RodModel model =
+          seed == 7 ? plant::hanging_tree() : random_plant(random, seed < 4 ? 40 : 900, false);
+      if (seed == 6) extend(model, random);
+      RodState state = random_state(model, random, 1e-3, 0.3);
+      start_memory(model, state);
       const RodHistory history = random_history(model, state, random, dt);
+      const LaneLayout layout(std::array<const RodModel*, 1>{&model}, false);
+      ASSERT_EQ(layout.tasks() > layout.packs(), seed >= 4);
+      if (seed == 5) {  // most of it has come off
+        const std::vector<int>& piece = layout.chains().front().elements;
+        const int broken = piece[piece.size() / 2];
+        state.alive[broken] = false;
+        for (int e = broken + 1; e < model.size(); ++e)
+          if (!state.alive[model.elements[e].parent]) state.alive[e] = false;
+      }
       StepPotential step(model);
       BlockSystem system(model);
-      step.prepare(state, {dt, gravity, {}, {}}, &history);
+      step.prepare(state, {dt, gravity, {}, {}}, &history, &model);
       step.linearise(model, state, system);
       ASSERT_TRUE(system.solve());
 
       RodRows rows(std::array{&model}, threads);
       rows.set_gravity(gravity);
       rows.set_scheme(0, dt, dt, state.root);
+      rows.set_extensions(0, model, state.time, dt, false);
       rows.set_history(0, history);
-      const std::array states{&state};
+      const std::array<const RodState*, 1> states{&state};
       ThreadPool pool(threads);
       rows.prepare(pool, states);
       rows.read_iterate(0, state);
@@ -154,9 +199,10 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
 
 // To the same place, and the potential there is the same when it is asked for afterwards.
 TEST(RodRows, AMoveNeedNotBeMeasured) {
-  for (const double damping_time : {0.0, 0.05}) {
+  for (const auto& [elements, damping_time] :
+       {std::pair(60, 0.0), std::pair(60, 0.05), std::pair(900, 0.05)}) {
     Random random(2);
-    RodModel model = random_plant(random, 60, false);
+    RodModel model = random_plant(random, elements, false);
     for (Element& element : model.elements) element.damping_time = damping_time;
     finish(model);
     const RodState state = random_state(model, random, 1e-3, 0.3);
@@ -189,6 +235,16 @@ TEST(RodRows, APlantAloneMovesAsItDoesAmongOthers) {
     EXPECT_EQ(together[p], tips_after({plants[p]}, 1, 100)[0]) << p;
 }
 
+TEST(RodRows, ALargePlantAloneMovesAsItDoesAmongOthers) {
+  Random random(6);
+  const std::vector<RodModel> plants = {random_plant(random, 900, false), plant::hanging_tree(),
+                                        random_plant(random, 1000, false), plant::hanging_tree()};
+  const std::vector<Vec3> together = tips_after(plants, 1, 20);
+  EXPECT_EQ(together, tips_after(plants, 2, 20));
+  for (std::size_t p = 0; p < plants.size(); ++p)
+    EXPECT_EQ(together[p], tips_after({plants[p]}, 1, 20)[0]) << p;
+}
+
 TEST(RodRows, ThreadsThatShareOnePlantGiveTheSameBits) {
   Random random(3);
   const std::vector<RodModel> plants = {plant::hanging_tree(), random_plant(random, 1200, false)};
@@ -202,7 +258,8 @@ TEST(RodRows, ThreadsThatShareOnePlantGiveTheSameBits) {
 // Fused and separate multiply-adds round differently, by some 1e-16 an operation; over 100 steps of
 // falling plants that grows, but stays far below a nanometre.
 TEST(RodRows, InstructionSetsAgree) {
-  const std::vector<RodModel> plants = garden();
+  std::vector<RodModel> plants = garden();
+  plants.push_back(plant::hanging_tree());
   const std::vector<Vec3> best = tips_after(plants, 1, 100);
   for (const std::string& name : available_instruction_sets()) {
     use_instruction_set(name);
