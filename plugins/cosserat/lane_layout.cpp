@@ -116,10 +116,6 @@ LaneLayout::LaneLayout(std::span<const RodModel* const> plants, bool keep_blocks
     add_chains(std::move(chains));
   }
   pack(keeps);
-  for (const std::vector<int>& chains : chains_of_plant_) {
-    std::vector<PackLane>& lanes = lanes_of_plant_.emplace_back();
-    for (const int c : chains) lanes.push_back({chains_[c].pack, chains_[c].lane});
-  }
 }
 
 // Those of the next plant.
@@ -167,6 +163,7 @@ void LaneLayout::place(std::span<const int> packs) {
 }
 
 void LaneLayout::pack(const std::vector<bool>& keeps) {
+  lanes_of_plant_.resize(keeps.size());
   std::vector<int> chains(chains_.size());
   std::iota(chains.begin(), chains.end(), 0);
   const auto kept = [&](int c) { return static_cast<bool>(keeps[chains_[c].plant]); };
@@ -192,6 +189,10 @@ void LaneLayout::pack(const std::vector<bool>& keeps) {
       if (!side_by_side(c, first)) break;
       chain.pack = packs();
       chain.lane = lane;
+      std::vector<LaneRun>& runs = lanes_of_plant_[chain.plant];
+      if (runs.empty() || runs.back().pack != packs() || runs.back().end != lane)
+        runs.push_back({packs(), lane, lane});
+      ++runs.back().end;
       int row = begin;
       for (const int e : chain.elements) {
         slots_[chain.plant][e] = {++row, lane};

@@ -14,9 +14,9 @@ struct Slot {
   int row = -1, lane = 0;
 };
 
-/// A pack and a lane of it.
-struct PackLane {
-  int pack = -1, lane = 0;
+/// Lanes of a pack, from `begin` to before `end`.
+struct LaneRun {
+  int pack = -1, begin = 0, end = 0;
 };
 
 /// A path of elements, each the parent of the next: where a plant forks, the child of the same
@@ -48,8 +48,8 @@ class LaneLayout {
   const std::vector<Chain>& chains() const { return chains_; }
   /// Chains in the order of their first elements.
   std::span<const int> chains_of_plant(int plant) const { return chains_of_plant_[plant]; }
-  /// Where they stand, in the same order.
-  std::span<const PackLane> lanes_of_plant(int plant) const { return lanes_of_plant_[plant]; }
+  /// Where they stand, in an order that depends on nothing but the plant.
+  std::span<const LaneRun> lanes_of_plant(int plant) const { return lanes_of_plant_[plant]; }
   Slot slot(int plant, int element) const { return slots_[plant][element]; }
 
   /// Which elements, of the plants of its lanes, stand in a row; -1: none.
@@ -85,7 +85,7 @@ class LaneLayout {
 
   std::vector<Chain> chains_;
   std::vector<std::vector<int>> chains_of_plant_;
-  std::vector<std::vector<PackLane>> lanes_of_plant_;
+  std::vector<std::vector<LaneRun>> lanes_of_plant_;
   std::vector<std::vector<Slot>> slots_;
   std::vector<std::array<int, lane_count>> elements_;  // by row
   std::vector<int> first_row_, end_row_;               // by pack

@@ -148,12 +148,14 @@ void RodRows::set_scheme(int plant, double dt, double previous_dt, const Pose& r
   const bool first_order = previous_dt == 0.0;
   const double ratio = first_order ? 0.0 : dt / previous_dt;
   const double divisor = 1.0 + 2.0 * ratio;
-  for (const auto [p, lane] : layout_.lanes_of_plant(plant)) {
+  for (const auto [p, begin, end] : layout_.lanes_of_plant(plant)) {
     Pack& pack = packs_[p];
-    pack.past_now[lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
-    pack.past_before[lane] = ratio * ratio / divisor;
-    pack.effective_step[lane] = dt * ((1.0 + ratio) / divisor);
-    pack.accelerate[lane] = accelerate ? dt : 0.0;
+    for (int lane = begin; lane < end; ++lane) {
+      pack.past_now[lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
+      pack.past_before[lane] = ratio * ratio / divisor;
+      pack.effective_step[lane] = dt * ((1.0 + ratio) / divisor);
+      pack.accelerate[lane] = accelerate ? dt : 0.0;
+    }
   }
 }
 
@@ -277,8 +279,8 @@ void RodRows::hold(int plant) {
     };
     for (const int e : chain.elements) copy(layout_.slot(plant, e).row);
   }
-  for (const PackLane& at : layout_.lanes_of_plant(plant))
-    place_anchors(at.pack, scratch_->iterate);
+  for (const LaneRun& run : layout_.lanes_of_plant(plant))
+    place_anchors(run.pack, scratch_->iterate);
 }
 
 void RodRows::clear_extras() {
@@ -403,7 +405,8 @@ void RodRows::solve_and_move(ThreadPool& pool, bool measured, std::span<RodState
 void RodRows::set_share(int plant, double share) {
   if (share == shares_[plant]) return;
   shares_[plant] = share;
-  for (const auto [pack, lane] : layout_.lanes_of_plant(plant)) packs_[pack].share[lane] = share;
+  for (const auto [p, begin, end] : layout_.lanes_of_plant(plant))
+    std::fill(packs_[p].share + begin, packs_[p].share + end, share);
 }
 
 void RodRows::move(ThreadPool& pool, bool keep, bool measured, std::span<RodState* const> states) {
@@ -466,23 +469,28 @@ void RodRows::fetch_results() const {
 
 double RodRows::sum(int plant, const Lanes Pack::*energy) const {
   double sum = 0.0;
-  for (const auto [pack, lane] : layout_.lanes_of_plant(plant)) sum += (packs_[pack].*energy)[lane];
+  for (const auto [p, begin, end] : layout_.lanes_of_plant(plant))
+    for (int lane = begin; lane < end; ++lane) sum += (packs_[p].*energy)[lane];
   return sum;
 }
 
 bool RodRows::healthy(int plant) const {
-  return std::ranges::all_of(layout_.lanes_of_plant(plant), [&](const PackLane& at) {
-    return layout_.keeps_blocks(at.pack) || packs_[at.pack].healthy[at.lane] > 0.0;
+  return std::ranges::all_of(layout_.lanes_of_plant(plant), [&](const LaneRun& run) {
+    const Lanes& healthy = packs_[run.pack].healthy;
+    return layout_.keeps_blocks(run.pack) ||
+           std::all_of(healthy + run.begin, healthy + run.end, [](double h) { return h > 0.0; });
   });
 }
 
 RodRows::Change RodRows::change(int plant) const {
   Change change;
-  for (const auto [p, lane] : layout_.lanes_of_plant(plant)) {
+  for (const auto [p, begin, end] : layout_.lanes_of_plant(plant)) {
     const Pack& pack = packs_[p];
-    change.turn = std::max(change.turn, pack.turn[lane]);
-    change.shift = std::max(change.shift, pack.shift[lane]);
-    change.largest = std::max(change.largest, pack.change[lane]);
+    for (int lane = begin; lane < end; ++lane) {
+      change.turn = std::max(change.turn, pack.turn[lane]);
+      change.shift = std::max(change.shift, pack.shift[lane]);
+      change.largest = std::max(change.largest, pack.change[lane]);
+    }
   }
   return change;
 }

@@ -109,9 +109,10 @@ void RodRows::set_extensions(int plant, const RodModel& model, double time, doub
   if (!extended.any && !extended.fresh) return;
   const double end = settled ? time : time + dt;
   const double gust = settled ? 0.0 : std::sin(2.0 * pi * model.gust_frequency * end);
-  for (const auto [pack, lane] : layout_.lanes_of_plant(plant)) {
-    packs_[pack].modulus[lane] = stiffness_factor(model, end);
-    packs_[pack].gust_now[lane] = gust;
+  const double modulus = stiffness_factor(model, end);
+  for (const auto [p, begin, behind] : layout_.lanes_of_plant(plant)) {
+    std::fill(packs_[p].modulus + begin, packs_[p].modulus + behind, modulus);
+    std::fill(packs_[p].gust_now + begin, packs_[p].gust_now + behind, gust);
   }
   if (!extended.fresh && extended.dt == dt && extended.settled == settled) return;
   extended.fresh = false;

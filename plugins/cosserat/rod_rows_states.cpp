@@ -89,8 +89,8 @@ void RodRows::read_iterate(int plant, const RodState& state) {
     const Slot slot = layout_.slot(plant, e);
     put(scratch_->iterate[slot.row], slot.lane, state.position[e], state.orientation[e]);
   }
-  for (const PackLane& at : layout_.lanes_of_plant(plant))
-    place_anchors(at.pack, scratch_->iterate);
+  for (const LaneRun& run : layout_.lanes_of_plant(plant))
+    place_anchors(run.pack, scratch_->iterate);
 }
 
 void RodRows::set_history(int plant, const RodHistory& history) {
