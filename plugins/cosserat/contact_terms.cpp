@@ -30,6 +30,17 @@ void ContactTerms::for_each_stretch(const Task& task) const {
   });
 }
 
+// Which the stretch after the next one needs, from `end` of this one on, and another core may have
+// moved: in its turn it would wait for them.
+void ContactTerms::fetch_poses(std::size_t end, const RodState& state) const {
+  const std::size_t first = end + stretch_length;
+  for (std::size_t i = first; i < std::min(rows_.size(), first + stretch_length); ++i)
+    for (const std::int64_t element : rows_[i].element) {
+      __builtin_prefetch(&state.position[element]);
+      __builtin_prefetch(&state.orientation[element]);
+    }
+}
+
 void ContactTerms::find(const RodModel& model, const RodState& start, const RodState& iterate,
                         double dt, std::span<ContactSource* const> sources) {
   found_.clear();
@@ -112,6 +123,7 @@ void ContactTerms::sum_energy() {
 
 void ContactTerms::follow(const RodState& iterate) {
   for_each_stretch([&](std::size_t first, std::size_t end) {
+    fetch_poses(end, iterate);
     follow_contacts(stretch(first, end), iterate);
     push(first, end, iterate);
   });
@@ -132,6 +144,7 @@ void ContactTerms::forget() {
 double ContactTerms::potential(const RodModel&, const RodState& state) const {
   sums_.assign((rows_.size() + stretch_length - 1) / stretch_length, 0.0);
   for_each_stretch([&](std::size_t first, std::size_t end) {
+    fetch_poses(end, state);
     sums_[first / stretch_length] =
         potential_of_contacts(std::span(rows_).subspan(first, end - first), state);
   });
@@ -142,6 +155,7 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
   memory_.resize(rows_.size() * lane_count);
   carried_.resize(stay_.size());
   for_each_stretch([&](std::size_t first, std::size_t last) {
+    fetch_poses(last, end);
     const int sides = static_cast<int>(sides_) - static_cast<int>(first * lane_count);
     end_contacts(stretch(first, last), sides, end, ends_.data() + first);
     carried_[first / stretch_length] = remember(first, last);

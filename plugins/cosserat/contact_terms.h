@@ -82,6 +82,7 @@ class ContactTerms {
   };
   void share_gives();
   void make_rows(const RodModel& model);
+  void fetch_poses(std::size_t end, const RodState& state) const;
   void put(std::size_t contact, const RodModel& model);
   void push(std::size_t first, std::size_t end, const RodState& iterate);
   void sum_energy();
