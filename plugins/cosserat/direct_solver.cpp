@@ -71,6 +71,7 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
   states_.resize(plants_.size());
   iterates_.resize(plants_.size());
   working_.resize(plants_.size());
+  unchanged_.resize(plants_.size());
   searching_.resize(plants_.size());
 }
 
@@ -82,7 +83,7 @@ void DirectSolver::reset(int plant) {
 }
 
 StepReport DirectSolver::step(const RodModel& model, RodState& state, const StepInput& input) {
-  PlantStep one{&model, &state, input.loads, input.contacts, true, {}};
+  PlantStep one{&model, &state, input.loads, input.contacts, true, true, {}};
   step({&one, 1}, input.dt, input.gravity);
   return one.report;
 }
@@ -136,6 +137,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     PlantStep& step = steps[p];
     step.report = {};
     states_[p] = step.state;
+    unchanged_[p] = plant.stands_in_rows && !step.state_changed;
     if (step.model_changed) rows_.read_model(p, *step.model);
     const double before = step.state->previous_dt;
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
@@ -156,7 +158,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
   }
   std::fill(working_.begin(), working_.end(), 1);
   rows_.set_active(working_);
-  rows_.prepare(pool, states_);
+  rows_.prepare(pool, states_, unchanged_);
   for_each_plant(
       steps, pool, [&](int p) { return plants_[p].touched; },
       [&](int p) {
@@ -480,7 +482,7 @@ void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Ve
     for (ContactSource* source : step.contacts)
       source->cover(k / double(parts), (k + 1) / double(parts));
     state.root = k + 1 == parts ? to : between(from, to, (k + 1) / double(parts));
-    PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0, {}};
+    PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0, k == 0, {}};
     solver.step({&part, 1}, dt / parts, gravity);
     part.report.errors |= step.report.errors;
     part.report.iterations += step.report.iterations;
@@ -508,6 +510,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
     RodState& state = *steps[p].state;
     StepReport& report = steps[p].report;
     plant.has_history = !plant.in_parts;
+    plant.stands_in_rows = states_[p] && std::ranges::find(state.alive, 0) == state.alive.end();
     state.previous_root = state.root;
     if (report.errors & not_finite) {
       state.previous_dt = 0.0;

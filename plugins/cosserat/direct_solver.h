@@ -29,13 +29,14 @@ class DirectSolver : public RodSolver {
   DirectSolver(const RodSettings& settings, std::span<const RodModel* const> models, int threads,
                std::shared_ptr<RowScratch> scratch = nullptr);
 
-  /// One plant of several. The model is read again where `model_changed` is set.
+  /// One plant of several. The model is read again where `model_changed` is set; where
+  /// `state_changed` is not, the state is what the step before left in it.
   struct PlantStep {
     const RodModel* model = nullptr;
     RodState* state = nullptr;
     std::span<const Load> loads;
     std::span<ContactSource* const> contacts;
-    bool model_changed = true;
+    bool model_changed = true, state_changed = true;
     StepReport report;  ///< set by the step
   };
   /// Steps all the plants that it was made for, in that order.
@@ -90,6 +91,7 @@ class DirectSolver : public RodSolver {
     double gain = 1.0, gain_change = 0.0;
     std::unique_ptr<DirectSolver> parts;  // for steps in parts, once there was one
     bool in_parts = false;                // this step was taken so
+    bool stands_in_rows = false;          // where it ended is where the rows have it
 
     bool is_searched() const;
   };
@@ -122,6 +124,7 @@ class DirectSolver : public RodSolver {
   // By plant.
   std::vector<RodState*> states_, iterates_;  // nullptr where not to be written
   std::vector<char> working_, searching_;     // Newton, its line search: not done yet
+  std::vector<char> unchanged_;               // begins where the rows have it
   bool any_loops_ = false;
   bool only_contacts_ = false;  // the rows have no other blocks
   bool settling_ = false;

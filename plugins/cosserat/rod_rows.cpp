@@ -197,12 +197,22 @@ void RodRows::each_pack(ThreadPool& pool, const Do& todo) {
   });
 }
 
-void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states) {
+// Those of all its plants. What remembers more than poses and velocities is read.
+bool RodRows::has_states(int pack, std::span<const char> unchanged) const {
+  return keeps_end_ && std::ranges::all_of(anchors_[pack], [&](const Anchor& anchor) {
+           const int plant = anchor.plant;
+           return plant < 0 || (unchanged[plant] && extended_[plant].branches == 0);
+         });
+}
+
+void RodRows::prepare(ThreadPool& pool, std::span<const RodState* const> states,
+                      std::span<const char> unchanged) {
+  keeps_end_ = keeps_end_ && !unchanged.empty();
   const RowArrays rows = arrays();
   each_pack(pool, [&](int p) {
     packs_[p].anchored = false;
     if (!packs_[p].active) return;
-    read_states(p, states);
+    if (!has_states(p, unchanged)) read_states(p, states);
     cosserat::prepare(rows, packs_[p]);
   });
 }
@@ -448,8 +458,10 @@ void RodRows::finish(ThreadPool& pool, std::span<RodState* const> states) {
 }
 
 void RodRows::end_step() {
-  if (scratch_.use_count() == 1) {  // what a step leaves there is nobody else's
+  keeps_end_ = scratch_.use_count() == 1;  // what a step leaves there is nobody else's
+  if (keeps_end_) {
     scratch_->start.swap(previous_);
+    scratch_->start.swap(scratch_->iterate);
     scratch_->rate.swap(previous_rate_);
     scratch_->strain.swap(previous_strain_);
     return;

@@ -85,8 +85,10 @@ class RodRows {
   void fetch_along(FetchAhead* ahead);
 
   /// Starts a step from the plants' states, with the motion continued as the iterate; change(plant)
-  /// then says how far that turns an element.
-  void prepare(ThreadPool& pool, std::span<const RodState* const> states);
+  /// then says how far that turns an element. States that are `unchanged`, by plant, since the last
+  /// end_step(), of plants that nothing has come off from, need not be read.
+  void prepare(ThreadPool& pool, std::span<const RodState* const> states,
+               std::span<const char> unchanged = {});
   /// Sets energy_before() to what the step's start would have, with the clamps where they end, and
   /// energy() to what the first guess has. Writes the iterates as write_iterate() does.
   void compare_start(ThreadPool& pool, std::span<RodState* const> states);
@@ -175,6 +177,7 @@ class RodRows {
   void read_branches(int plant, const RodModel& model);
   void mark_extended(int plant, const RodModel& model);
   void read_memory(int plant, const RodState& state, int element, int row, int lane);
+  bool has_states(int pack, std::span<const char> unchanged) const;
   void read_states(int pack, std::span<const RodState* const> states);
   // Tasks are those of LaneLayout.
   void eliminate_task(const RowArrays& rows, int task);
@@ -217,6 +220,7 @@ class RodRows {
   std::vector<Pose> roots_;                              // X_W of the clamps
   std::vector<Scheme> schemes_;                          // by plant
   std::vector<double> shares_;                           // 1, by plant
+  bool keeps_end_ = false;  // of the step before, in `start` and `rate`
   Vec3 gravity_ = Vec3::Zero();
   FetchAhead* ahead_ = nullptr;  // not its own
 };

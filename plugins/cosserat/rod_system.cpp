@@ -90,7 +90,7 @@ void RodSystem::step(double dt, const Vec3& gravity) {
   for (Plant& plant : plants_) {
     plant.detached.clear();
     detach(plant.model, plant.state, plant.detached);
-    plant.model_changed = !plant.detached.empty();
+    plant.model_changed = plant.state_changed = !plant.detached.empty();
   }
 }
 
@@ -112,7 +112,7 @@ void RodSystem::make_beds() {
     std::vector<const RodModel*> models;
     for (int i = 0; i < share.plants; ++i, ++next) {
       plants_[next].bed = static_cast<int>(beds_.size()) - 1;
-      plants_[next].model_changed = true;
+      plants_[next].model_changed = plants_[next].state_changed = true;
       models.push_back(&plants_[next].model);
     }
     bed.solver = std::make_unique<DirectSolver>(settings_, models, shares.size() == 1 ? threads : 1,
@@ -126,8 +126,8 @@ void RodSystem::make_beds() {
 void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool) {
   for (std::size_t i = 0; i < bed.steps.size(); ++i) {
     Plant& plant = plants_[bed.first + i];
-    bed.steps[i] = {&plant.model,          &plant.state,        plant.loads,
-                    plant.source_pointers, plant.model_changed, {}};
+    bed.steps[i] = {&plant.model,        &plant.state,        plant.loads, plant.source_pointers,
+                    plant.model_changed, plant.state_changed, {}};
   }
   if (pool)
     bed.solver->step(bed.steps, dt, gravity, *pool);
@@ -169,7 +169,7 @@ const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
 }
 
 void RodSystem::set_state(int plant, const RodState& state) {
-  plants_[plant].state = state;
+  edit_state(plant) = state;
   plants_[plant].state.previous_dt = 0.0;
   plants_[plant].state.previous_root = state.root;
   if (plants_[plant].solver) plants_[plant].solver->reset();
@@ -194,7 +194,7 @@ void RodSystem::change_constants(int plant, RodModel model) {
         held.state.orientation[e] * held.state.angular_velocity[e].cross(Vec3(0, 0, shift));
   }
   held.model = std::move(model);
-  held.model_changed = true;
+  held.model_changed = held.state_changed = true;
   held.state.previous_dt = 0.0;
 }
 

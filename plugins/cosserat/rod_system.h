@@ -35,7 +35,10 @@ class RodSystem {
     return plants_[plant].model;
   }
   /// To change it between two steps. Set `previous_dt` to 0 with anything but the clamp's pose.
-  RodState& edit_state(int plant) { return plants_[plant].state; }
+  RodState& edit_state(int plant) {
+    plants_[plant].state_changed = true;
+    return plants_[plant].state;
+  }
   /// Goes on with other constants: stiffness, mass, rest shape, thresholds. The model has the same
   /// elements (parents, drawn shape), organs and fruits, and no joint laws. Supports are its own.
   /// Throws UsageError where it is another plant.
@@ -64,7 +67,7 @@ class RodSystem {
     RodState state;
     std::unique_ptr<RodSolver> solver;  // position-based: one a plant
     int bed = -1;
-    bool model_changed = false;
+    bool model_changed = false, state_changed = true;
     std::vector<std::unique_ptr<ContactSource>> sources;
     std::vector<ContactSource*> source_pointers;
     std::vector<Load> loads;
