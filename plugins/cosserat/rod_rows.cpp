@@ -428,17 +428,13 @@ void RodRows::move_task(const RowArrays& rows, int task, bool keep, bool measure
                         std::span<RodState* const> states) {
   Pack& pack = packs_[layout_.pack_of(task)];
   if (!pack.active) return;
-  const bool from_clamp = layout_.from_clamp(layout_.pack_of(task));
-  const int last = pack.end - 1;
-  if (!from_clamp)
-    cosserat::move(rows, pack, pack.begin + 1, pack.end, keep, measured);
-  else if (!layout_.is_pack(task))
-    cosserat::move(rows, pack, last, pack.end, keep, false);
-  else
-    cosserat::move(rows, pack, pack.begin + 1, last, keep, false);
+  const bool is_pack = layout_.is_pack(task), whole = !layout_.from_clamp(layout_.pack_of(task));
+  const int last = pack.end - 1;  // a task of its own where the pack is not whole
+  cosserat::move(rows, pack, is_pack ? pack.begin + 1 : last, is_pack && !whole ? last : pack.end,
+                 keep, measured && whole);
   pass_on_poses(task);
-  if (!layout_.is_pack(task)) return;
-  if (from_clamp && measured) evaluate(rows, pack, pack.energy);
+  if (!is_pack) return;
+  if (measured && !whole) evaluate(rows, pack, pack.energy);
   write_pack(task, states);
 }
 
