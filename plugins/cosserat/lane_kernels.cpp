@@ -1,7 +1,5 @@
 #include "cosserat/lane_kernels.h"
 
-#include <algorithm>
-
 // Compiled once for each of these instruction sets; a processor without AVX2 takes the portable
 // one.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -123,8 +121,9 @@ void Prepare(const RowArrays& rows, Pack& pack) {
 // What another thread has just written comes from its core's cache: asked for so many rows early,
 // nothing waits for it.
 constexpr int sources_ahead = 3;
-HWY_INLINE void fetch_sources(const RowArrays& rows, int row) {
-  for (int s = rows.first_extra[std::max(row, 0)]; s >= 0; s = rows.extras[s].next)
+HWY_INLINE void fetch_sources(const RowArrays& rows, const Pack& pack, int row) {
+  if (row <= pack.begin || row >= pack.end) return;  // a pack may have fewer rows than that
+  for (int s = rows.first_extra[row]; s >= 0; s = rows.extras[s].next)
     for (int line = 0; line < block_size; line += lane_count)
       __builtin_prefetch(rows.extras[s].values + line);
 }
@@ -162,11 +161,11 @@ void eliminate_pack(const RowArrays& rows, Pack& pack) {
     Block carry;
     clear(carry);
     V energy = set(0.0), healthy = set(1.0);
-    for (int k = 1; k <= sources_ahead; ++k) fetch_sources(rows, pack.end - k);
+    for (int k = 1; k <= sources_ahead; ++k) fetch_sources(rows, pack, pack.end - k);
     for (int row = pack.end - 1; row > pack.begin; --row) {
       const Blocks blocks = linearised<extended>(rows, pack, row, lane, energy);
       add(blocks.own, carry);
-      fetch_sources(rows, row - sources_ahead);
+      fetch_sources(rows, pack, row - sources_ahead);
       fetch_ahead(rows, lane);
       add_sources_of(rows, row, lane, carry);
       healthy = hn::Min(healthy, eliminate<Into::parent>(blocks, rows.factor[row], lane, carry));
@@ -183,13 +182,13 @@ template <bool extended>
 void eliminate_from_clamp_pack(const RowArrays& rows, Pack& pack) {
   for (int lane = 0; lane < lane_count; lane += width) {
     V energy = set(0.0), healthy = set(1.0);
-    for (int k = 1; k <= sources_ahead; ++k) fetch_sources(rows, pack.begin + k);
+    for (int k = 1; k <= sources_ahead; ++k) fetch_sources(rows, pack, pack.begin + k);
     Block carry = turned(linearised<extended>(rows, pack, pack.begin + 1, lane, energy).own);
     for (int row = pack.begin + 1; row < pack.end - 1; ++row) {
       const Blocks child = linearised<extended>(rows, pack, row + 1, lane, energy);
       Block block;
       share_of_parent(child, block);
-      fetch_sources(rows, std::min(row + sources_ahead, pack.end - 1));
+      fetch_sources(rows, pack, row + sources_ahead);
       fetch_ahead(rows, lane);
       add_sources_of(rows, row, lane, block);
       add(turned(block), carry);

@@ -197,6 +197,46 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
   }
 }
 
+void set_all(Lanes& lanes, double value) {
+  std::fill(std::begin(lanes), std::end(lanes), value);
+}
+
+// What is asked for ahead ends with the pack: the rows beside it may be another pack's, or none.
+// Here whoever looks there reads an index that is nowhere near any source.
+TEST(RodRows, AShortPackAsksForNothingBeyondItsRows) {
+  constexpr int nowhere = 1 << 28, beside = 4;
+  for (const int elements : {2, 3, 4, 5}) {
+    const int count = elements + 1;
+    std::vector<ElementRow> element(count);
+    std::vector<PoseRow> iterate(count);
+    std::vector<TermRow> term(count);
+    std::vector<FactorRow> factor(count);
+    for (int row = 0; row < count; ++row) {
+      for (Lanes& inertia : element[row].inertia) set_all(inertia, 1.0);
+      for (Lanes* one : {&element[row].length, &element[row].mass, &element[row].alive,
+                         &element[row].rest_rotation[3], &iterate[row].orientation[3],
+                         &term[row].rotation_target[3], &term[row].inertia_scale})
+        set_all(*one, 1.0);
+    }
+    const std::vector<int> first_branch(count, -1);
+    std::vector<int> first_extra(beside + count + beside, nowhere);
+    std::fill_n(first_extra.begin() + beside, count, -1);
+    RowArrays rows;
+    rows.element = element.data();
+    rows.iterate = iterate.data();
+    rows.term = term.data();
+    rows.factor = factor.data();
+    rows.first_branch = first_branch.data();
+    rows.first_extra = first_extra.data() + beside;
+    for (const auto& kernel : {eliminate_from_clamp, linearise_and_eliminate}) {
+      Pack pack{};
+      pack.end = count;
+      kernel(rows, pack);
+      EXPECT_EQ(pack.healthy[0], 1.0) << elements;
+    }
+  }
+}
+
 // To the same place, and the potential there is the same when it is asked for afterwards.
 TEST(RodRows, AMoveNeedNotBeMeasured) {
   for (const auto& [elements, damping_time] :
