@@ -378,6 +378,10 @@ void RodRows::set_change(int plant, const BlockSystem& solved) {
       for (int i = 0; i < 6; ++i)
         scratch_->factor[slot.row].right[i][slot.lane] = alive * solved.solution(e)[i];
     }
+    // Its lane goes on where a longer chain stands beside it: nothing moves there.
+    const int behind = layout_.slot(plant, chain.elements.back()).row + 1;
+    for (int row = behind; row < layout_.end_row(chain.pack); ++row)
+      for (Lanes& change : scratch_->factor[row].right) change[chain.lane] = 0.0;
   }
 }
 
