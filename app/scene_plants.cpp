@@ -2,6 +2,7 @@
 
 #include "app/plant_overrides.h"
 #include "cosserat/standing.h"
+#include "io/csv.h"
 #include "plant/mtg_reader.h"
 #include "plant/plant_builder.h"
 #include "plant/reference_plants.h"
@@ -11,6 +12,9 @@ namespace pedicel::app {
 namespace {
 
 using world::ScenePlant;
+
+/// Rod elements of a scene, some 1.5 kB each in the solver.
+constexpr double most_elements = 500'000;
 
 std::optional<plant::PlantFile> read_file(const ScenePlant& wanted, Diagnostics& diagnostics,
                                           std::vector<std::string>& notes) {
@@ -52,7 +56,8 @@ class Builder {
     apply_plant_overrides(*file, wanted.set, diagnostics_);
     if (diagnostics_.has_errors()) return;
     const int count = wanted.repeat[0] * wanted.repeat[1];
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
+      if (i == 1 && !is_affordable(wanted, count)) return;
       Pose pose = wanted.pose;
       pose.position.x() += wanted.spacing.x() * (i % wanted.repeat[0]);
       pose.position.y() += wanted.spacing.y() * (i / wanted.repeat[0]);
@@ -64,6 +69,18 @@ class Builder {
   std::vector<ScenePlantModel> plants;
 
  private:
+  // Once the first of `count` equal plants is built. Before the others are.
+  bool is_affordable(const ScenePlant& wanted, int count) {
+    const double elements = static_cast<double>(count) * plants.back().model.size();
+    if (elements <= most_elements) return true;
+    diagnostics_.error(wanted.where,
+                       "plant \"" + wanted.name + "\": repeat makes " + std::to_string(count) +
+                           " plants of " + std::to_string(plants.back().model.size()) +
+                           " rod elements, " + io::format_number(elements, 3) +
+                           " in all: expected at most " + io::format_number(most_elements));
+    return false;
+  }
+
   plant::BuildOptions options_for(const ScenePlant& wanted, const Pose& pose) const {
     const auto beside = wanted.file.parent_path();
     plant::BuildOptions options{

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/aabb.h"
 #include "geometry/closest_point.h"
 
 namespace pedicel::geometry {
@@ -51,14 +52,52 @@ double longest(const Chords& chords) {
   return step;
 }
 
+/// Boxes around runs of neighbouring chords.
+class Boxes {
+ public:
+  static constexpr std::size_t chords_a_box = 32;
+
+  explicit Boxes(const Chords& chords) : chords_(chords.points.size() - 1) {
+    for (std::size_t i = 0; i < chords_; i += chords_a_box) {
+      Aabb& box = boxes_.emplace_back();
+      for (std::size_t k = i; k <= end(boxes_.size() - 1); ++k) box.extend(chords.points[k]);
+    }
+  }
+  std::size_t size() const { return boxes_.size(); }
+  const Aabb& operator[](std::size_t box) const { return boxes_[box]; }
+  std::size_t begin(std::size_t box) const { return box * chords_a_box; }
+  std::size_t end(std::size_t box) const { return std::min(begin(box) + chords_a_box, chords_); }
+
+ private:
+  std::size_t chords_;
+  std::vector<Aabb> boxes_;
+};
+
+/// Whether what is in two boxes may be nearer to each other than `distance`, rounding included.
+bool may_be_nearer(const Aabb& a, const Aabb& b, double distance) {
+  const double rounding = 1.0e-12 * (a.min().cwiseAbs().maxCoeff() + a.sizes().maxCoeff() +
+                                     b.min().cwiseAbs().maxCoeff() + b.sizes().maxCoeff());
+  return !(a.exteriorDistance(b) > distance + rounding);
+}
+
+// Long curves have so many pairs of chords that most are passed over box by box. The order of those
+// that are looked at is that of all pairs: of equal distances the first counts.
 CurvePair closest(const Chords& a, const Chords& b) {
   CurvePair best{0.0, 0.0, std::numeric_limits<double>::infinity()};
-  for (std::size_t i = 0; i + 1 < a.points.size(); ++i) {
-    for (std::size_t j = 0; j + 1 < b.points.size(); ++j) {
-      const SegmentPair pair =
-          closest_on_segments(a.points[i], a.points[i + 1], b.points[j], b.points[j + 1]);
-      if (pair.distance < best.distance) best = {a.arc(i, pair.s), b.arc(j, pair.t), pair.distance};
-    }
+  const Boxes of_a(a), of_b(b);
+  std::vector<std::size_t> near;
+  for (std::size_t box = 0; box < of_a.size(); ++box) {
+    near.clear();
+    for (std::size_t other = 0; other < of_b.size(); ++other)
+      if (may_be_nearer(of_a[box], of_b[other], best.distance)) near.push_back(other);
+    for (std::size_t i = of_a.begin(box); i < of_a.end(box); ++i)
+      for (const std::size_t other : near)
+        for (std::size_t j = of_b.begin(other); j < of_b.end(other); ++j) {
+          const SegmentPair pair =
+              closest_on_segments(a.points[i], a.points[i + 1], b.points[j], b.points[j + 1]);
+          if (pair.distance < best.distance)
+            best = {a.arc(i, pair.s), b.arc(j, pair.t), pair.distance};
+        }
   }
   return best;
 }

@@ -6,13 +6,21 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <vector>
 
 #include "core/diagnostics.h"
 
 namespace pedicel::io {
 
 namespace {
+
+/// Bytes. What a program of this kind reads as text is far below; a disk image given by mistake is
+/// not.
+constexpr std::size_t largest_file = std::size_t{256} << 20;
+
+std::string megabytes(std::size_t bytes) {
+  return std::to_string(bytes >> 20) + " MB";
+}
 
 [[noreturn]] void fail(const std::filesystem::path& path) {
   throw WriteError(path.string() + ": cannot be written: " + std::strerror(errno));
@@ -62,9 +70,16 @@ std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw InvalidFile({path.string()}, std::string("cannot be read: ") + std::strerror(errno));
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
+  // Piece by piece: a pipe or a device does not tell its size.
+  std::string text;
+  std::vector<char> piece(1 << 16);
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
+    text.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+    if (text.size() > largest_file)
+      throw InvalidFile({path.string()},
+                        "is larger than " + megabytes(largest_file) + ", expected at most that");
+  }
+  return text;
 }
 
 }  // namespace pedicel::io

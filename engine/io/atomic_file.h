@@ -17,7 +17,7 @@ class WriteError : public std::runtime_error {
 /// Throws WriteError with the path and the system's reason.
 void write_file_atomically(const std::filesystem::path& path, const std::string& contents);
 
-/// Reads a whole file. Throws InvalidFile ("cannot be read: reason").
+/// Reads a whole file of at most 256 MB. Throws InvalidFile ("cannot be read: reason").
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace pedicel::io

@@ -10,6 +10,9 @@ namespace pedicel::io {
 
 namespace {
 
+/// Bytes; as nodes a text takes some hundred times as much memory. 250,000 drawn points are 6 MB.
+constexpr std::size_t largest_yaml = std::size_t{8} << 20;
+
 std::string bounds_text(const Bounds& bounds) {
   if (std::isfinite(bounds.minimum) && std::isfinite(bounds.maximum))
     return "a number between " + format_number(bounds.minimum) + " and " +
@@ -44,19 +47,55 @@ std::string shown(const YAML::Node& node) {
   return "nothing";
 }
 
-void check_duplicate_keys(const YAML::Node& node, const std::string& file,
-                          Diagnostics& diagnostics) {
-  if (node.IsSequence())
-    for (const YAML::Node& item : node) check_duplicate_keys(item, file, diagnostics);
-  if (!node.IsMap()) return;
-  std::set<std::string> seen;
-  for (const auto& item : node) {
-    if (!seen.insert(item.first.Scalar()).second)
-      diagnostics.error({file, item.first.Mark().line + 1, item.first.Mark().column + 1},
-                        "key \"" + item.first.Scalar() + "\" appears twice, expected once");
-    check_duplicate_keys(item.second, file, diagnostics);
+/// Looks at every value once before anybody reads the file. Aliases make that needful: a list that
+/// holds itself has no end, and nine lists of nine aliases each, nine deep, have 4e8 values in a
+/// few lines.
+class Surveyor {
+ public:
+  Surveyor(const std::string& file, Diagnostics& diagnostics)
+      : file_(file), diagnostics_(diagnostics) {}
+
+  void look(const YAML::Node& node, int depth = 0) {
+    if (depth > deepest)
+      refuse(node, "values nested more than " + std::to_string(deepest) +
+                       " deep (an alias may stand within its own anchor), expected fewer");
+    if (++values_ > most_values)
+      refuse(node, "more than " + std::to_string(most_values) +
+                       " values with aliases written out, expected fewer");
+    if (node.IsSequence())
+      for (const YAML::Node& item : node) look(item, depth + 1);
+    if (node.IsMap()) look_at_map(node, depth);
   }
-}
+
+ private:
+  static constexpr int deepest = 100;
+  static constexpr int most_values = 4'000'000;  // some 1 GB as nodes
+
+  void look_at_map(const YAML::Node& node, int depth) {
+    std::set<std::string> seen;
+    for (const auto& item : node) {
+      if (!item.first.IsScalar()) {
+        diagnostics_.error(position(item.first), "a key that is no text, expected a name");
+        continue;
+      }
+      if (!seen.insert(item.first.Scalar()).second)
+        diagnostics_.error(position(item.first),
+                           "key \"" + item.first.Scalar() + "\" appears twice, expected once");
+      look(item.second, depth + 1);
+    }
+  }
+
+  SourcePosition position(const YAML::Node& node) const {
+    return {file_, node.Mark().line + 1, node.Mark().column + 1};
+  }
+  [[noreturn]] void refuse(const YAML::Node& node, std::string what) const {
+    throw InvalidFile(position(node), std::move(what));
+  }
+
+  const std::string& file_;
+  Diagnostics& diagnostics_;
+  int values_ = 0;
+};
 
 }  // namespace
 
@@ -235,6 +274,10 @@ YamlNode load_yaml(const std::filesystem::path& path, Diagnostics& diagnostics) 
 }
 
 YamlNode parse_yaml(const std::string& text, const std::string& name, Diagnostics& diagnostics) {
+  if (text.size() > largest_yaml)
+    throw InvalidFile({name}, "has " + std::to_string(text.size() >> 20) +
+                                  " MB of YAML, expected at most " +
+                                  std::to_string(largest_yaml >> 20) + " MB");
   YAML::Node node;
   try {
     node = YAML::Load(text);
@@ -242,7 +285,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& name, Diagnostic
     throw InvalidFile({name, error.mark.line + 1, error.mark.column + 1},
                       "not valid YAML: " + error.msg);
   }
-  check_duplicate_keys(node, name, diagnostics);
+  Surveyor(name, diagnostics).look(node);
   return YamlNode(node, name, diagnostics);
 }
 

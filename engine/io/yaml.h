@@ -101,8 +101,9 @@ class YamlMap {
   std::set<std::string> asked_;
 };
 
-/// Parses a file. Throws InvalidFile where it cannot be read or is no YAML. Duplicate keys are
-/// errors.
+/// Parses a file. Throws InvalidFile where it cannot be read, is no YAML, has more than 8 MB, or
+/// says more than 4 million values or 100 levels once its aliases are written out. Duplicate keys
+/// are errors.
 YamlNode load_yaml(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// The same from text; `name` stands for the file in errors.

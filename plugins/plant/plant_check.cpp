@@ -12,6 +12,8 @@ namespace {
 constexpr double same_place = 1.0e-9;  ///< m
 /// Sine of the smallest angle between a flat section's normal and its curve.
 constexpr double smallest_sine = 1.0e-3;
+/// m: beyond it positions have fewer digits than a rod needs. Map coordinates lie within.
+constexpr double largest_coordinate = 1.0e7;
 
 std::string quoted(const std::string& kind, const std::string& name) {
   return kind + " \"" + name + "\"";
@@ -59,8 +61,16 @@ class Checker {
       if ((points[i] - points[i - 1]).norm() < same_place)
         error(curve.where, name + ": points " + std::to_string(i) + " and " +
                                std::to_string(i + 1) + " are equal, expected them apart");
+    check_coordinates(curve, name);
     check_radius(curve, name);
     check_section(curve, name);
+  }
+
+  void check_coordinates(const PlantCurve& curve, const std::string& name) {
+    for (std::size_t i = 0; i < curve.points.size(); ++i)
+      if (const double most = curve.points[i].cwiseAbs().maxCoeff(); !(most <= largest_coordinate))
+        error(curve.where, name + ": point " + std::to_string(i + 1) + " is " + metres(most) +
+                               " from the origin, expected at most " + metres(largest_coordinate));
   }
 
   void check_radius(const PlantCurve& curve, const std::string& name) {

@@ -12,16 +12,78 @@ namespace pedicel::plant {
 namespace {
 
 constexpr double same_place = 1.0e-6;  // m: below it two samples are one node
+/// Nodes of a plant. The largest tree that was measured node by node has some 30,000; a quarter of
+/// a million take some 0.5 GB in the solver.
+constexpr double most_nodes = 250'000;
+/// Samples of a plant, some 100 bytes each: eight for each node that it may have.
+constexpr double most_samples = 8.0 * most_nodes;
 
 std::string millimetres(double metres) {
   return io::format_number(1.0e3 * metres, 4) + " mm";
 }
 
+/// Counts nodes and samples before any is made.
+class SizeCheck {
+ public:
+  SizeCheck(const PlantFile& plant, const std::vector<geometry::Curve>& curves,
+            Diagnostics& diagnostics)
+      : plant_(plant), curves_(curves), diagnostics_(diagnostics) {}
+
+  /// False, and an error, where there would be too many. `step` is that of the samples (m).
+  bool run(double step) {
+    const double nodes = count(plant_.distance), samples = count(step);
+    // Written so that a length that is no number is refused, too.
+    if (!(nodes <= most_nodes)) {
+      report_nodes(nodes);
+    } else if (!(samples <= most_samples)) {
+      report_samples(samples, step);
+    }
+    return nodes <= most_nodes && samples <= most_samples;
+  }
+
+ private:
+  double count(double spacing) const {
+    double sum = 0.0;
+    for (const geometry::Curve& curve : curves_) sum += 1.0 + curve.length() / spacing;
+    return sum;
+  }
+
+  void report_nodes(double nodes) {
+    std::size_t largest = 0;
+    for (std::size_t c = 1; c < curves_.size(); ++c)
+      if (!(curves_[c].length() <= curves_[largest].length())) largest = c;
+    const double length = curves_[largest].length();
+    const std::string all =
+        curves_.size() == 1 ? "" : ", the plant " + io::format_number(nodes, 2) + " in all";
+    diagnostics_.error(plant_.curves[largest].where,
+                       "curve \"" + plant_.curves[largest].name + "\" would take " +
+                           io::format_number(length / plant_.distance, 2) +
+                           " nodes at sampling.distance " + io::format_number(plant_.distance, 4) +
+                           " m (it is " + io::format_number(length, 4) + " m long)" + all +
+                           ": expected at most " + io::format_number(most_nodes) +
+                           " nodes in a plant");
+  }
+
+  void report_samples(double samples, double step) {
+    diagnostics_.error(plant_.where, "plant \"" + plant_.name + "\" would be sampled at " +
+                                         io::format_number(samples, 2) + " places, " +
+                                         millimetres(step) + " apart, at sampling.connect " +
+                                         millimetres(plant_.connect) + " and sampling.distance " +
+                                         millimetres(plant_.distance) + ": expected at most " +
+                                         io::format_number(most_samples) +
+                                         " (larger ones, or fewer curves that nearly touch)");
+  }
+
+  const PlantFile& plant_;
+  const std::vector<geometry::Curve>& curves_;
+  Diagnostics& diagnostics_;
+};
+
 class Connector {
  public:
-  Connector(const PlantFile& plant, const std::vector<geometry::Curve>& curves, double junction)
+  Connector(const PlantFile& plant, const std::vector<geometry::Curve>& curves, double step,
+            double junction)
       : plant_(plant), curves_(curves), junction_(junction), joined_(curves.size(), false) {
-    const double step = sampling_step(curves, plant.connect, plant.distance);
     for (std::size_t c = 0; c < curves.size(); ++c) {
       arcs_.push_back(samples(c, step));
       Eigen::AlignedBox3d box;
@@ -234,7 +296,9 @@ int PlantGraph::kept_parent(int node) const {
 std::optional<PlantGraph> connect(const PlantFile& plant,
                                   const std::vector<geometry::Curve>& curves,
                                   Diagnostics& diagnostics, double junction) {
-  return Connector(plant, curves, junction).run(diagnostics);
+  const double step = sampling_step(curves, plant.connect, plant.distance);
+  if (!SizeCheck(plant, curves, diagnostics).run(step)) return std::nullopt;
+  return Connector(plant, curves, step, junction).run(diagnostics);
 }
 
 void simplify(PlantGraph& graph, double distance) {

@@ -110,6 +110,8 @@ const Case curve_cases[] = {
      "8:27: error: point 1 is a list of 2, expected [x, y, z]"},
     {"nan_point", with_curve("points: [[0, 0, .nan], [0, 0, 1]], radius: 1"),
      "point 1 is \".nan\", expected a finite number"},
+    {"far_point", with_curve("points: [[0, 0, 0], [0, 0, 1e308]], radius: 1"),
+     "8:5: error: curve \"stem\": point 2 is 1e+308 m from the origin, expected at most 1e+07 m"},
     {"equal_points", with_curve("points: [[0, 0, 0], [0, 0, 1], [0, 0, 1]], radius: 1"),
      "p.plant.yaml:8:5: error: curve \"stem\": points 2 and 3 are equal, expected them apart"},
     {"no_radius", with_curve(points), "8:5: error: missing key \"radius\""},

@@ -152,7 +152,7 @@ TEST(Curve, RefusesBadControlPoints) {
 TEST(CurveDistance, AgreesWithBruteForce) {
   Random random(65);
   for (int i = 0; i < 20; ++i) {
-    const Controls a = random_controls(random, 2 + i % 4), b = random_controls(random, 3);
+    const Controls a = random_controls(random, 2 + i % 12), b = random_controls(random, 3 + i % 7);
     const Curve first = i % 2 ? Curve::smooth(a.points, a.radii) : Curve::linear(a.points, a.radii);
     const Curve second = Curve::smooth(b.points, b.radii);
     const CurvePair pair = closest_on_curves(first, second);

@@ -50,5 +50,17 @@ TEST(AtomicFile, ReadingSaysWhatIsWrong) {
               ThrowsMessage<InvalidFile>(EndsWith("error: is a folder, expected a file")));
 }
 
+// A file without an end, and one that is no text, are not taken into memory.
+TEST(AtomicFile, ReadsAtMost256Megabytes) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "disk.img") << "x";
+  std::filesystem::resize_file(folder / "disk.img", std::uintmax_t{257} << 20);
+  for (const std::filesystem::path& path :
+       {folder / "disk.img", std::filesystem::path("/dev/zero")})
+    EXPECT_THAT(
+        [&] { read_file(path); },
+        ThrowsMessage<InvalidFile>(HasSubstr("is larger than 256 MB, expected at most that")));
+}
+
 }  // namespace
 }  // namespace pedicel::io

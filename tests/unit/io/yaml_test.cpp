@@ -133,5 +133,36 @@ TEST(YamlFile, DuplicateKeysAreErrorsAtAnyDepth) {
   EXPECT_EQ(diagnostics.text(), "f:4:5: error: key \"c\" appears twice, expected once");
 }
 
+// Aliases can say in a few lines what no memory holds.
+TEST(YamlFile, RefusesWhatAliasesMakeEndless) {
+  Diagnostics diagnostics;
+  const auto parse = [&](const std::string& text) { parse_yaml(text, "f", diagnostics); };
+  EXPECT_THAT([&] { parse("a: &a [*a]\n"); },
+              ThrowsMessage<InvalidFile>(HasSubstr("nested more than 100 deep")));
+  std::string bomb = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 10; ++i) {
+    const std::string above = "*a" + std::to_string(i - 1);
+    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + above;
+    for (int k = 1; k < 9; ++k) bomb += ", " + above;
+    bomb += "]\n";
+  }
+  EXPECT_THAT([&] { parse(bomb); },
+              ThrowsMessage<InvalidFile>(HasSubstr("values with aliases written out")));
+  EXPECT_FALSE(diagnostics.has_errors());
+}
+
+TEST(YamlFile, IsAtMostEightMegabytes) {
+  Diagnostics diagnostics;
+  EXPECT_THAT(
+      [&] { parse_yaml(std::string(9 << 20, ' '), "f", diagnostics); },
+      ThrowsMessage<InvalidFile>(HasSubstr("f: error: has 9 MB of YAML, expected at most 8 MB")));
+}
+
+TEST(YamlFile, SaysThatAKeyIsNoName) {
+  Diagnostics diagnostics;
+  parse_yaml("{[1, 2]: 3}\n", "f", diagnostics);
+  EXPECT_EQ(diagnostics.text(), "f:1:2: error: a key that is no text, expected a name");
+}
+
 }  // namespace
 }  // namespace pedicel::io

@@ -2,6 +2,7 @@
 // found again, and the plants on which the peers were measured.
 #include "plant/plant_builder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cosserat/rod_state.h"
@@ -68,6 +69,33 @@ TEST(PlantBuilder, TakesACurveDrawnFromTipToBase) {
 }
 
 // The counts of peers.md.
+std::string refusal(const std::string& text) {
+  Diagnostics diagnostics;
+  const auto plant = parse_plant(text, "p.plant.yaml", diagnostics);
+  EXPECT_TRUE(plant) << diagnostics.text();
+  EXPECT_FALSE(build_plant(plant.value_or(PlantFile{}), {}, diagnostics));
+  return diagnostics.text();
+}
+
+std::string with_sampling(std::string text, const std::string& sampling) {
+  const std::string usual = "{connect: 0.01, distance: 0.02}";
+  return text.replace(text.find(usual), usual.size(), sampling);
+}
+
+// Nodes and samples are counted before any is made: these would take all memory.
+TEST(PlantBuilder, CountsBeforeItMakes) {
+  EXPECT_THAT(
+      refusal(head + "  - {name: stem, points: [[0, 0, 0], [0, 0, 4000000]], radius: 1}\n"),
+      testing::HasSubstr("p.plant.yaml:9:5: error: curve \"stem\" would take 2e+08 nodes at "
+                         "sampling.distance 0.02 m (it is 4e+06 m long): expected at most "
+                         "250000 nodes in a plant"));
+  EXPECT_THAT(refusal(with_sampling(head + stem, "{connect: 0.01, distance: 1e-9}")),
+              testing::HasSubstr("would take 1.1e+08 nodes at sampling.distance 1e-09 m"));
+  EXPECT_THAT(refusal(with_sampling(head + stem, "{connect: 1e-9, distance: 0.02}") +
+                      "  - {name: other, points: [[0, 0, 0.113], [0, 0.1, 0.2]], radius: 0.001}\n"),
+              testing::HasSubstr("plant \"p\" would be sampled at"));
+}
+
 TEST(ReferencePlants, HaveTheElementsOfThePeers) {
   EXPECT_EQ(forest_size * forest_plant(0).size(), 2242);
   EXPECT_EQ(hanging_tree().size(), 2242);

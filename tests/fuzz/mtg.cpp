@@ -1,0 +1,14 @@
+#include "plant/mtg_reader.h"
+#include "reading.h"
+
+using namespace pedicel;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Diagnostics diagnostics;
+  const auto nodes = plant::parse_mtg(fuzz::text_of(data, size), "tree.mtg", diagnostics);
+  fuzz::require_answer(!nodes.empty(), diagnostics);
+  if (nodes.empty()) return 0;
+  Diagnostics of_plant;
+  fuzz::require_answer(plant::checked_skeleton_plant(nodes, "tree", {}, of_plant), of_plant);
+  return 0;
+}
