@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "core/diagnostics.h"
 #include "geometry/grid_cache.h"
@@ -42,7 +43,7 @@ void choose(std::vector<MeshField>& fields) {
 }
 
 std::string millimetres(double length) {
-  return io::format_number(1e3 * length, 2) + " mm";
+  return io::format_number(std::round(1e3 * length), 4) + " mm";
 }
 
 std::shared_ptr<const geometry::SignedDistance> build(const MeshField& field,

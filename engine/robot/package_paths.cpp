@@ -113,7 +113,6 @@ std::vector<fs::path> PackagePaths::candidates(const std::string& name, const st
 
 /// Says where the folder of a package was found, or how to name it.
 std::string PackagePaths::package_advice(const std::string& name, const fs::path& urdf) const {
-  if (name.empty()) return "expected package://NAME/FILE";
   std::error_code error;
   for (const fs::path& folder : candidates(name, "", urdf))
     if (fs::is_directory(folder, error))
@@ -137,7 +136,10 @@ PackagePaths::Found PackagePaths::find(const std::string& uri, const fs::path& u
       result.looked_at.push_back(candidate);
     }
     if (result.file) return result;
-    if (packaged) result.advice = package_advice(name.package, urdf);
+    if (packaged)
+      result.advice = name.path.empty()
+                          ? "expected " + reading.substr(0, reading.find('/')) + "//NAME/FILE"
+                          : package_advice(name.package, urdf);
   }
   for (const fs::path& candidate : result.looked_at)
     if (!result.file) result.file = file_in_other_case(candidate);

@@ -44,7 +44,7 @@ Box box_of(const Geometry& shape) {
 }
 
 std::string metres(double length) {
-  return io::format_number(length, 3) + " m";
+  return io::format_number(length, 4) + " m";
 }
 
 /// The remarks on one link.
@@ -131,7 +131,7 @@ void remark_joint(const UrdfXml& xml, const TiXmlElement& element, const Joint& 
   if (joint.type == JointType::revolute && limit > most_turns * 2.0 * std::numbers::pi &&
       limit <= 1000.0)
     add("limits of many turns, expected rad; degrees?");
-  if (joint.type == JointType::prismatic && std::isfinite(limit) && limit > longest && limit < 1e6)
+  if (joint.type == JointType::prismatic && limit > longest && limit <= 1e4)
     add("slides " + metres(limit) + ", expected metres; millimetres?");
 }
 

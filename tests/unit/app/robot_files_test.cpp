@@ -157,8 +157,8 @@ TEST(MeshFields, AllGridsOfARobotShareABound) {
   for (const MeshField& field : plan_mesh_fields(robot)) {
     samples += geometry::GridDistance::sample_count(field.size, field.grid);
     exact += field.exact_near;
-    if (field.size.x() < 0.1) EXPECT_FALSE(field.exact_near);
-    if (!field.exact_near) EXPECT_EQ(field.grid.max_error, geometry::GridSettings().max_error);
+    EXPECT_FALSE(field.exact_near && field.size.x() < 0.1);
+    EXPECT_EQ(field.exact_near, field.grid.max_error > geometry::GridSettings().max_error);
   }
   EXPECT_GT(exact, 0);
   EXPECT_LT(exact, 10);

@@ -131,6 +131,8 @@ TEST_F(UrdfMeshes, TheAdviceFitsWhatIsThere) {
   EXPECT_THAT(said, Not(HasSubstr("--package")));
   read("package:///");
   EXPECT_THAT(said, HasSubstr("expected package://NAME/FILE"));
+  read("model://a.obj");
+  EXPECT_THAT(said, HasSubstr("expected model://NAME/FILE"));
   EXPECT_THAT(said, Not(HasSubstr("--package")));
   read("a.obj");
   EXPECT_THAT(said, Not(HasSubstr("package")));

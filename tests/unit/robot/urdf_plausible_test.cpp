@@ -62,7 +62,7 @@ TEST(UrdfPlausible, MassesAndInertias) {
 TEST(UrdfPlausible, Lengths) {
   const std::string inertial = testing::inertial(1, "0 0 0", "0.01", "0.01", "0.01");
   EXPECT_THAT(warned(link(inertial, "<box size='1000 0.1 0.1'/>")),
-              HasSubstr("link 'a': a shape is 1e+03 m long: no robot's is, expected metres"));
+              HasSubstr("link 'a': a shape is 1000 m long: no robot's is, expected metres"));
   EXPECT_THAT(warned(jointed("fixed", "<origin xyz='0 0 350'/>")),
               HasSubstr("joint 'j': lies 350 m from its parent, expected metres"));
   EXPECT_THAT(warned(jointed("prismatic", limited(0, 400))),
