@@ -44,6 +44,11 @@ constexpr const char* exit_codes =
     "cause is named, 11 several fit alike, 12 an unknown cause, 13 unusable data, 14 our own "
     "numerical error is too large.";
 
+constexpr const char* cache_place =
+    "Distance grids of collision meshes are kept in the folder that PEDICEL_CACHE names (\"off\": "
+    "nowhere), else in $XDG_CACHE_HOME/pedicel, else in ~/.cache/pedicel; at most 512 MB, those "
+    "used longest ago go first.";
+
 extern "C" void request_stop(int) {
   stop_requested = true;
 }
@@ -286,7 +291,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   CLI::App app("Pedicel: a sandbox where robots handle plants.");
-  app.footer(exit_codes);
+  app.footer(std::string(exit_codes) + "\n" + cache_place);
   app.set_version_flag("--version", "pedicel " + version() + " (" + git_hash() + ")");
 
   RunArguments run;

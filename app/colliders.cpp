@@ -1,9 +1,8 @@
 #include "app/colliders.h"
 
 #include <algorithm>
-#include <map>
 
-#include "geometry/grid_cache.h"
+#include "app/mesh_fields.h"
 #include "geometry/shapes.h"
 
 namespace pedicel::app {
@@ -12,17 +11,7 @@ namespace {
 
 using Field = std::shared_ptr<const geometry::SignedDistance>;
 
-using MeshFields = std::map<const geometry::TriangleMesh*, Field>;
-
-Field grid_of(const geometry::TriangleMesh& mesh, std::vector<std::string>& notes) {
-  geometry::GridReport report;
-  auto grid = std::make_shared<geometry::GridDistance>(
-      geometry::cached_grid(mesh, {}, geometry::default_cache_folder(), nullptr, &report));
-  if (!report.problem.empty()) notes.push_back(report.problem);
-  return grid;
-}
-
-Field field_of(const robot::Geometry& g, MeshFields& grids, std::vector<std::string>& notes) {
+Field field_of(const robot::Geometry& g, const MeshDistances& meshes) {
   switch (g.kind) {
     case robot::Geometry::Kind::box:
       return std::make_shared<geometry::BoxDistance>(g.size);
@@ -30,12 +19,12 @@ Field field_of(const robot::Geometry& g, MeshFields& grids, std::vector<std::str
       return std::make_shared<geometry::SphereDistance>(g.radius);
     case robot::Geometry::Kind::cylinder:
       return std::make_shared<geometry::CylinderDistance>(g.radius, g.length);
+    case robot::Geometry::Kind::capsule:
+      return std::make_shared<geometry::CapsuleDistance>(g.radius, g.length);
     case robot::Geometry::Kind::mesh:
       break;
   }
-  Field& grid = grids[g.mesh.get()];
-  if (!grid) grid = grid_of(*g.mesh, notes);
-  return grid;
+  return meshes.at(g.mesh.get());
 }
 
 Field field_of(const world::BodyPart& part) {
@@ -55,12 +44,12 @@ Field field_of(const world::BodyPart& part) {
 }  // namespace
 
 ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::string>& notes) {
-  MeshFields grids;
+  const MeshDistances meshes = build_mesh_fields(robot, notes);
   ShapeFields fields;
   for (const robot::Link& link : robot.links) {
     fields.emplace_back();
     for (const robot::Collision& collision : link.collisions)
-      fields.back().push_back(field_of(collision.geometry, grids, notes));
+      fields.back().push_back(field_of(collision.geometry, meshes));
   }
   return fields;
 }

@@ -18,8 +18,8 @@ inline constexpr int ground_body = -1;
 /// The distance field of every collision shape, [link][collision].
 using ShapeFields = std::vector<std::vector<std::shared_ptr<const geometry::SignedDistance>>>;
 
-/// Exact for primitives; for meshes a grid kept on disk (geometry/grid_cache.h), one for all shapes
-/// that share a mesh. A problem with the cache is added to `notes`, one sentence each.
+/// Exact for primitives; for meshes as mesh_fields.h says, one for all shapes that share a mesh. A
+/// problem with the cache and meshes that are large are added to `notes`, one sentence each.
 ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::string>& notes);
 
 /// Adds one collider a collision shape of every link, named "robot/LINK". `fields` is fields_of()

@@ -106,6 +106,11 @@ void add_visual(DrawList& shape, const robot::Visual& visual) {
     case Kind::cylinder:
       add_cylinder(shape, visual.X_LV, geometry.radius, geometry.length, material);
       break;
+    case Kind::capsule:
+      shape.capsules.push_back({visual.X_LV * Vec3(0, 0, -0.5 * geometry.length),
+                                visual.X_LV * Vec3(0, 0, 0.5 * geometry.length), geometry.radius,
+                                geometry.radius, material});
+      break;
     case Kind::mesh:
       if (geometry.mesh) shape.meshes.push_back({geometry.mesh, visual.X_LV, material});
       break;

@@ -1,5 +1,7 @@
 #include "app/robot_control.h"
+#include "io/csv.h"
 #include "robot/cartesian_path.h"
+#include "robot/joint_range.h"
 #include "robot/urdf_reader.h"
 
 namespace pedicel::app {
@@ -37,6 +39,34 @@ std::vector<robot::Waypoint> waypoints_of(const world::SceneRobot& scene,
   return all;
 }
 
+/// Start values must lie within the limits: they are where the run begins.
+void check_start(const world::SceneRobot& scene, const robot::KinematicModel& model,
+                 Diagnostics& diagnostics) {
+  constexpr double slack = 1e-6;  // rad or m, of limits that were rounded to be typed
+  for (const auto& [joint, value] : scene.joints) {
+    const int dof = model.joint_index(joint);
+    if (dof < 0) continue;
+    const auto place = scene.joints_where.find(joint);
+    const SourcePosition& where = place == scene.joints_where.end() ? scene.where : place->second;
+    if (const auto fault = robot::outside_range(model, dof, value, slack))
+      diagnostics.error(where, "joints: " + *fault);
+    else if (const auto doubt = robot::many_turns(model, dof, value))
+      diagnostics.warning(where, "joints: " + *doubt);
+  }
+}
+
+void check_recorded(const world::SceneRobot& scene, const robot::KinematicModel& model,
+                    Diagnostics& diagnostics) {
+  for (const world::RecordedPose& pose : scene.recorded) {
+    if (static_cast<int>(pose.joints.size()) != model.dofs()) continue;  // said when it is played
+    for (int i = 0; i < model.dofs(); ++i)
+      if (const auto fault =
+              robot::outside_range(model, i, pose.joints[static_cast<std::size_t>(i)], 0.01))
+        diagnostics.error(scene.where,
+                          "recorded: at " + io::format_number(pose.time) + " s: " + *fault);
+  }
+}
+
 void check_names(const world::SceneRobot& scene, const robot::RobotDescription& description,
                  Diagnostics& diagnostics) {
   const robot::KinematicModel model(description);
@@ -47,6 +77,8 @@ void check_names(const world::SceneRobot& scene, const robot::RobotDescription& 
   };
   for (const auto& [joint, value] : scene.joints)
     if (model.joint_index(joint) < 0) joint_error("joints: no joint \"" + joint + "\" to set");
+  check_start(scene, model, diagnostics);
+  check_recorded(scene, model, diagnostics);
   if (!scene.gripper.empty() && model.joint_index(scene.gripper) < 0)
     joint_error("gripper: no joint \"" + scene.gripper + "\"");
   if (!scene.tool.empty() && description.link(scene.tool) < 0)

@@ -1,9 +1,11 @@
 #include "app/validate.h"
 
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 
+#include "app/mesh_fields.h"
 #include "app/simulation.h"
 #include "discrepancy/experiment.h"
 #include "io/csv.h"
@@ -54,6 +56,16 @@ std::string check_leaf(const std::filesystem::path& path, const Packages&,
   return {};
 }
 
+/// What a run would say ("FILE:LINE: warning: ...") as a warning.
+void warn(const std::string& note, Diagnostics& diagnostics) {
+  static const std::string mark = ": warning: ";
+  const std::size_t at = note.find(mark);
+  if (at == std::string::npos)
+    diagnostics.warning({}, note);
+  else
+    diagnostics.warning({note.substr(0, at)}, note.substr(at + mark.size()));
+}
+
 std::string check_scene(const std::filesystem::path& path, const Packages& packages,
                         Diagnostics& diagnostics) {
   const std::optional<world::Scene> scene = world::read_scene(path, diagnostics);
@@ -62,7 +74,9 @@ std::string check_scene(const std::filesystem::path& path, const Packages& packa
   options.packages = packages;
   options.leaf_folders = asset_leaf_folders();
   // Builds everything that the scene names, and runs none of it.
-  return Simulation(*scene, options).worst_residual();
+  const Simulation simulation(*scene, options);
+  for (const std::string& note : simulation.notes()) warn(note, diagnostics);
+  return simulation.worst_residual();
 }
 
 // The plant is built, too.
@@ -82,7 +96,10 @@ std::string check_urdf(const std::filesystem::path& path, const Packages& packag
                        Diagnostics& diagnostics) {
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
   for (const std::string& package : packages) paths.add(package);
-  robot::read_urdf(path, paths, diagnostics);
+  const auto robot = robot::read_urdf(path, paths, diagnostics);
+  if (!robot) return {};
+  for (std::string& warning : large_mesh_warnings(*robot))
+    diagnostics.warning({path.string()}, std::move(warning));
   return {};
 }
 
@@ -120,7 +137,8 @@ std::string format_of(const std::filesystem::path& path) {
 
 const Kind& kind_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return kind_of(path / "experiment.yaml");
-  const std::string extension = path.extension().string();
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const Kind& kind : kinds)
     if (*kind.extension && extension == kind.extension) return kind;
   const std::string format =

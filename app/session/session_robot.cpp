@@ -1,5 +1,5 @@
 #include "core/check.h"
-#include "io/csv.h"
+#include "robot/joint_range.h"
 #include "session/robot_goal.h"
 #include "session/session.h"
 
@@ -19,10 +19,8 @@ int joint_of(const robot::KinematicModel& model, const std::string& name) {
 void check_limits(const robot::KinematicModel& model, const Eigen::VectorXd& q) {
   constexpr double slack = 1e-6;  // rad or m, of numbers that were rounded to be shown
   for (int i = 0; i < model.dofs(); ++i) {
-    if (q[i] >= model.lower()[i] - slack && q[i] <= model.upper()[i] + slack) continue;
-    throw UsageError("joint \"" + model.joint_names()[static_cast<std::size_t>(i)] + "\" to " +
-                     io::format_number(q[i]) + ", expected " + io::format_number(model.lower()[i]) +
-                     " to " + io::format_number(model.upper()[i]) + " (rad or m)");
+    if (const auto fault = robot::outside_range(model, i, q[i], slack))
+      throw UsageError("joint " + *fault);
   }
 }
 

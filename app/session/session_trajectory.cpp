@@ -1,6 +1,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
+#include "robot/joint_range.h"
 #include "session/robot_goal.h"
 #include "session/session.h"
 
@@ -13,6 +14,7 @@ namespace {
 /// so that it is one and a half times as fast in its middle.
 double travel_time(const Snapshot& now, const robot::KinematicModel& model,
                    const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  if (model.dofs() == 0) return 0.0;
   const Eigen::VectorXd speed = manual_speed(model, *now.assets->robot);
   return 1.5 * (to - from).cwiseAbs().cwiseQuotient(speed).maxCoeff();
 }
@@ -42,6 +44,11 @@ robot::Trajectory Session::waypoint_trajectory(const robot::KinematicModel& mode
       throw UsageError("the waypoint at " + io::format_number(one.time) + " s has " +
                        std::to_string(one.joints.size()) + " joints, expected " +
                        std::to_string(model.dofs()));
+    // A place that the robot was in may lie a little outside of the limits.
+    for (int i = 0; i < model.dofs(); ++i)
+      if (const auto fault =
+              robot::outside_range(model, i, one.joints[static_cast<std::size_t>(i)], 0.01))
+        throw UsageError("the waypoint at " + io::format_number(one.time) + " s: " + *fault);
     times.push_back(one.time);
     positions.push_back(model.clamped(Eigen::Map<const Eigen::VectorXd>(
         one.joints.data(), static_cast<Eigen::Index>(one.joints.size()))));

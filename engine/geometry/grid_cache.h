@@ -2,15 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 
+#include "geometry/cache_folder.h"
 #include "geometry/grid_distance.h"
 
 namespace pedicel::geometry {
-
-/// $XDG_CACHE_HOME/pedicel, else ~/.cache/pedicel; empty (no cache) where neither is set.
-std::filesystem::path default_cache_folder();
 
 struct GridReport {
   bool from_cache = false;
@@ -21,7 +18,8 @@ struct GridReport {
 /// the mesh's content (scale included, since load_mesh applies it) and the settings. A damaged file
 /// is found by its checksum and built anew; a folder that cannot be written costs time only, never
 /// the result. Files are written beside and renamed, so several processes may share a folder; they
-/// are for the machine that wrote them (byte order). An empty folder means no cache.
+/// are for the machine that wrote them (byte order). After a new file the folder is brought below
+/// cache_bound, the files that were used longest ago first. An empty folder means no cache.
 GridDistance cached_grid(const TriangleMesh& mesh, const GridSettings& settings,
                          const std::filesystem::path& folder = default_cache_folder(),
                          ThreadPool* pool = nullptr, GridReport* report = nullptr);

@@ -42,6 +42,12 @@ class RowSampler {
   double distance_ = 0.0;
 };
 
+/// Blocks of cells per axis around a mesh of that size.
+Vec3 blocks_of(const Vec3& mesh_size, const GridSettings& settings) {
+  const Vec3 size = mesh_size + Vec3::Constant(2.0 * settings.band);
+  return (size / (kBlock * settings.spacing())).array().ceil().max(1.0);
+}
+
 void check(const GridSettings& settings) {
   for (const auto& [name, value] :
        {std::pair{"max_error", settings.max_error}, std::pair{"band", settings.band}})
@@ -56,18 +62,21 @@ double GridSettings::spacing() const {
   return 2.0 / std::sqrt(3.0) * max_error;
 }
 
+double GridDistance::sample_count(const Vec3& size, const GridSettings& settings) {
+  return (kBlock * blocks_of(size, settings) + Vec3::Ones()).prod();
+}
+
 GridDistance::GridDistance(const MeshDistance& mesh, const GridSettings& settings,
                            ThreadPool* pool) {
   check(settings);
   mesh_box_ = mesh.bounds();
   spacing_ = settings.spacing();
   const double block = kBlock * spacing_;
-  const Vec3 size = mesh_box_.sizes() + Vec3::Constant(2.0 * settings.band);
-  const Vec3 blocks = (size / block).array().ceil().max(1.0);
+  const Vec3 blocks = blocks_of(mesh_box_.sizes(), settings);
   const Vec3 nodes = kBlock * blocks + Vec3::Ones();
-  if (!(nodes.prod() <= 0x1p27))
-    throw UsageError("GridSettings.max_error = " + std::to_string(settings.max_error) +
-                     " m: must be larger for a mesh of this size (more than 2^27 samples)");
+  if (!(nodes.prod() <= most_samples))
+    throw UsageError("a mesh of this size at an error of " + std::to_string(settings.max_error) +
+                     " m takes more than 2^27 samples, expected a larger error");
   nodes_ = nodes.cast<int>();
   origin_ = mesh_box_.center() - 0.5 * block * blocks;
   samples_.resize(static_cast<std::size_t>(nodes.prod()));

@@ -39,7 +39,11 @@ struct GridSettings {
 /// jumps a little between cells. A point that is not finite has the distance NaN.
 class GridDistance final : public SignedDistance {
  public:
-  /// Samples the mesh. A setting that is not positive, or a grid of more than 2^27 samples, is a
+  /// How many samples a mesh of that size (m) takes, 4 bytes each.
+  static double sample_count(const Vec3& size, const GridSettings& settings);
+  static constexpr double most_samples = 0x1p27;
+
+  /// Samples the mesh. A setting that is not positive, or a grid of more than `most_samples`, is a
   /// UsageError. The bits do not depend on the number of threads.
   GridDistance(const MeshDistance& mesh, const GridSettings& settings, ThreadPool* pool = nullptr);
 

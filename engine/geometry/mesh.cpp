@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "core/diagnostics.h"
+#include "geometry/mesh_file.h"
 
 namespace pedicel::geometry {
 
@@ -104,6 +105,7 @@ TriangleMesh load_mesh(const std::filesystem::path& path, const Vec3& scale) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw InvalidFile({path.string()}, "no such file, expected a mesh");
+  if (const auto fault = mesh_file_fault(path)) throw InvalidFile({path.string()}, *fault);
 
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/csv.h"
+#include "robot/joint_range.h"
 
 namespace pedicel::robot {
 
@@ -163,11 +164,8 @@ void check_names(const KinematicModel& model, const std::vector<Waypoint>& waypo
       if (joint < 0)
         diagnostics.error(waypoint.where, what + "unknown joint '" + name +
                                               "', expected a joint that moves by itself");
-      else if (value < model.lower()[joint] || value > model.upper()[joint])
-        diagnostics.error(waypoint.where, what + name + " = " + io::format_number(value) +
-                                              ", expected " +
-                                              io::format_number(model.lower()[joint]) + " to " +
-                                              io::format_number(model.upper()[joint]));
+      else if (const auto fault = outside_range(model, joint, value))
+        diagnostics.error(waypoint.where, what + *fault);
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "robot/collision_shapes.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -36,6 +37,8 @@ std::unique_ptr<btCollisionShape> make_shape(const Geometry& geometry) {
           btVector3(geometry.radius, geometry.radius, 0.5 * geometry.length));
     case Geometry::Kind::sphere:
       return std::make_unique<btSphereShape>(geometry.radius);
+    case Geometry::Kind::capsule:
+      return std::make_unique<btCapsuleShapeZ>(geometry.radius, geometry.length);
     case Geometry::Kind::mesh:
       break;
   }

@@ -13,14 +13,14 @@
 
 namespace pedicel::robot {
 
-/// The shape of a visual or a collision, in its own frame. A cylinder's axis is z; boxes, cylinders
-/// and spheres are centred on the frame's origin.
+/// The shape of a visual or a collision, in its own frame. The axis of a cylinder or
+/// capsule is z; all but meshes are centred on the frame's origin.
 struct Geometry {
-  enum class Kind { box, cylinder, sphere, mesh };
+  enum class Kind { box, cylinder, sphere, capsule, mesh };
   Kind kind = Kind::box;
   Vec3 size = Vec3::Zero();                            ///< box: full extents, m
-  double radius = 0.0;                                 ///< cylinder and sphere, m
-  double length = 0.0;                                 ///< cylinder, m
+  double radius = 0.0;                                 ///< cylinder, sphere and capsule, m
+  double length = 0.0;                                 ///< cylinder; capsule without its caps, m
   std::filesystem::path mesh_file;                     ///< mesh: where it was found
   std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< mesh: scaled, m
 };

@@ -64,6 +64,7 @@ KinematicModel::KinematicModel(const RobotDescription& robot, const Pose& X_WB)
     dof_of[j] = static_cast<int>(free.size());
     free.push_back(&joint);
     names_.push_back(joint.name);
+    types_.push_back(joint.type);
   }
   for (Element& element : elements_) {
     if (element.joint < 0 || element.type == JointType::fixed) continue;

@@ -28,6 +28,7 @@ class KinematicModel {
 
   int dofs() const { return static_cast<int>(names_.size()); }
   const std::vector<std::string>& joint_names() const { return names_; }
+  JointType joint_type(int dof) const { return types_[static_cast<std::size_t>(dof)]; }
   /// Index into q, -1 for a name that is no degree of freedom.
   int joint_index(const std::string& name) const;
   int links() const { return static_cast<int>(link_names_.size()); }
@@ -84,6 +85,7 @@ class KinematicModel {
   std::vector<Element> elements_;
   std::vector<int> element_of_;  // link to element
   std::vector<std::string> names_, link_names_;
+  std::vector<JointType> types_;  // of the degrees of freedom
   Eigen::VectorXd lower_, upper_, velocity_, effort_;
   Pose X_WB_;
 };

@@ -13,8 +13,6 @@ MultiBody::MultiBody(const RobotDescription& robot, const KinematicModel& model,
     for (const RigidGroup::Member& member : groups_[g].members)
       group_of_[member.link] = static_cast<int>(g);
   }
-  if (groups_.size() < 2)
-    throw UsageError("robot '" + robot.name + "': no joint moves, expected at least one");
   if (!settings.fixed_base && groups_[0].inertial.mass <= 0.0)
     throw UsageError("robot '" + robot.name + "': a floating base needs mass");
 

@@ -51,7 +51,8 @@ struct LinkPush {
 /// of description().
 class Robot {
  public:
-  /// Throws UsageError where the settings are out of range or nothing moves.
+  /// A robot without a joint that moves stands still. Throws UsageError where the settings are out
+  /// of range, or a floating base has no mass.
   Robot(const RobotDescription& description, const RobotSettings& settings,
         btMultiBodyDynamicsWorld& world);
   ~Robot();

@@ -38,6 +38,19 @@ Inertial sphere_solid(double radius, double density) {
   return solid;
 }
 
+Inertial capsule_solid(double radius, double length, double density) {
+  Inertial sum;
+  const Inertial middle = cylinder_solid(radius, length, density);
+  const Inertial ball = sphere_solid(radius, density);
+  const double half = 0.5 * length, reach = 0.375 * radius;  // centre of a half ball's mass
+  sum.mass = middle.mass + ball.mass;
+  // Both halves about their own centres, then moved out by half the length.
+  const double across = ball.inertia(0, 0) + ball.mass * (half * half + 2.0 * half * reach);
+  sum.inertia = middle.inertia;
+  sum.inertia += Vec3(across, across, ball.inertia(2, 2)).asDiagonal().toDenseMatrix();
+  return sum;
+}
+
 /// A mesh that holds no volume (a flat sheet) counts as its bounding box, at least 1 mm thick.
 Inertial mesh_solid(const geometry::TriangleMesh& mesh, double density) {
   if (const auto properties = geometry::mass_properties(mesh, density))
@@ -58,6 +71,8 @@ Inertial shape_solid(const Geometry& shape, double density) {
       return cylinder_solid(shape.radius, shape.length, density);
     case Geometry::Kind::sphere:
       return sphere_solid(shape.radius, density);
+    case Geometry::Kind::capsule:
+      return capsule_solid(shape.radius, shape.length, density);
     case Geometry::Kind::mesh:
       break;
   }

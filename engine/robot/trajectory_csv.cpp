@@ -1,5 +1,6 @@
 #include "io/atomic_file.h"
 #include "io/csv.h"
+#include "robot/joint_range.h"
 #include "robot/trajectory.h"
 
 namespace pedicel::robot {
@@ -56,17 +57,19 @@ std::vector<int> match_columns(const io::CsvTable& table, const std::filesystem:
   return joints;
 }
 
+/// The first row of each joint that leaves its limits, and how many more do.
 void check_limits(const io::CsvTable& table, const std::vector<int>& joints,
                   const KinematicModel& model, Diagnostics& diagnostics) {
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    for (std::size_t c = 0; c < joints.size(); ++c) {
-      const double low = model.lower()[joints[c]], high = model.upper()[joints[c]];
-      const double value = table.rows[r][c + 1];
-      if (value < low || value > high)
-        diagnostics.error({table.file, table.lines[r], 1},
-                          table.columns[c + 1] + " = " + io::format_number(value) + ", expected " +
-                              io::format_number(low) + " to " + io::format_number(high));
-    }
+  for (std::size_t c = 0; c < joints.size(); ++c) {
+    std::size_t count = 0, first = 0;
+    for (std::size_t r = 0; r < table.rows.size(); ++r)
+      if (outside_range(model, joints[c], table.rows[r][c + 1]) && count++ == 0) first = r;
+    if (count == 0) continue;
+    const std::string others =
+        count > 1 ? " (and " + std::to_string(count - 1) + " more rows)" : "";
+    diagnostics.error({table.file, table.lines[first], 1},
+                      *outside_range(model, joints[c], table.rows[first][c + 1]) + others);
+  }
 }
 
 }  // namespace

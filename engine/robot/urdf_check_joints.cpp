@@ -18,8 +18,27 @@ void check_axis(const UrdfXml& xml, const TiXmlElement& joint, const std::string
               what + ": axis of length 0, expected a direction such as 0 0 1");
 }
 
+/// An effort or a velocity: 0, -1 and none at all are no limit.
+void check_largest(const UrdfXml& xml, const TiXmlElement& limit, const char* name,
+                   const std::string& what, UrdfRemarks& remarks) {
+  const TiXmlBase& at = attribute_or_element(limit, name);
+  const auto remark = [&](const std::string& found) {
+    remarks.add(xml.position(at), what, found + ", taken as unlimited");
+  };
+  if (limit.Attribute(name) == nullptr) return remark(std::string("no ") + name);
+  const auto value = xml.number(limit, name, what + ": limit");
+  if (!value || *value > 0.0) return;
+  if (*value == 0.0)
+    remark(std::string(name) + " 0 would stop the joint");
+  else if (*value == -1.0)
+    remark(std::string(name) + " -1");
+  else
+    xml.error(at, what + ": limit: " + name + " \"" + limit.Attribute(name) +
+                      "\", expected 0 or more, or -1 for no limit");
+}
+
 void check_limit(const UrdfXml& xml, const TiXmlElement& joint, const std::string& type,
-                 const std::string& what) {
+                 const std::string& what, UrdfRemarks& remarks) {
   const bool needed = type == "revolute" || type == "prismatic";
   const TiXmlElement* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) {
@@ -31,13 +50,8 @@ void check_limit(const UrdfXml& xml, const TiXmlElement& joint, const std::strin
   const auto lower = xml.number(*limit, "lower", what + ": limit", false);
   const auto upper = xml.number(*limit, "upper", what + ": limit", false);
   if (needed && lower.value_or(0.0) > upper.value_or(0.0))
-    xml.error(*limit, what + ": limit with lower above upper, expected lower <= upper");
-  for (const char* name : {"effort", "velocity"}) {
-    const auto value = xml.not_negative(*limit, name, what + ": limit", true, false);
-    if (value == 0.0 && type != "fixed")
-      xml.warning(attribute_or_element(*limit, name),
-                  what + ": " + name + " 0 would stop the joint, taken as unlimited");
-  }
+    remarks.add(xml.position(*limit), what, "limit with lower above upper, taken as unlimited");
+  for (const char* name : {"effort", "velocity"}) check_largest(xml, *limit, name, what, remarks);
 }
 
 void check_dynamics(const UrdfXml& xml, const TiXmlElement& joint, const std::string& what) {
@@ -86,16 +100,17 @@ void check_mimic(const UrdfXml& xml, const TiXmlElement& joint, const JointMap& 
 }
 
 void check_joint(const UrdfXml& xml, const TiXmlElement& joint, const JointMap& joints,
-                 const std::string& name) {
+                 const std::string& name, UrdfRemarks& remarks) {
   const std::string what = "joint '" + name + "'";
   xml.check_origin(joint, what);
+  const std::optional<std::string> type = xml.text(joint, "type", what);
+  if (type == "fixed") return;  // nothing else of it means anything
   check_axis(xml, joint, what);
   check_dynamics(xml, joint, what);
   check_mimic(xml, joint, joints, name, what);
-  const std::optional<std::string> type = xml.text(joint, "type", what);
   if (!type) return;
   if (joint_types.contains(*type))
-    check_limit(xml, joint, *type, what);
+    check_limit(xml, joint, *type, what, remarks);
   else
     xml.error(attribute_or_element(joint, "type"),
               what + ": unknown joint type '" + *type +
@@ -104,7 +119,7 @@ void check_joint(const UrdfXml& xml, const TiXmlElement& joint, const JointMap& 
 
 }  // namespace
 
-void check_joints(const UrdfXml& xml, const TiXmlElement& robot) {
+void check_joints(const UrdfXml& xml, const TiXmlElement& robot, UrdfRemarks& remarks) {
   JointMap joints;
   for (const TiXmlElement* joint : children(robot, "joint")) {
     const std::optional<std::string> name = xml.text(*joint, "name", "joint");
@@ -113,7 +128,8 @@ void check_joints(const UrdfXml& xml, const TiXmlElement& robot) {
                 "duplicate joint '" + *name + "', expected each name once");
   }
   for (const TiXmlElement* joint : children(robot, "joint"))
-    if (const char* name = joint->Attribute("name")) check_joint(xml, *joint, joints, name);
+    if (const char* name = joint->Attribute("name"))
+      check_joint(xml, *joint, joints, name, remarks);
 }
 
 }  // namespace pedicel::robot

@@ -1,45 +1,52 @@
 #pragma once
 
-#include <urdf_model/link.h>
-
-#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <utility>
+#include <vector>
 
-#include "core/diagnostics.h"
 #include "robot/description.h"
+#include "robot/missing_meshes.h"
 #include "robot/package_paths.h"
+#include "robot/urdf_remarks.h"
+#include "robot/urdf_xml.h"
 
 namespace pedicel::robot {
 
-Pose to_pose(const urdf::Pose& pose);
+/// The pose of an element's <origin>: position and roll, pitch, yaw, or (URDF 1.1) quat_xyzw. The
+/// identity where there is none. The element has been checked.
+Pose read_origin(const UrdfXml& xml, const TiXmlElement& parent);
 
-/// Turns urdfdom's shapes into ours and loads each mesh file once per scale.
-class UrdfMeshes {
+/// Reads checked shapes from the XML (urdfdom 3.0 knows no capsules) and loads each mesh file once
+/// per scale.
+class UrdfShapes {
  public:
-  UrdfMeshes(std::filesystem::path urdf, const PackagePaths& packages, Diagnostics& diagnostics)
-      : urdf_(std::move(urdf)), packages_(packages), diagnostics_(diagnostics) {}
+  UrdfShapes(const UrdfXml& xml, const PackagePaths& packages, UrdfRemarks& remarks)
+      : xml_(xml), packages_(packages), remarks_(remarks) {}
 
-  /// Where faults of the meshes read from now on are reported.
-  void set_position(SourcePosition position) { position_ = std::move(position); }
+  /// The shape of a <visual> or <collision> of a link. Nothing where it has no extent or its mesh
+  /// is missing: that is kept for the warnings. A collision mesh that is there and cannot be read
+  /// is an error.
+  std::optional<Geometry> read(const TiXmlElement& owner, const std::string& link);
 
-  /// A mesh that cannot be loaded is reported, and its geometry comes back empty.
-  Geometry read(const urdf::Geometry& source);
+  const std::vector<MissingMesh>& missing() const { return missing_; }
 
  private:
-  void read_mesh(const urdf::Mesh& source, Geometry& geometry);
+  std::optional<Geometry> read_mesh(const TiXmlElement& mesh, const std::string& link,
+                                    bool collision);
+  struct Loaded {
+    std::shared_ptr<const geometry::TriangleMesh> mesh;
+    std::string fault;  ///< why there is no mesh
+  };
+  const Loaded& load(const std::filesystem::path& file, const Vec3& scale);
 
-  std::filesystem::path urdf_;
+  const UrdfXml& xml_;
   const PackagePaths& packages_;
-  Diagnostics& diagnostics_;
-  SourcePosition position_;
-  using Key = std::pair<std::string, std::array<double, 3>>;
-  std::map<Key, std::shared_ptr<const geometry::TriangleMesh>> loaded_;
+  UrdfRemarks& remarks_;
+  std::vector<MissingMesh> missing_;
+  std::map<std::string, Loaded> loaded_;  ///< by file and scale
 };
-
-Visual read_visual(const urdf::Visual& source, UrdfMeshes& meshes);
 
 }  // namespace pedicel::robot

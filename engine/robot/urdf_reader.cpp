@@ -8,7 +8,11 @@
 #include "io/atomic_file.h"
 #include "robot/substitute_inertia.h"
 #include "robot/urdf_geometry.h"
+#include "robot/urdf_materials.h"
+#include "robot/urdf_plausible.h"
+#include "robot/urdf_text.h"
 #include "robot/urdf_xml.h"
+#include "robot/urdfdom_text.h"
 
 namespace pedicel::robot {
 
@@ -29,14 +33,15 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
-/// The checked XML beside urdfdom's model of it.
+/// The checked XML beside urdfdom's model of it, and what is remarked on the way.
 struct Source {
   TiXmlDocument document;
   urdf::ModelInterfaceSharedPtr model;
+  UrdfRemarks remarks;
 };
 
-bool check(const UrdfXml& xml, const TiXmlElement* robot, const PackagePaths& packages,
-           Diagnostics& diagnostics) {
+bool check(const UrdfXml& xml, const TiXmlElement* robot, Diagnostics& diagnostics,
+           UrdfRemarks& remarks) {
   const int before = diagnostics.error_count();
   if (robot == nullptr || robot->ValueStr() != "robot") {
     const std::string found = robot != nullptr ? "<" + robot->ValueStr() + ">" : "nothing";
@@ -45,17 +50,25 @@ bool check(const UrdfXml& xml, const TiXmlElement* robot, const PackagePaths& pa
     return false;
   }
   if (check_xacro(xml, *robot)) return false;
-  xml.text(*robot, "name", "robot");
-  check_links(xml, *robot, packages);
-  check_joints(xml, *robot);
+  check_links(xml, *robot);
+  check_joints(xml, *robot, remarks);
   check_tree(xml, *robot);
   return diagnostics.error_count() == before;
 }
 
-bool parse(const std::string& text, const UrdfXml& xml, const PackagePaths& packages,
-           Diagnostics& diagnostics, Source& source) {
+/// The robot's name; one without has that of its file.
+std::string name_of(const UrdfXml& xml, const TiXmlElement& robot, UrdfRemarks& remarks) {
+  if (const char* name = robot.Attribute("name"); name != nullptr && *name != '\0') return name;
+  const std::string stem = std::filesystem::path(xml.file()).stem().string();
+  remarks.add(xml.position(robot), "robot", "no name, the file's is taken: '" + stem + "'");
+  return stem;
+}
+
+bool parse(const std::string& bytes, const UrdfXml& xml, Diagnostics& diagnostics, Source& source) {
+  const std::optional<std::string> text = urdf_xml_text(bytes, xml.file(), diagnostics);
+  if (!text) return false;
   source.document.SetTabSize(1);  // a tab counts as one column, as in every other reader
-  source.document.Parse(text.c_str());
+  source.document.Parse(text->c_str());
   if (source.document.Error()) {
     diagnostics.error(
         {xml.file(), std::max(1, source.document.ErrorRow()),
@@ -63,29 +76,38 @@ bool parse(const std::string& text, const UrdfXml& xml, const PackagePaths& pack
         std::string("not XML: ") + source.document.ErrorDesc() + ", expected a URDF file");
     return false;
   }
-  if (!check(xml, source.document.RootElement(), packages, diagnostics)) return false;
+  const TiXmlElement* robot = source.document.RootElement();
+  if (!check(xml, robot, diagnostics, source.remarks)) return false;
   const UrdfdomMessages messages;
-  source.model = urdf::parseURDF(text);
+  source.model = urdf::parseURDF(urdfdom_text(*robot, name_of(xml, *robot, source.remarks)));
   if (source.model != nullptr && messages.errors().empty()) return true;
   diagnostics.error({xml.file(), 1, 1}, "urdfdom refuses it: " + messages.errors());
   return false;
 }
 
-Link read_link(const urdf::Link& source, UrdfMeshes& meshes) {
+Inertial read_inertial(const UrdfXml& xml, const TiXmlElement& element,
+                       const urdf::Inertial& source) {
+  const Pose pose = read_origin(xml, element);
+  const Mat3 rotation = pose.rotation.toRotationMatrix();
+  Mat3 inertia;
+  inertia << source.ixx, source.ixy, source.ixz, source.ixy, source.iyy, source.iyz, source.ixz,
+      source.iyz, source.izz;
+  return {source.mass, pose.position, rotation * inertia * rotation.transpose()};
+}
+
+Link read_link(const UrdfXml& xml, const TiXmlElement& element, const urdf::Link& source,
+               UrdfShapes& shapes, const UrdfMaterials& materials) {
   Link link;
   link.name = source.name;
-  if (source.inertial != nullptr) {
-    const urdf::Inertial& in = *source.inertial;
-    const Pose pose = to_pose(in.origin);
-    const Mat3 rotation = pose.rotation.toRotationMatrix();
-    Mat3 inertia;
-    inertia << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
-    link.inertial = {in.mass, pose.position, rotation * inertia * rotation.transpose()};
-  }
-  for (const auto& visual : source.visual_array)
-    link.visuals.push_back(read_visual(*visual, meshes));
-  for (const auto& collision : source.collision_array)
-    link.collisions.push_back({to_pose(collision->origin), meshes.read(*collision->geometry)});
+  if (source.inertial != nullptr)
+    link.inertial = read_inertial(xml, *element.FirstChildElement("inertial"), *source.inertial);
+  for (const TiXmlElement* visual : children(element, "visual"))
+    if (auto geometry = shapes.read(*visual, link.name))
+      link.visuals.push_back(
+          {read_origin(xml, *visual), std::move(*geometry), materials.colour(*visual, link.name)});
+  for (const TiXmlElement* collision : children(element, "collision"))
+    if (auto geometry = shapes.read(*collision, link.name))
+      link.collisions.push_back({read_origin(xml, *collision), std::move(*geometry)});
   return link;
 }
 
@@ -102,17 +124,19 @@ JointType joint_type(int type) {
   }
 }
 
-Joint read_joint(const urdf::Joint& source, const RobotDescription& robot) {
+Joint read_joint(const UrdfXml& xml, const TiXmlElement& element, const urdf::Joint& source,
+                 const RobotDescription& robot) {
   Joint joint;
   joint.name = source.name;
   joint.type = joint_type(source.type);
   joint.parent = robot.link(source.parent_link_name);
   joint.child = robot.link(source.child_link_name);
-  joint.X_PJ = to_pose(source.parent_to_joint_origin_transform);
+  joint.X_PJ = read_origin(xml, element);
   if (!joint.moves()) return joint;
   joint.axis = Vec3(source.axis.x, source.axis.y, source.axis.z).normalized();
   if (source.limits != nullptr) {
-    if (joint.type != JointType::continuous) {
+    const bool crossed = source.limits->lower > source.limits->upper;  // remarked: no limits
+    if (joint.type != JointType::continuous && !crossed) {
       joint.lower = source.limits->lower;
       joint.upper = source.limits->upper;
     }
@@ -137,16 +161,18 @@ Mimic resolve_mimic(const urdf::ModelInterface& model, const urdf::JointMimic& m
           result.multiplier * next.offset + result.offset};
 }
 
-RobotDescription describe(const UrdfXml& xml, const TiXmlElement& root,
-                          const urdf::ModelInterface& model, UrdfMeshes& meshes) {
+RobotDescription describe(const UrdfXml& xml, const Source& source, UrdfShapes& shapes,
+                          const UrdfMaterials& materials) {
+  const urdf::ModelInterface& model = *source.model;
+  const TiXmlElement& root = *source.document.RootElement();
   RobotDescription robot;
   robot.name = model.getName();
-  for (const TiXmlElement* element : children(root, "link")) {
-    meshes.set_position(xml.position(*element));
-    robot.links.push_back(read_link(*model.getLink(element->Attribute("name")), meshes));
-  }
+  for (const TiXmlElement* element : children(root, "link"))
+    robot.links.push_back(
+        read_link(xml, *element, *model.getLink(element->Attribute("name")), shapes, materials));
   for (const TiXmlElement* element : children(root, "joint"))
-    robot.joints.push_back(read_joint(*model.getJoint(element->Attribute("name")), robot));
+    robot.joints.push_back(
+        read_joint(xml, *element, *model.getJoint(element->Attribute("name")), robot));
   for (Joint& joint : robot.joints)
     if (const auto& mimic = model.getJoint(joint.name)->mimic; mimic != nullptr && joint.moves())
       joint.mimic = resolve_mimic(model, *mimic, robot);
@@ -173,10 +199,17 @@ std::optional<RobotDescription> parse_urdf(const std::string& text,
   const UrdfXml xml(path.string(), diagnostics);
   const int before = diagnostics.error_count();
   Source source;
-  if (!parse(text, xml, packages, diagnostics, source)) return {};
+  if (!parse(text, xml, diagnostics, source)) {
+    source.remarks.report(diagnostics);
+    return {};
+  }
   const TiXmlElement& root = *source.document.RootElement();
-  UrdfMeshes meshes(path, packages, diagnostics);
-  RobotDescription robot = describe(xml, root, *source.model, meshes);
+  const UrdfMaterials materials(xml, root, source.remarks);
+  UrdfShapes shapes(xml, packages, source.remarks);
+  RobotDescription robot = describe(xml, source, shapes, materials);
+  remark_implausible(xml, root, robot, source.remarks);
+  source.remarks.report(diagnostics);
+  report_missing(shapes.missing(), diagnostics);
   if (diagnostics.error_count() > before) return {};  // a mesh that cannot be loaded
   robot.file = path.string();
   substitute_inertias(xml, root, robot);

@@ -83,6 +83,13 @@ void UrdfXml::check_origin(const TiXmlElement& parent, const std::string& what) 
   if (origin == nullptr) return;
   numbers(*origin, "xyz", 3, what + ": origin");
   numbers(*origin, "rpy", 3, what + ": origin");
+  const auto q = numbers(*origin, "quat_xyzw", 4, what + ": origin");
+  if (q && Eigen::Map<const Eigen::Vector4d>(q->data()).norm() < 1e-6)
+    error(attribute_or_element(*origin, "quat_xyzw"),
+          what + ": origin: quat_xyzw of length 0, expected a rotation such as 0 0 0 1");
+  if (q && origin->Attribute("rpy") != nullptr)
+    error(attribute_or_element(*origin, "quat_xyzw"),
+          what + ": origin: quat_xyzw beside rpy, expected one of them");
 }
 
 const TiXmlBase& attribute_or_element(const TiXmlElement& element, const char* attribute) {

@@ -9,7 +9,7 @@
 
 #include "core/diagnostics.h"
 #include "core/frames.h"
-#include "robot/package_paths.h"
+#include "robot/urdf_remarks.h"
 
 namespace pedicel::robot {
 
@@ -60,11 +60,11 @@ std::vector<const TiXmlElement*> children(const TiXmlElement& parent, const char
 /// there is one: numbers cannot be checked then.
 bool check_xacro(const UrdfXml& xml, const TiXmlElement& robot);
 
-/// Names, inertials, visuals, collisions, materials, and whether mesh files exist.
-void check_links(const UrdfXml& xml, const TiXmlElement& robot, const PackagePaths& paths);
+/// Names, inertials, visuals and collisions; not the files of meshes.
+void check_links(const UrdfXml& xml, const TiXmlElement& robot);
 
-/// Names, types, axes, limits, dynamics, mimics.
-void check_joints(const UrdfXml& xml, const TiXmlElement& robot);
+/// Names, types, and of joints that move axes, limits, dynamics, mimics.
+void check_joints(const UrdfXml& xml, const TiXmlElement& robot, UrdfRemarks& remarks);
 
 /// One root, one parent per link, no cycle.
 void check_tree(const UrdfXml& xml, const TiXmlElement& robot);

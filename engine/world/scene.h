@@ -72,7 +72,8 @@ struct SceneRobot {
   std::vector<std::pair<std::string, std::filesystem::path>> packages;
   Pose base;                             ///< X_W
   std::map<std::string, double> joints;  ///< start values, rad or m
-  std::string control = "position";      ///< position | velocity | torque
+  std::map<std::string, SourcePosition> joints_where;
+  std::string control = "position";  ///< position | velocity | torque
   std::string tool;                  ///< link that waypoints move; empty: the robot's own choice
   Vec3 tool_offset = Vec3::Zero();   ///< m, in the tool link
   std::string gripper;               ///< joint that `gripper:` moves; empty: none

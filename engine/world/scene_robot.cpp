@@ -84,10 +84,11 @@ void read_joints(io::YamlMap& map, SceneRobot& robot) {
   const auto joints = map.optional("joints");
   if (!joints) return;
   if (!joints->is_map()) return joints->error("joints: expected joint names with start values");
-  for (const auto& item : joints->raw())
-    robot.joints[item.first.Scalar()] =
-        io::YamlNode(item.second, joints->file(), joints->diagnostics())
-            .number(item.first.Scalar());
+  for (const auto& item : joints->raw()) {
+    const io::YamlNode value(item.second, joints->file(), joints->diagnostics());
+    robot.joints[item.first.Scalar()] = value.number(item.first.Scalar());
+    robot.joints_where[item.first.Scalar()] = value.position();
+  }
 }
 
 }  // namespace

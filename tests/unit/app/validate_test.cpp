@@ -101,6 +101,8 @@ TEST_F(Validate, ASceneIsBadWhereAFileThatItNamesIs) {
 TEST_F(Validate, ChecksRobotsAndTables) {
   EXPECT_EQ(validate({write("a.urdf", "<robot name=\"a\"/>")}), 3);
   EXPECT_THAT(text_, HasSubstr("a.urdf"));
+  EXPECT_EQ(validate({write("b.URDF", "<robot name=\"b\"><link name=\"l\"/></robot>")}), 0)
+      << text_;
   EXPECT_EQ(validate({write("a.csv", "time,x\n0,1\n0,2\n")}), 3);
   EXPECT_THAT(text_, HasSubstr("a.csv:3:1: error: time 0 does not increase"));
 }

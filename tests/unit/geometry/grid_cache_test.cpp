@@ -113,6 +113,7 @@ TEST(GridCache, WorksWithoutAFolder) {
 }
 
 TEST(GridCache, DefaultFolderFollowsTheEnvironment) {
+  ::unsetenv("PEDICEL_CACHE");
   ::setenv("XDG_CACHE_HOME", "/somewhere", 1);
   EXPECT_EQ(default_cache_folder(), "/somewhere/pedicel");
   ::setenv("XDG_CACHE_HOME", "relative", 1);

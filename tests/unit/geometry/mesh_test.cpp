@@ -185,7 +185,7 @@ TEST(LoadMesh, RefusesWithPathAndExpectation) {
               HasSubstr("unknown mesh format '.step', expected .stl, .obj, .dae, .gltf or .glb"));
   EXPECT_THAT(refusal(folder.write("t.dae", "not xml")), HasSubstr("not a readable mesh: "));
   EXPECT_THAT(refusal(folder.write("short.stl", binary_stl().substr(0, 200))),
-              HasSubstr("not a readable mesh: "));
+              HasSubstr("cut off: 200 of 284 bytes (4 triangles)"));
   EXPECT_THAT(refusal(folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")),
               HasSubstr("no triangles, expected at least one with an area"));
   EXPECT_THAT(refusal(folder.write("wild.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")),

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/mass_properties.h"
+#include "geometry/primitives_mesh.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
@@ -80,6 +82,22 @@ TEST(SubstituteInertia, IsSaidOncePerLinkWithItsLine) {
   ASSERT_TRUE(robot);
   ASSERT_EQ(diagnostics.all().size(), 1u);
   EXPECT_THAT(diagnostics.text(), HasSubstr("t.urdf:2:1: warning: link 'b': no mass"));
+}
+
+// Against the integral over a finely cut mesh of it.
+TEST(SubstituteInertia, ACapsuleIsTheSolidThatItsMeshEncloses) {
+  Geometry capsule;
+  capsule.kind = Geometry::Kind::capsule;
+  capsule.radius = 0.05;
+  capsule.length = 0.3;
+  Link link;
+  link.collisions.push_back({{}, capsule});
+  const auto solid = solid_of_geometry(link, 1000.0);
+  const auto mesh = geometry::mass_properties(
+      geometry::make_capsule(capsule.radius, capsule.length, 240), 1000.0);
+  ASSERT_TRUE(solid && mesh);
+  EXPECT_NEAR(solid->mass, mesh->mass, 1e-3 * mesh->mass);
+  EXPECT_LT((solid->inertia - mesh->inertia).norm(), 1e-3 * mesh->inertia.norm());
 }
 
 }  // namespace

@@ -161,8 +161,8 @@ TEST_F(Scripts, WhatCannotBeDoneIsNotTakenSilently) {
       {"step back -3", "count -3, expected 1 or more"},
       {"step back 5", "5 from step 0, expected a run that has begun"},
       {"step 2\nstep back 3", "3 from step 2, expected at most as many as were done"},
-      {"joint " + joint + " 99", "joint \"" + joint + "\" to 99, expected -"},
-      {"gripper 9", "to 9, expected "}};
+      {"joint " + joint + " 99", "joint " + joint + " = 99, expected -"},
+      {"gripper 9", " = 9, expected "}};
   for (const auto& [line, words] : refused) {
     errors.str("");
     EXPECT_EQ(run("reset\n" + line + "\n"), 1) << line;

@@ -1,0 +1,115 @@
+#include "app/mesh_fields.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnostics.h"
+#include "geometry/grid_cache.h"
+#include "geometry/near_exact_distance.h"
+#include "io/csv.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using geometry::GridDistance;
+
+Vec3 size_of(const geometry::TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
+  return box.sizes();
+}
+
+double samples_of(const MeshField& field) {
+  return GridDistance::sample_count(field.size, field.grid);
+}
+
+/// The largest give way first, so that the robot's small parts keep their grids.
+void choose(std::vector<MeshField>& fields) {
+  std::vector<MeshField*> by_size;
+  for (MeshField& field : fields) by_size.push_back(&field);
+  std::stable_sort(by_size.begin(), by_size.end(), [](const MeshField* a, const MeshField* b) {
+    return samples_of(*a) < samples_of(*b);
+  });
+  double all = 0.0;
+  for (MeshField* field : by_size) {
+    const double samples = samples_of(*field);
+    field->exact_near = samples > most_fine_samples || all + samples > most_robot_samples;
+    if (!field->exact_near) all += samples;
+  }
+  for (MeshField& field : fields)
+    if (field.exact_near) field.grid = geometry::coarse_settings(field.size, most_coarse_samples);
+}
+
+std::string millimetres(double length) {
+  return io::format_number(std::round(1e3 * length), 4) + " mm";
+}
+
+std::shared_ptr<const geometry::SignedDistance> build(const MeshField& field,
+                                                      const std::filesystem::path& folder,
+                                                      geometry::GridReport& report) {
+  GridDistance grid = geometry::cached_grid(*field.mesh, field.grid, folder, nullptr, &report);
+  if (!field.exact_near) return std::make_shared<GridDistance>(std::move(grid));
+  return std::make_shared<geometry::NearExactDistance>(geometry::MeshDistance(*field.mesh),
+                                                       std::move(grid), field.grid, near_band);
+}
+
+}  // namespace
+
+std::vector<MeshField> plan_mesh_fields(const robot::RobotDescription& robot) {
+  std::vector<MeshField> fields;
+  for (const robot::Link& link : robot.links)
+    for (const robot::Collision& collision : link.collisions) {
+      const robot::Geometry& shape = collision.geometry;
+      const auto same = [&](const MeshField& f) { return f.mesh == shape.mesh.get(); };
+      if (shape.kind != robot::Geometry::Kind::mesh ||
+          std::any_of(fields.begin(), fields.end(), same))
+        continue;
+      MeshField field;
+      field.mesh = shape.mesh.get();
+      field.link = link.name;
+      field.file = shape.mesh_file.filename().string();
+      field.size = size_of(*shape.mesh);
+      fields.push_back(std::move(field));
+    }
+  choose(fields);
+  return fields;
+}
+
+std::vector<std::string> large_mesh_warnings(const robot::RobotDescription& robot) {
+  std::vector<std::string> warnings;
+  for (const MeshField& field : plan_mesh_fields(robot)) {
+    if (!field.exact_near) continue;
+    const auto metres = [&](int axis) { return io::format_number(field.size[axis], 3); };
+    warnings.push_back("link '" + field.link + "': collision mesh " + field.file + " (" +
+                       metres(0) + " x " + metres(1) + " x " + metres(2) +
+                       " m) would take too large a grid: distances to it are exact within " +
+                       millimetres(near_band) +
+                       ", which is slow, and farther away too small by up to " +
+                       millimetres(2.0 * field.grid.far_error()));
+  }
+  return warnings;
+}
+
+MeshDistances build_mesh_fields(const robot::RobotDescription& robot,
+                                std::vector<std::string>& notes) {
+  const std::filesystem::path folder = geometry::default_cache_folder();
+  MeshDistances distances;
+  int built = 0;
+  for (const MeshField& field : plan_mesh_fields(robot)) {
+    geometry::GridReport report;
+    distances[field.mesh] = build(field, folder, report);
+    if (!report.problem.empty()) notes.push_back(report.problem);
+    built += !report.from_cache;
+  }
+  for (const std::string& warning : large_mesh_warnings(robot))
+    notes.push_back(robot.file + ": warning: " + warning);
+  if (built > 0 && !folder.empty())
+    notes.push_back("distance grids built: " + std::to_string(built) + ", kept in " +
+                    folder.string() + ", at most " + std::to_string(geometry::cache_bound >> 20) +
+                    " MB (see --help)");
+  return distances;
+}
+
+}  // namespace pedicel::app
