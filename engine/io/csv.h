@@ -10,14 +10,15 @@
 
 namespace pedicel::io {
 
-/// A table of numbers with one header line. Comma separated, '.' decimal whatever the locale. Lines
-/// that start with '#' and blank lines are skipped.
+/// A table of numbers with one header line, in any of the ways of writing that TableText takes.
 struct CsvTable {
   std::string file;
-  std::vector<std::string> columns;
+  std::vector<std::string> columns;       ///< names as written, with the unit where it has one
+  std::vector<std::string> units;         ///< of a row of units; empty where there is none
   std::vector<std::vector<double>> rows;  ///< row major; NaN where a cell is empty
   std::vector<int> lines;                 ///< line number of each row in the file
   int header_line = 0;                    ///< line number of the column names
+  char separator = ',';                   ///< of the cells in the file
 
   /// Index of a column, -1 where absent.
   int column(const std::string& name) const;
@@ -29,7 +30,7 @@ SourcePosition cell_position(const CsvTable& table, int line, int column);
 
 /// What read_csv() accepts beyond plain finite numbers.
 struct CsvRules {
-  bool empty_cells = false;      ///< an empty cell or "nan" is a missing value
+  bool empty_cells = false;      ///< a cell may be missing: empty, nan, NA, null, -
   bool increasing_first = true;  ///< the first column (time) must increase strictly
 };
 
