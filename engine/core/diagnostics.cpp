@@ -29,7 +29,9 @@ std::string kind_key(std::string_view kind, const SourcePosition& where) {
 }  // namespace
 
 std::string to_string(const Diagnostic& diagnostic) {
-  const char* severity = diagnostic.severity == Severity::error ? "error: " : "warning: ";
+  const char* severity = diagnostic.severity == Severity::error     ? "error: "
+                         : diagnostic.severity == Severity::warning ? "warning: "
+                                                                    : "notice: ";
   return place(diagnostic.where) + severity + sentence(diagnostic);
 }
 
@@ -54,6 +56,10 @@ void Diagnostics::error(SourcePosition where, std::string what) {
 
 void Diagnostics::warning(SourcePosition where, std::string what) {
   all_.push_back({Severity::warning, std::move(where), std::move(what)});
+}
+
+void Diagnostics::notice(SourcePosition where, std::string what) {
+  all_.push_back({Severity::notice, std::move(where), std::move(what)});
 }
 
 void Diagnostics::repeated_error(std::string_view kind, SourcePosition where, std::string what) {

@@ -16,7 +16,7 @@ struct SourcePosition {
   int column = 0;
 };
 
-enum class Severity { warning, error };
+enum class Severity { notice, warning, error };
 
 class InvalidFile;
 
@@ -48,6 +48,8 @@ class Diagnostics {
  public:
   void error(SourcePosition where, std::string what);
   void warning(SourcePosition where, std::string what);
+  /// What is worth knowing where nothing is wrong.
+  void notice(SourcePosition where, std::string what);
   /// One of many alike (a fault in every row of a table): the first of a `kind` in a file is kept,
   /// the others are counted.
   void repeated_error(std::string_view kind, SourcePosition where, std::string what);

@@ -65,6 +65,35 @@ int CsvTable::column(const std::string& name) const {
   return -1;
 }
 
+ColumnMatch match_column(const std::string& heading, const std::string& name) {
+  const NamedUnit named = split_unit(heading);
+  if (same_but_case(named.name, name)) return {true, named.unit};
+  if (unit_behind(heading, name)) return {true, heading.substr(name.size() + 1)};
+  return {};
+}
+
+bool to_si(CsvTable& table, int column, const std::string& name, Quantity quantity,
+           Diagnostics& diagnostics) {
+  const std::string said = match_column(table.columns[column], name).unit;
+  const std::string& row = table.units[column];
+  const auto refuse = [&](const std::string& what) {
+    diagnostics.error(cell_position(table, table.header_line, column),
+                      "column " + in_quotes(table.columns[column]) + " " + what);
+    return false;
+  };
+  const std::string& text = said.empty() ? row : said;
+  if (text.empty()) return true;
+  const std::optional<Unit> unit = unit_of(text);
+  if (!unit || (unit->quantity != quantity && unit->quantity != Quantity::none))
+    return refuse("is in " + in_quotes(text) + ", expected " + units_of(quantity));
+  const std::optional<Unit> other = row.empty() ? unit : unit_of(row);
+  if (!other || other->factor != unit->factor || other->quantity != unit->quantity)
+    return refuse("has " + in_quotes(row) + " below it, expected one unit");
+  if (unit->factor != 1.0)
+    for (std::vector<double>& values : table.rows) values[column] *= unit->factor;
+  return true;
+}
+
 SourcePosition cell_position(const CsvTable& table, int line, int column) {
   try {
     const std::string text = read_text_file(table.file);

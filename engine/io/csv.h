@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "io/unit_text.h"
 
 namespace pedicel::io {
 
@@ -23,6 +24,20 @@ struct CsvTable {
   /// Index of a column, -1 where absent.
   int column(const std::string& name) const;
 };
+
+/// Whether a heading names a column, whatever its capitals, with or without a unit behind it ("Time
+/// (s)", "m1.x_mm"), and that unit.
+struct ColumnMatch {
+  bool matches = false;
+  std::string unit;  ///< empty where none is said
+};
+ColumnMatch match_column(const std::string& heading, const std::string& name);
+
+/// Turns a column into SI units, from the unit in its name or in a row of units; a column without
+/// one is in SI units already. False, with an error, where the unit is unknown, is one of something
+/// else than `quantity`, or where both units differ.
+bool to_si(CsvTable& table, int column, const std::string& name, Quantity quantity,
+           Diagnostics& diagnostics);
 
 /// Where a cell stands: `line` as in `lines` or `header_line`, `column` its index. The file is read
 /// again for it, so it is for errors only.

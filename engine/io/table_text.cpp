@@ -46,6 +46,23 @@ bool is_row_of_units(const std::vector<TableCell>& cells) {
 
 }  // namespace
 
+std::string unit_in_comment(std::string_view comment) {
+  const std::size_t start = comment.find_first_not_of("#% \t");
+  if (start == std::string_view::npos) return {};
+  std::string_view text = comment.substr(start);
+  for (const std::string_view word : {"units", "unit"}) {
+    if (!same_but_case(text.substr(0, word.size()), word)) continue;
+    text.remove_prefix(word.size());
+    const std::size_t mark = text.find_first_not_of(" \t");
+    if (mark == std::string_view::npos || (text[mark] != ':' && text[mark] != '=')) return {};
+    text.remove_prefix(mark + 1);
+    const std::size_t first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return std::string(text.substr(first, text.find_last_not_of(" \t\r,;") - first + 1));
+  }
+  return {};
+}
+
 TableText::TableText(std::string_view text, std::string file, Diagnostics& diagnostics)
     : file_(std::move(file)), diagnostics_(diagnostics), scanner_(text) {
   find_header();
@@ -72,6 +89,8 @@ void TableText::find_header() {
     if (is_comment(scanner_.record())) {
       comment = scanner_.record();
       comment_line = scanner_.line();
+      if (const std::string unit = unit_in_comment(comment); !unit.empty())
+        stated_unit_ = {unit, comment_line};
     }
     found = !pass_over(scanner_.record());
   }

@@ -26,6 +26,15 @@ struct TableDialect {
 /// "a comma", "a semicolon", ... for a sentence.
 std::string name_of_separator(char separator);
 
+/// "unit: cm" in a comment: of all lengths of a file. `text` is empty where there is none.
+struct StatedUnit {
+  std::string text;
+  int line = 0;
+};
+
+/// What a comment line says of the unit; empty where it is about something else.
+std::string unit_in_comment(std::string_view comment);
+
 /// A column as the header has it.
 struct TableColumn {
   std::string name;  ///< as written, without quotes
@@ -49,6 +58,8 @@ class TableText {
   const std::vector<TableColumn>& columns() const { return columns_; }
   int header_line() const { return header_line_; }
   const TableDialect& dialect() const { return dialect_; }
+  /// The unit that a comment line above the header states for the whole table ("# unit: cm").
+  const StatedUnit& stated_unit() const { return stated_unit_; }
 
   /// The next row with as many cells as the header has names; rows with another number of them are
   /// reported and passed over. False at the end, and where the table is too large.
@@ -79,6 +90,7 @@ class TableText {
   CellSplitter splitter_{','};
   TableDialect dialect_;
   std::vector<TableColumn> columns_;
+  StatedUnit stated_unit_;
   const std::vector<TableCell>* cells_ = nullptr;
   std::size_t rows_ = 0;
   int header_line_ = 0, line_ = 0;

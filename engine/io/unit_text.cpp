@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
+
+#include "io/csv.h"
+#include "io/number_text.h"
 
 namespace pedicel::io {
 
@@ -140,6 +143,25 @@ std::optional<Unit> unit_of(std::string_view text) {
   for (const Known& known : any_case)
     if (same_but_case(known.text, text)) return known.unit;
   return std::nullopt;
+}
+
+std::optional<double> length_unit(std::string_view text) {
+  const NumberText number = number_of(trimmed(text));
+  if (number.kind == NumberText::Kind::number && number.value > 0.0) return number.value;
+  const std::optional<Unit> unit = unit_of(text);
+  if (!unit || unit->quantity != Quantity::length) return std::nullopt;
+  return unit->factor;
+}
+
+std::string expected_length_units() {
+  return "m, cm, mm or a number of metres";
+}
+
+std::string length_unit_name(double unit) {
+  if (unit == 1.0) return "m";
+  if (unit == 0.01) return "cm";
+  if (unit == 0.001) return "mm";
+  return format_number(unit) + " m";
 }
 
 std::string units_of(Quantity quantity) {

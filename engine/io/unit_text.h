@@ -22,6 +22,14 @@ std::optional<Unit> unit_of(std::string_view text);
 /// "m, cm or mm": what a column of that may be in.
 std::string units_of(Quantity quantity);
 
+/// What the lengths of a file are in, as people say it: m, cm, mm, in, or a number (0.01: how many
+/// metres one is). In metres; nothing where it is none of these, or not positive.
+std::optional<double> length_unit(std::string_view text);
+/// "m, cm, mm or a number of metres": what length_unit() takes, for errors.
+std::string expected_length_units();
+/// "mm" for 0.001, else the number.
+std::string length_unit_name(double unit);
+
 /// A column's name and the unit behind it: "x (mm)", "x [mm]".
 struct NamedUnit {
   std::string name;

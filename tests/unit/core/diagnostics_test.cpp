@@ -14,6 +14,13 @@ TEST(Diagnostics, LinesHaveTheFixedForm) {
   EXPECT_EQ(to_string({Severity::error, {"a.yaml"}, "absent"}), "a.yaml: error: absent");
 }
 
+TEST(Diagnostics, NoticesAreNoFaults) {
+  Diagnostics diagnostics;
+  diagnostics.notice({"tree.mtg"}, "4.31 m tall, 812 nodes");
+  EXPECT_FALSE(diagnostics.has_errors());
+  EXPECT_EQ(diagnostics.text(), "tree.mtg: notice: 4.31 m tall, 812 nodes");
+}
+
 TEST(Diagnostics, CollectsInOrderAndCountsErrorsOnly) {
   Diagnostics diagnostics;
   EXPECT_FALSE(diagnostics.has_errors());
