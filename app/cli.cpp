@@ -19,6 +19,7 @@
 #include "io/csv.h"
 #include "render/image.h"
 #include "session/document.h"
+#include "session/plant_import.h"
 #include "session/script.h"
 #include "world/settings.h"
 
@@ -62,7 +63,7 @@ int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   std::unique_ptr<FilmMaker> films;
   if (make_films) films = make_films(session);
   session.set_film_maker(films.get());
-  if (!a.scene.empty() && !session.open(a.scene)) {
+  if (!a.scene.empty() && !session.open(a.scene, unit_of_text(a.unit, "--unit"))) {
     std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
     return invalid;
   }
@@ -78,7 +79,8 @@ int script_verb(const RunArguments& a, const MakeFilms& make_films) {
 RunOptions options_of_run(const RunArguments& a) {
   RunOptions options = run_options(a);
   if (is_lone_plant(a.scene))
-    options.simulation.edited = options_of(open_document(a.scene), {}).edited;
+    options.simulation.edited =
+        options_of(open_document(a.scene, unit_of_text(a.unit, "--unit")), {}).edited;
   return options;
 }
 
@@ -126,6 +128,7 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
   if (!window.screenshot.empty() && !window.screenshot.ends_with(".png"))
     throw UsageError("--screenshot " + window.screenshot + ": expected a name that ends in .png");
   window.file = a.scene;
+  window.unit = unit_of_text(a.unit, "--unit");
   window.script = a.script;
   window.set = a.set;
   const auto set = [&](const char* key, auto value) {
@@ -311,8 +314,13 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
 
   std::vector<std::string> files, packages;
   CLI::App* validate = app.add_subcommand("validate", "load and check files without running them");
-  validate->add_option("files", files, "plants, experiments, scenes, leaf templates, URDFs")
+  validate
+      ->add_option("files", files,
+                   "plants, experiments, scenes, leaf templates, URDFs, meshes, tables, scripts")
       ->required();
+  std::string unit;
+  validate->add_option("--unit", unit,
+                       "of the lengths in skeleton tables and MTGs: m, cm, mm or metres");
   validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies")
       ->allow_extra_args(false);
 
@@ -335,7 +343,9 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
     return app.exit(error) == 0 ? ok : usage;
   }
   if (*sweep) return guarded([&] { return sweep_verb(swept); });
-  if (*validate) return guarded([&] { return validate_files(files, packages, std::cerr); });
+  if (*validate)
+    return guarded(
+        [&] { return validate_files(files, packages, std::cerr, unit_of_text(unit, "--unit")); });
   if (*bench) return guarded([&] { return bench_verb(benched); });
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);

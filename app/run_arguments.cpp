@@ -6,6 +6,7 @@
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "session/document.h"
+#include "session/plant_import.h"
 #include "world/scene_reader.h"
 #include "world/settings.h"
 
@@ -38,6 +39,8 @@ void add_run_options(CLI::App& app, RunArguments& a) {
   app.add_option("--log-rate", a.log_rate, "rows a simulated second in log.csv, Hz");
   app.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies; may be repeated")
       ->allow_extra_args(false);
+  app.add_option("--unit", a.unit,
+                 "of the lengths in a lone table or MTG: m, cm, mm or how many metres one is");
   app.add_option("--fps", a.fps, "frames a simulated second of the video, Hz");
   app.add_option("--size", a.size, "WxH of pictures and video, px");
   app.add_flag("--no-video", a.no_video, "take no video");
@@ -49,12 +52,18 @@ void add_run_options(CLI::App& app, RunArguments& a) {
 
 world::Scene load_scene(const RunArguments& a) {
   Diagnostics diagnostics;
+  const double unit = unit_of_text(a.unit, "--unit");
+  if (unit > 0.0 && !is_lone_plant(a.scene))
+    throw UsageError(
+        "--unit: expected beside a table or an MTG; a scene says the unit of each of its "
+        "plants (unit: cm)");
   std::optional<world::Scene> scene = is_lone_plant(a.scene)
-                                          ? scene_of(open_document(a.scene))
+                                          ? scene_of(open_document(a.scene, unit, &diagnostics))
                                           : world::read_scene(a.scene, diagnostics);
   if (!scene) throw InvalidFile(diagnostics);
-  for (const Diagnostic& warning : diagnostics.all())
-    std::fprintf(stderr, "%s\n", to_string(warning).c_str());
+  for (const Diagnostic& remark : diagnostics.all())
+    if (!a.quiet || remark.severity != Severity::notice)
+      std::fprintf(stderr, "%s\n", to_string(remark).c_str());
   const auto set = [&](const char* key, auto value) {
     if (value) world::apply_override(*scene, key, io::format_number(static_cast<double>(*value)));
   };

@@ -14,7 +14,7 @@ namespace pedicel::app {
 
 /// What the command line says of a run; names as in the options.
 struct RunArguments {
-  std::string scene, script, out, size;
+  std::string scene, script, out, size, unit;
   std::vector<std::string> set, packages;
   std::optional<double> duration, dt, fps, log_rate;
   std::optional<int> seed, threads;

@@ -3,8 +3,8 @@
 #include "app/plant_overrides.h"
 #include "cosserat/standing.h"
 #include "io/csv.h"
-#include "plant/mtg_reader.h"
 #include "plant/plant_builder.h"
+#include "plant/plant_source.h"
 #include "plant/reference_plants.h"
 
 namespace pedicel::app {
@@ -142,9 +142,11 @@ std::optional<plant::PlantFile> read_scene_plant(const ScenePlant& plant,
                                                  Diagnostics& diagnostics) {
   const std::filesystem::path source = source_of(plant);
   if (source.empty()) return std::nullopt;
-  if (source == plant.file && plant.source == ScenePlant::Source::mtg)
-    return plant::read_mtg(source, {}, diagnostics);
-  return plant::read_plant_file(source, diagnostics);
+  // The fallback of an MTG is a plant file.
+  const bool own = source == plant.file;
+  const bool is_mtg = own && plant.source == ScenePlant::Source::mtg;
+  return plant::read_plant_source(source, own ? plant.unit : 0.0, diagnostics,
+                                  is_mtg ? plant::SourceKind::mtg : plant::source_kind(source));
 }
 
 std::vector<ScenePlantModel> build_plants(const world::Scene& scene,

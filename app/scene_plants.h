@@ -19,7 +19,8 @@ struct ScenePlantModel {
 /// empty.
 std::filesystem::path source_of(const world::ScenePlant& plant);
 
-/// Reads that file, a plant's or an MTG; nothing where it is faulty, or absent and optional.
+/// Reads that file, a plant's, a skeleton table or an MTG, in the entry's unit; nothing where it is
+/// faulty, or absent and optional.
 std::optional<plant::PlantFile> read_scene_plant(const world::ScenePlant& plant,
                                                  Diagnostics& diagnostics);
 

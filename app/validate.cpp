@@ -1,5 +1,6 @@
 #include "app/validate.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -7,12 +8,14 @@
 
 #include "app/mesh_fields.h"
 #include "app/simulation.h"
+#include "app/validate_tables.h"
 #include "discrepancy/experiment.h"
-#include "io/csv.h"
+#include "geometry/mesh.h"
+#include "io/text_file.h"
 #include "io/yaml.h"
 #include "plant/leaf_template.h"
-#include "plant/mtg_reader.h"
 #include "plant/plant_builder.h"
+#include "plant/plant_source.h"
 #include "robot/urdf_reader.h"
 #include "session/document.h"
 #include "world/scene_reader.h"
@@ -21,7 +24,10 @@ namespace pedicel::app {
 
 namespace {
 
-using Packages = std::vector<std::string>;
+struct Options {
+  const std::vector<std::string>& packages;
+  double unit = 0.0;  ///< m, of the lengths in tables and MTGs; 0: as they say
+};
 
 /// Reads one kind of file; faults go to the diagnostics, or come as InvalidFile. What is worth
 /// knowing of a good one comes back.
@@ -29,12 +35,12 @@ struct Kind {
   const char* format;     ///< of `format:`; empty: none
   const char* extension;  ///< empty: none of its own
   const char* name;
-  std::string (*check)(const std::filesystem::path&, const Packages&, Diagnostics&);
+  std::string (*check)(const std::filesystem::path&, const Options&, Diagnostics&);
 };
 
-std::string check_plant(const std::filesystem::path& path, const Packages&,
-                        Diagnostics& diagnostics) {
-  const std::optional<plant::PlantFile> file = plant::read_plant_file(path, diagnostics);
+// Built, as a scene would.
+std::string check_built(const std::optional<plant::PlantFile>& file,
+                        const std::filesystem::path& path, Diagnostics& diagnostics) {
   if (!file) return {};
   plant::BuildOptions options;
   options.leaf_folders = {path.parent_path(), path.parent_path() / "../assets/leaves"};
@@ -44,13 +50,23 @@ std::string check_plant(const std::filesystem::path& path, const Packages&,
   return built ? plant::residual_text(*built) : "";
 }
 
-std::string check_mtg(const std::filesystem::path& path, const Packages&,
-                      Diagnostics& diagnostics) {
-  plant::read_mtg(path, {}, diagnostics);
-  return {};
+std::string check_plant(const std::filesystem::path& path, const Options&,
+                        Diagnostics& diagnostics) {
+  return check_built(plant::read_plant_file(path, diagnostics), path, diagnostics);
 }
 
-std::string check_leaf(const std::filesystem::path& path, const Packages&,
+std::string check_source(const std::filesystem::path& path, plant::SourceKind kind,
+                         const Options& options, Diagnostics& diagnostics) {
+  return check_built(plant::read_plant_source(path, options.unit, diagnostics, kind), path,
+                     diagnostics);
+}
+
+std::string check_mtg(const std::filesystem::path& path, const Options& options,
+                      Diagnostics& diagnostics) {
+  return check_source(path, plant::SourceKind::mtg, options, diagnostics);
+}
+
+std::string check_leaf(const std::filesystem::path& path, const Options&,
                        Diagnostics& diagnostics) {
   plant::read_leaf_template(path, diagnostics);
   return {};
@@ -66,12 +82,12 @@ void warn(const std::string& note, Diagnostics& diagnostics) {
     diagnostics.warning({note.substr(0, at)}, note.substr(at + mark.size()));
 }
 
-std::string check_scene(const std::filesystem::path& path, const Packages& packages,
+std::string check_scene(const std::filesystem::path& path, const Options& given,
                         Diagnostics& diagnostics) {
   const std::optional<world::Scene> scene = world::read_scene(path, diagnostics);
   if (!scene) return {};
   SimulationOptions options;
-  options.packages = packages;
+  options.packages = given.packages;
   options.leaf_folders = asset_leaf_folders();
   // Builds everything that the scene names, and runs none of it.
   const Simulation simulation(*scene, options);
@@ -80,11 +96,11 @@ std::string check_scene(const std::filesystem::path& path, const Packages& packa
 }
 
 // The plant is built, too.
-std::string check_experiment(const std::filesystem::path& path, const Packages& packages,
+std::string check_experiment(const std::filesystem::path& path, const Options& given,
                              Diagnostics& diagnostics) {
   const auto experiment = discrepancy::read_experiment(path, diagnostics);
   if (!experiment) return {};
-  check_plant(experiment->plant_path, packages, diagnostics);
+  check_plant(experiment->plant_path, given, diagnostics);
   int samples = 0;
   for (const discrepancy::Trial& trial : experiment->trials) samples += trial.markers.size();
   return std::to_string(experiment->trials.size()) + " trials, " +
@@ -92,10 +108,10 @@ std::string check_experiment(const std::filesystem::path& path, const Packages& 
          " samples";
 }
 
-std::string check_urdf(const std::filesystem::path& path, const Packages& packages,
+std::string check_urdf(const std::filesystem::path& path, const Options& given,
                        Diagnostics& diagnostics) {
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
-  for (const std::string& package : packages) paths.add(package);
+  for (const std::string& package : given.packages) paths.add(package);
   const auto robot = robot::read_urdf(path, paths, diagnostics);
   if (!robot) return {};
   for (std::string& warning : large_mesh_warnings(*robot))
@@ -103,12 +119,26 @@ std::string check_urdf(const std::filesystem::path& path, const Packages& packag
   return {};
 }
 
-std::string check_csv(const std::filesystem::path& path, const Packages&,
-                      Diagnostics& diagnostics) {
-  io::CsvRules rules;
-  rules.empty_cells = true;
-  io::read_csv(path, rules, diagnostics);
-  return {};
+std::string check_mesh(const std::filesystem::path& path, const Options&, Diagnostics&) {
+  return std::to_string(geometry::load_mesh(path).triangles.size()) + " triangles";
+}
+
+std::string check_commands(const std::filesystem::path& path, const Options&,
+                           Diagnostics& diagnostics) {
+  return check_script(path, diagnostics);
+}
+
+template <TableKind kind>
+std::string check_table_of(const std::filesystem::path& path, const Options& options,
+                           Diagnostics& diagnostics) {
+  if constexpr (kind == TableKind::skeleton || kind == TableKind::cylinders)
+    return check_source(path, plant::SourceKind::skeleton_table, options, diagnostics);
+  return check_table(path, kind, diagnostics);
+}
+
+template <TableKind kind>
+Kind table() {
+  return {"", "", name_of(kind), check_table_of<kind>};
 }
 
 constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
@@ -117,13 +147,39 @@ constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
                               Kind{"pedicel-leaf", "", "leaf template", check_leaf},
                               Kind{"", ".urdf", "robot", check_urdf},
                               Kind{"", ".mtg", "digitised plant", check_mtg},
-                              Kind{"", ".csv", "table", check_csv}};
+                              Kind{"", ".stl", "mesh", check_mesh},
+                              Kind{"", ".obj", "mesh", check_mesh},
+                              Kind{"", ".dae", "mesh", check_mesh},
+                              Kind{"", ".gltf", "mesh", check_mesh},
+                              Kind{"", ".glb", "mesh", check_mesh}};
+
+Kind kind_of_table(TableKind kind) {
+  switch (kind) {
+    case TableKind::skeleton:
+      return table<TableKind::skeleton>();
+    case TableKind::cylinders:
+      return table<TableKind::cylinders>();
+    case TableKind::markers:
+      return table<TableKind::markers>();
+    case TableKind::path:
+      return table<TableKind::path>();
+    case TableKind::force:
+      return table<TableKind::force>();
+    case TableKind::events:
+      return table<TableKind::events>();
+    case TableKind::trajectory:
+      return table<TableKind::trajectory>();
+    case TableKind::unknown:
+      break;
+  }
+  return table<TableKind::unknown>();
+}
 
 std::string expected_kinds() {
   std::string list;
   for (const Kind& kind : kinds)
     list += std::string(list.empty() ? "" : ", ") + (*kind.format ? kind.format : kind.extension);
-  return list;
+  return list + ", a table (.csv) or a script of commands";
 }
 
 /// What `format:` says; empty where the file is no YAML map that has it.
@@ -135,16 +191,39 @@ std::string format_of(const std::filesystem::path& path) {
   return format.IsDefined() && format.IsScalar() ? format.Scalar() : std::string{};
 }
 
-const Kind& kind_of(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) return kind_of(path / "experiment.yaml");
+std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+/// By what the text begins with, where the name does not tell.
+std::optional<Kind> kind_of_text(const std::filesystem::path& path, const std::string& extension) {
+  const std::string text = io::read_text_file(path);
+  const std::string_view begin =
+      std::string_view(text).substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (begin.starts_with("<?xml") || begin.starts_with("<robot"))
+    return Kind{"", "", "robot", check_urdf};
+  if (text.find("\nMTG") != std::string::npos && text.find("CODE") != std::string::npos)
+    return Kind{"", "", "digitised plant", check_mtg};
+  if (const auto table = table_kind(path)) return kind_of_table(*table);
+  if (extension == ".csv") return kind_of_table(TableKind::unknown);
+  if (is_script(path)) return Kind{"", "", "script", check_commands};
+  return std::nullopt;
+}
+
+Kind kind_of(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return kind_of(path / "experiment.yaml");
+  const std::string extension = lower_extension(path);
   for (const Kind& kind : kinds)
     if (*kind.extension && extension == kind.extension) return kind;
-  const std::string format =
-      extension == ".yaml" || extension == ".yml" ? format_of(path) : std::string{};
-  for (const Kind& kind : kinds)
-    if (*kind.format && format == kind.format) return kind;
+  if (extension == ".yaml" || extension == ".yml") {
+    const std::string format = format_of(path);
+    for (const Kind& kind : kinds)
+      if (*kind.format && format == kind.format) return kind;
+  } else if (const auto kind = kind_of_text(path, extension)) {
+    return *kind;
+  }
   throw InvalidFile({path.string()},
                     "kind of file is unknown, expected one of: " + expected_kinds());
 }
@@ -154,11 +233,11 @@ void write_lines(const std::string& lines, std::ostream& out) {
 }
 
 /// True where the file is good.
-bool validate(const std::filesystem::path& path, const Packages& packages, std::ostream& out) {
+bool validate(const std::filesystem::path& path, const Options& options, std::ostream& out) {
   Diagnostics diagnostics;
   try {
     const Kind& kind = kind_of(path);
-    const std::string known = kind.check(path, packages, diagnostics);
+    const std::string known = kind.check(path, options, diagnostics);
     write_lines(diagnostics.text(), out);
     if (!diagnostics.has_errors())
       out << path.string() << ": " << kind.name << ", good" << (known.empty() ? "" : "; ") << known
@@ -174,9 +253,9 @@ bool validate(const std::filesystem::path& path, const Packages& packages, std::
 }  // namespace
 
 int validate_files(const std::vector<std::string>& files, const std::vector<std::string>& packages,
-                   std::ostream& out) {
+                   std::ostream& out, double unit) {
   bool good = true;
-  for (const std::string& file : files) good = validate(file, packages, out) && good;
+  for (const std::string& file : files) good = validate(file, {packages, unit}, out) && good;
   return good ? 0 : 3;
 }
 

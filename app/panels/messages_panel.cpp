@@ -41,9 +41,10 @@ class MessagesPanel : public Panel {
     const auto& messages = ui.session.messages();
     const std::size_t said = ui.session.messages_said();
     const std::size_t news = std::min(said - shown_, messages.size());
-    if (news > 0) ui.show_panel = "Messages";
-    for (std::size_t i = messages.size() - news; i < messages.size(); ++i)
+    for (std::size_t i = messages.size() - news; i < messages.size(); ++i) {
+      if (messages[i].severity != Severity::notice) ui.show_panel = "Messages";
       if (messages[i].can_retry) ui.problem = messages[i].text, ui.dialog = Dialog::problem;
+    }
     shown_ = said;
     const bool mended = std::none_of(messages.begin(), messages.end(),
                                      [](const Message& one) { return one.can_retry; });
@@ -52,10 +53,11 @@ class MessagesPanel : public Panel {
 
  private:
   static void message(Ui& ui, const Message& one) {
+    const bool notice = one.severity == Severity::notice;
     const bool fault = one.severity == Severity::error;
-    ImGui::PushStyleColor(ImGuiCol_Text, fault ? palette().error : palette().warning);
+    if (!notice) ImGui::PushStyleColor(ImGuiCol_Text, fault ? palette().error : palette().warning);
     ImGui::TextWrapped("%s", one.text.c_str());
-    ImGui::PopStyleColor();
+    if (!notice) ImGui::PopStyleColor();
     if (one.can_retry && ImGui::SmallButton("Read it again")) ui.ask(Action::reload);
     tip(keys_of(Action::reload));
   }

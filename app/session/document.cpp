@@ -3,7 +3,7 @@
 #include "app/scene_plants.h"
 #include "core/check.h"
 #include "core/state_hash.h"
-#include "plant/mtg_reader.h"
+#include "plant/plant_source.h"
 #include "session/plant_import.h"
 #include "world/scene_reader.h"
 #include "world/settings.h"
@@ -35,7 +35,7 @@ void read_plants(Document& document, Diagnostics& diagnostics) {
     const bool is_file = entry.source != world::ScenePlant::Source::built_in;
     const std::filesystem::path path = app::source_of(entry);
     if (is_file && !path.empty())
-      if (auto file = read_plant(path, diagnostics))
+      if (auto file = app::read_scene_plant(entry, diagnostics))
         one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
     document.plants.push_back(std::move(one));
   }
@@ -90,8 +90,9 @@ std::uint64_t Document::state_hash() const {
 }
 
 bool is_lone_plant(const std::filesystem::path& path) {
-  const std::string name = path.filename().string();
-  return name.ends_with(".plant.yaml") || name.ends_with(".csv") || name.ends_with(".mtg");
+  const plant::SourceKind kind = plant::source_kind(path);
+  return kind == plant::SourceKind::skeleton_table || kind == plant::SourceKind::mtg ||
+         path.filename().string().ends_with(".plant.yaml");
 }
 
 Document empty_document() {
@@ -100,7 +101,7 @@ Document empty_document() {
   return document;
 }
 
-Document open_document(const std::filesystem::path& path) {
+Document open_document(const std::filesystem::path& path, double unit, Diagnostics* remarks) {
   Diagnostics diagnostics;
   Document document = empty_document();
   if (is_scene(path)) {
@@ -109,7 +110,7 @@ Document open_document(const std::filesystem::path& path) {
     document.scene = std::make_shared<const world::Scene>(std::move(*scene));
     if (document.scene->robot) document.waypoints = document.scene->robot->recorded;
     read_plants(document, diagnostics);
-  } else if (auto file = read_plant(path, diagnostics)) {
+  } else if (auto file = read_plant(path, diagnostics, unit)) {
     DocumentPlant one;
     one.entry.name = file->name;
     if (is_plant_file(path)) one.entry.file = path;
@@ -117,7 +118,13 @@ Document open_document(const std::filesystem::path& path) {
     document.plants.push_back(std::move(one));
   }
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  if (is_scene(path) && unit > 0.0)
+    throw UsageError(
+        "a scene says the unit of each of its plants itself (unit: cm), expected none "
+        "beside it");
+  if (remarks) *remarks = diagnostics;
   document.path = path;
+  document.unit = unit;
   return document;
 }
 

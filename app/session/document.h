@@ -29,6 +29,7 @@ struct Document {
   /// As read; its plants are in `plants`. Made up where a lone plant, or nothing, was opened.
   std::shared_ptr<const world::Scene> scene;
   std::filesystem::path path;  ///< the scene's or the lone plant's; empty: new
+  double unit = 0.0;           ///< m, of the lone plant's file; 0: as that says
   std::vector<DocumentPlant> plants;
   /// Over what the scene says, as in `--set`: key and text.
   std::vector<std::pair<std::string, std::string>> settings;
@@ -48,14 +49,16 @@ struct Document {
 /// By its name: *.scene.yaml.
 bool is_scene(const std::filesystem::path& path);
 
-/// By its name: *.plant.yaml, *.csv (a skeleton) or *.mtg.
+/// By its name: *.plant.yaml, *.csv, *.tsv, *.txt (a skeleton) or *.mtg.
 bool is_lone_plant(const std::filesystem::path& path);
 
 /// An empty document: ground, gravity, nothing on it.
 Document empty_document();
 /// Reads a scene (*.scene.yaml), a plant file, a skeleton table (*.csv) or an MTG (*.mtg) with
-/// everything that it names. Throws InvalidFile with every fault found.
-Document open_document(const std::filesystem::path& path);
+/// everything that it names. `unit` (m) is that of the lengths in a lone table or MTG; 0: as the
+/// file says. Throws InvalidFile with every fault found; warnings and heights go to `remarks`.
+Document open_document(const std::filesystem::path& path, double unit = 0.0,
+                       Diagnostics* remarks = nullptr);
 
 /// The scene with the document's plants and settings in it, and the plants that take the place of
 /// files. Throws UsageError for a setting that is impossible.

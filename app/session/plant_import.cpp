@@ -1,26 +1,25 @@
 #include "session/plant_import.h"
 
-#include "plant/mtg_reader.h"
+#include "core/check.h"
+#include "io/unit_text.h"
+#include "plant/plant_source.h"
 
 namespace pedicel::app {
 
 bool is_plant_file(const std::filesystem::path& path) {
-  return path.extension() == ".yaml" || path.extension() == ".yml";
+  return plant::source_kind(path) == plant::SourceKind::plant_file;
 }
 
 std::optional<plant::PlantFile> read_plant(const std::filesystem::path& path,
-                                           Diagnostics& diagnostics) {
-  if (is_plant_file(path)) return plant::read_plant_file(path, diagnostics);
-  if (path.extension() == ".csv") {
-    plant::MtgOptions options;
-    options.keeps_thin = true;  // a fruit's stalk
-    return plant::read_skeleton_csv(path, options, diagnostics);
-  }
-  if (path.extension() == ".mtg") return plant::read_mtg(path, {}, diagnostics);
-  diagnostics.error({path.string(), 0, 0},
-                    "cannot tell what this is, expected *.scene.yaml, *.plant.yaml, *.csv (a "
-                    "skeleton) or *.mtg");
-  return std::nullopt;
+                                           Diagnostics& diagnostics, double unit) {
+  return plant::read_plant_source(path, unit, diagnostics);
+}
+
+double unit_of_text(const std::string& text, const std::string& option) {
+  if (text.empty()) return 0.0;
+  if (const auto unit = io::length_unit(text)) return *unit;
+  throw UsageError(option + " " + printable(text, 60) + ": expected " +
+                   io::expected_length_units());
 }
 
 }  // namespace pedicel::app

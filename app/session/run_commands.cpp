@@ -96,7 +96,12 @@ std::vector<CommandDescription> file_commands() {
   const Scope s = Scope::session;
   const ArgumentDescription file{"file", Kind::text, true, "path"};
   return {
-      {"open", s, {file}, "Opens a scene or a plant.", nullptr},
+      {"open",
+       s,
+       {file,
+        {"unit", Kind::word, false, "of the lengths in a table or an MTG: m, cm, mm or metres"}},
+       "Opens a scene or a plant.",
+       nullptr},
       {"new", s, {}, "Opens an empty scene.", nullptr},
       {"reload", s, {}, "Reads the files anew.", nullptr},
       {"save",
@@ -111,7 +116,9 @@ std::vector<CommandDescription> file_commands() {
        nullptr},
       {"import",
        s,
-       {file, {"plant", Kind::word, false, "name in the scene"}},
+       {file,
+        {"plant", Kind::word, false, "name in the scene"},
+        {"unit", Kind::word, false, "of the lengths in a table or an MTG: m, cm, mm or metres"}},
        "Adds the plant of a file (*.plant.yaml, *.csv, *.mtg).",
        nullptr},
       {"export",

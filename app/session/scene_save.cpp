@@ -122,6 +122,7 @@ void write_plant(io::YamlText& text, const std::filesystem::path& folder, const 
     // What was imported is a plant file now.
     for (const char* key : {"mtg", "optional", "fallback"})
       if (was.source == ScenePlant::Source::mtg) text.remove({"plants", number, key});
+    if (was.unit > 0.0) text.remove({"plants", number, "unit"});
     text.set({"plants", number, "file"}, path_from(folder, is.file));
   }
   write_values(text, {"plants", number, "set"}, values_of(was.set), values_of(is.set));

@@ -74,7 +74,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   // Files. Faults go to messages(); what was open stays.
-  bool open(const std::filesystem::path& path);
+  /// `unit` (m) is that of the lengths in a lone table or MTG; 0: as the file says.
+  bool open(const std::filesystem::path& path, double unit = 0.0);
   void open_empty();
   /// Reads the files anew; edits that were not saved are lost (undo brings them back).
   bool reload();
@@ -84,7 +85,8 @@ class Session {
   /// One plant as it is drawn: *.plant.yaml, *.csv (skeleton), *.obj or *.ply.
   Result export_plant(const std::string& plant, const std::filesystem::path& path);
   /// Adds the plant of a plant file, skeleton table or MTG to the document.
-  Result import_plant(const std::filesystem::path& path, const std::string& name = {});
+  Result import_plant(const std::filesystem::path& path, const std::string& name = {},
+                      double unit = 0.0);
   bool dirty() const;
   /// Nobody wants the edits since the document was saved: their journal goes with the session.
   void give_up_edits() { saved_hash_ = hash_; }
@@ -248,6 +250,7 @@ class Session {
   void tell_faults(const std::vector<std::string>& faults);
   Result move_joints(const Eigen::VectorXd& q);
   Result finish(Result result);
+  void say_remarks(const Diagnostics& remarks);
   void say(Severity severity, const std::string& text, bool can_retry = false);
   void say(const std::vector<Diagnostic>& problems, bool can_retry);
   void add_message(Message message);

@@ -42,7 +42,7 @@ bool is_as_read(const DocumentPlant& one) {
   const std::filesystem::path source = app::source_of(one.entry);
   if (source.empty() || !std::filesystem::exists(source)) return false;
   Diagnostics diagnostics;
-  const auto there = read_plant(source, diagnostics);
+  const auto there = read_plant(source, diagnostics, one.entry.unit);
   return there && *there == *one.file;
 }
 
@@ -81,6 +81,7 @@ Saved save_plants(Document& document, const std::filesystem::path& path) {
     if (!same) write_with_backup(file, plant::plant_text(*one.file));
     (same ? saved.kept : saved.written).push_back(file);
     one.entry.file = file;
+    one.entry.unit = 0.0;
     one.entry.source = world::ScenePlant::Source::file;
     if (document.path.empty()) document.path = file;
   }
@@ -98,12 +99,14 @@ void save_scene(const Document& document, Saved& saved) {
 
 }  // namespace
 
-bool Session::open(const std::filesystem::path& path) {
+bool Session::open(const std::filesystem::path& path, double unit) {
   if (is_experiment(path)) return open_experiment(path).ok;
   try {
-    set_document(open_document(path));
+    Diagnostics remarks;
+    set_document(open_document(path, unit, &remarks));
     failed_path_.clear();
     forget_file_faults();
+    say_remarks(remarks);
     if (options_.waits) control_.wait();
     return true;
   } catch (const InvalidFile& fault) {
@@ -133,7 +136,8 @@ bool Session::reload() {
   }
   try {
     const Document before = document_;
-    Document fresh = open_document(document_.path);
+    Diagnostics remarks;
+    Document fresh = open_document(document_.path, document_.unit, &remarks);
     gesture_.reset();
     document_ = std::move(fresh);
     history_.add({{again}, before, document_});
@@ -143,6 +147,7 @@ bool Session::reload() {
     saved_hash_ = hash_;
     saved_settings_.clear();
     begin_journal();
+    say_remarks(remarks);
     return true;
   } catch (const InvalidFile& fault) {
     say(fault.all(), true);
@@ -176,14 +181,23 @@ Result Session::export_plant(const std::string& plant, const std::filesystem::pa
   return {true, "written to " + path.string()};
 }
 
-Result Session::import_plant(const std::filesystem::path& path, const std::string& name) {
+void Session::say_remarks(const Diagnostics& remarks) {
+  for (const Diagnostic& one : remarks.all()) say(one.severity, to_string(one));
+}
+
+Result Session::import_plant(const std::filesystem::path& path, const std::string& name,
+                             double unit) {
   Diagnostics diagnostics;
-  const auto file = read_plant(path, diagnostics);
+  const auto file = read_plant(path, diagnostics, unit);
   if (!file) return {false, sentences(diagnostics.all()), true};
   // The text goes into the command, so that the log does not depend on the file.
   const Command command("add plant", {{"plant", name.empty() ? file->name : name},
                                       {"text", plant::plant_text(*file)}});
-  return change_document(command);
+  Result result = change_document(command);
+  if (!result) return result;
+  say_remarks(diagnostics);
+  if (result.text.empty()) result.text = lines_of(diagnostics.all());
+  return result;
 }
 
 }  // namespace pedicel::app

@@ -6,6 +6,7 @@
 #include "session/command_table.h"
 #include "session/measured_commands.h"
 #include "session/organ_place.h"
+#include "session/plant_import.h"
 #include "session/session.h"
 
 /// Commands of the run and the session.
@@ -78,14 +79,16 @@ Result save_script(const Session& session, const std::filesystem::path& file) {
 Result Session::session_command(const Command& c) {
   const std::string& verb = c.verb();
   if (verb == "open") {
-    if (open(c.word("file"))) return {};
+    if (open(c.word("file"), unit_of_text(c.word_or("unit", ""), "unit"))) return {};
     return {false, messages_.back().sentence, true};
   }
   if (verb == "new") open_empty();
   if (verb == "reload" && !reload()) return {false, messages_.back().sentence, true};
   if (verb == "save script") return save_script(*this, c.word("file"));
   if (verb == "save") return save(c.word_or("file", ""));
-  if (verb == "import") return import_plant(c.word("file"), c.word_or("plant", ""));
+  if (verb == "import")
+    return import_plant(c.word("file"), c.word_or("plant", ""),
+                        unit_of_text(c.word_or("unit", ""), "unit"));
   if (verb == "export") return export_plant(c.word("plant"), c.word("file"));
   if (verb == "record" || verb == "stop recording") return film_command(c);
   if (verb == "save waypoints") return save_waypoints(c.word("file"));

@@ -25,8 +25,8 @@ constexpr int no_opengl = 77, invalid_file = 3, unstable = 4, stopped = 130;
 /// False, with the faults on standard error, where it cannot be opened.
 bool open_file(Session& session, const DesktopRequest& request) {
   const auto first = asset_folder() / "scenes" / "cherry_tomato_pull_aside.scene.yaml";
-  const bool opened =
-      session.open(request.file.empty() ? first : std::filesystem::path(request.file));
+  const bool opened = session.open(
+      request.file.empty() ? first : std::filesystem::path(request.file), request.unit);
   for (const Message& message : session.messages())
     std::fprintf(stderr, "%s\n", message.text.c_str());
   for (const std::string& assignment : request.set) {

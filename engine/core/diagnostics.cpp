@@ -9,15 +9,30 @@ namespace {
 // With what parts it from the rest of a line.
 std::string place(const SourcePosition& where) {
   if (where.file.empty()) return "";
-  if (where.line == 0) return where.file + ": ";
-  return where.file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+  const std::string file = printable(where.file);
+  if (where.line == 0) return file + ": ";
+  return file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
+}
+
+std::string sentence(const Diagnostic& diagnostic) {
+  std::string text = printable(diagnostic.what);
+  if (diagnostic.more > 0)
+    text += " (and " + std::to_string(diagnostic.more) + " more like it, the last in line " +
+            std::to_string(diagnostic.last_line) + ")";
+  return text;
+}
+
+std::string kind_key(std::string_view kind, const SourcePosition& where) {
+  return where.file + '\n' + std::string(kind);
 }
 
 }  // namespace
 
 std::string to_string(const Diagnostic& diagnostic) {
-  const char* severity = diagnostic.severity == Severity::error ? "error: " : "warning: ";
-  return place(diagnostic.where) + severity + diagnostic.what;
+  const char* severity = diagnostic.severity == Severity::error     ? "error: "
+                         : diagnostic.severity == Severity::warning ? "warning: "
+                                                                    : "notice: ";
+  return place(diagnostic.where) + severity + sentence(diagnostic);
 }
 
 std::string lines_of(const std::vector<Diagnostic>& diagnostics) {
@@ -30,7 +45,7 @@ std::string lines_of(const std::vector<Diagnostic>& diagnostics) {
 std::string sentences(const std::vector<Diagnostic>& diagnostics) {
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics)
-    text += (text.empty() ? "" : "\n") + place(diagnostic.where) + diagnostic.what;
+    text += (text.empty() ? "" : "\n") + place(diagnostic.where) + sentence(diagnostic);
   return text;
 }
 
@@ -41,6 +56,24 @@ void Diagnostics::error(SourcePosition where, std::string what) {
 
 void Diagnostics::warning(SourcePosition where, std::string what) {
   all_.push_back({Severity::warning, std::move(where), std::move(what)});
+}
+
+void Diagnostics::notice(SourcePosition where, std::string what) {
+  all_.push_back({Severity::notice, std::move(where), std::move(what)});
+}
+
+void Diagnostics::repeated_error(std::string_view kind, SourcePosition where, std::string what) {
+  if (again(kind, where)) return;
+  kinds_.emplace(kind_key(kind, where), all_.size());
+  error(std::move(where), std::move(what));
+}
+
+bool Diagnostics::again(std::string_view kind, const SourcePosition& where) {
+  const auto known = kinds_.find(kind_key(kind, where));
+  if (known == kinds_.end()) return false;
+  ++all_[known->second].more;
+  all_[known->second].last_line = where.line;
+  return true;
 }
 
 std::string Diagnostics::text() const {

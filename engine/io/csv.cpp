@@ -2,105 +2,57 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "core/check.h"
 #include "io/atomic_file.h"
+#include "io/table_text.h"
+#include "io/text_file.h"
 
 namespace pedicel::io {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-struct Cell {
-  std::string_view text;
-  int column;  // character column, from 1
-};
-
-std::vector<Cell> split(std::string_view line) {
-  std::vector<Cell> cells;
-  std::size_t start = 0;
-  while (true) {
-    const std::size_t comma = line.find(',', start);
-    const auto raw = line.substr(start, comma == std::string_view::npos ? comma : comma - start);
-    cells.push_back({trimmed(raw), static_cast<int>(start) + 1});
-    if (comma == std::string_view::npos) return cells;
-    start = comma + 1;
-  }
-}
-
+/// Takes a table's rows as numbers.
 class Reader {
  public:
-  Reader(std::string file, const CsvRules& rules, Diagnostics& diagnostics)
-      : rules_(rules), diagnostics_(diagnostics) {
-    table_.file = std::move(file);
-  }
+  Reader(std::string_view text, const std::string& file, const CsvRules& rules,
+         Diagnostics& diagnostics)
+      : source_(text, file, diagnostics), rules_(rules), diagnostics_(diagnostics) {}
 
-  CsvTable read(std::string_view text) {
-    int line = 0;
-    while (!text.empty()) {
-      const std::size_t end = text.find('\n');
-      ++line;
-      take(trimmed(text.substr(0, end)).empty() ? std::string_view{} : text.substr(0, end), line);
-      text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+  CsvTable read() {
+    if (!source_.good()) return {};
+    table_.file = source_.file();
+    table_.header_line = source_.header_line();
+    table_.separator = source_.dialect().separator;
+    for (const TableColumn& column : source_.columns()) {
+      table_.columns.push_back(column.name);
+      table_.units.push_back(column.unit);
     }
-    if (table_.columns.empty())
-      diagnostics_.error({table_.file, 1, 1}, "no header line, expected column names");
-    else if (table_.rows.empty() && !refused_rows_)
-      diagnostics_.error({table_.file, line, 1}, "no rows, expected at least one row of numbers");
+    const int before = diagnostics_.error_count();
+    while (source_.next()) take_row();
+    if (table_.rows.empty() && diagnostics_.error_count() == before)
+      diagnostics_.error({table_.file, table_.header_line, 1},
+                         "no rows, expected at least one row of numbers");
     return std::move(table_);
   }
 
  private:
-  void take(std::string_view line, int number) {
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    if (line.empty() || line.front() == '#') return;
-    const std::vector<Cell> cells = split(line);
-    if (table_.columns.empty()) {
-      for (const Cell& cell : cells) table_.columns.emplace_back(cell.text);
-      table_.header_line = number;
-      return;
-    }
-    if (cells.size() != table_.columns.size()) {
-      diagnostics_.error({table_.file, number, 1},
-                         std::to_string(cells.size()) + " cells, expected " +
-                             std::to_string(table_.columns.size()) + " as in the header");
-      refused_rows_ = true;
-      return;
-    }
-    std::vector<double> row;
-    for (std::size_t i = 0; i < cells.size(); ++i) row.push_back(value(cells[i], number, i));
-    if (rules_.increasing_first && !table_.rows.empty() && !(row[0] > table_.rows.back()[0]))
-      diagnostics_.error({table_.file, number, cells[0].column},
-                         table_.columns[0] + " " + std::string(cells[0].text) +
-                             " does not increase, expected more than " +
-                             format_number(table_.rows.back()[0]));
+  void take_row() {
+    std::vector<double> row(table_.columns.size());
+    for (std::size_t i = 0; i < row.size(); ++i)
+      row[i] = source_.number(i, rules_.empty_cells && !(i == 0 && rules_.increasing_first));
+    if (rules_.increasing_first && !table_.rows.empty() && row[0] <= table_.rows.back()[0])
+      diagnostics_.repeated_error("increase", source_.at(0),
+                                  table_.columns[0] + " " + format_number(row[0]) +
+                                      " does not increase, expected more than " +
+                                      format_number(table_.rows.back()[0]));
     table_.rows.push_back(std::move(row));
-    table_.lines.push_back(number);
+    table_.lines.push_back(source_.line());
   }
 
-  double value(const Cell& cell, int line, std::size_t index) {
-    const bool missing = cell.text.empty() || cell.text == "nan";
-    if (missing && rules_.empty_cells && !(index == 0 && rules_.increasing_first))
-      return std::numeric_limits<double>::quiet_NaN();
-    double number = 0.0;
-    const char* end = cell.text.data() + cell.text.size();
-    const auto [stop, error] = std::from_chars(cell.text.data(), end, number);
-    if (cell.text.empty() || error != std::errc{} || stop != end || !std::isfinite(number))
-      diagnostics_.error(
-          {table_.file, line, cell.column},
-          table_.columns[index] + ": \"" + std::string(cell.text) + "\" is not a finite number");
-    return number;
-  }
-
+  TableText source_;
   CsvTable table_;
-  bool refused_rows_ = false;
   CsvRules rules_;
   Diagnostics& diagnostics_;
 };
@@ -113,13 +65,49 @@ int CsvTable::column(const std::string& name) const {
   return -1;
 }
 
+ColumnMatch match_column(const std::string& heading, const std::string& name) {
+  const NamedUnit named = split_unit(heading);
+  if (same_but_case(named.name, name)) return {true, named.unit};
+  if (unit_behind(heading, name)) return {true, heading.substr(name.size() + 1)};
+  return {};
+}
+
+bool to_si(CsvTable& table, int column, const std::string& name, Quantity quantity,
+           Diagnostics& diagnostics) {
+  const std::string said = match_column(table.columns[column], name).unit;
+  const std::string& row = table.units[column];
+  const auto refuse = [&](const std::string& what) {
+    diagnostics.error(cell_position(table, table.header_line, column),
+                      "column " + in_quotes(table.columns[column]) + " " + what);
+    return false;
+  };
+  const std::string& text = said.empty() ? row : said;
+  if (text.empty()) return true;
+  const std::optional<Unit> unit = unit_of(text);
+  if (!unit || (unit->quantity != quantity && unit->quantity != Quantity::none))
+    return refuse("is in " + in_quotes(text) + ", expected " + units_of(quantity));
+  const std::optional<Unit> other = row.empty() ? unit : unit_of(row);
+  if (!other || other->factor != unit->factor || other->quantity != unit->quantity)
+    return refuse("has " + in_quotes(row) + " below it, expected one unit");
+  if (unit->factor != 1.0)
+    for (std::vector<double>& values : table.rows) values[column] *= unit->factor;
+  return true;
+}
+
 SourcePosition cell_position(const CsvTable& table, int line, int column) {
-  std::ifstream file(table.file);
-  std::string text;
-  for (int i = 0; i < line; ++i) std::getline(file, text);
-  const std::vector<Cell> cells = split(text);
-  const bool known = file && column >= 0 && column < static_cast<int>(cells.size());
-  return {table.file, line, known ? cells[column].column : 1};
+  try {
+    const std::string text = read_text_file(table.file);
+    RecordScanner scanner(text);
+    while (scanner.next() && scanner.line() < line) {
+    }
+    CellSplitter splitter(table.separator);
+    const auto& cells = splitter.split(scanner.record());
+    const bool known =
+        scanner.line() == line && column >= 0 && static_cast<std::size_t>(column) < cells.size();
+    return {table.file, line, known ? cells[column].column : 1};
+  } catch (const InvalidFile&) {
+    return {table.file, line, 1};
+  }
 }
 
 CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
@@ -127,9 +115,10 @@ CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
   const int before = diagnostics.error_count();
   CsvTable table;
   try {
-    table = Reader(path.string(), rules, diagnostics).read(read_file(path));
-  } catch (const InvalidFile& error) {
-    diagnostics.error({path.string()}, "cannot be read");
+    const std::string text = read_text_file(path);
+    table = Reader(text, path.string(), rules, diagnostics).read();
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
   }
   if (diagnostics.error_count() > before) return {};
   return table;

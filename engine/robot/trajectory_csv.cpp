@@ -1,4 +1,5 @@
-#include "io/atomic_file.h"
+#include <algorithm>
+
 #include "io/csv.h"
 #include "robot/joint_range.h"
 #include "robot/trajectory.h"
@@ -7,69 +8,63 @@ namespace pedicel::robot {
 
 namespace {
 
-/// Where a column's name stands in the header, the first line that is neither blank nor comment.
-SourcePosition header_position(const std::filesystem::path& path, std::size_t column) {
-  const std::string text = io::read_file(path);
-  int line = 1;
-  for (std::size_t start = 0; start < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::size_t first = text.find_first_not_of(" \t\r", start);
-    if (first < end && text[start] != '#') {
-      std::size_t at = start;
-      for (; column > 0; --column) at = text.find(',', at) + 1;
-      return {path.string(), line, static_cast<int>(at - start) + 1};
-    }
-    start = end + 1;
-  }
-  return {path.string()};
-}
-
 std::string expected_names(const KinematicModel& model) {
   std::string names;
   for (const std::string& name : model.joint_names()) names += (names.empty() ? "" : ", ") + name;
   return "expected one of " + names;
 }
 
-/// For each column after the first its joint; faults are reported.
-std::vector<int> match_columns(const io::CsvTable& table, const std::filesystem::path& path,
-                               const RobotDescription& robot, const KinematicModel& model,
-                               Diagnostics& diagnostics) {
-  if (table.columns[0] != "time_s")
-    diagnostics.error(header_position(path, 0),
-                      "first column '" + table.columns[0] + "', expected time_s");
+/// The joint that a column is about: by its name, else by its name with a unit behind it.
+std::string joint_of(const std::string& heading, const RobotDescription& robot) {
+  if (robot.joint(heading) >= 0) return heading;
+  for (const Joint& joint : robot.joints)
+    if (io::match_column(heading, joint.name).matches) return joint.name;
+  return heading;
+}
+
+/// For each column after the first its joint, everything in s and rad or m; faults are reported.
+std::vector<int> match_columns(io::CsvTable& table, const RobotDescription& robot,
+                               const KinematicModel& model, Diagnostics& diagnostics) {
+  const auto error = [&](std::size_t column, const std::string& what) {
+    diagnostics.error(io::cell_position(table, table.header_line, static_cast<int>(column)), what);
+  };
+  const io::ColumnMatch time = io::match_column(table.columns[0], "time");
+  if (!time.matches || (time.unit.empty() && table.units[0].empty()))
+    error(0, "first column '" + table.columns[0] + "', expected time_s");
+  else
+    io::to_si(table, 0, "time", io::Quantity::time, diagnostics);
   std::vector<int> joints;
   for (std::size_t c = 1; c < table.columns.size(); ++c) {
-    const std::string& name = table.columns[c];
+    const std::string name = joint_of(table.columns[c], robot);
     const int index = robot.joint(name);
     const bool follows = index >= 0 && robot.joints[index].mimic.has_value();
-    joints.push_back(model.joint_index(name));
-    if (table.column(name) != static_cast<int>(c))
-      diagnostics.error(header_position(path, c), "column '" + name + "' twice, expected it once");
+    const int joint = model.joint_index(name);
+    if (joint >= 0 && std::find(joints.begin(), joints.end(), joint) != joints.end())
+      error(c, "column '" + table.columns[c] + "' twice, expected it once");
     else if (follows)
-      diagnostics.error(header_position(path, c),
-                        "joint '" + name + "' follows '" +
-                            robot.joints[robot.joints[index].mimic->source].name +
-                            "', expected that one alone");
-    else if (joints.back() < 0)
-      diagnostics.error(header_position(path, c),
-                        "unknown joint '" + name + "', " + expected_names(model));
+      error(c, "joint '" + name + "' follows '" +
+                   robot.joints[robot.joints[index].mimic->source].name +
+                   "', expected that one alone");
+    else if (joint < 0)
+      error(c, "unknown joint '" + name + "', " + expected_names(model));
+    else
+      io::to_si(table, static_cast<int>(c), name,
+                robot.joints[index].type == JointType::prismatic ? io::Quantity::length
+                                                                 : io::Quantity::angle,
+                diagnostics);
+    joints.push_back(joint);
   }
   return joints;
 }
 
-/// The first row of each joint that leaves its limits, and how many more do.
+/// Each joint that leaves its limits, once.
 void check_limits(const io::CsvTable& table, const std::vector<int>& joints,
                   const KinematicModel& model, Diagnostics& diagnostics) {
-  for (std::size_t c = 0; c < joints.size(); ++c) {
-    std::size_t count = 0, first = 0;
-    for (std::size_t r = 0; r < table.rows.size(); ++r)
-      if (outside_range(model, joints[c], table.rows[r][c + 1]) && count++ == 0) first = r;
-    if (count == 0) continue;
-    const std::string others =
-        count > 1 ? " (and " + std::to_string(count - 1) + " more rows)" : "";
-    diagnostics.error({table.file, table.lines[first], 1},
-                      *outside_range(model, joints[c], table.rows[first][c + 1]) + others);
-  }
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    for (std::size_t c = 0; c < joints.size(); ++c)
+      if (const auto outside = outside_range(model, joints[c], table.rows[r][c + 1]))
+        diagnostics.repeated_error("limit of " + table.columns[c + 1],
+                                   {table.file, table.lines[r], 1}, *outside);
 }
 
 }  // namespace
@@ -78,9 +73,9 @@ Trajectory read_trajectory_csv(const std::filesystem::path& path, const RobotDes
                                const KinematicModel& model, const Eigen::VectorXd& q_start,
                                Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();
-  const io::CsvTable table = io::read_csv(path, {}, diagnostics);
+  io::CsvTable table = io::read_csv(path, {}, diagnostics);
   if (diagnostics.error_count() > before) return {};
-  const std::vector<int> joints = match_columns(table, path, robot, model, diagnostics);
+  const std::vector<int> joints = match_columns(table, robot, model, diagnostics);
   if (diagnostics.error_count() > before) return {};
   check_limits(table, joints, model, diagnostics);
   if (diagnostics.error_count() > before) return {};

@@ -38,6 +38,7 @@ struct ScenePlant {
   std::string name;
   Source source = Source::file;
   std::filesystem::path file;  ///< plant or MTG file
+  double unit = 0.0;           ///< m, of the lengths in an MTG or a table; 0: as the file says
   std::string built_in;        ///< name of a plant that is made by the program ("forest")
   bool optional = false;       ///< a missing file skips the scene (or takes the fallback)
   std::filesystem::path

@@ -1,3 +1,4 @@
+#include "io/unit_text.h"
 #include "world/scene_sections.h"
 
 namespace pedicel::world::sections {
@@ -14,6 +15,14 @@ void read_source(io::YamlMap& map, const std::filesystem::path& folder, ScenePla
   if (mtg) {
     plant.source = ScenePlant::Source::mtg;
     plant.file = read_path(*mtg, "mtg", folder, plant.optional);
+  }
+  if (const auto unit = map.optional("unit")) {
+    const std::string text = unit->text("unit");
+    const std::optional<double> metres = io::length_unit(text);
+    if (!metres && !text.empty())
+      unit->error("unit is " + in_quotes(text) + ", expected " + io::expected_length_units());
+    if (built_in) unit->error("unit: a built-in plant has its own lengths, expected none");
+    plant.unit = metres.value_or(0.0);
   }
   if (built_in) {
     plant.source = ScenePlant::Source::built_in;

@@ -1,13 +1,12 @@
 #include "discrepancy/experiment_tables.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <set>
-#include <sstream>
 
 #include "io/atomic_file.h"
 #include "io/csv.h"
+#include "io/table_text.h"
+#include "io/text_file.h"
 
 namespace pedicel::discrepancy {
 
@@ -16,7 +15,8 @@ namespace {
 constexpr double smallest_quaternion = 1.0e-6;
 constexpr const char* axes[] = {"x", "y", "z"};
 
-/// A table of samples: time first and not negative, then the columns that are expected.
+/// A table of samples: time first and not negative, then the columns that are expected. Everything
+/// comes in SI units, whatever unit the header says.
 class SampleTable {
  public:
   SampleTable(const std::filesystem::path& file, bool gaps, Diagnostics& diagnostics)
@@ -25,9 +25,12 @@ class SampleTable {
     rules.empty_cells = gaps;
     table_ = io::read_csv(file, rules, diagnostics);
     if (!good()) return;
-    if (table_.columns.front() != "time")
-      error(table_.header_line, 0,
-            "the first column is \"" + table_.columns.front() + "\", expected time");
+    const std::string& first = table_.columns.front();
+    const std::string name = io::match_column(first, "t").matches ? "t" : "time";
+    if (!io::match_column(first, name).matches)
+      error(table_.header_line, 0, "the first column is " + in_quotes(first) + ", expected time");
+    else if (!io::to_si(table_, 0, name, io::Quantity::time, diagnostics_))
+      return;
     else if (table_.rows.front().front() < 0.0)
       error(table_.lines.front(), 0,
             "time " + io::exact_number(table_.rows.front().front()) +
@@ -39,23 +42,34 @@ class SampleTable {
   void error(int line, int column, const std::string& what) {
     diagnostics_.error(io::cell_position(table_, line, column), what);
   }
+  /// The same in row after row is said once.
+  void row_error(const char* kind, std::size_t row, int column, const std::string& what) {
+    const int line = table_.lines[row];
+    if (!diagnostics_.again(kind, {table_.file, line, 1}))
+      diagnostics_.repeated_error(kind, io::cell_position(table_, line, column), what);
+  }
 
   /// Each of `expected` once and nothing else, in any order: their indices.
-  std::vector<int> find(const std::vector<std::string>& expected, const std::string& all) {
-    std::vector<int> found;
-    for (const std::string& name : expected) {
-      found.push_back(table_.column(name));
-      if (found.back() < 0) error(table_.header_line, 0, "no column " + name + ", expected " + all);
-    }
-    const std::set<std::string> known(expected.begin(), expected.end());
-    std::set<std::string> seen;
+  std::vector<int> find(const std::vector<std::string>& expected, io::Quantity quantity,
+                        const std::string& all) {
+    std::vector<int> found(expected.size(), -1);
     for (int c = 1; c < static_cast<int>(table_.columns.size()); ++c) {
       const std::string& name = table_.columns[c];
-      if (!known.contains(name))
-        error(table_.header_line, c, "column \"" + name + "\" is unknown, expected " + all);
-      else if (!seen.insert(name).second)
-        error(table_.header_line, c, "column " + name + " appears twice, expected it once");
+      const int index = index_of(expected, name);
+      if (index < 0)
+        error(table_.header_line, c, "column " + in_quotes(name) + " is unknown, expected " + all);
+      else if (found[index] >= 0)
+        error(table_.header_line, c,
+              "column " + printable(name, 60) + " appears twice, expected it once");
+      else
+        found[index] = c;
     }
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (found[i] < 0)
+        error(table_.header_line, 0, "no column " + expected[i] + ", expected " + all);
+      else
+        io::to_si(table_, found[i], expected[i],
+                  expected[i].starts_with('q') ? io::Quantity::none : quantity, diagnostics_);
     return found;
   }
 
@@ -82,14 +96,22 @@ class SampleTable {
           if (empty) missing = columns[c + axis];
         }
         if (there != 0 && there != 3)
-          error(table_.lines[r], missing,
-                table_.columns[missing] +
-                    " is empty where the other axes are not, expected all "
-                    "three or none");
+          row_error("half a point", r, missing,
+                    table_.columns[missing] +
+                        " is empty where the other axes are not, expected all three or none");
       }
   }
 
  private:
+  // As it is written, else whatever its capitals and its unit.
+  static int index_of(const std::vector<std::string>& expected, const std::string& name) {
+    const auto exact = std::find(expected.begin(), expected.end(), name);
+    if (exact != expected.end()) return static_cast<int>(exact - expected.begin());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (io::match_column(name, expected[i]).matches) return static_cast<int>(i);
+    return -1;
+  }
+
   io::CsvTable table_;
   Diagnostics& diagnostics_;
   int before_;
@@ -120,7 +142,8 @@ Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
   const bool turns = table.columns.size() > 4;
   std::vector<std::string> expected = {"x", "y", "z"};
   if (turns) expected.insert(expected.end(), {"qx", "qy", "qz", "qw"});
-  const std::vector<int> at = source.find(expected, "time,x,y,z or time,x,y,z,qx,qy,qz,qw");
+  const std::vector<int> at =
+      source.find(expected, io::Quantity::length, "time,x,y,z or time,x,y,z,qx,qy,qz,qw");
   if (!source.good()) return {};
   Path path;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
@@ -130,7 +153,7 @@ Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
     if (!turns) continue;
     const Quat q(row[at[6]], row[at[3]], row[at[4]], row[at[5]]);
     if (q.norm() < smallest_quaternion)
-      source.error(table.lines[r], at[3], "the quaternion has length 0, expected a rotation");
+      source.row_error("quaternion", r, at[3], "the quaternion has length 0, expected a rotation");
     path.rotation.push_back(q.normalized());
   }
   return source.good() ? path : Path{};
@@ -146,7 +169,7 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
     for (const char* axis : axes) expected.push_back(marker.name + "." + axis);
     all += " " + marker.name;
   }
-  const std::vector<int> columns = source.find(expected, all);
+  const std::vector<int> columns = source.find(expected, io::Quantity::length, all);
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
 }
@@ -154,9 +177,49 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
 Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics) {
   SampleTable source(file, true, diagnostics);
   if (!source.good()) return {};
-  const std::vector<int> columns = source.find({"fx", "fy", "fz"}, "time,fx,fy,fz");
+  const std::vector<int> columns =
+      source.find({"fx", "fy", "fz"}, io::Quantity::force, "time,fx,fy,fz");
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
+}
+
+std::vector<MeasuredEvent> read_event_rows(const std::filesystem::path& file,
+                                           std::vector<SourcePosition>& what_is_at,
+                                           Diagnostics& diagnostics) {
+  std::vector<MeasuredEvent> events;
+  const std::string text = io::read_text_file(file);
+  io::TableText table(text, file.string(), diagnostics);
+  if (!table.good()) return events;
+  const auto& columns = table.columns();
+  std::string header;
+  for (const io::TableColumn& column : columns) header += (header.empty() ? "" : ",") + column.name;
+  constexpr const char* names[] = {"time", "event", "what", "by"};
+  bool known = columns.size() == 3 || columns.size() == 4;
+  for (std::size_t c = 0; known && c < columns.size(); ++c)
+    known = io::match_column(columns[c].name, names[c]).matches;
+  if (!known) {
+    diagnostics.error({file.string(), table.header_line(), 1},
+                      "the header is " + in_quotes(header) + ", expected time,event,what");
+    return events;
+  }
+  std::string said = io::match_column(columns[0].name, "time").unit;
+  if (said.empty()) said = columns[0].unit;
+  const auto unit = said.empty() ? io::Unit{io::Quantity::time, 1.0} : io::unit_of(said);
+  if (!unit || unit->quantity != io::Quantity::time) {
+    diagnostics.error(
+        {file.string(), table.header_line(), 1},
+        "time is in " + in_quotes(said) + ", expected " + io::units_of(io::Quantity::time));
+    return events;
+  }
+  while (table.next()) {
+    MeasuredEvent event;
+    event.time = table.number(0, false) * unit->factor;
+    event.event = table.cells()[1].text;
+    event.what = table.cells()[2].text;
+    what_is_at.push_back(table.at(2));
+    events.push_back(std::move(event));
+  }
+  return events;
 }
 
 std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
@@ -164,38 +227,13 @@ std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
   const auto is_fruit = [&](const std::string& name) {
     return std::ranges::any_of(plant.fruits, [&](const auto& f) { return f.name == name; });
   };
-  std::istringstream text(io::read_file(file));
-  std::vector<MeasuredEvent> events;
-  std::string line;
-  for (int number = 1; std::getline(text, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty() || line.front() == '#') continue;
-    if (number == 1) {
-      if (line != "time,event,what")
-        diagnostics.error({file.string(), 1, 1},
-                          "the header is \"" + line + "\", expected time,event,what");
-      continue;
-    }
-    const std::size_t first = line.find(','), second = line.find(',', first + 1);
-    MeasuredEvent event;
-    const char* begin = line.data();
-    const char* end = begin + std::min(first, line.size());
-    const auto [stop, fault] = std::from_chars(begin, end, event.time);
-    if (second == std::string::npos || line.find(',', second + 1) != std::string::npos) {
-      diagnostics.error({file.string(), number, 1}, "expected three cells: time,event,what");
-    } else if (fault != std::errc{} || stop != end || !std::isfinite(event.time)) {
-      diagnostics.error({file.string(), number, 1},
-                        "time: \"" + line.substr(0, first) + "\" is not a finite number");
-    } else {
-      event.event = line.substr(first + 1, second - first - 1);
-      event.what = line.substr(second + 1);
-      if (event.is_detachment() && !is_fruit(event.what))
-        diagnostics.error({file.string(), number, static_cast<int>(second) + 2},
-                          "what: \"" + event.what + "\" is no fruit of plant \"" + plant.name +
-                              "\", expected the name of one that detached");
-      events.push_back(std::move(event));
-    }
-  }
+  std::vector<SourcePosition> places;
+  const std::vector<MeasuredEvent> events = read_event_rows(file, places, diagnostics);
+  for (std::size_t i = 0; i < events.size(); ++i)
+    if (events[i].is_detachment() && !is_fruit(events[i].what))
+      diagnostics.repeated_error("no fruit", places[i],
+                                 "what: " + in_quotes(events[i].what) + " is no fruit of plant \"" +
+                                     plant.name + "\", expected the name of one that detached");
   return events;
 }
 

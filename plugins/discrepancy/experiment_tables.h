@@ -8,7 +8,9 @@
 #include "discrepancy/experiment.h"
 
 /// The tables of an experiment folder. Faults go to the diagnostics with line and column; what
-/// comes back then is empty.
+/// comes back then is empty. The ways of writing a table are those of io::TableText; names of
+/// columns take any capitals and a unit ("m1.x (mm)", a row of units), and what comes back is in SI
+/// units.
 namespace pedicel::discrepancy {
 
 /// time,x,y,z[,qx,qy,qz,qw]
@@ -22,7 +24,13 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
 /// time,fx,fy,fz; empty cells where it was not measured.
 Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics);
 
-/// time,event,what
+/// time,event,what (and by, which is not used), without a look at the plant; where each `what`
+/// stands.
+std::vector<MeasuredEvent> read_event_rows(const std::filesystem::path& file,
+                                           std::vector<SourcePosition>& what_is_at,
+                                           Diagnostics& diagnostics);
+
+/// The same; what detached is a fruit of the plant.
 std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
                                        const plant::PlantFile& plant, Diagnostics& diagnostics);
 

@@ -13,21 +13,24 @@
 /// (1998) 1-46, as the text that OpenAlea and AMAPmod write, and tables of nodes.
 namespace pedicel::plant {
 
-/// The digitised nodes of an MTG text with the features XX, YY, ZZ (mm) and, where it has it,
-/// TopDia (0.1 mm). The column of an entity's code is its place in the tree: "^" follows the entity
-/// above in the same column, without it the code hangs from the one in the column before; "+"
-/// begins an axis,
-/// "<" "<<" and "/" continue it. An entity without coordinates is passed over: what hangs from it
-/// hangs from the nearest digitised one above. Lines that start with "#" are comments. Empty after
-/// an error; `file` stands for the file in errors.
+/// The digitised nodes of an MTG text with the features XX, YY, ZZ and, where it has one, TopDia
+/// (in tenths of their unit), diameter or radius (in their unit). The unit is `unit` (m) where the
+/// caller says it, else what a line "UNIT: cm" or a comment "# unit: cm" above the columns says,
+/// else mm. The column of an entity's code is its place in the tree: "^" follows the entity above
+/// in the same column, without it the code hangs from the one in the column before; "+" begins an
+/// axis, "<" "<<" and "/" continue it. An entity without coordinates is passed over: what hangs
+/// from it hangs from the nearest digitised one above. Lines that start with "#" are comments.
+/// Empty after an error; `file` stands for the file in errors.
 std::vector<SkeletonNode> parse_mtg(const std::string& text, const std::string& file,
-                                    Diagnostics& diagnostics);
+                                    Diagnostics& diagnostics, double unit = 0.0);
 
-/// The nodes of a table with the columns x,y,z,parentid,vid,edgetype (m; "<" follows, "+" branches;
-/// the root's parent is empty, nan or -1), or id,parent,x_m,y_m,z_m,is_branch with an optional
-/// diameter_m, in any order of rows and columns. Parents come first in the result.
+/// The nodes of a table, see io::TableText for the ways of writing one and find_skeleton_columns()
+/// for the columns: nodes with x,y,z,parentid,vid,edgetype ("<" follows, "+" branches) and optional
+/// diameters, or cylinders of a QSM. The root has no parent, or names itself, or one that is
+/// nowhere. `unit` as above; else what the header or a comment says, else m. Parents come first in
+/// the result, which is empty after an error.
 std::vector<SkeletonNode> parse_skeleton_csv(const std::string& text, const std::string& file,
-                                             Diagnostics& diagnostics);
+                                             Diagnostics& diagnostics, double unit = 0.0);
 
 /// Reads an MTG text as a plant, see skeleton_plant(). Every fault goes to `diagnostics` with its
 /// line and column; nothing comes back where there is one.

@@ -6,6 +6,7 @@
 #include "cosserat/rotation.h"
 #include "io/csv.h"
 #include "plant/apply_effects.h"
+#include "plant/plant_size.h"
 
 namespace pedicel::plant {
 
@@ -197,7 +198,8 @@ class Builder {
           plant_.where, "plant \"" + plant_.name + "\" cannot stand as drawn: " +
                             model.organs[model.elements[standing.element].organ] +
                             " is too soft for its load, expected stiffer material, more radius, or "
-                            "shape: rest");
+                            "shape: rest" +
+                            size_doubt(plant_));
       return;
     }
     if (!cosserat::is_stable(model, cosserat::drawn_state(model), options_.gravity))

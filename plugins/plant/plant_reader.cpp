@@ -1,6 +1,7 @@
 #include "io/yaml.h"
 #include "plant/effects.h"
 #include "plant/plant_file.h"
+#include "plant/plant_size.h"
 
 namespace pedicel::plant {
 
@@ -194,7 +195,9 @@ std::optional<PlantFile> read_plant_file(const std::filesystem::path& path,
   try {
     const YamlNode node = io::load_yaml(path, diagnostics);
     auto plant = read(node);
-    return diagnostics.error_count() > before ? std::nullopt : plant;
+    if (diagnostics.error_count() > before) return std::nullopt;
+    if (plant) warn_of_size(*plant, diagnostics);
+    return plant;
   } catch (const InvalidFile& fault) {
     diagnostics.add(fault);
     return std::nullopt;

@@ -1,189 +1,280 @@
 #include <algorithm>
-#include <map>
-#include <string_view>
+#include <charconv>
+#include <cmath>
 
-#include "io/atomic_file.h"
+#include "io/table_text.h"
+#include "io/text_file.h"
 #include "plant/mtg_reader.h"
-#include "plant/text_cells.h"
+#include "plant/skeleton_columns.h"
+#include "plant/skeleton_tree.h"
 
 namespace pedicel::plant {
 
 namespace {
 
+constexpr std::size_t most_nodes = 1000000;
+constexpr double largest_whole = 9.0e15;  ///< doubles below it have no fractions left out
+
 /// A row as it stands in the table.
 struct Row {
-  SkeletonNode node;
-  int id = 0;
-  std::optional<int> parent;  ///< an id
+  SkeletonRow link;
+  Vec3 start = Vec3::Zero(), position = Vec3::Zero();  ///< m; `start` of a cylinder
+  std::optional<double> diameter;                      ///< m
+  std::string edge, code;
+  int edge_column = 1;
+  std::optional<std::int64_t> branch, order, extension;
 };
 
 class TableParser {
  public:
-  TableParser(std::string file, Diagnostics& diagnostics)
-      : file_(std::move(file)), diagnostics_(diagnostics) {}
+  TableParser(std::string_view text, const std::string& file, double unit, Diagnostics& diagnostics)
+      : diagnostics_(diagnostics),
+        before_(diagnostics.error_count()),
+        table_(text, file, diagnostics) {
+    if (table_.good()) columns_ = find_skeleton_columns(table_, unit, diagnostics);
+  }
 
-  std::vector<SkeletonNode> parse(std::string_view text) {
-    const int before = diagnostics_.error_count();
-    while (!text.empty()) {
-      const std::string_view line = take_line(text);
-      ++line_;
-      const std::size_t first = line.find_first_not_of(" \t");
-      if (first == std::string_view::npos || line[first] == '#') continue;
-      const std::vector<TextCell> cells = split_cells(line, ',');
-      if (columns_ > 0) {
-        take_row(cells);
-      } else if (!take_header(cells)) {
-        return {};
-      }
+  std::vector<SkeletonNode> parse() {
+    if (!good()) return {};
+    while (table_.next() && take_row()) {
     }
-    if (diagnostics_.error_count() == before && rows_.empty())
-      error(1, "no rows, expected a header and one row a node");
-    if (diagnostics_.error_count() > before) return {};
-    std::vector<SkeletonNode> nodes = in_order();
-    if (diagnostics_.error_count() > before) return {};
-    return nodes;
+    if (good() && rows_.empty())
+      error({table_.file(), table_.header_line(), 1},
+            "no rows, expected a header and one row a node");
+    if (good()) number_points();
+    if (good()) check_ids();
+    if (!good()) return {};
+    const SkeletonTree tree = skeleton_tree(links(), diagnostics_);
+    if (!good()) return {};
+    return is_cylinders() ? cylinder_nodes(tree) : plain_nodes(tree);
   }
 
  private:
-  void error(int column, std::string what) {
-    diagnostics_.error({file_, line_, column}, std::move(what));
+  bool good() const { return diagnostics_.error_count() == before_; }
+  bool is_cylinders() const { return columns_.kind == SkeletonColumns::Kind::cylinders; }
+  void error(const SourcePosition& where, const std::string& what) {
+    diagnostics_.error(where, what);
   }
 
-  bool take_header(const std::vector<TextCell>& cells) {
-    columns_ = cells.size();
-    const auto column_of = [&](std::string_view name, std::string_view other) {
-      for (std::size_t i = 0; i < cells.size(); ++i)
-        if (cells[i].text == name || cells[i].text == other) return static_cast<int>(i);
-      return -1;
-    };
-    x_[0] = column_of("x", "x_m");
-    x_[1] = column_of("y", "y_m");
-    x_[2] = column_of("z", "z_m");
-    parent_ = column_of("parentid", "parent");
-    id_ = column_of("vid", "id");
-    edge_ = column_of("edgetype", "is_branch");
-    diameter_ = column_of("diameter_m", "diameter_m");
-    code_ = column_of("mtg_code", "mtg_code");
-    if (std::min({x_[0], x_[1], x_[2], parent_, id_, edge_}) >= 0) return true;
-    error(1,
-          "a column is missing, expected x,y,z,parentid,vid,edgetype or "
-          "id,parent,x_m,y_m,z_m,is_branch");
-    return false;
+  std::vector<SkeletonRow> links() const {
+    std::vector<SkeletonRow> list;
+    for (const Row& row : rows_) list.push_back(row.link);
+    return list;
   }
 
-  void take_row(const std::vector<TextCell>& cells) {
-    if (cells.size() != columns_) {
-      error(1, std::to_string(cells.size()) + " cells, expected " + std::to_string(columns_) +
-                   " as in the header");
-      return;
+  bool take_row() {
+    if (rows_.size() == most_nodes) {
+      error(table_.at(0),
+            "the table goes on, expected at most " + std::to_string(most_nodes) + " nodes");
+      return false;
     }
     Row row;
-    row.node.where = {file_, line_, 1};
-    for (int i = 0; i < 3; ++i) row.node.position[i] = number(cells[x_[i]]);
-    row.id = whole(cells[id_]);
-    const std::string_view parent = cells[parent_].text;
-    if (!parent.empty() && parent != "nan" && parent != "-1") row.parent = whole(cells[parent_]);
-    const TextCell& edge = cells[edge_];
-    row.node.branch = edge.text == "+" || edge.text == "1";
-    if (row.parent && !row.node.branch && edge.text != "<" && edge.text != "0")
-      error(edge.column, "edge \"" + std::string(edge.text) +
-                             "\", expected < (or 0) to follow or + (or 1) to branch");
-    if (code_ >= 0) row.node.code = cells[code_].text;
-    if (diameter_ >= 0 && !cells[diameter_].text.empty()) {
-      row.node.diameter = number(cells[diameter_]);
-      if (*row.node.diameter < 0.0)
-        error(cells[diameter_].column,
-              "diameter \"" + std::string(cells[diameter_].text) + "\", expected a number >= 0");
-    }
+    row.link.where = {table_.file(), table_.line(), 1};
+    row.link.id =
+        columns_.has(Role::id) ? whole(Role::id) : std::optional<std::int64_t>(rows_.size() + 1);
+    row.link.parent = whole(Role::parent);
+    if (is_cylinders())
+      take_cylinder(row);
+    else
+      take_node(row);
+    take_diameter(row);
     rows_.push_back(std::move(row));
+    return true;
   }
 
-  double number(const TextCell& cell) {
-    const std::optional<double> value = cell_number(cell.text);
-    if (!value) error(cell.column, "\"" + std::string(cell.text) + "\", expected a number");
-    return value.value_or(0.0);
+  void take_node(Row& row) {
+    row.position = point(Role::x);
+    const io::TableCell& edge = table_.cells()[columns_.column(Role::edge)];
+    row.edge = edge.text.substr(0, 40);
+    row.edge_column = edge.column;
+    if (columns_.has(Role::code)) row.code = table_.cells()[columns_.column(Role::code)].text;
   }
 
-  int whole(const TextCell& cell) {
-    const double value = number(cell);
-    if (value == std::floor(value) && std::abs(value) < 2.0e9) return static_cast<int>(value);
-    error(cell.column, "\"" + std::string(cell.text) + "\", expected a whole number");
+  void take_cylinder(Row& row) {
+    row.start = point(Role::start_x);
+    row.position = columns_.has(Role::end_x) ? point(Role::end_x)
+                                             : row.start + length(Role::length) * direction();
+    if (columns_.has(Role::branch)) row.branch = whole(Role::branch);
+    if (columns_.has(Role::order)) row.order = whole(Role::order);
+    if (columns_.has(Role::extension)) row.extension = whole(Role::extension);
+  }
+
+  Vec3 direction() {
+    Vec3 axis;
+    for (int i = 0; i < 3; ++i)
+      axis[i] = table_.number(columns_.column(Role(static_cast<int>(Role::axis_x) + i)), false);
+    const double norm = axis.norm();
+    return norm > 0.0 ? Vec3(axis / norm) : axis;
+  }
+
+  void take_diameter(Row& row) {
+    const Role role = columns_.has(Role::diameter) ? Role::diameter : Role::radius;
+    if (!columns_.has(role)) return;
+    const auto column = static_cast<std::size_t>(columns_.column(role));
+    const double value = table_.number(column, true);
+    if (std::isnan(value)) return;
+    if (value < 0.0)
+      table_.cell_error(column,
+                        in_quotes(table_.cells()[column].text) + ", expected a number >= 0");
+    row.diameter = value * columns_.factor(role) * (role == Role::radius ? 2.0 : 1.0);
+  }
+
+  double length(Role role) {
+    return table_.number(columns_.column(role), false) * columns_.factor(role);
+  }
+
+  Vec3 point(Role first) {
+    Vec3 place;
+    for (int i = 0; i < 3; ++i) place[i] = length(Role(static_cast<int>(first) + i));
+    return place;
+  }
+
+  // Some programs write them as 12.0. Digits alone are read as they stand, so that large ones are
+  // exact.
+  std::optional<std::int64_t> whole(Role role) {
+    const auto column = static_cast<std::size_t>(columns_.column(role));
+    const std::string_view text = table_.cells()[column].text;
+    std::int64_t value = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (fault == std::errc{} && end == text.data() + text.size()) return value;
+    const double number = table_.number(column, true);
+    if (std::isnan(number)) return std::nullopt;
+    if (number == std::floor(number) && std::abs(number) < largest_whole)
+      return static_cast<std::int64_t>(number);
+    table_.cell_error(column, in_quotes(text) + ", expected a whole number");
     return 0;
   }
 
-  // Parents before children, depth first, children in the order of their rows.
-  std::vector<SkeletonNode> in_order() {
-    const std::vector<int> parents = parent_rows();
-    std::vector<std::vector<int>> children(rows_.size());
-    std::vector<int> waiting;
-    for (int r = static_cast<int>(rows_.size()) - 1; r >= 0; --r)
-      (parents[r] >= 0 ? children[parents[r]] : waiting).push_back(r);
-    if (waiting.size() > 1) {
-      line_ = rows_[waiting[waiting.size() - 2]].node.where.line;
-      error(1, "a second root, expected one row without a parent");
+  // Tables that hold points, and beside them the edges of the tree: `vid` hangs from `parentid`,
+  // both numbers of points from 0. There is an edge less than points, so that the last row has
+  // none.
+  bool is_points_and_edges() const {
+    const auto points = static_cast<std::int64_t>(rows_.size());
+    const Row& last = rows_.back();
+    if (is_cylinders() || points < 2 || last.link.id || last.link.parent || !last.edge.empty())
+      return false;
+    const auto is_point = [&](const std::optional<std::int64_t>& number) {
+      return number && *number >= 0 && *number < points;
+    };
+    return std::all_of(rows_.begin(), rows_.end() - 1, [&](const Row& row) {
+      return is_point(row.link.id) && is_point(row.link.parent);
+    });
+  }
+
+  void number_points() {
+    if (!is_points_and_edges()) return;
+    const std::vector<Row> edges(rows_.begin(), rows_.end() - 1);
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      rows_[r].link.id = static_cast<std::int64_t>(r);
+      rows_[r].link.parent.reset();
+      rows_[r].edge.clear();
     }
+    std::vector<bool> hangs(rows_.size(), false);
+    for (const Row& edge : edges) {
+      Row& child = rows_[*edge.link.id];
+      if (hangs[*edge.link.id])
+        error(edge.link.where, "point " + std::to_string(*edge.link.id) +
+                                   " hangs from two, expected one edge to each");
+      hangs[*edge.link.id] = true;
+      child.link.parent = edge.link.parent;
+      child.edge = edge.edge;
+      child.edge_column = edge.edge_column;
+    }
+    diagnostics_.warning({table_.file(), table_.header_line(), 1},
+                         "the last row has a point and no edge, so parentid and vid are taken for "
+                         "edges between the points, which are counted from 0");
+  }
+
+  void check_ids() {
+    for (const Row& row : rows_)
+      if (!row.link.id)
+        diagnostics_.repeated_error("no id", row.link.where,
+                                    table_.columns()[columns_.column(Role::id)].name +
+                                        " is empty, expected the number of the node");
+  }
+
+  bool begins_axis(const Row& row) {
+    if (row.edge == "+" || row.edge == "1") return true;
+    if (row.edge != "<" && row.edge != "0")
+      diagnostics_.repeated_error("edge", {table_.file(), row.link.where.line, row.edge_column},
+                                  table_.columns()[columns_.column(Role::edge)].name + ": " +
+                                      in_quotes(row.edge) +
+                                      ", expected < (or 0) to follow or + (or 1) to branch");
+    return false;
+  }
+
+  std::vector<SkeletonNode> plain_nodes(const SkeletonTree& tree) {
     std::vector<SkeletonNode> nodes;
     std::vector<int> place(rows_.size(), -1);
-    while (!waiting.empty()) {
-      const int row = waiting.back();
-      waiting.pop_back();
-      place[row] = static_cast<int>(nodes.size());
-      nodes.push_back(rows_[row].node);
-      if (parents[row] >= 0) nodes.back().parent = place[parents[row]];
-      waiting.insert(waiting.end(), children[row].begin(), children[row].end());
+    for (const int r : tree.order) {
+      const Row& row = rows_[r];
+      const bool is_root = tree.parent[r] < 0;
+      place[r] = static_cast<int>(nodes.size());
+      const bool branches = row.edge == "+" || row.edge == "1";
+      nodes.push_back({is_root ? -1 : place[tree.parent[r]], row.position, row.diameter,
+                       is_root ? branches : begins_axis(row), row.code, row.link.where});
     }
-    for (std::size_t r = 0; r < rows_.size(); ++r)
-      if (place[r] < 0 && parents[r] >= 0) {
-        line_ = rows_[r].node.where.line;
-        error(1, "node " + std::to_string(rows_[r].id) +
-                     " is its own ancestor, expected parents that lead to the root");
-      }
+    if (!good()) nodes.clear();
     return nodes;
   }
 
-  // The row of each row's parent, -1 without one.
-  std::vector<int> parent_rows() {
-    std::map<int, int> row_of;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      line_ = rows_[r].node.where.line;
-      if (!row_of.emplace(rows_[r].id, static_cast<int>(r)).second)
-        error(1, "node " + std::to_string(rows_[r].id) + " appears twice, expected it once");
-    }
-    std::vector<int> parents(rows_.size(), -1);
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      if (!rows_[r].parent) continue;
-      const auto found = row_of.find(*rows_[r].parent);
-      if (found != row_of.end()) {
-        parents[r] = found->second;
-        continue;
-      }
-      line_ = rows_[r].node.where.line;
-      error(1, "parent " + std::to_string(*rows_[r].parent) +
-                   " is not there, expected the number of a node");
-    }
-    return parents;
+  // The same branch as its parent's: by the branches' names, their order, or TreeQSM's extensions.
+  bool continues(const Row& row, const Row& parent) const {
+    if (row.branch && parent.branch) return *row.branch == *parent.branch;
+    if (row.order && parent.order) return *row.order == *parent.order;
+    if (parent.extension) return *parent.extension == *row.link.id;
+    return true;
   }
 
-  std::string file_;
+  // A node at every cylinder's end, one at the root's start, and one where a branch begins away
+  // from the axis that carries it. A branch hangs from whichever end of its parent is nearer.
+  std::vector<SkeletonNode> cylinder_nodes(const SkeletonTree& tree) {
+    constexpr double same_place = 1.0e-6;  // m
+    std::vector<SkeletonNode> nodes;
+    std::vector<int> start_of(rows_.size(), -1), end_of(rows_.size(), -1);
+    const auto add = [&](int from, const Vec3& at, bool branch, const Row& row) {
+      nodes.push_back({from, at, row.diameter, branch, row.code, row.link.where});
+      return static_cast<int>(nodes.size()) - 1;
+    };
+    for (const int r : tree.order) {
+      const Row& row = rows_[r];
+      const int p = tree.parent[r];
+      int from = p < 0 ? add(-1, row.start, false, row) : end_of[p];
+      bool branch = p >= 0 && !continues(row, rows_[p]);
+      if (p >= 0 && (nodes[start_of[p]].position - row.start).norm() <
+                        (nodes[from].position - row.start).norm()) {
+        from = start_of[p];
+        branch = true;
+      }
+      if (branch && (nodes[from].position - row.start).norm() > same_place) {
+        from = add(from, row.start, true, row);
+        branch = false;
+      }
+      start_of[r] = from;
+      end_of[r] = add(from, row.position, branch, row);
+    }
+    return nodes;
+  }
+
   Diagnostics& diagnostics_;
-  int line_ = 0;
-  std::size_t columns_ = 0;
-  int x_[3] = {-1, -1, -1};
-  int parent_ = -1, id_ = -1, edge_ = -1, diameter_ = -1, code_ = -1;
+  int before_;
+  io::TableText table_;
+  SkeletonColumns columns_;
   std::vector<Row> rows_;
 };
 
 }  // namespace
 
 std::vector<SkeletonNode> parse_skeleton_csv(const std::string& text, const std::string& file,
-                                             Diagnostics& diagnostics) {
-  return TableParser(file, diagnostics).parse(text);
+                                             Diagnostics& diagnostics, double unit) {
+  return TableParser(text, file, unit, diagnostics).parse();
 }
 
 std::optional<PlantFile> read_skeleton_csv(const std::filesystem::path& path,
                                            const MtgOptions& options, Diagnostics& diagnostics) {
   try {
-    const auto nodes = parse_skeleton_csv(io::read_file(path), path.string(), diagnostics);
+    const auto nodes =
+        parse_skeleton_csv(io::read_text_file(path), path.string(), diagnostics, options.unit);
     return checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
   } catch (const InvalidFile& fault) {
     diagnostics.add(fault);

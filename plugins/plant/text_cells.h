@@ -1,9 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,22 +28,13 @@ inline std::vector<TextCell> split_cells(std::string_view line, char separator) 
   return cells;
 }
 
-/// Cuts the next line off `text`, without its line end.
+/// Cuts the next line off `text`, without its line end (LF, CR LF or CR).
 inline std::string_view take_line(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end);
+  text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, text.size()));
   return line;
-}
-
-/// A finite number that fills the whole cell.
-inline std::optional<double> cell_number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  if (!std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 }  // namespace pedicel::plant

@@ -191,7 +191,7 @@ const Case table_cases[] = {
      "t/force.csv:1:6: error: column \"x\" is unknown, expected time,fx,fy,fz"},
     {"events_header", "t/events.csv", "time,what\n", "t/events.csv:1:1: error: the header is"},
     {"events_cells", "t/events.csv", "time,event,what\n1,detached\n",
-     "t/events.csv:2:1: error: expected three cells"},
+     "t/events.csv:2:1: error: 2 cells, expected 3 as in the header"},
     {"events_time", "t/events.csv", "time,event,what\nnow,detached,f\n",
      "t/events.csv:2:1: error: time: \"now\" is not a finite number"},
     {"events_fruit", "t/events.csv", "time,event,what\n1,detached,pear\n",

@@ -56,6 +56,9 @@ TEST_F(TrajectoryRefusals, Csv) {
   EXPECT_THAT(csv("time_s,joint5\n0,0\n1,3\n"),
               HasSubstr("refused.csv:3:1: error: joint5 = 3, expected -2.1642 to 2.1642"));
   EXPECT_THAT(csv("time_s,joint1\n1,0\n1,0\n"), HasSubstr("does not increase"));
+  EXPECT_THAT(csv("time_s,joint5\n0,0\n1,3\n2,3\n"), HasSubstr("(and 1 more like it, the last"));
+  EXPECT_THAT(csv("time_s,joint1 (N)\n0,0\n"),
+              HasSubstr("column \"joint1 (N)\" is in \"N\", expected rad or deg"));
   EXPECT_THAT(csv("time_s,joint1\n0,nan\n"), HasSubstr("\"nan\" is not a finite number"));
 }
 

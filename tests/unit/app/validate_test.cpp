@@ -98,6 +98,57 @@ TEST_F(Validate, ASceneIsBadWhereAFileThatItNamesIs) {
   EXPECT_THAT(text_, HasSubstr("bad.plant.yaml:1:1: error: missing key"));
 }
 
+TEST_F(Validate, TellsATableByItsHeader) {
+  const auto good = [&](const std::string& text, const std::string& said) {
+    EXPECT_EQ(validate({write("t.csv", text)}), 0) << text_;
+    EXPECT_THAT(text_, HasSubstr(said));
+  };
+  good("x,y,z,parentid,vid,edgetype\n0,0,0,,1,<\n0,0,0.1,1,2,<\n0,0,0.2,2,3,<\n",
+       "t.csv: notice: 0.2 m tall, 3 nodes");
+  EXPECT_THAT(text_, HasSubstr("t.csv: skeleton, good; settles "));
+  good(
+      "id,parent_id,start_x,start_y,start_z,end_x,end_y,end_z,radius\n1,0,0,0,0,0,0,0.1,0.004\n"
+      "2,1,0,0,0.1,0,0,0.2,0.003\n",
+      "t.csv: cylinders, good");
+  good("time;m1.x;m1.y;m1.z\n0;0,5;1;2\n0,1;;;\n", "t.csv: markers, good; 1 markers, 2 samples");
+  good("time,x,y,z\n0,1,2,3\n", "t.csv: path, good; 1 rows");
+  good("time,fx,fy,fz\n0,1,2,3\n", "t.csv: force, good; 1 samples");
+  good("time,event,what\n1,detached,fruit_1\n", "t.csv: events, good; 1 events");
+  good("time_s,joint1,joint2\n0,1,2\n", "t.csv: table over time (trajectory or log), good");
+}
+
+TEST_F(Validate, WhatNothingReadsIsNotGood) {
+  EXPECT_EQ(validate({write("t.csv", "apples,pears\n1,2\n")}), 3);
+  EXPECT_THAT(text_, HasSubstr("t.csv:1:1: error: nothing reads a table with the columns apples, "
+                               "pears, expected a skeleton"));
+  EXPECT_EQ(validate({write("t.csv", "\x1F\x8B\x08 gz")}), 3);
+  EXPECT_THAT(text_, HasSubstr("t.csv: error: is compressed with gzip"));
+  EXPECT_EQ(validate({write("t.csv", "id,parent_id,start_x,start_y,start_z,radius\n")}), 3);
+  EXPECT_THAT(text_, HasSubstr("a column is missing (end_x, end_y, end_z)"));
+}
+
+TEST_F(Validate, SaysTheHeightAndDoubtsTheUnit) {
+  const std::string tree = write("tree.mtg",
+                                 "CODE:\tFORM-A\nMTG:\nENTITY-CODE\t\tXX\tYY\tZZ\n/P1\n"
+                                 "^/S1\t\t0\t0\t0\n^<S2\t\t0\t0\t0.15\n^<S3\t\t0.02\t0\t0.3\n");
+  validate({tree});
+  EXPECT_THAT(text_, HasSubstr("is 0.3 mm large and its thinnest stem 4 mm thick"));
+  std::ostringstream out;
+  EXPECT_EQ(validate_files({tree}, {}, out, 1.0), 0) << out.str();
+  EXPECT_THAT(out.str(), HasSubstr("tree.mtg: notice: 0.3 m tall, 3 nodes"));
+  validate({write("mm.csv", "x,y,z,parentid,vid,edgetype\n0,0,0,,1,<\n0,0,300,1,2,<\n")});
+  EXPECT_THAT(text_, HasSubstr("is 300 m large, expected at most 100 m: are its lengths in mm"));
+}
+
+TEST_F(Validate, ReadsScriptsAndMeshes) {
+  EXPECT_EQ(validate({write("s.txt", "# a script\nnew\nstep 3\n")}), 0) << text_;
+  EXPECT_THAT(text_, HasSubstr("s.txt: script, good; 2 commands"));
+  EXPECT_EQ(validate({write("s.txt", "new\nfly away\n")}), 3);
+  EXPECT_THAT(text_, HasSubstr("s.txt:2:1: error: unknown command"));
+  EXPECT_EQ(validate({write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}), 0) << text_;
+  EXPECT_THAT(text_, HasSubstr("m.obj: mesh, good; 1 triangles"));
+}
+
 TEST_F(Validate, ChecksRobotsAndTables) {
   EXPECT_EQ(validate({write("a.urdf", "<robot name=\"a\"/>")}), 3);
   EXPECT_THAT(text_, HasSubstr("a.urdf"));

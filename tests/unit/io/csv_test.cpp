@@ -69,10 +69,10 @@ TEST_F(CsvTest, RefusesMissingTimeEvenWhereCellsMayBeEmpty) {
                  {.empty_cells = true});
 }
 TEST_F(CsvTest, RefusesWords) {
-  expect_refused("t,x\n0,1.5m\n", "2:3: error: x: \"1.5m\" is not a finite number");
+  expect_refused("t,x\n0,wide\n", "2:3: error: x: \"wide\" is not a finite number");
 }
 TEST_F(CsvTest, RefusesWrongNumberOfCells) {
-  expect_refused("t,x\n0,1,2\n", "2:1: error: 3 cells, expected 2 as in the header");
+  expect_refused("t,x\n0,1.5,2\n", "2:1: error: 3 cells, expected 2 as in the header");
 }
 TEST_F(CsvTest, RefusesTimeThatStands) {
   expect_refused("t,x\n0.5,1\n0.5,2\n",
@@ -85,14 +85,28 @@ TEST_F(CsvTest, RefusesHeaderAlone) {
   expect_refused("t,x\n", "1:1: error: no rows, expected at least one row of numbers");
 }
 
-TEST_F(CsvTest, CollectsAllFaults) {
-  EXPECT_TRUE(read("t,x\n0,a\n1,b\n2\n").rows.empty());
-  EXPECT_EQ(diagnostics_.error_count(), 3);
+TEST_F(CsvTest, TheSameFaultInEveryRowIsSaidOnce) {
+  EXPECT_TRUE(read("t,x,y\n0,a,1\n1,b,2\n2\n3\n4,c,5\n").rows.empty());
+  EXPECT_EQ(diagnostics_.text(),
+            path_.string() +
+                ":2:3: error: x: \"a\" is not a finite number (and 2 more like it, "
+                "the last in line 6)\n" +
+                path_.string() +
+                ":4:1: error: 1 cells, expected 3 as in the header (and 1 more "
+                "like it, the last in line 5)");
 }
 
 TEST_F(CsvTest, AbsentFileIsADiagnostic) {
   read_csv(folder_ / "absent.csv", {}, diagnostics_);
   EXPECT_THAT(diagnostics_.text(), HasSubstr("absent.csv: error: cannot be read"));
+}
+
+TEST_F(CsvTest, CellPositionsAreThoseOfTheFile) {
+  const CsvTable table = read("\xEF\xBB\xBF# semicolons\r\n\"t\";x\r\n0;1\r\n10; 2\r\n");
+  ASSERT_FALSE(diagnostics_.has_errors()) << diagnostics_.text();
+  EXPECT_EQ(cell_position(table, table.header_line, 1).column, 5);
+  EXPECT_EQ(cell_position(table, table.lines[1], 1).line, 4);
+  EXPECT_EQ(cell_position(table, table.lines[1], 1).column, 5);
 }
 
 TEST_F(CsvTest, WriterAndReaderAgree) {

@@ -111,7 +111,7 @@ TEST(MtgReader, RefusesWithPlaceAndWords) {
               HasSubstr("t.mtg:2:1: error: no column ZZ beside Dab, XX, YY"));
   EXPECT_THAT(errors_of(head + "/P1\n"), HasSubstr("no entity has coordinates"));
   EXPECT_THAT(errors_of(head + "/P1\t\t\t\tx\t0\t0\n"),
-              HasSubstr("t.mtg:6:8: error: \"x\", expected a number"));
+              HasSubstr("t.mtg:6:8: error: XX: \"x\" is not a finite number"));
   EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t\t0\n"),
               HasSubstr("t.mtg:6:1: error: the entity has 2 of 3 coordinates"));
   EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t0\t0\t-5\n"),
@@ -156,10 +156,10 @@ TEST(SkeletonTable, RefusesWithPlaceAndWords) {
   EXPECT_THAT(table_errors_of(columns + "0,0\n"),
               HasSubstr("t.csv:2:1: error: 2 cells, expected 6"));
   EXPECT_THAT(table_errors_of(columns + "0,a,0,,1,\n"),
-              HasSubstr("t.csv:2:3: error: \"a\", expected a number"));
+              HasSubstr("t.csv:2:3: error: y: \"a\" is not a finite number"));
   EXPECT_THAT(table_errors_of(columns + "0,0,0,,1.5,\n"), HasSubstr("expected a whole number"));
   EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,1,2,?\n"),
-              HasSubstr("t.csv:3:11: error: edge \"?\", expected <"));
+              HasSubstr("t.csv:3:11: error: edgetype: \"?\", expected <"));
   EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,1,1,<\n"),
               HasSubstr("t.csv:3:1: error: node 1 appears twice"));
   EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,5,2,<\n"),
@@ -169,7 +169,7 @@ TEST(SkeletonTable, RefusesWithPlaceAndWords) {
   EXPECT_THAT(table_errors_of(columns + "0,0,0,,1,\n0,0,1,3,2,<\n0,0,2,2,3,<\n"),
               HasSubstr("t.csv:3:1: error: node 2 is its own ancestor"));
   EXPECT_THAT(table_errors_of("id,parent,x_m,y_m,z_m,diameter_m,is_branch\n0,-1,0,0,0,-1,0\n"),
-              HasSubstr("diameter \"-1\", expected a number >= 0"));
+              HasSubstr("diameter_m: \"-1\", expected a number >= 0"));
 }
 
 /// Code, place, diameter and the parent's place of a node.

@@ -76,6 +76,22 @@ TEST(Trajectory, ReadsACsvAndLeavesOtherJointsAtTheStart) {
   std::filesystem::remove(path);
 }
 
+// As a spreadsheet writes it, in ms and degrees.
+TEST(Trajectory, ReadsOtherWaysOfWritingIt) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "other_trajectory.csv";
+  std::ofstream(path) << "\xEF\xBB\xBFTime (ms);JOINT3;joint1 (deg)\r\n0;0,5;0\r\n1000;0,7;-90\r\n";
+  const RobotDescription robot = load_urdf(testing::asset("stalk6"));
+  const KinematicModel model(robot);
+  Diagnostics diagnostics;
+  const Trajectory trajectory =
+      read_trajectory_csv(path, robot, model, model.neutral(), diagnostics);
+  ASSERT_FALSE(trajectory.empty()) << diagnostics.text();
+  EXPECT_DOUBLE_EQ(trajectory.times()[1], 1.0);
+  EXPECT_DOUBLE_EQ(trajectory.positions()[1][2], 0.7);
+  EXPECT_NEAR(trajectory.positions()[1][0], -1.5707963267948966, 1e-12);
+  std::filesystem::remove(path);
+}
+
 TEST(Trajectory, WrittenAsATableItIsTheSame) {
   const RobotDescription robot = load_urdf(testing::asset("stalk6"));
   const KinematicModel model(robot);
