@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/simulation.h"
-#include "discrepancy/experiment.h"
+#include "discrepancy/admission.h"
 #include "io/csv.h"
 #include "io/yaml.h"
 #include "plant/leaf_template.h"
@@ -71,6 +71,8 @@ std::string check_experiment(const std::filesystem::path& path, const Packages& 
   const auto experiment = discrepancy::read_experiment(path, diagnostics);
   if (!experiment) return {};
   check_plant(experiment->plant_path, packages, diagnostics);
+  // What a diagnosis would refuse.
+  discrepancy::add_refusal(diagnostics, discrepancy::admit(*experiment));
   int samples = 0;
   for (const discrepancy::Trial& trial : experiment->trials) samples += trial.markers.size();
   return std::to_string(experiment->trials.size()) + " trials, " +

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "discrepancy/trial_run.h"
-#include "plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
 
@@ -156,34 +155,6 @@ int count_finite(const Eigen::MatrixXd& value) {
   return static_cast<int>(value.array().isFinite().count());
 }
 
-// Markers must be about where the plant is: a factor of 1000 is a unit.
-void check_units(Admission& admission) {
-  Diagnostics diagnostics;
-  const auto built = plant::build_plant(admission.experiment.plant, {}, diagnostics);
-  if (!built) return;
-  double size = 0.0;
-  for (const double length : built->curve_lengths) size += length;
-  std::vector<double> distances;
-  for (const Trial& trial : admission.experiment.trials)
-    for (std::size_t m = 0; m < admission.experiment.markers.size(); ++m) {
-      const plant::CurvePlace& place = admission.experiment.markers[m].place;
-      const auto point =
-          built->locate(admission.experiment.plant.curve_index(place.curve), place.at);
-      const cosserat::RodState state = cosserat::drawn_state(built->model);
-      const Vec3 drawn = cosserat::point_on(built->model, state, point.element, point.back);
-      for (int row = 0; row < trial.markers.size(); ++row) {
-        const Vec3 seen = trial.markers.value.block<1, 3>(row, 3 * static_cast<int>(m)).transpose();
-        if (!seen.allFinite()) continue;
-        distances.push_back((seen - drawn).norm());
-        break;
-      }
-    }
-  if (distances.empty() || median(distances) < 3.0 * size) return;
-  admission.refusal = "the markers stand " + std::to_string(median(distances)) +
-                      " m from where the plant has them, and the plant measures " +
-                      std::to_string(size) + " m: expected metres in the plant's own frame";
-}
-
 // When a fruit came off is known to a sample, and a plant that was let go moves far within one:
 // what follows does not say how it swings to the accuracy of its markers.
 bool leave_out_after_break(Trial& trial) {
@@ -207,6 +178,11 @@ bool leave_out_after_break(Trial& trial) {
 Admission admit(const Experiment& experiment) {
   Admission admission;
   admission.experiment = experiment;
+  admission.contradictions = contradictions(experiment);
+  if (!admission.contradictions.empty()) {
+    admission.refusal = sentence(admission.contradictions);
+    return admission;
+  }
   for (Trial& trial : admission.experiment.trials) {
     const int before = count_finite(trial.markers.value);
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
@@ -238,8 +214,15 @@ Admission admit(const Experiment& experiment) {
   if (admission.samples == 0) admission.refusal = "there is no sample at all";
   if (admission.outlier_fraction() > 0.2)
     admission.refusal = "every fifth sample is far from its neighbours";
-  if (admission.refusal.empty()) check_units(admission);
   return admission;
+}
+
+void add_refusal(Diagnostics& diagnostics, const Admission& admission) {
+  if (!admission.contradictions.empty())
+    add_to(diagnostics, admission.experiment, admission.contradictions);
+  else if (!admission.refusal.empty())
+    diagnostics.error({(admission.experiment.folder / "experiment.yaml").string(), 0, 0},
+                      admission.refusal);
 }
 
 }  // namespace pedicel::discrepancy
