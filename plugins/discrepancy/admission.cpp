@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "discrepancy/labels.h"
 #include "discrepancy/trial_run.h"
 
 namespace pedicel::discrepancy {
@@ -130,27 +131,6 @@ int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {
   return count;
 }
 
-// Markers that exchange their places from one sample to the next, far beyond their usual steps.
-int put_back_labels(Eigen::MatrixXd& value) {
-  const int markers = static_cast<int>(value.cols()) / 3;
-  int swaps = 0;
-  const auto at = [&](int row, int m) { return Vec3(value.block<1, 3>(row, 3 * m).transpose()); };
-  for (int row = 1; row < value.rows(); ++row)
-    for (int a = 0; a < markers; ++a)
-      for (int b = a + 1; b < markers; ++b) {
-        const Vec3 a0 = at(row - 1, a), b0 = at(row - 1, b), a1 = at(row, a), b1 = at(row, b);
-        if (!(a0 + b0 + a1 + b1).allFinite()) continue;
-        const double kept = (a1 - a0).norm() + (b1 - b0).norm();
-        const double exchanged = (a1 - b0).norm() + (b1 - a0).norm();
-        if (exchanged > 0.2 * kept || (a0 - b0).norm() < 1.0e-3) continue;
-        const Vec3 keep = a1;
-        value.block<1, 3>(row, 3 * a) = b1.transpose();
-        value.block<1, 3>(row, 3 * b) = keep.transpose();
-        ++swaps;
-      }
-  return swaps;
-}
-
 int count_finite(const Eigen::MatrixXd& value) {
   return static_cast<int>(value.array().isFinite().count());
 }
@@ -188,7 +168,7 @@ Admission admit(const Experiment& experiment) {
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     if (leave_out_after_break(trial))
       admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
-    admission.swaps += put_back_labels(trial.markers.value);
+    admission.swaps += put_back(exchanges_in(trial.markers.value), trial.markers.value);
     for (Samples* samples : {&trial.markers, &trial.force}) {
       const std::vector<char> spared = beside_jumps(trial, samples->time);
       for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
