@@ -35,11 +35,13 @@ struct Fault {
 };
 using Check = std::optional<Fault>(const TrialView&);
 
-Check check_clock;  ///< tables that begin, end or tick on a clock of their own
-Check check_units;  ///< markers that are not in metres
-Check check_frame;  ///< axes or an origin that are not the plant's
-Check check_labels;  ///< markers that are not where their names belong
-Check check_holds;   ///< paths that are not those of the held points
-Check check_drive;  ///< motion that is not what is done at the same time
+Check check_clock;     ///< tables that begin, end or tick on a clock of their own
+Check check_units;     ///< markers that are not in metres
+Check check_frame;     ///< axes or an origin that are not the plant's
+Check check_labels;    ///< markers that are not where their names belong
+Check check_holds;     ///< paths that are not those of the held points
+Check check_drive;     ///< motion on another clock than what is done
+Check check_releases;  ///< what is held too long or not long enough
+Check check_paths;     ///< motion that is not what is done
 
 }  // namespace pedicel::discrepancy

@@ -1,10 +1,9 @@
-// What is done and what is seen of it. A marker beside a held point, a root or a load moves when
-// that is moved, the same way, and no later than a latency of 0.3 s. No plant moves before anything
-// is done.
+// Clocks against what is done. A marker beside a held point, a root or a load goes along with it,
+// no later than a latency of 0.3 s. No plant moves before anything is done.
 #include <algorithm>
 #include <cmath>
 
-#include "discrepancy/following.h"
+#include "discrepancy/beside.h"
 #include "discrepancy/sentence.h"
 #include "discrepancy/trial_clock.h"
 
@@ -12,20 +11,15 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double beside = 0.3;  // of the way from the root to what is done, along the plant
-constexpr int least_rows = 8;
-constexpr double visible = 10.0;  // times the noise, rms
-// As stated the drive explains less than half of the motion; read otherwise, nine tenths of it.
+// As stated the drive explains less than half of the motion; with another clock, nine tenths.
 constexpr double contradicts = 0.5, agrees = 0.9;
 // Or it explains more, but another clock leaves a quarter of what is left of the motion's square.
 constexpr double much_better = 0.25;
 constexpr double least_shift = 0.5;  // s: a latency of 0.3 s, and 0.2 s for a slow plant to follow
 constexpr double grid = 0.05;        // s, of shifts
 constexpr int most_shifts = 1500;
-constexpr double whole = 0.5;  // of the drive's motion must be seen under another reading
-// A metre of the held point moves a marker beside it by this much: softer grips are not known.
-constexpr double least_gain = 0.03, most_gain = 5.0;
-constexpr double same_way = 0.7;  // the cosine: a frame turned by 0.3 rad, and a stem's own lean
+constexpr double most = 0.5;  // of the drive's motion must be seen with the other clock
+constexpr double rate_grid = 0.01, slowest = 0.5, fastest = 2.0;
 
 struct ClockUnit {
   const char* name;
@@ -34,152 +28,122 @@ struct ClockUnit {
 constexpr ClockUnit clock_units[] = {
     {"milliseconds", 1e3}, {"microseconds", 1e6}, {"minutes", 1.0 / 60.0}};
 
-/// One drive and the marker beside it.
-class Beside {
- public:
-  Beside(const TrialView& view, const Drive& drive, int marker, double noise)
-      : view_(view), drive_(drive), noise_(noise), track_(track_of(view.trial, marker)) {
-    stated_ = following(track_, drive_);
-    // All that is done while the trial lasts.
-    Drive all = drive_;
-    Track times = track_;
-    whole_ = following(times, all, {0.0, 1.0, true}).driven;
-  }
+const std::string expected = ": expected seconds since the trial began, the same in all its tables";
 
-  std::optional<Fault> fault() const {
-    if (static_cast<int>(track_.time.size()) < least_rows) return std::nullopt;
-    if (auto found = unit_of_clock()) return found;
-    if (auto found = shifted()) return found;
-    return std::nullopt;
-  }
+double step_of(const Beside& beside) {
+  return beside.drive().path ? clock_of({}, beside.drive().path->time).step : 0.0;
+}
 
- private:
-  double explained(const Following& f) const {
-    if (f.rows < least_rows || f.driven <= 0.0 || f.moved < visible * noise_) return 0.0;
-    const double gain = f.gain.dot(f.along);
-    // What is moved moves its neighbour the same way; a load may move it askew.
-    const bool is_load = drive_.kind == Drive::Kind::load;
-    if (gain < (is_load ? 0.0 : same_way) * f.gain.norm()) return 0.0;
-    if (!is_load && (gain > most_gain || gain < least_gain)) return 0.0;
-    return std::max(0.0, f.explained());
-  }
-
-  std::string name() const { return view_.experiment.markers[track_.marker].name; }
-  std::string drive_name() const {
-    return drive_.kind == Drive::Kind::load ? "the load" : drive_.file.string();
-  }
-
-  // Whether the marker's clock, or the path's, ticks in another unit.
-  std::optional<Fault> unit_of_clock() const {
-    if (explained(stated_) > contradicts) return std::nullopt;
-    std::vector<ClockUnit> units(std::begin(clock_units), std::end(clock_units));
-    const double step = drive_.file.empty() ? 0.0 : path_step();
-    if (step > 0.0) units.push_back({"numbers of frames", 1.0 / step});
-    for (const ClockUnit& unit : units) {
-      for (const bool path : {false, true}) {
-        const double scale = path ? 1.0 / unit.scale : unit.scale;
-        if (path && drive_.file.empty()) continue;
-        const Following other = following(track_, drive_, {0.0, scale, path});
-        if (explained(other) < agrees || other.driven < whole * full()) continue;
-        return Fault{path ? drive_.file : "markers.csv",
-                     std::string("has times in ") + unit.name + ", it seems: " + name() +
-                         " follows " + drive_name() +
-                         text(" when they are divided by %.4g, and not as they are",
-                              path ? unit.scale : unit.scale) +
-                         ": expected seconds since the trial began"};
-      }
+// Whether the marker's clock, or the path's, ticks in another unit.
+std::optional<Fault> other_unit(const Beside& beside) {
+  if (beside.explained() > contradicts) return std::nullopt;
+  std::vector<ClockUnit> units(std::begin(clock_units), std::end(clock_units));
+  if (step_of(beside) > 0.0) units.push_back({"numbers of frames", 1.0 / step_of(beside)});
+  for (const ClockUnit& unit : units)
+    for (const bool path : {false, true}) {
+      if (path && !beside.drive().path) continue;
+      const ClockReading reading{0.0, path ? 1.0 / unit.scale : unit.scale, path};
+      if (beside.explained(reading) < agrees ||
+          beside.follow(reading).driven < most * beside.whole())
+        continue;
+      return Fault{path ? beside.drive().path->file : "markers.csv",
+                   std::string("seems to have its times in ") + unit.name + ": " + beside.marker() +
+                       " follows " + beside.what() +
+                       text(" when they are divided by %.4g, and not as they are", unit.scale) +
+                       expected};
     }
-    return std::nullopt;
-  }
+  return std::nullopt;
+}
 
-  double path_step() const {
-    for (const TableClock& clock : clocks_of(view_.trial))
-      if (clock.file == drive_.file) return clock.step;
-    return 0.0;
-  }
-
-  // The rms of the whole drive, as if the marker had seen all of it.
-  double full() const {
-    if (drive_.kind == Drive::Kind::load) return whole_;
-    const Path& path = drive_path();
-    Vec3 mean = Vec3::Zero();
-    double square = 0.0;
-    for (const Vec3& x : path.position) mean += x / static_cast<double>(path.position.size());
-    for (const Vec3& x : path.position) square += (x - mean).squaredNorm();
-    return std::sqrt(square / static_cast<double>(path.position.size()));
-  }
-  const Path& drive_path() const {
-    for (const Hold& hold : view_.trial.holds)
-      if (hold.path.file == drive_.file) return hold.path;
-    return *view_.trial.base;
-  }
-
-  std::optional<Fault> shifted() const {
-    const double as_stated = explained(stated_);
-    if (as_stated > agrees || track_.time.empty()) return std::nullopt;
-    const ClockReading best = best_shift();
-    const double most = explained(following(track_, drive_, best));
-    if (std::abs(best.shift) < least_shift || most < agrees) return std::nullopt;
-    if (1.0 - most > much_better * (1.0 - as_stated)) return std::nullopt;
-    if (best.shift > 0.0 && !rests_until(best.shift)) return std::nullopt;
-    return Fault{"markers.csv",
-                 "is " + text("%.2g s ", std::abs(best.shift)) +
-                     (best.shift > 0.0 ? "late" : "early") + ": " + name() + " follows " +
-                     drive_name() + " with that shift, and not without" +
-                     ": expected one clock for all tables of a trial, but for a latency below " +
-                     text("%.2g s", largest_known::latency)};
-  }
-
-  // The smallest of those that explain nearly as much as any: a drive may repeat itself.
-  ClockReading best_shift() const {
-    std::vector<std::pair<double, double>> left;  // shift, share that is not explained
-    const double last = track_.time.back();
-    for (int i = 0; i < most_shifts; ++i) {
-      const double shift = -std::min(last, 0.5 * grid * most_shifts) + grid * i;
-      if (shift > last) break;
-      const Following other = following(track_, drive_, {shift, 1.0});
-      if (other.driven >= whole * full()) left.push_back({shift, 1.0 - explained(other)});
-    }
-    if (left.empty()) return {};
-    double least = 1.0;
-    for (const auto& [shift, share] : left) least = std::min(least, share);
-    ClockReading best{1.0e300, 1.0};
-    for (const auto& [shift, share] : left)
-      if (share <= 1.5 * least + 0.005 && std::abs(shift) < std::abs(best.shift))
-        best.shift = shift;
-    return best;
-  }
-
-  // A slow plant follows late, but it begins at once.
-  bool rests_until(double shift) const {
-    const double begins = drive_times(view_.trial).first;
-    double before = 0.0, all = 0.0;
-    for (std::size_t i = 0; i < track_.time.size(); ++i) {
-      const double way = (track_.place[i] - track_.place.front()).norm();
-      all = std::max(all, way);
-      if (track_.time[i] < begins + 0.7 * shift) before = std::max(before, way);
-    }
-    return before < 0.1 * all + 6.0 * noise_;
-  }
-
-  const TrialView& view_;
-  const Drive& drive_;
-  double noise_;
-  Track track_;
-  Following stated_;
-  double whole_ = 0.0;
+struct Candidate {
+  ClockReading reading;
+  double left = 1.0;  // share of the motion that is not explained
 };
+
+void consider(const Beside& beside, const ClockReading& reading, std::vector<Candidate>& all) {
+  if (beside.follow(reading).driven >= most * beside.whole())
+    all.push_back({reading, 1.0 - beside.explained(reading)});
+}
+
+// Of those that leave nearly as little as any the one nearest to what is stated: a drive may repeat
+// itself.
+template <class Size>
+Candidate nearest_of_best(const std::vector<Candidate>& all, const Size& size) {
+  double least = 1.0;
+  for (const Candidate& one : all) least = std::min(least, one.left);
+  Candidate best;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Candidate& one : all) {
+    if (one.left > 1.5 * least + 0.005 || size(one.reading) >= smallest) continue;
+    smallest = size(one.reading);
+    best = one;
+  }
+  return best;
+}
+
+bool is_better(const Candidate& found, const Beside& beside) {
+  return 1.0 - found.left >= agrees && found.left <= much_better * (1.0 - beside.explained());
+}
+
+// A slow plant follows late, but it begins at once.
+bool rests_until(const Beside& beside, double shift) {
+  const double begins = drive_times(beside.view().trial).first;
+  const Track& track = beside.track();
+  double before = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < track.time.size(); ++i) {
+    const double way = (track.place[i] - track.place.front()).norm();
+    all = std::max(all, way);
+    if (track.time[i] < begins + 0.7 * shift) before = std::max(before, way);
+  }
+  return before < 0.1 * all + 6.0 * beside.noise();
+}
+
+std::optional<Fault> shifted(const Beside& beside) {
+  if (beside.explained() > agrees) return std::nullopt;
+  std::vector<Candidate> all;
+  const double last = beside.track().time.back();
+  for (int i = 0; i < most_shifts; ++i) {
+    const double shift = -std::min(last, 0.5 * grid * most_shifts) + grid * i;
+    if (shift > last) break;
+    consider(beside, {shift, 1.0}, all);
+  }
+  const Candidate best =
+      nearest_of_best(all, [](const ClockReading& r) { return std::abs(r.shift); });
+  const double shift = best.reading.shift;
+  if (std::abs(shift) < least_shift || !is_better(best, beside)) return std::nullopt;
+  if (shift > 0.0 && !rests_until(beside, shift)) return std::nullopt;
+  return Fault{"markers.csv", "is " + text("%.2g s ", std::abs(shift)) +
+                                  (shift > 0.0 ? "late" : "early") + ": " + beside.marker() +
+                                  " follows " + beside.what() +
+                                  " with that shift, and not without" + expected +
+                                  text(", but for a latency below %.2g s", largest_known::latency)};
+}
+
+// A rate of frames that is not the stated one: by the end the clocks are apart.
+std::optional<Fault> other_rate(const Beside& beside) {
+  if (!beside.drive().path) return std::nullopt;
+  const double end = std::min(beside.track().time.back(), beside.drive().until);
+  std::vector<Candidate> all;
+  for (double scale = slowest; scale <= fastest; scale += rate_grid)
+    consider(beside, {0.0, scale}, all);
+  const Candidate best =
+      nearest_of_best(all, [](const ClockReading& r) { return std::abs(std::log(r.scale)); });
+  const double apart = std::abs(1.0 - 1.0 / best.reading.scale) * end;
+  if (apart < least_shift || !is_better(best, beside)) return std::nullopt;
+  return Fault{"markers.csv",
+               text("has a clock that runs %.3g times as fast as that of ", best.reading.scale) +
+                   beside.what() + ": " + beside.marker() + " follows it that way" +
+                   text(", and is %.2g s off by the end as it is", apart) + expected +
+                   "; another rate of frames?"};
+}
 
 }  // namespace
 
 std::optional<Fault> check_drive(const TrialView& view) {
   if (!view.layout) return std::nullopt;
-  const double noise = noise_of_markers(view);
-  for (const Drive& drive : drives_of(view)) {
-    const int marker = marker_near(*view.layout, drive.spot, beside);
-    if (marker < 0) continue;
-    if (auto fault = Beside(view, drive, marker, noise).fault()) return fault;
-  }
+  for (const Beside& beside : Beside::all_of(view))
+    for (const auto check : {other_unit, other_rate, shifted})
+      if (auto fault = check(beside)) return fault;
   return std::nullopt;
 }
 

@@ -15,7 +15,7 @@ constexpr double least_share = 1.0e-3;  // of the drive's main square: below, it
 Drive hold_drive(const TrialView& view, const Hold& hold) {
   const Path* path = &hold.path;
   const Vec3 start = path->position.front();
-  return {Drive::Kind::hold, path->file, view.layout->spot(hold.place),
+  return {Drive::Kind::hold, path, view.layout->spot(hold.place),
           [path, start](double t) { return Vec3(path->position_at(t) - start); }, hold.release};
 }
 
@@ -24,7 +24,7 @@ Drive base_drive(const TrialView& view) {
   const Vec3 start = path->position.front();
   Spot root;
   root.drawn = root.settled = view.layout->root();
-  return {Drive::Kind::base, path->file, root,
+  return {Drive::Kind::base, path, root,
           [path, start](double t) { return Vec3(path->position_at(t) - start); },
           std::numeric_limits<double>::infinity()};
 }
@@ -37,10 +37,7 @@ Drive load_drive(const TrialView& view) {
       if (t >= load.from && t < load.to) sum += load.force;
     return sum;
   };
-  return {Drive::Kind::load,
-          {},
-          view.layout->spot(loads->front().place),
-          force,
+  return {Drive::Kind::load, nullptr, view.layout->spot(loads->front().place), force,
           std::numeric_limits<double>::infinity()};
 }
 

@@ -12,7 +12,7 @@ namespace pedicel::discrepancy {
 struct Drive {
   enum class Kind { hold, base, load };
   Kind kind = Kind::hold;
-  std::filesystem::path file;  ///< of its path, in the trial's folder; empty: of none
+  const Path* path = nullptr;  ///< of the trial; null: it has none
   Spot spot;                   ///< where it acts
   std::function<Vec3(double t)> value;
   double until = 0.0;  ///< s: when a hold ends

@@ -16,7 +16,7 @@ namespace {
 // reach in most trials.
 constexpr double spring_share = 0.05;  // of the reach; beside largest_known::offset
 constexpr double much_nearer = 0.25;
-constexpr double beside = 0.3;         // of the way from the root, as for what follows a drive
+constexpr double beside = 0.3;  // of the way from the root, as for what follows a drive
 constexpr double turned_far = 1.5, turned_little = 0.5;  // rad
 
 std::string point(const Vec3& x) {
@@ -72,11 +72,14 @@ std::string likely(const TrialView& view, const Hold& hold, const Beginning& beg
     best = &axes;
   }
   if (best) return "; read as " + as_read(best->read) + " it would: " + best->what + "?";
-  for (double at = 0.0; at <= 1.0; at += 0.05) {
-    const Spot other = view.layout->spot({hold.place.curve, at, {}});
-    if ((other.settled - begins).norm() < much_nearer * far)
-      return text("; the path of the point at %.2g of ", at) + hold.place.curve + "?";
+  double nearest = much_nearer * far, at = -1.0;
+  for (int i = 0; i <= 20; ++i) {
+    const Spot other = view.layout->spot({hold.place.curve, 0.05 * i, {}});
+    if ((other.settled - begins).norm() >= nearest) continue;
+    nearest = (other.settled - begins).norm();
+    at = 0.05 * i;
   }
+  if (at >= 0.0) return text("; the path of the point at %.2g of ", at) + hold.place.curve + "?";
   return "; another frame, or another point's path?";
 }
 

@@ -1,6 +1,6 @@
-// Labels. Two markers that exchange their names do so from one sample to the next, and far from their
-// usual steps; short exchanges are put back, one that stays is another record from there on. Rods do not
-// stretch: no marker is farther from another than the way along the plant.
+// Labels. Two markers that exchange their names do so from one sample to the next, and far from
+// their usual steps; short exchanges are put back, one that stays is another record from there on.
+// Rods do not stretch: no marker is farther from another than the way along the plant.
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +12,12 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double apart = 1.0e-3;    // m: closer markers are one
-constexpr int least_equal = 5;      // rows in which two markers have the same numbers
-constexpr double often = 0.2;       // of the rows: less are outliers
+constexpr double apart = 1.0e-3;  // m: closer markers are one
+constexpr int least_equal = 5;    // rows in which two markers have the same numbers
+constexpr double often = 0.2;     // of the rows: less are outliers
 // Exchanged labels bring both markers this much nearer to where the drawing has them.
 constexpr double nearer = 0.25;
-constexpr double little = 0.01;     // m, beside what is known to be possible
+constexpr double little = 0.01;  // m, beside what is known to be possible
 
 using Names = std::vector<Marker>;
 
@@ -45,6 +45,21 @@ std::optional<Fault> same_columns(const TrialView& view) {
                                       std::to_string(equal) +
                                       " rows: expected each marker's own; a column copied?"};
     }
+  return std::nullopt;
+}
+
+// No place is exactly 0, 0, 0: that is how some trackers say that they did not see a marker.
+std::optional<Fault> zeros(const TrialView& view) {
+  for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
+    if (view.layout->markers()[m].drawn.norm() < largest_known::offset) continue;
+    int rows = 0;
+    for (int row = 0; row < view.trial.markers.size(); ++row)
+      rows += place(view.trial.markers, row, m) == Vec3::Zero() ? 1 : 0;
+    if (rows > 0)
+      return Fault{"markers.csv", "has " + view.experiment.markers[m].name +
+                                      " at exactly 0, 0, 0 in " + std::to_string(rows) +
+                                      " rows: expected empty cells where a marker was not seen"};
+  }
   return std::nullopt;
 }
 
@@ -80,14 +95,14 @@ std::optional<Fault> exchanged_from_the_start(const TrialView& view) {
         exchanged += other < nearer * kept ? 1 : 0;
       }
       if (exchanged < least_equal || exchanged < often * seen) continue;
-      return Fault{"markers.csv", "has " + both(view.experiment.markers, a, b) +
-                                      " each where the plant has the other in " +
-                                      std::to_string(exchanged) + " of " + std::to_string(seen) +
-                                      " rows: expected " + view.experiment.markers[a].name +
-                                      text(" at %.3g m from the root along the plant and ",
-                                           spots[a].from_root) +
-                                      view.experiment.markers[b].name +
-                                      text(" at %.3g m; labels exchanged?", spots[b].from_root)};
+      return Fault{"markers.csv",
+                   "has " + both(view.experiment.markers, a, b) +
+                       " each where the plant has the other in " + std::to_string(exchanged) +
+                       " of " + std::to_string(seen) + " rows: expected " +
+                       view.experiment.markers[a].name +
+                       text(" at %.3g m from the root along the plant and ", spots[a].from_root) +
+                       view.experiment.markers[b].name +
+                       text(" at %.3g m; labels exchanged?", spots[b].from_root)};
     }
   return std::nullopt;
 }
@@ -106,7 +121,8 @@ std::vector<Stretch> stretches(const TrialView& view) {
   for (int a = 0; a < static_cast<int>(spots.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(spots.size()); ++b) {
       Stretch stretch{a, b, 0.0, view.layout->along(spots[a], spots[b]), 0};
-      const double most = (1.0 + largest_known::scale) * stretch.way + largest_known::offset + little;
+      const double most =
+          (1.0 + largest_known::scale) * stretch.way + largest_known::offset + little;
       int seen = 0;
       for (int row = 0; row < samples.size(); ++row) {
         const double distance = (place(samples, row, a) - place(samples, row, b)).norm();
@@ -133,19 +149,21 @@ std::optional<Fault> stretched(const TrialView& view) {
   const auto with = std::ranges::find_if(
       all, [&](const Stretch& one) { return one.a == worst || one.b == worst; });
   const Marker& marker = view.experiment.markers[worst];
-  return Fault{"markers.csv",
-               "has " + both(view.experiment.markers, with->a, with->b) +
-                   text(" up to %.3g m apart where the plant is %.3g m long between them: expected ",
-                        with->apart, with->way) +
-                   marker.name + text(" at %.3g of ", marker.place.at) + marker.place.curve +
-                   "; a ghost, another label, unit or place?"};
+  return Fault{
+      "markers.csv",
+      "has " + both(view.experiment.markers, with->a, with->b) +
+          text(" up to %.3g m apart where the plant is %.3g m long between them: expected ",
+               with->apart, with->way) +
+          marker.name + text(" at %.3g of ", marker.place.at) + marker.place.curve +
+          "; a ghost, another label, unit or place?"};
 }
 
 }  // namespace
 
 std::optional<Fault> check_labels(const TrialView& view) {
   if (!view.layout) return std::nullopt;
-  for (const auto check : {same_columns, exchanged_for_good, exchanged_from_the_start, stretched})
+  for (const auto check :
+       {zeros, same_columns, exchanged_for_good, exchanged_from_the_start, stretched})
     if (auto fault = check(view)) return fault;
   return std::nullopt;
 }

@@ -7,8 +7,8 @@ namespace pedicel::discrepancy {
 
 /// Rows in which two markers have each other's labels.
 struct LabelExchange {
-  int a = 0, b = 0;          ///< the markers
-  int from = 0, to = 0;      ///< rows, the last one not included
+  int a = 0, b = 0;      ///< the markers
+  int from = 0, to = 0;  ///< rows, the last one not included
   int rows() const { return to - from; }
 };
 
