@@ -9,7 +9,7 @@
 #include "app/mesh_fields.h"
 #include "app/simulation.h"
 #include "app/validate_tables.h"
-#include "discrepancy/experiment.h"
+#include "discrepancy/admission.h"
 #include "geometry/mesh.h"
 #include "io/text_file.h"
 #include "io/yaml.h"
@@ -101,6 +101,8 @@ std::string check_experiment(const std::filesystem::path& path, const Options& g
   const auto experiment = discrepancy::read_experiment(path, diagnostics);
   if (!experiment) return {};
   check_plant(experiment->plant_path, given, diagnostics);
+  // What a diagnosis would refuse.
+  discrepancy::add_refusal(diagnostics, discrepancy::admit(*experiment));
   int samples = 0;
   for (const discrepancy::Trial& trial : experiment->trials) samples += trial.markers.size();
   return std::to_string(experiment->trials.size()) + " trials, " +

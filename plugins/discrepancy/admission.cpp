@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "discrepancy/labels.h"
 #include "discrepancy/trial_run.h"
-#include "plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
 
@@ -131,57 +131,8 @@ int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {
   return count;
 }
 
-// Markers that exchange their places from one sample to the next, far beyond their usual steps.
-int put_back_labels(Eigen::MatrixXd& value) {
-  const int markers = static_cast<int>(value.cols()) / 3;
-  int swaps = 0;
-  const auto at = [&](int row, int m) { return Vec3(value.block<1, 3>(row, 3 * m).transpose()); };
-  for (int row = 1; row < value.rows(); ++row)
-    for (int a = 0; a < markers; ++a)
-      for (int b = a + 1; b < markers; ++b) {
-        const Vec3 a0 = at(row - 1, a), b0 = at(row - 1, b), a1 = at(row, a), b1 = at(row, b);
-        if (!(a0 + b0 + a1 + b1).allFinite()) continue;
-        const double kept = (a1 - a0).norm() + (b1 - b0).norm();
-        const double exchanged = (a1 - b0).norm() + (b1 - a0).norm();
-        if (exchanged > 0.2 * kept || (a0 - b0).norm() < 1.0e-3) continue;
-        const Vec3 keep = a1;
-        value.block<1, 3>(row, 3 * a) = b1.transpose();
-        value.block<1, 3>(row, 3 * b) = keep.transpose();
-        ++swaps;
-      }
-  return swaps;
-}
-
 int count_finite(const Eigen::MatrixXd& value) {
   return static_cast<int>(value.array().isFinite().count());
-}
-
-// Markers must be about where the plant is: a factor of 1000 is a unit.
-void check_units(Admission& admission) {
-  Diagnostics diagnostics;
-  const auto built = plant::build_plant(admission.experiment.plant, {}, diagnostics);
-  if (!built) return;
-  double size = 0.0;
-  for (const double length : built->curve_lengths) size += length;
-  std::vector<double> distances;
-  for (const Trial& trial : admission.experiment.trials)
-    for (std::size_t m = 0; m < admission.experiment.markers.size(); ++m) {
-      const plant::CurvePlace& place = admission.experiment.markers[m].place;
-      const auto point =
-          built->locate(admission.experiment.plant.curve_index(place.curve), place.at);
-      const cosserat::RodState state = cosserat::drawn_state(built->model);
-      const Vec3 drawn = cosserat::point_on(built->model, state, point.element, point.back);
-      for (int row = 0; row < trial.markers.size(); ++row) {
-        const Vec3 seen = trial.markers.value.block<1, 3>(row, 3 * static_cast<int>(m)).transpose();
-        if (!seen.allFinite()) continue;
-        distances.push_back((seen - drawn).norm());
-        break;
-      }
-    }
-  if (distances.empty() || median(distances) < 3.0 * size) return;
-  admission.refusal = "the markers stand " + std::to_string(median(distances)) +
-                      " m from where the plant has them, and the plant measures " +
-                      std::to_string(size) + " m: expected metres in the plant's own frame";
 }
 
 // When a fruit came off is known to a sample, and a plant that was let go moves far within one:
@@ -207,12 +158,17 @@ bool leave_out_after_break(Trial& trial) {
 Admission admit(const Experiment& experiment) {
   Admission admission;
   admission.experiment = experiment;
+  admission.contradictions = contradictions(experiment);
+  if (!admission.contradictions.empty()) {
+    admission.refusal = sentence(admission.contradictions);
+    return admission;
+  }
   for (Trial& trial : admission.experiment.trials) {
     const int before = count_finite(trial.markers.value);
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     if (leave_out_after_break(trial))
       admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
-    admission.swaps += put_back_labels(trial.markers.value);
+    admission.swaps += put_back(exchanges_in(trial.markers.value), trial.markers.value);
     for (Samples* samples : {&trial.markers, &trial.force}) {
       const std::vector<char> spared = beside_jumps(trial, samples->time);
       for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
@@ -238,8 +194,15 @@ Admission admit(const Experiment& experiment) {
   if (admission.samples == 0) admission.refusal = "there is no sample at all";
   if (admission.outlier_fraction() > 0.2)
     admission.refusal = "every fifth sample is far from its neighbours";
-  if (admission.refusal.empty()) check_units(admission);
   return admission;
+}
+
+void add_refusal(Diagnostics& diagnostics, const Admission& admission) {
+  if (!admission.contradictions.empty())
+    add_to(diagnostics, admission.experiment, admission.contradictions);
+  else if (!admission.refusal.empty())
+    diagnostics.error({(admission.experiment.folder / "experiment.yaml").string(), 0, 0},
+                      admission.refusal);
 }
 
 }  // namespace pedicel::discrepancy

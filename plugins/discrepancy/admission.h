@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "discrepancy/contradiction.h"
 #include "discrepancy/experiment.h"
 
 namespace pedicel::discrepancy {
@@ -15,6 +16,8 @@ struct Admission {
       outliers = 0;  ///< a marker's place or a force at one time: all of them, wild ones
   std::vector<std::string> remarks;  ///< one sentence each
   std::string refusal;               ///< why the data cannot be used; empty: they can
+  /// What the refusal is about; empty where it is about all of them.
+  std::vector<Contradiction> contradictions;
 
   double outlier_fraction() const {
     return points > 0 ? static_cast<double>(outliers) / points : 0.0;
@@ -23,7 +26,10 @@ struct Admission {
 
 /// Looks for single wild points (far from the cubic through their neighbours, against the scatter
 /// around them), channels that stand still to the last digit, labels that two markers exchange,
-/// trials without data, and units that cannot be metres.
+/// trials without data, and what the data contradict (contradiction.h).
 Admission admit(const Experiment& experiment);
+
+/// Why the data cannot be used, as errors of their files.
+void add_refusal(Diagnostics& diagnostics, const Admission& admission);
 
 }  // namespace pedicel::discrepancy

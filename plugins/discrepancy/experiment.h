@@ -26,6 +26,7 @@ struct Path {
   /// By how much what moves has turned since it was drawn (W; identity: as drawn); empty where the
   /// file gives no orientation.
   std::vector<Quat> rotation;
+  std::filesystem::path file{};  ///< from the trial's folder; empty where it was made by a program
 
   Vec3 position_at(double t) const;
   Quat rotation_at(double t) const;  ///< shortest way between rows; identity where there is none

@@ -196,7 +196,10 @@ class Reader {
     const auto node = map.required("path");
     if (!node) return {};
     const std::string file = node->text("path");
-    return file.empty() ? Path{} : read_path(folder / file, diagnostics_);
+    if (file.empty()) return {};
+    Path path = read_path(folder / file, diagnostics_);
+    path.file = file;
+    return path;
   }
 
   Hold read_hold(YamlMap& map, const std::filesystem::path& folder) {

@@ -90,9 +90,9 @@ class Run {
   using Clock = std::chrono::steady_clock;
   static Admission admitted(const Experiment& experiment) {
     Admission admission = admit(experiment);
-    if (!admission.refusal.empty())
-      throw InvalidFile({(experiment.folder / "experiment.yaml").string(), 0, 0},
-                        admission.refusal);
+    Diagnostics diagnostics;
+    add_refusal(diagnostics, admission);
+    if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
     return admission;
   }
   const Experiment& experiment() const { return setup_.experiment(); }

@@ -1,0 +1,59 @@
+#include "discrepancy/layout.h"
+
+#include <algorithm>
+
+#include "discrepancy/equilibrium.h"
+#include "discrepancy/variant_plant.h"
+
+namespace pedicel::discrepancy {
+
+std::optional<Layout> Layout::of(const Experiment& experiment) {
+  try {
+    return Layout(experiment);
+  } catch (const InvalidFile&) {
+    return std::nullopt;
+  }
+}
+
+Layout::Layout(const Experiment& experiment)
+    : file_(experiment.plant),
+      built_(PlantMaker(experiment, experiment.plant.distance, 0.0).nominal()),
+      drawn_(cosserat::drawn_state(built_.model)),
+      settled_(drawn_) {
+  const cosserat::RodModel& model = built_.model;
+  const Vec3 gravity =
+      experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
+  if (!find_equilibrium(model, settled_, gravity, {})) settled_ = drawn_;
+  root_ = model.root.position;
+  for (const cosserat::Element& element : model.elements) {
+    far_.push_back(element.length + (element.parent < 0 ? 0.0 : far_[element.parent]));
+    reach_ = std::max(reach_, far_.back());
+  }
+  for (const Marker& marker : experiment.markers) markers_.push_back(spot(marker.place));
+}
+
+Spot Layout::spot(const plant::CurvePlace& place) const {
+  Spot spot;
+  spot.point = built_.locate(file_.curve_index(place.curve), place.at);
+  const auto [element, back] = spot.point;
+  spot.drawn = cosserat::point_on(built_.model, drawn_, element, back);
+  spot.settled = cosserat::point_on(built_.model, settled_, element, back);
+  spot.from_root = far_[element] - back;
+  return spot;
+}
+
+double Layout::along(const Spot& a, const Spot& b) const {
+  int one = a.point.element, other = b.point.element;
+  if (one == other) return std::abs(a.from_root - b.from_root);
+  // A parent stands before its children: the later of two is on no way to the other.
+  while (one != other && std::min(one, other) >= 0) {
+    int& later = one > other ? one : other;
+    later = built_.model.elements[later].parent;
+  }
+  if (std::min(one, other) < 0) return a.from_root + b.from_root;
+  // The way to the fork is shared; where one of the two is on the way to the other, up to that one.
+  const double shared = std::min({far_[one], a.from_root, b.from_root});
+  return a.from_root + b.from_root - 2.0 * shared;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "discrepancy/experiment.h"
+#include "plant/plant_builder.h"
+
+namespace pedicel::discrepancy {
+
+/// A measured point: where the nominal plant has it, and how far along the plant it is.
+struct Spot {
+  plant::PlacedPoint point;
+  Vec3 drawn = Vec3::Zero();    ///< m, W, as drawn
+  Vec3 settled = Vec3::Zero();  ///< m, W, under the first trial's gravity
+  double from_root = 0.0;       ///< m along the plant
+};
+
+/// Where the nominal plant stands. Rods hardly stretch: two points of it are never farther from
+/// each other than the way along the plant.
+class Layout {
+ public:
+  /// Nothing where the plant cannot be built; that is for others to say.
+  static std::optional<Layout> of(const Experiment& experiment);
+
+  const std::vector<Spot>& markers() const { return markers_; }  ///< in the experiment's order
+  Spot spot(const plant::CurvePlace& place) const;
+  /// m along the plant, from one to the other.
+  double along(const Spot& a, const Spot& b) const;
+  const Vec3& root() const { return root_; }  ///< m, W
+  double reach() const { return reach_; }     ///< m, to the end that is farthest from the root
+
+ private:
+  explicit Layout(const Experiment& experiment);
+
+  plant::PlantFile file_;
+  plant::BuiltPlant built_;
+  cosserat::RodState drawn_, settled_;
+  std::vector<double> far_;  // m from the root to each element's child node
+  std::vector<Spot> markers_;
+  Vec3 root_ = Vec3::Zero();
+  double reach_ = 0.0;
+};
+
+}  // namespace pedicel::discrepancy
