@@ -84,7 +84,8 @@ void Grip::end(double dt) {
     if (std::abs(end.position - now_.aim) > std::abs(position - now_.aim)) position = end.position;
   }
   was_stopped_ = position != now_.aim;
-  if (position != now_.reference) robot.place_joint(joint, position, (position - now_.start) / dt);
+  if (was_stopped_ || position != now_.reference)
+    robot.place_joint(joint, position, (position - now_.start) / dt);
   if (load_ != 0.0) robot.add_motor_load(joint, load_);
   if (contacts_) push_palm();
 }

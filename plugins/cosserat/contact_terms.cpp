@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t stretch_length = 2;  // rows of contacts that a thread takes at a time
 constexpr std::size_t worth_waking = 2;    // stretches, a thread
+constexpr double same_place = 1.0e-6;      // m
 
 }  // namespace
 
@@ -226,17 +227,15 @@ const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) co
   return nullptr;
 }
 
-// A pressed collider may touch a shape in several places, which stay: the nearest one of the step
-// before.
+// A pressed collider touches a shape in several places, which stay.
 const ContactTerms::Memory* ContactTerms::remembered(const ContactPoint& point) const {
-  const Memory* nearest = nullptr;
-  const auto way = [&](const Memory& memory) { return std::abs(memory.back - point.back); };
   for (int i = last_of_shape_[point.shape]; i >= 0; i = before_[i]) {
     const Memory& memory = memory_[i];
-    if (memory.collider != point.collider || memory.normal == 0.0) continue;
-    if (!nearest || way(memory) < way(*nearest)) nearest = &memory;
+    if (memory.collider == point.collider && memory.normal != 0.0 &&
+        std::abs(memory.back - point.back) < same_place)
+      return &memory;
   }
-  return nearest;
+  return nullptr;
 }
 
 void ContactTerms::forget() {

@@ -1,6 +1,7 @@
 #include "stress/grip_case.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -12,10 +13,20 @@ namespace pedicel::stress {
 
 namespace {
 
+constexpr double pi = 3.14159265358979323846;
 constexpr double open = 0.025, height = 0.7;    // m
 constexpr double settled = 0.1, held = 0.2;     // s, before it shuts, before it pulls
 constexpr double pulling = 0.5, shaking = 1.0;  // s
 const Vec3 grip_W(0.0, 0.0, height);
+
+// Pa. Softer, it would sag far out of the grip: by a tenth of its length under its own weight.
+double stands_from(const GripCase& one) {
+  const double length = one.before + one.after, area = pi * one.radius * one.radius;
+  const double fruit = one.thing == GripCase::Thing::stem ? 0.0 : std::pow(one.fruit_radius, 3);
+  const double weight = 9.81 * (900.0 * area * length + 950.0 * 4.0 / 3.0 * pi * fruit);
+  const double second_moment = 0.25 * area * one.radius * one.radius;
+  return 10.0 * weight * length * length / (3.0 * second_moment);
+}
 
 void draw_plant(Random& random, GripCase& one) {
   one.thing = static_cast<GripCase::Thing>(random.integer(0, 2));
@@ -25,12 +36,14 @@ void draw_plant(Random& random, GripCase& one) {
   one.youngs_modulus = draw_log(random, 1.0e6, 1.0e10);
   one.damping_time = draw_log(random, 1.0e-3, 3.0e-2);
   one.element = random.uniform(0.006, 0.03);
-  one.along = Vec3(random.uniform(-0.7, 0.7), random.uniform(-0.3, 0.3),
+  // It clears the gripper's palm.
+  one.along = Vec3(random.uniform(-0.12, 0.12), random.uniform(-0.3, 0.3),
                    random.uniform() < 0.5 ? -1.0 : 1.0)
                   .normalized();
   one.before = random.uniform(0.05, 0.3);
   one.after = is_stem ? random.uniform(0.02, 0.15) : one.fruit_radius + random.uniform(0.015, 0.04);
   if (one.thing == GripCase::Thing::fruit) one.after = 0.0;
+  one.youngs_modulus = std::max(one.youngs_modulus, stands_from(one));
   if (is_stem || random.uniform() < 0.5) return;
   one.detach = draw_chance(random, 0.5)
                    ? sentence("stretch: %.4g", draw_log(random, 0.01, 0.3))
@@ -39,7 +52,7 @@ void draw_plant(Random& random, GripCase& one) {
 }
 
 void draw_gripper(Random& random, GripCase& one) {
-  one.effort = draw_chance(random, 0.5) ? 20.0 : draw_log(random, 1.0, 200.0);
+  one.effort = draw_chance(random, 0.5) ? 40.0 : draw_log(random, 1.0, 200.0);
   one.force = draw_chance(random, 0.3) ? draw_log(random, 1.0, 100.0) : 0.0;
   one.velocity = draw_chance(random, 0.5) ? 0.2 : draw_log(random, 0.1, 2.0);
   const double size = one.thing == GripCase::Thing::fruit ? one.fruit_radius : one.radius;
@@ -94,7 +107,7 @@ std::string robot_text(const GripCase& one) {
   all << file.rdbuf();
   std::string text = all.str();
   replace_all(text, "../stalk6/meshes", (robots / "stalk6" / "meshes").string());
-  replace_all(text, "effort=\"20\" velocity=\"0.2\"",
+  replace_all(text, "effort=\"40\" velocity=\"0.2\"",
               sentence("effort=\"%.6g\" velocity=\"%.6g\"", one.effort, one.velocity));
   return text;
 }
@@ -126,7 +139,8 @@ std::string scene_text(const GripCase& one) {
        << "direction: " << (one.two_way ? "two_way" : "one_way") << "}\n"
        << "plants:\n  - {name: p, file: grip.plant.yaml}\n"
        << "robot:\n  name: gantry\n  file: grip.urdf\n  tool: tool\n  gripper: finger_joint\n"
-       << sentence("  joints: {finger_joint: %.6g}\n", open)
+       << sentence("  joints: {x_joint: -0.16, z_joint: %.6g, tilt_joint: 1.5707963, ", height)
+       << sentence("finger_joint: %.6g}\n", open)
        << (one.force > 0.0 ? sentence("  gripper_force: %.6g\n", one.force) : "")
        << "  waypoints:\n"
        << waypoints_text(one);

@@ -16,6 +16,8 @@ constexpr double filter_time = 0.02;     // s
 constexpr double force_tolerance = 1.1;  // 1
 constexpr double most_sunk = 0.8;        // 1
 constexpr double holds_for = 0.9;        // 1, of friction
+constexpr double along_way = 0.7;        // 1
+constexpr double at_stop = 1.0e-4;       // m
 constexpr double felt = 0.05;            // N
 constexpr double lost_for = 0.1;         // s
 
@@ -37,12 +39,18 @@ Feel feel_of(const app::Simulation& sim) {
     const coupling::Collider& collider = sim.colliders().collider(contact.point.collider);
     if (collider.body != app::robot_body || (collider.link != left && collider.link != right))
       continue;
+    // What an edge pushes across the way that the fingers close is the arm's.
     const Vec3 outward_W = robot.link_pose(collider.link).rotation * Vec3::UnitY();
     feel.opening -= contact.normal * contact.point.normal_W.dot(outward_W);
     feel.normal += contact.normal;
     feel.tangential += contact.tangential_W.norm();
-    feel.sunk = std::max(feel.sunk, -contact.point.gap / contact.point.radius);
+    if (std::abs(contact.point.normal_W.dot(outward_W)) > along_way)
+      feel.sunk = std::max(feel.sunk, -contact.point.gap / contact.point.radius);
   }
+  // Its stop bears anything.
+  const int joint = robot.gripper();
+  if (robot.robot().positions()[joint] > robot.robot().model().upper()[joint] - at_stop)
+    feel.opening = 0.0;
   return feel;
 }
 

@@ -21,8 +21,9 @@ struct GripOutcome {
 ///  - the run ends as unstable, or a number is not finite;
 ///  - the fingers press with more than effort and friction of their joint, by 10 %: the sum of both
 ///    fingers' normal forces along the way that they open, from the contacts' forces, through a
-///    low-pass of 20 ms (a step is 4.2 ms);
-///  - a finger sinks in by more than 0.8 of the radius of what it touches;
+///    low-pass of 20 ms (a step is 4.2 ms), unless they are pushed open to their stops;
+///  - a finger, on the way that it closes, sinks in by more than 0.8 of the radius of what it
+///    touches;
 ///  - what was held is lost although friction never had to carry nine tenths of what it can, and
 ///    nothing broke.
 GripOutcome run_grip(const GripCase& one);
