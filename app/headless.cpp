@@ -29,6 +29,14 @@ double percentile(std::vector<double> values, double share) {
   return *place;
 }
 
+// "unstable at 1.6375 s: truss/stalk_5: it moves at 2e4 m/s: lower dt, ..."
+std::string unstable(const world::StepReport& report) {
+  std::string text = "unstable at " + io::format_number(report.time, 6) + " s: ";
+  for (const std::string& part : {report.culprit, report.cause})
+    if (!part.empty()) text += part + ": ";
+  return text + world::remedy(static_cast<world::StepError>(report.errors & world::fatal_errors));
+}
+
 /// One run: the simulation and everything that watches it.
 class Run {
  public:
@@ -86,10 +94,7 @@ class Run {
     picture_now();
     if (report.errors & world::fatal_errors) {
       result_.exit_code = exit_unstable;
-      result_.error =
-          "unstable at " + io::format_number(report.time, 6) +
-          " s: " + (report.culprit.empty() ? "" : report.culprit + ": ") +
-          world::remedy(static_cast<world::StepError>(report.errors & world::fatal_errors));
+      result_.error = unstable(report);
     }
   }
 

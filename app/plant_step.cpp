@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "io/csv.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -13,11 +15,22 @@ constexpr int most_rough_steps = 100;
 
 constexpr double fastest = 1.0e4;  // m/s: beyond it nothing in a plant moves
 
-double fastest_of(const cosserat::RodState& state) {
-  double largest = 0.0;
+/// The fastest element that is alive; -1 where none is.
+int fastest_of(const cosserat::RodState& state) {
+  int found = -1;
   for (int e = 0; e < state.size(); ++e)
-    if (state.alive[e]) largest = std::max(largest, state.velocity[e].squaredNorm());
-  return std::sqrt(largest);
+    if (state.alive[e] &&
+        (found < 0 || state.velocity[e].squaredNorm() > state.velocity[found].squaredNorm()))
+      found = e;
+  return found;
+}
+
+std::string cause_of(const cosserat::StepReport& report, double speed) {
+  if (report.errors & cosserat::not_finite) return "a position is not a finite number";
+  if (speed > fastest) return "it moves at " + io::format_number(speed, 3) + " m/s";
+  return "no equilibrium found in " + std::to_string(most_rough_steps) +
+         " steps in a row: the last change of position (m) or direction (rad) is " +
+         io::format_number(report.last_change, 3);
 }
 
 }  // namespace
@@ -62,16 +75,21 @@ void PlantStep::sum_up(const Vec3& gravity, world::StepReport& report) {
   contacts_.end();
 }
 
-// Names the organ of the worst error.
+// Names the organ of the worst error, and of a fatal one the quantity.
 void PlantStep::judge(int plant, world::StepReport& report) const {
   const cosserat::StepReport& own = rods_.report(plant);
   const cosserat::RodModel& model = rods_.model(plant);
+  const cosserat::RodState& state = rods_.state(plant);
+  const int quickest = fastest_of(state);
+  const double speed = quickest < 0 ? 0.0 : state.velocity[quickest].norm();
   const bool lost = (own.errors & cosserat::not_finite) || rough_steps_[plant] > most_rough_steps ||
-                    fastest_of(rods_.state(plant)) > fastest;
+                    speed > fastest;
   if (lost) report.errors |= world::plant_not_finite;
   if (own.errors & cosserat::not_converged) report.errors |= world::plant_not_converged;
-  if ((lost || (own.errors && report.culprit.empty())) && own.element >= 0)
-    report.culprit = model.organs[model.elements[own.element].organ];
+  if (!lost && (!own.errors || !report.culprit.empty())) return;
+  const int element = own.element >= 0 && !(speed > fastest) ? own.element : quickest;
+  if (element >= 0) report.culprit = model.organs[model.elements[element].organ];
+  if (lost) report.cause = cause_of(own, speed);
 }
 
 void PlantStep::release(world::SimWorld& world, int plant, const cosserat::DetachEvent& event) {

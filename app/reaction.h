@@ -24,6 +24,7 @@ class Reaction {
   void push_robot(const coupling::ContactReport& contacts);
   void push_bodies(const coupling::ContactReport& contacts);
   double give_of(int collider, const std::vector<coupling::ContactSum>& sums) const;
+  bool is_gripping(int collider) const;
   Vec3 place_of(int collider, const std::vector<coupling::ContactSum>& sums) const;
 
   world::SimWorld& world_;

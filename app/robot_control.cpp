@@ -46,12 +46,15 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
   for (const auto& [joint, value] : scene.joints) q_[robot_.model().joint_index(joint)] = value;
   q_ = robot_.model().clamped(q_);
   speed_ = manual_speed(robot_.model(), description);
-  if (scene.gripper_force > 0.0 && !scene.gripper.empty())
-    robot_.set_effort_limit(robot_.model().joint_index(scene.gripper), scene.gripper_force);
+  if (!scene.gripper.empty()) gripper_ = robot_.model().joint_index(scene.gripper);
+  if (scene.gripper_force > 0.0 && gripper_ >= 0)
+    robot_.set_effort_limit(gripper_, scene.gripper_force);
   robot_.reset(q_, qd_);
+  start_of_step_ = q_;
 }
 
 void RobotControl::act(world::SimWorld& world, world::StepReport&) {
+  start_of_step_ = robot_.positions();
   if (goal_)
     approach_goal(world.dt());
   else if (!trajectory_.empty())
@@ -102,7 +105,13 @@ void RobotControl::approach_goal(double dt) {
 
 void RobotControl::Reader::act(world::SimWorld&, world::StepReport& report) {
   robot_.end_step();
-  if (!robot_.positions().allFinite()) report.errors |= world::robot_not_finite;
+  const Eigen::VectorXd& q = robot_.positions();
+  if (q.allFinite()) return;
+  report.errors |= world::robot_not_finite;
+  for (int i = 0; i < q.size() && report.culprit.empty(); ++i)
+    if (!std::isfinite(q[i]))
+      report.culprit = robot_.description().name + "/" + robot_.model().joint_names()[i];
+  report.cause = "the joint's position is not a finite number";
 }
 
 Pose RobotControl::tool_pose() const {

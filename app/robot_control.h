@@ -35,6 +35,10 @@ class RobotControl : public world::Participant {
   const robot::RobotDescription& description() const { return robot_.description(); }
   Pose link_pose(int link) const { return robot_.link_pose_W(link); }
   const std::vector<Pose>& link_poses() const { return robot_.link_poses(); }
+  /// Index of the joint that the scene calls the gripper; -1: none.
+  int gripper() const { return gripper_; }
+  /// rad or m, of all joints when the step at hand began.
+  const Eigen::VectorXd& start_of_step() const { return start_of_step_; }
   int tool_link() const { return tool_link_; }
   /// X_W of the tool: the link that waypoints move, with the scene's offset.
   Pose tool_pose() const;
@@ -89,9 +93,9 @@ class RobotControl : public world::Participant {
   double start_ = 0.0;                   // s, of the trajectory
   std::optional<Eigen::VectorXd> goal_;  // of go_to()
   Eigen::VectorXd speed_;                // rad/s or m/s, of go_to()
-  int tool_link_ = 0;
+  int tool_link_ = 0, gripper_ = -1;
   Vec3 tool_offset_;
-  Eigen::VectorXd q_, qd_;
+  Eigen::VectorXd q_, qd_, start_of_step_;
 };
 
 /// How fast each joint goes where it is sent by hand, rad/s or m/s.

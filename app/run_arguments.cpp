@@ -30,7 +30,8 @@ void add_run_options(CLI::App& app, RunArguments& a) {
   app.add_option("--out", a.out, "folder for everything that is written (default: out/<scene>)");
   app.add_option("--set", a.set,
                  "key=value: duration, dt, seed, threads, log_rate, rods.KEY, coupling.KEY, "
-                 "plants.NAME.KEY, or a key of every plant such as detach.stretch; may be repeated")
+                 "robot.gripper_force, plants.NAME.KEY, or a key of every plant such as "
+                 "detach.stretch; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--duration", a.duration, "simulated time, s");
   app.add_option("--dt", a.dt, "time step, s");

@@ -4,6 +4,7 @@
 
 #include "app/colliders.h"
 #include "app/scene_assets.h"
+#include "app/start_overlaps.h"
 #include "core/check.h"
 
 namespace pedicel::app {
@@ -47,7 +48,7 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   add_loads(diagnostics);
   add_robot(diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
-  add_contacts();
+  add_contacts(diagnostics);
   for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
 }
 
@@ -79,37 +80,55 @@ void Simulation::add_robot(Diagnostics& diagnostics) {
   world_.add(robot_->reader());
 }
 
-void Simulation::add_contacts() {
+void Simulation::add_contacts(Diagnostics& diagnostics) {
   if (scene_.ground) add_ground_collider(colliders_, *scene_.ground);
   for (int b = 0; b < world_.body_count(); ++b)
     add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
   if (robot_)
     add_robot_colliders(colliders_, robot_->name(), robot_->description(), assets_->robot_fields,
                         robot_->link_poses());
-  for (int p = 0; p < rods_->size(); ++p) {
-    auto source = std::make_unique<coupling::ColliderSource>(colliders_, coupling_settings());
-    source->ignore_touching(rods_->model(p), rods_->state(p));
-    collider_sources_.push_back(source.get());
-    rods_->add_contact_source(p, std::move(source));
-    if (!coupling_settings().self_contact) continue;
-    auto own = std::make_unique<cosserat::SelfContact>(
-        rods_->model(p), coupling::self_contact_settings(coupling_settings()));
-    self_contacts_.push_back(own.get());
-    rods_->add_contact_source(p, std::move(own));
-  }
+  const bool grips = robot_ && robot_->gripper() >= 0 && scene_.robot->control != "torque" &&
+                     rod_settings().solver == cosserat::SolverKind::direct;
+  if (grips) grip_ = std::make_unique<Grip>(*robot_, colliders_);
+  for (int p = 0; p < rods_->size(); ++p) add_contact_sources(p, diagnostics);
   plant_step_ = std::make_unique<PlantStep>(
       *rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
   if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
   if (coupling_settings().two_way) {
     reaction_ = std::make_unique<Reaction>(world_, robot_.get(), colliders_);
+    if (grip_) grip_->pass_on(plant_step_->contacts());
     plant_step_->set_reaction(
         [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
   }
   load_step_ = std::make_unique<LoadStep>(*this);
   measurements_ = std::make_unique<Measurements>(*rods_, *plant_step_, colliders_);
   world_.add(*load_step_);
+  if (grip_) world_.add(grip_->before());
   world_.add(*plant_step_);
+  if (grip_) world_.add(grip_->after());
   world_.add(*measurements_);
+}
+
+// Where the scene says what a collider belongs to.
+SourcePosition Simulation::place_of(const coupling::Collider& collider) const {
+  if (collider.body == robot_body) return scene_.robot->where;
+  return {scene_.file.string(), 0, 0};
+}
+
+void Simulation::add_contact_sources(int p, Diagnostics& diagnostics) {
+  auto source = std::make_unique<coupling::ColliderSource>(colliders_, coupling_settings());
+  const std::vector<coupling::Overlap> overlaps =
+      source->ignore_touching(rods_->model(p), rods_->state(p));
+  for (const StartOverlap& overlap : start_overlaps(rods_->model(p), colliders_, overlaps))
+    diagnostics.warning(place_of(colliders_.collider(overlap.collider)), overlap.text);
+  collider_sources_.push_back(source.get());
+  if (grip_) grip_->add(*source);
+  rods_->add_contact_source(p, std::move(source));
+  if (!coupling_settings().self_contact) return;
+  auto own = std::make_unique<cosserat::SelfContact>(
+      rods_->model(p), coupling::self_contact_settings(coupling_settings()));
+  self_contacts_.push_back(own.get());
+  rods_->add_contact_source(p, std::move(own));
 }
 
 const std::vector<PlantInfo>& Simulation::plants() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/blade.h"
+#include "app/grip.h"
 #include "app/measurements.h"
 #include "app/plant_step.h"
 #include "app/reaction.h"
@@ -85,6 +86,8 @@ class Simulation {
   /// Null where the scene has no robot.
   const RobotControl* robot() const { return robot_.get(); }
   RobotControl* robot() { return robot_.get(); }
+  /// Null where the robot has no gripper, or does not hold its joints by their motors.
+  const Grip* grip() const { return grip_.get(); }
   /// What a user should know and that stops nothing, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -98,7 +101,9 @@ class Simulation {
   void add_plants();
   void add_bodies();
   void add_robot(Diagnostics& diagnostics);
-  void add_contacts();
+  void add_contacts(Diagnostics& diagnostics);
+  void add_contact_sources(int plant, Diagnostics& diagnostics);
+  SourcePosition place_of(const coupling::Collider& collider) const;
   void add_loads(Diagnostics& diagnostics);
   Pose link_pose(const coupling::Collider& collider) const;
   void apply_loads(double time);
@@ -120,6 +125,7 @@ class Simulation {
   std::vector<cosserat::SelfContact*> self_contacts_;
   std::unique_ptr<RobotControl> robot_;
   coupling::ColliderSet colliders_;
+  std::unique_ptr<Grip> grip_;  // null where nothing grips
   std::unique_ptr<PlantStep> plant_step_;
   std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
   std::unique_ptr<Measurements> measurements_;

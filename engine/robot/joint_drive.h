@@ -33,6 +33,7 @@ class JointDrive {
   /// farther, so that they end where they were told to.
   void expect_recoil(const Eigen::VectorXd& recoil) { recoil_ = recoil; }
   void set_effort_limit(int dof, double effort) { effort_[dof] = effort; }
+  double effort_limit(int dof) const { return effort_[dof]; }
   /// Motor torques of the step that just ended.
   void end(Eigen::VectorXd& torques) const;
 

@@ -192,6 +192,24 @@ void Robot::set_effort_limit(int joint, double effort) {
   impl_->drive.set_effort_limit(joint, std::min(effort, model().effort_limits()[joint]));
 }
 
+double Robot::effort_limit(int joint) const {
+  return impl_->drive.effort_limit(impl_->checked_joint(joint));
+}
+
+void Robot::place_joint(int joint, double position, double velocity) {
+  Impl& robot = *impl_;
+  robot.q[robot.checked_joint(joint)] = position;
+  robot.qd[joint] = velocity;
+  robot.place_joints(robot.q, robot.qd);
+  robot.multibody.update_colliders();
+  robot.read();
+}
+
+void Robot::add_motor_load(int joint, double load) {
+  const double effort = effort_limit(joint);
+  impl_->torques[joint] = std::clamp(impl_->torques[joint] + load, -effort, effort);
+}
+
 void Robot::add_external_force(int link, const Vec3& force_W, const Vec3& point_W) {
   // Kept until begin_step(): Bullet forgets forces that are added from its tick callbacks.
   impl_->forces.push_back({link, force_W, point_W});

@@ -90,6 +90,7 @@ class Robot {
   /// Limits what a motor may apply (N m or N; a gripper that must not crush): never more than the
   /// URDF's effort. Throws UsageError where it is not positive.
   void set_effort_limit(int joint, double effort);
+  double effort_limit(int joint) const;
 
   /// Force (N) on a link at a point, world frame, for the next step only (two-way coupling).
   void add_external_force(int link, const Vec3& force_W, const Vec3& point_W);
@@ -102,6 +103,13 @@ class Robot {
   /// 1/kg: the largest change of velocity of a point of link `a` for a unit impulse at a point of
   /// link `b`, world frame: |J_a M^-1 J_b^T|. Fixed bases only.
   double mobility(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const;
+
+  /// After end_step(): puts one joint elsewhere, with another velocity; its mimics follow, the
+  /// others stay. For what was found after Bullet's part of the step (a grip).
+  void place_joint(int joint, double position, double velocity);
+  /// After end_step(): a load (N m or N) that the joint's motor bears besides, for
+  /// motor_torques() of this step.
+  void add_motor_load(int joint, double load);
 
   /// Before world.stepSimulation(dt, 0): hands commands and external forces to Bullet.
   void begin_step(double dt);

@@ -67,6 +67,8 @@ struct RecordedPose {
   bool operator==(const RecordedPose&) const = default;
 };
 
+inline constexpr double largest_gripper_force = 1.0e6;  ///< N (or N m)
+
 struct SceneRobot {
   std::string name = "robot";
   std::filesystem::path file;
@@ -78,7 +80,9 @@ struct SceneRobot {
   std::string tool;                  ///< link that waypoints move; empty: the robot's own choice
   Vec3 tool_offset = Vec3::Zero();   ///< m, in the tool link
   std::string gripper;               ///< joint that `gripper:` moves; empty: none
-  double gripper_force = 0.0;        ///< N (or N m), limit; 0: the joint's own
+  /// N (or N m), at most largest_gripper_force: what the gripper's joint may press with, where that
+  /// is less than its own effort; 0: its own.
+  double gripper_force = 0.0;
   std::filesystem::path trajectory;  ///< CSV of joint positions; empty: none
   std::vector<SceneWaypoint> waypoints;
   std::vector<RecordedPose> recorded;  ///< times from 0 s on that increase; not played by itself

@@ -106,7 +106,9 @@ SceneRobot read_robot(const io::YamlNode& node, const std::filesystem::path& fol
   robot.tool = map.text("tool", "");
   robot.tool_offset = map.vector("tool_offset", Vec3::Zero());
   robot.gripper = map.text("gripper", "");
-  robot.gripper_force = map.number("gripper_force", io::not_negative, 0.0);
+  robot.gripper_force = map.number("gripper_force", {0.0, largest_gripper_force}, 0.0);
+  if (robot.gripper_force > 0.0 && robot.gripper.empty())
+    map.error("gripper_force: expected only beside the joint that grips, as \"gripper\"");
   if (const auto trajectory = map.optional("trajectory"))
     robot.trajectory = read_path(*trajectory, "trajectory", folder);
   read_waypoints(map, robot);

@@ -90,6 +90,14 @@ bool starts_with(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0 && text.size() > prefix.size();
 }
 
+void set_on_robot(Scene& scene, const Setting& setting) {
+  if (setting.key != "robot.gripper_force")
+    throw UsageError(setting.where.file + ": expected robot.gripper_force");
+  if (!scene.robot) throw UsageError(setting.where.file + ": the scene has no robot");
+  scene.robot->gripper_force =
+      checked({"robot.gripper_force", 0.0, largest_gripper_force, false}, setting.text);
+}
+
 void set_on_plant(Scene& scene, const std::string& rest, Setting setting) {
   for (ScenePlant& plant : scene.plants) {
     if (!starts_with(rest, plant.name + ".")) continue;
@@ -136,12 +144,15 @@ void apply_override(Scene& scene, const std::string& key, const std::string& val
     scene.rods.push_back({key.substr(5), value, setting.where});
   } else if (starts_with(key, "coupling.")) {
     scene.coupling.push_back({key.substr(9), value, setting.where});
+  } else if (starts_with(key, "robot.")) {
+    set_on_robot(scene, setting);
   } else if (starts_with(key, "plants.")) {
     set_on_plant(scene, key.substr(7), setting);
   } else if (key.find('.') == std::string::npos) {
     throw UsageError(setting.where.file +
                      ": expected duration, dt, log_rate, seed, threads, rods.KEY, coupling.KEY, "
-                     "plants.NAME.KEY, or an override of every plant such as detach.stretch");
+                     "robot.gripper_force, plants.NAME.KEY, or an override of every plant such as "
+                     "detach.stretch");
   } else {
     for (ScenePlant& plant : scene.plants) plant.set.push_back(setting);
   }

@@ -27,7 +27,7 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
 std::optional<double> to_number(const std::string& text);
 
 /// Changes a scene as `--set key=value` does: dt, duration, seed, threads, log_rate, rods.KEY,
-/// coupling.KEY, plants.NAME.KEY (one plant) and any other KEY that is an override of every plant
+/// coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant) and any other KEY that is an override of every plant
 /// (detach.stretch). `asked` comes before the key in the place that a fault names ("--set ").
 /// Throws UsageError where the key or the value is impossible.
 void apply_override(Scene& scene, const std::string& key, const std::string& value,

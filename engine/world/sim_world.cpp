@@ -86,6 +86,7 @@ void SimWorld::run(Phase phase) {
 const StepReport& SimWorld::step() {
   report_.errors = no_error;
   report_.culprit.clear();
+  report_.cause.clear();
   report_.worst_residual = report_.deepest_overlap = report_.plant_energy = 0.0;
   report_.contacts = 0;
   report_.seconds.fill(0.0);
@@ -117,6 +118,7 @@ void SimWorld::check_bodies() {
     if (place.allFinite()) continue;
     report_.errors |= body_not_finite;
     report_.culprit = body->description.name;
+    report_.cause = "its position is not a finite number";
     return;
   }
 }

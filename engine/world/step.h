@@ -37,6 +37,7 @@ struct StepReport {
   double time = 0.0;             ///< s, at the end of the step
   unsigned errors = no_error;    ///< bits of StepError
   std::string culprit;           ///< the organ, joint or body of the worst error; empty: none
+  std::string cause;             ///< of a fatal error: which quantity, and its value
   double worst_residual = 0.0;   ///< m or rad, of the rods' last iteration
   double deepest_overlap = 0.0;  ///< m, of a plant and what it touches
   int contacts = 0;              ///< between plants and others

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "cosserat/contact_drive.h"
 #include "cosserat/rod_state.h"
 
 namespace pedicel {
@@ -105,6 +107,14 @@ class ContactSource {
                           ContactLists& found) {
     find(model, state, dt, found.last());
   }
+  /// Joints that press some of its colliders with a limited force in the step (or the part of it)
+  /// that is being solved. At most one source of a plant has any; the position-based solver takes
+  /// none into account.
+  virtual std::span<const ContactDrive> drives() const { return {}; }
+  /// One for each contact that the last find() appended; empty where there are no drives.
+  virtual std::span<const DrivenContact> driven() const { return {}; }
+  /// Where the step, or the part of it, left each of the drives, as far as this plant has it.
+  virtual void end_drives(std::span<const DriveEnd> /*ends*/) {}
 };
 
 }  // namespace pedicel::cosserat

@@ -27,6 +27,10 @@ namespace pedicel::cosserat {
 /// not push each other to and fro. Gaps are reported as they are after it gave way; stretches are
 /// kept as they were before, and colliders' motions are those between poses before, too, so that
 /// what sticks does not creep.
+///
+/// A collider that a joint presses with a limited force (ContactDrive) stands, for each iterate,
+/// where the joint's force balances its contacts: the potential is minimised over the plant and the
+/// joint in turns.
 class ContactTerms {
  public:
   /// The threads that the calls below share out to until told otherwise, without a trace in the
@@ -74,6 +78,7 @@ class ContactTerms {
     Vec3 stretch_W;
     double normal;  // N
     int collider;
+    float back;  // m
   };
   // What some contacts carry at a step's end.
   struct Carried {
@@ -81,12 +86,21 @@ class ContactTerms {
     double deepest = 0.0;  // m
   };
   void share_gives();
+  void list_driven(ContactSource& source, std::size_t first);
+  void move_drives();
+  void end_drives();
+  const DrivenContact* driven(std::size_t contact) const;
+  double nearer(const DrivenContact& driven) const;
+  DriveLoad load_at_end(std::size_t contact, const DrivenContact& driven) const;
+  void press_at_end(std::size_t contact, const DrivenContact& driven, const DriveLoad& load);
+  double series_stiffness(std::size_t contact, const ContactPoint& point) const;
   void make_rows(const RodModel& model);
   void fetch_poses(std::size_t end, const RodState& state) const;
   void put(std::size_t contact, const RodModel& model);
   void push(std::size_t first, std::size_t end, const RodState& iterate);
   void sum_energy();
   const Memory* remembered(int shape, int collider) const;
+  const Memory* remembered(const ContactPoint& point) const;
   void remember_shapes();
   Carried remember(std::size_t first, std::size_t end);
   double gap_of(std::size_t contact) const;
@@ -101,6 +115,12 @@ class ContactTerms {
   ContactLists found_;
   std::size_t sides_ = 0;      // the first ones are where the plant touches itself
   std::vector<double> gives_;  // m/N, of the colliders, with what pushes them beside each contact
+  // Of the contacts of the source that has drives: `first_driven_` is the first one.
+  ContactSource* driver_ = nullptr;
+  std::size_t first_driven_ = 0;
+  std::span<const DrivenContact> driven_;
+  std::vector<DriveEnd> stands_;  // of the drives
+  std::vector<DriveLoad> loads_;  // scratch
   std::vector<ContactRow> rows_;
   std::vector<int> block_elements_;   // eight a row
   std::vector<ElementBlock> blocks_;  // likewise

@@ -486,6 +486,7 @@ void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Ve
     solver.step({&part, 1}, dt / parts, gravity);
     part.report.errors |= step.report.errors;
     part.report.iterations += step.report.iterations;
+    if (part.report.element < 0) part.report.element = step.report.element;
     step.report = part.report;
     if (part.report.errors & not_finite) {
       state = plant.iterate;

@@ -67,6 +67,18 @@ void ColliderSet::update(std::span<const Pose> X_WL) {
   }
 }
 
+int ColliderSet::add_drive() {
+  drives_.emplace_back();
+  return static_cast<int>(drives_.size()) - 1;
+}
+
+void ColliderSet::press(int index, int drive, const Vec3& linear_W, const Vec3& angular_W) {
+  Placement& placement = placements_[index];
+  placement.drive = drive;
+  placement.drive_linear_W = linear_W;
+  placement.drive_angular_W = angular_W;
+}
+
 Pose ColliderSet::link_pose(int index) const {
   return placements_[index].X_WC * colliders_[index].X_LC.inverse();
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat/contact_drive.h"
 #include "geometry/aabb.h"
 #include "geometry/signed_distance.h"
 
@@ -32,6 +33,10 @@ struct Placement {
   bool is_moving = false;  ///< the two poses differ
   bool is_active = true;   ///< false: plants pass through
   double give = 0.0;       ///< m/N, ContactPoint::give; 0: it does not feel the plants
+  /// Which drive presses it, -1: none, and how it moves for each m or rad of that: as a body of
+  /// which the point at the world's origin moves by `drive_linear_W`.
+  int drive = -1;
+  Vec3 drive_linear_W = Vec3::Zero(), drive_angular_W = Vec3::Zero();
 };
 
 /// All colliders of a world, shared by the sources of all plants: those only read it, so plants may
@@ -49,6 +54,13 @@ class ColliderSet {
   void put(int index, const Pose& X_WL);
   /// m/N, >= 0: how far the collider's link gives way in a step for each newton (two-way coupling).
   void set_give(int index, double give) { placements_[index].give = give; }
+  /// Adds a joint that presses colliders with a limited force; returns its index, which stays.
+  int add_drive();
+  /// Once a step, with the poses of update().
+  void set_drive(int drive, const cosserat::ContactDrive& now) { drives_[drive] = now; }
+  /// Likewise: the collider moves with the drive as Placement says.
+  void press(int index, int drive, const Vec3& linear_W, const Vec3& angular_W);
+  const std::vector<cosserat::ContactDrive>& drives() const { return drives_; }
   void set_active(int index, bool active) { placements_[index].is_active = active; }
 
   int size() const { return static_cast<int>(colliders_.size()); }
@@ -60,6 +72,7 @@ class ColliderSet {
  private:
   std::vector<Collider> colliders_;
   std::vector<Placement> placements_;
+  std::vector<cosserat::ContactDrive> drives_;
 };
 
 }  // namespace pedicel::coupling

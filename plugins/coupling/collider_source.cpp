@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/check.h"
 #include "cosserat/rotation.h"
@@ -19,13 +20,29 @@ ColliderSource::ColliderSource(const ColliderSet& colliders, const CouplingSetti
   if (!refusal.empty()) throw UsageError(refusal);
 }
 
-void ColliderSource::ignore_touching(const RodModel& model, const RodState& state) {
+std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state) {
   begin_step(model, state, 0.0);
   std::vector<ContactPoint> found;
   find(model, state, 0.0, found);
-  for (const ContactPoint& point : found)
-    if (point.gap <= settings_.margin) ignored_.emplace_back(point.shape, point.collider);
+  std::map<std::pair<int, int>, Overlap> overlaps;
+  for (const ContactPoint& point : found) {
+    if (point.gap > settings_.margin) continue;
+    Overlap& overlap =
+        overlaps.try_emplace({point.shape, point.collider}, Overlap{0, 0, -point.gap})
+            .first->second;
+    overlap.shape = point.shape;
+    overlap.collider = point.collider;
+    overlap.depth = std::max(overlap.depth, -point.gap);
+    const bool is_deep = point.gap < -point.radius;
+    overlap.is_ignored |= placement(point.collider).drive < 0 || is_deep;
+  }
+  std::vector<Overlap> all;
+  for (const auto& [pair, overlap] : overlaps) {
+    all.push_back(overlap);
+    if (overlap.is_ignored) ignored_.push_back(pair);
+  }
   std::sort(ignored_.begin(), ignored_.end());
+  return all;
 }
 
 void ColliderSource::change_settings(const CouplingSettings& settings) {
@@ -42,6 +59,8 @@ bool ColliderSource::is_ignored(int shape, int collider) const {
 // What gives way (two-way coupling) does so in each part as over the whole step: too far rather
 // than not far enough, which could push it and the plant to and fro.
 void ColliderSource::cover(double from, double to) {
+  from_ = from;
+  to_ = to;
   covered_.clear();
   if (from == 0.0 && to == 1.0) return;
   for (int i = 0; i < colliders_.size(); ++i) {
@@ -60,10 +79,30 @@ void ColliderSource::begin_step(const RodModel& model, const RodState& start, do
   start_position_ = start.position;
   start_orientation_ = start.orientation;
   chunks_.begin(start.position);
+  begin_drives();
+}
+
+// A part of a step begins where the part before it ended.
+void ColliderSource::begin_drives() {
+  drives_ = colliders_.drives();
+  drive_ends_.resize(drives_.size());
+  for (std::size_t d = 0; d < drives_.size(); ++d) {
+    cosserat::ContactDrive& drive = drives_[d];
+    const double start = drive.start;
+    drive.reference = start + to_ * (drive.reference - start);
+    drive.aim = start + to_ * (drive.aim - start);
+    if (from_ > 0.0) drive.start = drive_ends_[d].position;
+    drive_ends_[d] = {drive.aim, 0.0};
+  }
+}
+
+void ColliderSource::end_drives(std::span<const cosserat::DriveEnd> ends) {
+  drive_ends_.assign(ends.begin(), ends.end());
 }
 
 void ColliderSource::find(const RodModel& model, const RodState& state, double dt,
                           std::vector<ContactPoint>& found) {
+  driven_.clear();
   if (colliders_.size() == 0) return;
   if (start_position_.size() != state.position.size()) begin_step(model, state, dt);
   chunks_.extend(state.position);
@@ -142,41 +181,101 @@ MovingCapsule in_collider(const CollisionShape& shape, const Placement& at, cons
           shape.radius_far};
 }
 
+// m: how far a drive may still move what it presses, at most, from where it is in this step.
+double farthest_travel(const cosserat::ContactDrive& drive, const Placement& at,
+                       const MovingCapsule& capsule) {
+  const double way =
+      std::max(std::abs(drive.aim - drive.reference), std::abs(drive.start - drive.reference));
+  const Vec3 middle_W = at.R_WC * (0.5 * (capsule.near_C + capsule.far_C)) + at.X_WC.position;
+  return way * (at.drive_linear_W + at.drive_angular_W.cross(middle_W)).norm();
+}
+
+// N/m. What a drive can press at all sinks in by half of the radius, not through to the other side.
+double least_stiffness(const cosserat::ContactDrive& drive, const cosserat::DrivenContact& driven,
+                       const Vec3& way_W, double radius) {
+  const double lever = std::max(std::abs(driven.lever), 0.5 * way_W.norm());
+  return lever > 0.0 ? drive.hold / (lever * 0.5 * radius) : 0.0;
+}
+
 }  // namespace
 
 void ColliderSource::touch(const RodModel& model, const Placed& placed, int collider_index,
-                           std::vector<ContactPoint>& found) const {
+                           std::vector<ContactPoint>& found) {
   const CollisionShape& shape = model.shapes[placed.index];
   const Collider& collider = colliders_.collider(collider_index);
   const Placement& at = placement(collider_index);
   const MovingCapsule capsule = in_collider(shape, at, placed.now.near_W, placed.now.far_W,
                                             placed.before.near_W, placed.before.far_W);
-  SearchSettings search;
-  search.samples = sample_count(shape.back_near - shape.back_far, collider.feature,
-                                settings_.samples_per_feature, settings_.most_samples);
-  search.flat = 0.1 * settings_.margin;
+  Touch touch{placed.index, collider_index, shape, collider, at, {}};
+  touch.search.samples = sample_count(shape.back_near - shape.back_far, collider.feature,
+                                      settings_.samples_per_feature, settings_.most_samples);
+  touch.search.flat = 0.1 * settings_.margin;
   // What is farther apart than it moved in this step is not met in the next iteration either.
-  search.reach = settings_.margin + capsule.motion();
-  const auto nearest = nearest_place(*collider.shape, capsule, search);
-  if (!nearest) return;
+  touch.search.reach = settings_.margin + capsule.motion();
+  if (at.drive >= 0) {
+    touch.search.reach += farthest_travel(drives_[at.drive], at, capsule);
+    return touch_along(capsule, touch, found);
+  }
+  if (const auto nearest = nearest_place(*collider.shape, capsule, touch.search))
+    add(touch, capsule, *nearest, nearest->fraction, found);
+}
 
+// Places on the shape that stay, so that what they carry is a function of where the shape is.
+void ColliderSource::touch_along(const MovingCapsule& capsule, const Touch& touch,
+                                 std::vector<ContactPoint>& found) {
+  const double length = touch.shape.back_near - touch.shape.back_far;
+  const double thinnest = std::min(capsule.radius_near, capsule.radius_far);
+  const double feature = std::min(touch.collider.feature, 4.0 * thinnest);
+  const int places = length > 0.0 ? sample_count(length, feature, settings_.samples_per_feature,
+                                                 settings_.most_samples)
+                                  : 1;
+  SearchSettings one = touch.search;
+  one.samples = 1;
+  for (int i = 0; i < places; ++i) {
+    const double along = (i + 0.5) / places;
+    const auto between = [&](const auto& near, const auto& far) {
+      return ((1.0 - along) * near + along * far);
+    };
+    MovingCapsule place;
+    place.near_C = place.far_C = between(capsule.near_C, capsule.far_C);
+    place.near_before_C = place.far_before_C = between(capsule.near_before_C, capsule.far_before_C);
+    place.radius_near = place.radius_far = between(capsule.radius_near, capsule.radius_far);
+    if (const auto nearest = nearest_place(*touch.collider.shape, place, one))
+      add(touch, place, *nearest, along, found);
+  }
+}
+
+// `along` is the place on the shape, from its near end.
+void ColliderSource::add(const Touch& touch, const MovingCapsule& capsule,
+                         const NearestPlace& nearest, double along,
+                         std::vector<ContactPoint>& found) {
+  const CollisionShape& shape = touch.shape;
+  const Placement& at = touch.at;
   ContactPoint point;
-  point.shape = placed.index;
-  point.collider = collider_index;
-  point.back = shape.back_near + nearest->fraction * (shape.back_far - shape.back_near);
-  point.radius = nearest->radius;
-  point.normal_W = at.R_WC * nearest->normal_C;
-  point.gap = nearest->gap;
-  const Vec3 axis_C =
-      (1.0 - nearest->fraction) * capsule.near_C + nearest->fraction * capsule.far_C;
-  const Vec3 surface_C = axis_C - (nearest->gap + nearest->radius) * nearest->normal_C;
+  point.shape = touch.shape_index;
+  point.collider = touch.collider_index;
+  point.back = shape.back_near + along * (shape.back_far - shape.back_near);
+  point.radius = nearest.radius;
+  point.normal_W = at.R_WC * nearest.normal_C;
+  point.gap = nearest.gap;
+  const Vec3 axis_C = (1.0 - nearest.fraction) * capsule.near_C + nearest.fraction * capsule.far_C;
+  const Vec3 surface_C = axis_C - (nearest.gap + nearest.radius) * nearest.normal_C;
   if (at.is_moving)
     point.surface_motion_W = at.R_WC * surface_C + at.X_WC.position -
                              (at.R_WC_before * surface_C + at.X_WC_before.position);
-  point.friction = collider.friction.value_or(settings_.friction);
+  point.friction = touch.collider.friction.value_or(settings_.friction);
   point.stiffness = shape.fruit >= 0 ? settings_.fruit_stiffness : settings_.contact_stiffness;
   point.margin = settings_.margin;
   point.give = at.give;
+  if (!drives_.empty()) {
+    const Vec3 surface_W = at.R_WC * surface_C + at.X_WC.position;
+    const Vec3 way_W = at.drive_linear_W + at.drive_angular_W.cross(surface_W);
+    const cosserat::DrivenContact driven{at.drive, point.normal_W.dot(way_W)};
+    if (at.drive >= 0)
+      point.stiffness = std::max(point.stiffness,
+                                 least_stiffness(drives_[at.drive], driven, way_W, point.radius));
+    driven_.push_back(driven);
+  }
   found.push_back(point);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "cosserat/contact.h"
@@ -10,8 +12,17 @@
 
 namespace pedicel::coupling {
 
+/// A shape of a plant and a collider that overlap, or are nearer than the margin.
+struct Overlap {
+  int shape = 0, collider = 0;
+  double depth = 0.0;       ///< m, of the surfaces; negative: a gap
+  bool is_ignored = false;  ///< the two do not touch from now on
+};
+
 /// The contacts of one plant with the shared colliders: at most one for each pair of a shape of the
-/// plant and a collider, at their nearest place. ContactPoint::collider is the collider's index.
+/// plant and a collider, at their nearest place. A collider that a drive presses is touched at all
+/// samples along the shape instead: a stem that lies flat between two pads would roll over its
+/// nearest place from end to end. ContactPoint::collider is the collider's index.
 ///
 /// Three sieves stand before the exact search, so that what is far from everything costs a few
 /// comparisons an element: the box of the plant, the boxes of its chunks (element_chunks.h) with
@@ -26,8 +37,11 @@ class ColliderSource : public cosserat::ContactSource {
   ColliderSource(const ColliderSet& colliders, const CouplingSettings& settings);
 
   /// Leaves out for good every pair that overlaps, or is nearer than the margin, in this state: a
-  /// stem stands in the ground, a trellis wire runs through it. Adds to what is left out already.
-  void ignore_touching(const cosserat::RodModel& model, const cosserat::RodState& state);
+  /// stem stands in the ground, a trellis wire runs through it. What a drive presses is left out
+  /// only where the shape's axis lies inside. Adds to what is left out already. Returns all these
+  /// pairs, once each.
+  std::vector<Overlap> ignore_touching(const cosserat::RodModel& model,
+                                       const cosserat::RodState& state);
 
   /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
   void change_settings(const CouplingSettings& settings);
@@ -37,6 +51,11 @@ class ColliderSource : public cosserat::ContactSource {
                   double dt) override;
   void find(const cosserat::RodModel& model, const cosserat::RodState& state, double dt,
             std::vector<cosserat::ContactPoint>& found) override;
+  std::span<const cosserat::ContactDrive> drives() const override { return drives_; }
+  std::span<const cosserat::DrivenContact> driven() const override { return driven_; }
+  void end_drives(std::span<const cosserat::DriveEnd> ends) override;
+  /// Of the step that has ended, one a drive of the set.
+  const std::vector<cosserat::DriveEnd>& drive_ends() const { return drive_ends_; }
 
  private:
   struct Axis {
@@ -48,12 +67,25 @@ class ColliderSource : public cosserat::ContactSource {
     Axis now, before;
     geometry::Aabb way_W;  // m, around its way and the margin
   };
+  // A shape and a collider, to be looked at.
+  struct Touch {
+    int shape_index = 0, collider_index = 0;
+    const cosserat::CollisionShape& shape;
+    const Collider& collider;
+    const Placement& at;
+    SearchSettings search;
+  };
   bool place(const cosserat::RodModel& model, const cosserat::RodState& state, Placed& shape) const;
   void choose_colliders();
   void choose_for(const ElementChunks::Chunk& chunk);
   bool is_ignored(int shape, int collider) const;
   void touch(const cosserat::RodModel& model, const Placed& shape, int collider,
-             std::vector<cosserat::ContactPoint>& found) const;
+             std::vector<cosserat::ContactPoint>& found);
+  void touch_along(const MovingCapsule& capsule, const Touch& touch,
+                   std::vector<cosserat::ContactPoint>& found);
+  void add(const Touch& touch, const MovingCapsule& capsule, const NearestPlace& nearest,
+           double along, std::vector<cosserat::ContactPoint>& found);
+  void begin_drives();
 
   const Placement& placement(int collider) const {
     return covered_.empty() ? colliders_.placement(collider) : covered_[collider];
@@ -65,9 +97,13 @@ class ColliderSource : public cosserat::ContactSource {
   std::vector<Vec3> start_position_;     // m, W
   std::vector<Quat> start_orientation_;  // E to W
   ElementChunks chunks_;
-  std::vector<int> near_;                     // colliders that may touch this plant
-  std::vector<int> chunk_near_;               // of them, those that may touch the chunk at hand
-  std::vector<std::pair<int, int>> ignored_;  // (shape, collider), ascending
+  std::vector<int> near_;                       // colliders that may touch this plant
+  std::vector<int> chunk_near_;                 // of them, those that may touch the chunk at hand
+  std::vector<std::pair<int, int>> ignored_;    // (shape, collider), ascending
+  double from_ = 0.0, to_ = 1.0;                // cover()
+  std::vector<cosserat::ContactDrive> drives_;  // of the step, or the part of it, at hand
+  std::vector<cosserat::DrivenContact> driven_;
+  std::vector<cosserat::DriveEnd> drive_ends_;
 };
 
 }  // namespace pedicel::coupling

@@ -88,6 +88,17 @@ TEST(Override, GoesToSections) {
   EXPECT_EQ(scene.coupling.at(0).text, "0.9");
 }
 
+TEST(Override, GoesToTheGripper) {
+  Scene scene;
+  EXPECT_THROW(apply_override(scene, "robot.gripper_force", "5"), UsageError);
+  scene.robot.emplace().gripper = "finger_joint";
+  apply_override(scene, "robot.gripper_force", "5");
+  EXPECT_EQ(scene.robot->gripper_force, 5.0);
+  EXPECT_THROW(apply_override(scene, "robot.gripper_force", "-5"), UsageError);
+  EXPECT_THROW(apply_override(scene, "robot.gripper_force", "1e7"), UsageError);
+  EXPECT_THROW(apply_override(scene, "robot.gripper", "5"), UsageError);
+}
+
 std::string refusal(const std::string& key, const std::string& value) {
   Scene scene;
   try {
