@@ -1,7 +1,6 @@
 #include "app/cli.h"
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <thread>
@@ -15,6 +14,7 @@
 #include "app/validate.h"
 #include "app/version.h"
 #include "core/check.h"
+#include "core/stop.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "render/image.h"
@@ -40,19 +40,18 @@ constexpr const char* exit_codes =
     "Exit codes: 0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the "
     "simulation "
     "is unstable, 5 an expectation is not met, 6 output cannot be written, 77 pictures were asked "
-    "for and there is no OpenGL, 130 stopped by Ctrl-C. diagnose: 0 the model is adequate, 10 a "
+    "for and there is no OpenGL, 128 plus the signal where one stopped it (130 Ctrl-C, 143 "
+    "SIGTERM, 129 "
+    "SIGHUP, 152 SIGXCPU, 141 SIGPIPE). diagnose: 0 the model is adequate, 10 a "
     "cause is named, 11 several fit alike, 12 an unknown cause, 13 unusable data, 14 our own "
     "numerical error is too large.";
-
-extern "C" void request_stop(int) {
-  stop_requested = true;
-}
 
 /// `pedicel --script FILE [SCENE]`: commands in place of a window, see session/script.h.
 int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   SessionOptions options;
   options.packages = a.packages;
   options.waits = true;
+  stop_in_good_order();
   Session session(options);
   std::unique_ptr<FilmMaker> films;
   if (make_films) films = make_films(session);
@@ -240,9 +239,6 @@ WorldsResult bench_scene(const BenchArguments& a) {
 }
 
 int bench_verb(const BenchArguments& a) {
-  // Writes no file that would have to be ended in good order: Ctrl-C ends it at once.
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
   const auto print = [&a](const auto& result) {
     std::cout << (a.json ? to_json(result) : to_text(result)) << std::endl;
     return ok;
@@ -255,7 +251,10 @@ int bench_verb(const BenchArguments& a) {
 
 int guarded(const std::function<int()>& verb) {
   try {
-    return verb();
+    const int code = verb();
+    return stop_requested ? stop_exit_code() : code;
+  } catch (const Stopped&) {
+    return stop_exit_code();
   } catch (const InvalidFile& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return invalid;
@@ -283,8 +282,7 @@ int guarded(const std::function<int()>& verb) {
 }  // namespace
 
 int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFilms& make_films) {
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  hear_stop_signals();
   CLI::App app("Pedicel: a sandbox where robots handle plants.");
   app.footer(exit_codes);
   app.set_version_flag("--version", "pedicel " + version() + " (" + git_hash() + ")");

@@ -11,15 +11,14 @@
 #include "app/meta.h"
 #include "app/scene_view.h"
 #include "app/version.h"
+#include "core/stop.h"
 #include "core/timer.h"
 
 namespace pedicel::app {
 
-std::atomic<bool> stop_requested{false};
-
 namespace {
 
-constexpr int exit_unstable = 4, exit_unmet = 5, exit_no_pictures = 77, exit_stopped = 130;
+constexpr int exit_unstable = 4, exit_unmet = 5, exit_no_pictures = 77;
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -39,6 +38,7 @@ class Run {
         recorder_(options.out, scene.log_rate),
         view_(simulation_) {
     result_.folder = options.out;
+    if (!options.out.empty()) stop_in_good_order();
     add_channels(recorder_, simulation_);
     recorder_.open();
     simulation_.world().set_recorder(&recorder_);
@@ -62,7 +62,7 @@ class Run {
       step();
       show_progress(i + 1, steps);
       if (stop_requested) {
-        result_.exit_code = exit_stopped;
+        result_.exit_code = stop_exit_code();
         result_.error = "stopped by the user";
       }
     }

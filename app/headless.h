@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,9 +10,6 @@
 #include "world/recorder.h"
 
 namespace pedicel::app {
-
-/// Set by the signal handler; a run that sees it ends with its files closed (exit code 130).
-extern std::atomic<bool> stop_requested;
 
 struct RunOptions {
   SimulationOptions simulation;
@@ -48,7 +44,8 @@ struct RunResult {
 
 /// Runs a scene off screen, once, without its sweep: steps it, records it, takes its pictures and
 /// its video, and judges its expectations (those over a sweep are left out). Throws InvalidFile for
-/// a scene that cannot be built and io::WriteError for an output that cannot be written.
+/// a scene that cannot be built, Stopped while it is built, and io::WriteError for an output that
+/// cannot be written. Where stop_requested it ends with its files closed (stop_exit_code()).
 RunResult run_scene(const world::Scene& scene, const RunOptions& options);
 
 /// Runs a scene, and its sweep where it has one (each value in a folder of its own, without video),

@@ -5,6 +5,7 @@
 
 #include "app/scene_report.h"
 #include "app/solver_comparison.h"
+#include "core/stop.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -32,11 +33,27 @@ std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& opt
     one.quiet = true;
     const std::string label = scene.sweep->key + "=" + io::format_number(value);
     if (!options.out.empty()) one.out = options.out / ("sweep_" + label);
-    runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
+    try {
+      runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
+    } catch (const Stopped&) {
+      break;
+    }
     if (!options.quiet) say(label, runs.back().result);
     if (stop_requested) break;
   }
   return runs;
+}
+
+/// Nothing where it was stopped: half of one would say what is not so.
+std::optional<SolverComparison> whole_comparison(const world::Scene& scene,
+                                                 const std::vector<SweepRun>& runs,
+                                                 const RunOptions& options) {
+  try {
+    auto comparison = compare_solvers(scene, runs, options);
+    if (!stop_requested) return comparison;
+  } catch (const Stopped&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -85,11 +102,15 @@ RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
     if (!result.verdicts.back().met && result.exit_code == 0) result.exit_code = exit_unmet;
   }
   for (const SweepRun& run : runs)
-    if (run.result.exit_code == 4 || run.result.exit_code == 130)
-      result.exit_code = run.result.exit_code;
-  if (options.out.empty()) return result;
+    if (run.result.exit_code == 4) result.exit_code = 4;
   std::optional<SolverComparison> comparison;
-  if (options.comparison) comparison = compare_solvers(scene, runs, options);
+  if (!options.out.empty() && options.comparison && !stop_requested)
+    comparison = whole_comparison(scene, runs, options);
+  if (stop_requested) {
+    result.exit_code = stop_exit_code();
+    if (result.error.empty()) result.error = Stopped().what();
+  }
+  if (options.out.empty()) return result;
   write_scene_report(scene, result, runs, comparison);
   return result;
 }
