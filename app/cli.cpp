@@ -1,6 +1,7 @@
 #include "app/cli.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <thread>
@@ -155,6 +156,8 @@ int sweep_verb(RunArguments a) {
       const std::size_t end = std::min(values.find(',', start), values.size());
       const auto value = world::to_number(values.substr(start, end - start));
       if (!value) throw UsageError("--set " + assignment + ": expected numbers between the commas");
+      if (std::ranges::count(sweep->values, *value) > 0)
+        throw UsageError("--set " + assignment + ": a value comes twice, expected each once");
       sweep->values.push_back(*value);
       start = end + 1;
     }

@@ -47,7 +47,8 @@ int run(const DiagnoseArguments& a) {
   progress.end(diagnosis.stopped);
   if (diagnosis.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("diagnosis_", experiment);
-  write_results(folder, experiment, diagnosis);
+  a.write(folder,
+          [&](const std::filesystem::path& in) { write_results(in, experiment, diagnosis); });
   if (a.json)
     std::cout << to_json(diagnosis.verdict) << std::endl;
   else

@@ -33,9 +33,11 @@ int run(const FitArguments& a) {
   progress.end(fit.stopped);
   if (fit.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("fit_", experiment);
-  plant::write_plant_file(folder / "fitted.plant.yaml",
-                          discrepancy::extended_plant(experiment, fit.summary.hypothesis));
-  io::write_file_atomically(folder / "fit.json", to_json(fit) + "\n");
+  a.write(folder, [&](const std::filesystem::path& in) {
+    plant::write_plant_file(in / "fitted.plant.yaml",
+                            discrepancy::extended_plant(experiment, fit.summary.hypothesis));
+    io::write_file_atomically(in / "fit.json", to_json(fit) + "\n");
+  });
   if (a.json)
     std::cout << to_json(fit) << std::endl;
   else

@@ -28,6 +28,19 @@ double percentile(std::vector<double> values, double share) {
   return *place;
 }
 
+/// What every run may write, beside its pictures.
+const std::vector<std::string> files_of_a_run = {
+    "log.csv", "events.csv", "log.meta.json", "run.mp4", "report.html", "sweep.csv", "solvers.csv"};
+
+/// The folder of a run, taken once there is something to write: what was there goes now.
+std::shared_ptr<io::OutputFolder> take_folder(const std::filesystem::path& folder) {
+  if (folder.empty()) return nullptr;
+  stop_in_good_order();
+  auto taken = std::make_shared<io::OutputFolder>(folder, files_of_a_run);
+  if (!taken->replaced().empty()) std::fprintf(stderr, "%s\n", taken->replaced().c_str());
+  return taken;
+}
+
 /// One run: the simulation and everything that watches it.
 class Run {
  public:
@@ -35,10 +48,12 @@ class Run {
       : scene_(scene),
         options_(options),
         simulation_(scene, options.simulation),
+        output_(take_folder(options.out)),
         recorder_(options.out, scene.log_rate),
         view_(simulation_) {
     result_.folder = options.out;
-    if (!options.out.empty()) stop_in_good_order();
+    result_.output = output_;
+    if (output_) output_->file("log.csv"), output_->file("events.csv");
     add_channels(recorder_, simulation_);
     recorder_.open();
     simulation_.world().set_recorder(&recorder_);
@@ -137,8 +152,8 @@ class Run {
       view_.fill(coloured, true);
       frame = &coloured;
     }
-    const auto path = options_.out / (name + (picture.camera.empty() ? "" : "_" + picture.camera) +
-                                      (picture.strain ? "_strain" : "") + ".png");
+    const auto path = output_->file(name + (picture.camera.empty() ? "" : "_" + picture.camera) +
+                                    (picture.strain ? "_strain" : "") + ".png");
     if (pictures_->save(path, *frame, view_.camera(picture.camera, *frame), video_.size[0],
                         video_.size[1]))
       result_.pictures.push_back(path);
@@ -148,7 +163,8 @@ class Run {
     video_ = scene_.video;
     if (options_.fps) video_.fps = *options_.fps;
     if (options_.size) video_.size = *options_.size;
-    pictures_->open_video(options_.out / "run.mp4", video_);
+    output_->file("run_frames/");  // without ffmpeg
+    pictures_->open_video(output_->file("run.mp4"), video_);
   }
 
   void finish() {
@@ -173,7 +189,7 @@ class Run {
     if (result_.exit_code == 0 && unmet) result_.exit_code = exit_unmet;
     if (result_.exit_code == 0 && pictures_ && !pictures_->available())
       result_.exit_code = exit_no_pictures;
-    if (!options_.out.empty()) write_meta(options_.out / "log.meta.json", simulation_, result_);
+    if (output_) write_meta(output_->file("log.meta.json"), simulation_, result_);
     say_end();
   }
 
@@ -237,6 +253,7 @@ class Run {
   const world::Scene& scene_;
   RunOptions options_;
   Simulation simulation_;
+  std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
   SceneView view_;
   std::unique_ptr<PictureTaker> pictures_;

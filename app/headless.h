@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/log_plots.h"
 #include "app/simulation.h"
+#include "io/output_folder.h"
 #include "world/recorder.h"
 
 namespace pedicel::app {
@@ -38,6 +40,7 @@ struct RunResult {
   std::vector<std::filesystem::path> pictures;  ///< in the order taken
   std::optional<std::filesystem::path> video;
   std::filesystem::path folder;
+  std::shared_ptr<io::OutputFolder> output;  ///< taken for the run; null: nothing is written
 
   double real_time_factor() const { return wall > 0.0 ? simulated / wall : 0.0; }
 };

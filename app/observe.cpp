@@ -9,7 +9,9 @@
 #include "app/scene_plants.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "core/stop.h"
 #include "discrepancy/simulator.h"
+#include "io/output_folder.h"
 #include "io/yaml.h"
 #include "plant/effects.h"
 #include "world/scene_reader.h"
@@ -162,7 +164,11 @@ int observe_verb(const ObserveArguments& a) {
   if (a.noise_position > 0.0) experiment.noise.position_std = a.noise_position;
   if (a.noise_force > 0.0) experiment.noise.force_std = a.noise_force;
   simulate(a, experiment);
-  discrepancy::write_experiment(a.out, experiment);
+  stop_in_good_order();
+  const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {
+    discrepancy::write_experiment(in, experiment);
+  });
+  if (!replaced.empty()) std::fprintf(stderr, "%s\n", replaced.c_str());
   std::fprintf(stderr, "written to %s\n", a.out.c_str());
   return 0;
 }

@@ -79,10 +79,7 @@ RunOptions run_options(const RunArguments& a) {
   options.simulation.packages = a.packages;
   options.simulation.leaf_folders = asset_leaf_folders();
   options.out = a.out;
-  if (options.out.empty()) {
-    std::string name = std::filesystem::path(a.scene).filename().string();
-    options.out = std::filesystem::path("out") / name.substr(0, name.find('.'));
-  }
+  if (options.out.empty()) options.out = std::filesystem::path("out") / io::name_of_file(a.scene);
   options.pictures = !a.no_pictures;
   options.video = !a.no_video;
   options.fps = a.fps;

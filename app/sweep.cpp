@@ -25,14 +25,15 @@ void say(const std::string& label, const RunResult& result) {
   std::fprintf(stderr, "%s %.2f x real time\n", text.c_str(), result.real_time_factor());
 }
 
-std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options) {
+std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options,
+                                io::OutputFolder* output) {
   std::vector<SweepRun> runs;
   for (const double value : scene.sweep->values) {
     RunOptions one = options;
     one.video = false;
     one.quiet = true;
-    const std::string label = scene.sweep->key + "=" + io::format_number(value);
-    if (!options.out.empty()) one.out = options.out / ("sweep_" + label);
+    const std::string label = scene.sweep->key + "=" + io::exact_number(value);
+    if (output) one.out = output->file("sweep_" + label + "/");
     try {
       runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
     } catch (const Stopped&) {
@@ -60,7 +61,7 @@ std::optional<SolverComparison> whole_comparison(const world::Scene& scene,
 
 world::Scene scene_of_value(const world::Scene& scene, double value) {
   world::Scene one = scene;
-  world::apply_override(one, scene.sweep->key, io::format_number(value));
+  world::apply_override(one, scene.sweep->key, io::exact_number(value));
   one.sweep.reset();
   one.expectations.clear();
   for (world::Expectation expectation : scene.expectations) {
@@ -91,7 +92,8 @@ double measured_in(const world::Expectation& wanted, const RunResult& run) {
 RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
   RunResult result = run_scene(scene, options);
   std::vector<SweepRun> runs;
-  if (scene.sweep && result.exit_code != 4 && !stop_requested) runs = run_sweep(scene, options);
+  if (scene.sweep && result.exit_code != 4 && !stop_requested)
+    runs = run_sweep(scene, options, result.output.get());
   for (const world::Expectation& expectation : scene.expectations) {
     if (!expectation.over_sweep()) continue;
     std::vector<double> values;
@@ -110,7 +112,7 @@ RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
     result.exit_code = stop_exit_code();
     if (result.error.empty()) result.error = Stopped().what();
   }
-  if (options.out.empty()) return result;
+  if (!result.output) return result;
   write_scene_report(scene, result, runs, comparison);
   return result;
 }

@@ -1,9 +1,11 @@
 #include "core/stop.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace pedicel {
@@ -47,6 +49,17 @@ extern "C" void on_stop_signal(int signal) {
   if (!comes_in_numbers && milliseconds() - first_signal_at >= one_signal) end_at_once(signal);
 }
 
+/// `ulimit -t` sets both limits, and the kernel kills at the hard one without a word before: so the
+/// soft one, at which SIGXCPU comes, is set some seconds before it.
+void be_told_before_cpu_time_ends() {
+  constexpr rlim_t ahead = 2;  // s
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_max == RLIM_INFINITY) return;
+  const rlim_t told = limit.rlim_max - std::min(ahead, limit.rlim_max / 2);
+  limit.rlim_cur = std::min(limit.rlim_cur, std::max(told, rlim_t{1}));
+  ::setrlimit(RLIMIT_CPU, &limit);
+}
+
 }  // namespace
 
 Stopped::Stopped() : std::runtime_error("stopped by the user") {}
@@ -71,6 +84,7 @@ void hear_stop_signals() {
     if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
   }
+  be_told_before_cpu_time_ends();
 }
 
 void stop_in_good_order() {

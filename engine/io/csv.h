@@ -1,7 +1,8 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,12 +39,17 @@ struct CsvRules {
 CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
                   Diagnostics& diagnostics);
 
-/// Appends rows to a CSV file, flushed often, so that a run that is stopped leaves readable output.
-/// Numbers have 9 significant digits; NaN is written as "nan".
+/// Appends rows to a CSV file, flushed often, so that a run that is stopped or killed leaves whole
+/// rows; so does a full disk. Numbers have 9 significant digits; NaN is written as "nan".
 class CsvWriter {
  public:
-  /// Columns carry their unit in the name ("force_x_N"). Throws WriteError.
+  /// Columns carry their unit in the name ("force_x_N"). Throws WriteError with the system's
+  /// reason.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
+  /// Errors are lost here, so call flush() where you can.
+  ~CsvWriter();
+  CsvWriter(const CsvWriter&) = delete;
+  CsvWriter& operator=(const CsvWriter&) = delete;
 
   void row(std::span<const double> values);
   /// A row whose cells are already text (events).
@@ -51,9 +57,14 @@ class CsvWriter {
   void flush();
 
  private:
+  int write_rows();  // 0, or why not (errno)
+  [[noreturn]] void fail(const std::string& reason) const;
+
   std::filesystem::path path_;
-  std::ofstream file_;
+  std::string waiting_;  // rows that are not in the file yet
   std::size_t columns_;
+  off_t written_ = 0;  // bytes
+  int file_ = -1;
 };
 
 /// A number as it is written in our CSV and YAML files: shortest of 9 significant digits.

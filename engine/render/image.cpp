@@ -1,14 +1,10 @@
 #include "render/image.h"
 
 #include <png.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include "core/check.h"
 #include "core/diagnostics.h"
+#include "io/atomic_file.h"
 
 namespace pedicel::render {
 
@@ -24,10 +20,6 @@ void append(png_structp png, png_bytep data, png_size_t size) {
   throw OutputError(std::string("PNG: ") + what);
 }
 void ignore(png_structp, png_const_charp) {}
-
-std::string reason() {
-  return std::strerror(errno);
-}
 
 }  // namespace
 
@@ -54,17 +46,12 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  const std::filesystem::path part = path.string() + ".part" + std::to_string(::getpid());
-  {
-    std::ofstream file(part, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    if (!file.flush()) throw OutputError(path.string() + ": cannot be written: " + reason());
+  try {
+    io::write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                              io::Durable::no);
+  } catch (const io::WriteError& error) {
+    throw OutputError(error.what());
   }
-  std::filesystem::rename(part, path, error);
-  if (error) throw OutputError(path.string() + ": cannot be written: " + error.message());
 }
 
 Image read_png(const std::filesystem::path& path) {

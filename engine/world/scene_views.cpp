@@ -60,6 +60,9 @@ SceneSweep read_sweep(const io::YamlNode& node) {
   if (const auto values = map.required("values")) {
     sweep.values = values->numbers("values");
     if (sweep.values.size() < 2) values->error("values: expected at least two");
+    for (std::size_t i = 1; i < sweep.values.size(); ++i)
+      if (std::count(sweep.values.begin(), sweep.values.begin() + i, sweep.values[i]) > 0)
+        values->error("values: one of them comes twice, expected each once");
   }
   map.finish();
   return sweep;
