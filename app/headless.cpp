@@ -9,10 +9,13 @@
 
 #include "app/channels.h"
 #include "app/meta.h"
+#include "app/run_state.h"
 #include "app/scene_view.h"
+#include "app/verbosity.h"
 #include "app/version.h"
 #include "core/stop.h"
 #include "core/timer.h"
+#include "io/atomic_file.h"
 
 namespace pedicel::app {
 
@@ -28,18 +31,31 @@ double percentile(std::vector<double> values, double share) {
   return *place;
 }
 
-/// What every run may write, beside its pictures.
-const std::vector<std::string> files_of_a_run = {
-    "log.csv", "events.csv", "log.meta.json", "run.mp4", "report.html", "sweep.csv", "solvers.csv"};
-
 /// The folder of a run, taken once there is something to write: what was there goes now.
 std::shared_ptr<io::OutputFolder> take_folder(const std::filesystem::path& folder) {
   if (folder.empty()) return nullptr;
   stop_in_good_order();
-  auto taken = std::make_shared<io::OutputFolder>(folder, files_of_a_run);
-  if (!taken->replaced().empty()) std::fprintf(stderr, "%s\n", taken->replaced().c_str());
+  auto taken = std::make_shared<io::OutputFolder>(folder, files_of_a_run());
+  if (!taken->replaced().empty()) say(Verbosity::warnings, "%s", taken->replaced().c_str());
   return taken;
 }
+
+/// A simulation, at the state that the run goes on from.
+class Started {
+ public:
+  Started(const world::Scene& scene, const RunOptions& options)
+      : simulation(scene, options.simulation) {
+    if (!options.save_state.empty()) model = model_hash(simulation);
+    if (options.load_state.empty()) return;
+    const RunState state = read_state(options.load_state);
+    say(Verbosity::lines, "%s: the %ld steps up to it are done again",
+        options.load_state.string().c_str(), state.steps);
+    go_to_state(simulation, state, options.load_state);
+  }
+
+  Simulation simulation;
+  std::uint64_t model = 0;  // model_hash(), where the state is to be saved
+};
 
 /// One run: the simulation and everything that watches it.
 class Run {
@@ -47,7 +63,8 @@ class Run {
   Run(const world::Scene& scene, const RunOptions& options)
       : scene_(scene),
         options_(options),
-        simulation_(scene, options.simulation),
+        started_(scene, options),
+        simulation_(started_.simulation),
         output_(take_folder(options.out)),
         recorder_(options.out, scene.log_rate),
         view_(simulation_) {
@@ -55,6 +72,7 @@ class Run {
     result_.output = output_;
     if (output_) output_->file("log.csv"), output_->file("events.csv");
     add_channels(recorder_, simulation_);
+    begin_at(simulation_.world());
     recorder_.open();
     simulation_.world().set_recorder(&recorder_);
     for (const world::ScenePicture& picture : scene.pictures) {
@@ -72,7 +90,10 @@ class Run {
 
   RunResult go() {
     picture_now();
-    const long steps = std::lround(scene_.duration / scene_.dt);
+    const long before = simulation_.world().steps();
+    const long steps = options_.steps
+                           ? *options_.steps
+                           : std::max(0L, std::lround(scene_.duration / scene_.dt) - before);
     for (long i = 0; i < steps && result_.exit_code == 0; ++i) {
       step();
       show_progress(i + 1, steps);
@@ -86,6 +107,13 @@ class Run {
   }
 
  private:
+  /// What a loaded state has behind it is not recorded again.
+  void begin_at(const world::SimWorld& world) {
+    if (world.steps() == 0) return;
+    events_ = simulation_.plant_step().detached().size();
+    next_frame_ = last_picture_time_ = world.time();
+  }
+
   void step() {
     if (wants_history_ && pictures_ && pictures_->available())
       view_.fill(history_.next(), strain_history_);
@@ -96,6 +124,8 @@ class Run {
     ++result_.steps;
     for (const auto& all = simulation_.plant_step().detached(); events_ < all.size(); ++events_) {
       recorder_.add_event(to_event(all[events_]));
+      say(Verbosity::everything, "t = %.4f s: %s comes off (%s)", report.time,
+          all[events_].fruit.c_str(), all[events_].event.cause.c_str());
       picture_event();
     }
     picture_now();
@@ -156,7 +186,7 @@ class Run {
                                     (picture.strain ? "_strain" : "") + ".png");
     if (pictures_->save(path, *frame, view_.camera(picture.camera, *frame), video_.size[0],
                         video_.size[1]))
-      result_.pictures.push_back(path);
+      result_.pictures.push_back(path), say(Verbosity::everything, "picture %s", path.c_str());
   }
 
   void open_video() {
@@ -187,10 +217,26 @@ class Run {
     const bool unmet = std::any_of(result_.verdicts.begin(), result_.verdicts.end(),
                                    [](const world::Verdict& v) { return !v.met; });
     if (result_.exit_code == 0 && unmet) result_.exit_code = exit_unmet;
+    if (options_.comparison_with) compare_with_measured();
     if (result_.exit_code == 0 && pictures_ && !pictures_->available())
       result_.exit_code = exit_no_pictures;
     if (output_) write_meta(output_->file("log.meta.json"), simulation_, result_);
+    copy_table("log.csv", options_.log);
+    copy_table("events.csv", options_.events);
+    if (!options_.save_state.empty() && result_.exit_code != exit_unstable)
+      write_state(options_.save_state, state_of(simulation_, started_.model));
     say_end();
+  }
+
+  void copy_table(const char* name, const std::filesystem::path& wanted) const {
+    if (!wanted.empty()) io::write_file_atomically(wanted, io::read_file(options_.out / name));
+  }
+
+  void compare_with_measured() {
+    const ComparisonRequest& wanted = *options_.comparison_with;
+    result_.comparison =
+        compare(wanted.measured, wanted.tolerance, recorder_.columns(), recorder_.rows());
+    if (result_.exit_code == 0 && !result_.comparison->within()) result_.exit_code = exit_unmet;
   }
 
   void add_limits() {
@@ -213,8 +259,9 @@ class Run {
   }
 
   void say_start() const {
-    for (const std::string& note : simulation_.notes()) std::fprintf(stderr, "%s\n", note.c_str());
-    if (options_.quiet) return;
+    for (const std::string& note : simulation_.notes())
+      say(Verbosity::warnings, "%s", note.c_str());
+    if (is_quiet()) return;
     int elements = 0;
     for (int p = 0; p < simulation_.rods().size(); ++p)
       elements += simulation_.rods().model(p).size();
@@ -227,8 +274,8 @@ class Run {
   }
 
   void say_end() const {
-    if (!result_.error.empty()) std::fprintf(stderr, "error: %s\n", result_.error.c_str());
-    if (options_.quiet) return;
+    if (!result_.error.empty()) say(Verbosity::errors, "error: %s", result_.error.c_str());
+    if (is_quiet()) return;
     std::fprintf(
         stderr,
         "%ld steps, %.3f s simulated, %.2f s wall, %.3f ms/step p50, %.3f p95, %.2f x real "
@@ -239,10 +286,17 @@ class Run {
         static_cast<unsigned long long>(result_.state_hash));
     for (const world::Verdict& verdict : result_.verdicts)
       std::fprintf(stderr, "%s\n", world::to_string(verdict).c_str());
+    if (!result_.comparison) return;
+    for (const ColumnComparison& column : result_.comparison->columns)
+      std::fprintf(stderr, "%s\n", to_string(column, result_.comparison->tolerance).c_str());
+    for (const std::string& column : result_.comparison->left_out)
+      std::fprintf(stderr, "%s: not in the log, not compared\n", column.c_str());
   }
 
+  bool is_quiet() const { return options_.quiet || verbosity() < Verbosity::lines; }
+
   void show_progress(long done, long all) {
-    if (options_.quiet || !isatty(2)) return;
+    if (is_quiet() || !isatty(2)) return;
     if (done < all && progress_.seconds() < 0.2) return;
     progress_.restart();
     std::fprintf(stderr, "\r%5.1f %%  t = %.2f s%s",
@@ -252,7 +306,8 @@ class Run {
 
   const world::Scene& scene_;
   RunOptions options_;
-  Simulation simulation_;
+  Started started_;
+  Simulation& simulation_;  // of started_
   std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
   SceneView view_;
@@ -270,9 +325,36 @@ class Run {
 
 }  // namespace
 
+const std::vector<std::string>& files_of_a_run() {
+  static const std::vector<std::string> names = {"log.csv",    "events.csv",  "log.meta.json",
+                                                 "run.mp4",    "report.html", "sweep.csv",
+                                                 "solvers.csv"};
+  return names;
+}
+
 RunResult run_scene(const world::Scene& scene, const RunOptions& options) {
   return Run(scene, options).go();
 }
+
+namespace {
+
+nlohmann::ordered_json comparison_json(const Comparison& comparison) {
+  nlohmann::ordered_json json = {{"measured", comparison.measured.string()},
+                                 {"tolerance", comparison.tolerance},
+                                 {"within", comparison.within()},
+                                 {"columns", nlohmann::ordered_json::array()}};
+  for (const ColumnComparison& one : comparison.columns)
+    json["columns"].push_back({{"column", one.column},
+                               {"samples", one.samples},
+                               {"largest", one.largest},
+                               {"rms", one.rms},
+                               {"time_s", one.time},
+                               {"within", one.within}});
+  json["left_out"] = comparison.left_out;
+  return json;
+}
+
+}  // namespace
 
 std::string to_json(const world::Scene& scene, const RunResult& result) {
   char hash[17];
@@ -300,6 +382,7 @@ std::string to_json(const world::Scene& scene, const RunResult& result) {
   for (const world::Verdict& v : result.verdicts)
     json["expectations"].push_back(
         {{"what", world::to_string(v.expectation)}, {"met", v.met}, {"measured", v.measured}});
+  if (result.comparison) json["comparison"] = comparison_json(*result.comparison);
   json["out"] = result.folder.string();
   return json.dump(2);
 }

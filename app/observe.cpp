@@ -15,6 +15,7 @@
 #include "io/yaml.h"
 #include "plant/effects.h"
 #include "world/scene_reader.h"
+#include "world/settings.h"
 
 namespace pedicel::app {
 
@@ -147,7 +148,8 @@ void add_observe_options(CLI::App& observe, ObserveArguments& a) {
       .add_option("--noise-colour", a.noise_colour, "correlation with the sample before (AR(1))")
       ->check(CLI::Range(0.0, 0.999));
   observe.add_option("--distance", a.distance, "between nodes, m")->check(CLI::Range(1e-4, 1.0));
-  observe.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(1e-6, 0.1));
+  const io::Bounds dt = world::scene_bounds("dt");
+  observe.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(dt.minimum, dt.maximum));
   observe.add_option("--threads", a.threads)->check(CLI::Range(1, 1024));
   observe
       .add_option(

@@ -26,6 +26,11 @@ std::vector<ReportExpectation> expectations_of(const RunResult& result) {
   std::vector<ReportExpectation> all;
   for (const world::Verdict& verdict : result.verdicts)
     all.push_back({world::to_string(verdict.expectation), joined(verdict.measured), verdict.met});
+  if (result.comparison)
+    for (const ColumnComparison& one : result.comparison->columns)
+      all.push_back({one.column + " within " + number(result.comparison->tolerance) + " of " +
+                         result.comparison->measured.filename().string(),
+                     "largest " + number(one.largest) + ", rms " + number(one.rms), one.within});
   return all;
 }
 

@@ -14,6 +14,12 @@ namespace {
 
 constexpr int exit_unmet = 5;
 
+/// Reads back as the same number.
+std::string text_of(double value) {
+  const std::string text = io::format_number(value);
+  return world::to_number(text) == value ? text : io::exact_number(value);
+}
+
 // "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
 void say(const std::string& label, const RunResult& result) {
   std::string text = "sweep " + label + ":";
@@ -32,7 +38,8 @@ std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& opt
     RunOptions one = options;
     one.video = false;
     one.quiet = true;
-    const std::string label = scene.sweep->key + "=" + io::exact_number(value);
+    one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
+    const std::string label = scene.sweep->key + "=" + text_of(value);
     if (output) one.out = output->file("sweep_" + label + "/");
     try {
       runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
@@ -61,7 +68,7 @@ std::optional<SolverComparison> whole_comparison(const world::Scene& scene,
 
 world::Scene scene_of_value(const world::Scene& scene, double value) {
   world::Scene one = scene;
-  world::apply_override(one, scene.sweep->key, io::exact_number(value));
+  world::apply_override(one, scene.sweep->key, text_of(value));
   one.sweep.reset();
   one.expectations.clear();
   for (world::Expectation expectation : scene.expectations) {

@@ -79,8 +79,7 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   desktop.ui().preferences.seen_hint = !request.file.empty();
   desktop.ui().view.automatic_quality = false;
   desktop.ui().view.quality = CanvasQuality::best;
-  if (!request.camera.empty())
-    desktop.use_camera(camera_index(*session.snapshot(), request.camera));
+  camera_index(*session.snapshot(), request.camera);  // there is such a one
   if (!request.script.empty())
     if (const int code = run_script(request.script, session, std::cout, std::cerr)) return code;
   if (session.measured().experiment())
@@ -88,7 +87,13 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   else if (request.time > 0.0)
     session.control().run_for(request.time);
   session.control().wait();
-  for (int i = 0; i < 6; ++i) desktop.frame();
+  // The first pictures lay the panels out and frame the scene; the camera may follow what moves.
+  for (int i = 0; i < 5; ++i) {
+    desktop.frame();
+    if (!request.camera.empty())
+      desktop.use_camera(camera_index(*session.snapshot(), request.camera));
+  }
+  desktop.frame();
   const auto picture = request.with_interface
                            ? desktop.window_picture()
                            : desktop.scene_picture(request.size[0], request.size[1]);

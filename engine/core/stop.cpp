@@ -84,6 +84,7 @@ void hear_stop_signals() {
     if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
   }
+  ::signal(SIGXFSZ, SIG_IGN);  // `ulimit -f`: the write fails then, as on a full disk
   be_told_before_cpu_time_ends();
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "core/diagnostics.h"
@@ -39,8 +40,8 @@ class Part {
     }
   }
 
-  void place(Durable durable) {
-    if (durable == Durable::yes && ::fsync(file_) != 0) fail();
+  void place() {
+    if (::fsync(file_) != 0) fail();
     if (::close(std::exchange(file_, -1)) != 0) fail();
     if (::rename(name_.c_str(), target_.c_str()) != 0) fail();
     placed_ = true;
@@ -59,8 +60,7 @@ class Part {
 
 }  // namespace
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view contents,
-                           Durable durable) {
+void write_file_atomically(const std::filesystem::path& path, const std::string& contents) {
   std::error_code error;
   if (path.has_parent_path()) {
     std::filesystem::create_directories(path.parent_path(), error);
@@ -69,7 +69,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   }
   Part part(path);
   part.write(contents);
-  part.place(durable);
+  part.place();
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 namespace pedicel::io {
 
@@ -13,15 +12,10 @@ class WriteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whether a file is to outlast a loss of power from now on: that takes milliseconds, too long for
-/// the many pictures of a film.
-enum class Durable { no, yes };
-
-/// Writes the whole text beside the target, then renames it over the target: a reader sees the old
-/// file or the new one, never half of one, and nothing stays beside it where that fails. Creates
-/// missing parent folders. Throws WriteError with the path and the system's reason.
-void write_file_atomically(const std::filesystem::path& path, std::string_view contents,
-                           Durable durable = Durable::yes);
+/// Writes the whole text beside the target, flushes it to disk, then renames it over the target: a
+/// reader sees the old file or the new one, never half of one. Creates missing parent folders.
+/// Throws WriteError with the path and the system's reason.
+void write_file_atomically(const std::filesystem::path& path, const std::string& contents);
 
 /// Reads a whole file. Throws InvalidFile ("cannot be read: reason").
 std::string read_file(const std::filesystem::path& path);

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,17 +38,12 @@ struct CsvRules {
 CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
                   Diagnostics& diagnostics);
 
-/// Appends rows to a CSV file, flushed often, so that a run that is stopped or killed leaves whole
-/// rows; so does a full disk. Numbers have 9 significant digits; NaN is written as "nan".
+/// Appends rows to a CSV file, flushed often, so that a run that is stopped leaves readable output.
+/// Numbers have 9 significant digits; NaN is written as "nan".
 class CsvWriter {
  public:
-  /// Columns carry their unit in the name ("force_x_N"). Throws WriteError with the system's
-  /// reason.
+  /// Columns carry their unit in the name ("force_x_N"). Throws WriteError.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
-  /// Errors are lost here, so call flush() where you can.
-  ~CsvWriter();
-  CsvWriter(const CsvWriter&) = delete;
-  CsvWriter& operator=(const CsvWriter&) = delete;
 
   void row(std::span<const double> values);
   /// A row whose cells are already text (events).
@@ -57,14 +51,9 @@ class CsvWriter {
   void flush();
 
  private:
-  int write_rows();  // 0, or why not (errno)
-  [[noreturn]] void fail(const std::string& reason) const;
-
   std::filesystem::path path_;
-  std::string waiting_;  // rows that are not in the file yet
+  std::ofstream file_;
   std::size_t columns_;
-  off_t written_ = 0;  // bytes
-  int file_ = -1;
 };
 
 /// A number as it is written in our CSV and YAML files: shortest of 9 significant digits.

@@ -1,9 +1,5 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "core/check.h"
 #include "io/atomic_file.h"
@@ -11,65 +7,57 @@
 
 namespace pedicel::io {
 
+namespace {
+
+/// A full disk takes a row in part: the rows before it stay, and an empty file goes.
+void keep_whole_rows(const std::filesystem::path& path) {
+  std::error_code error;
+  std::string text;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  try {
+    text = read_file(path);
+  } catch (const InvalidFile&) {
+    return;
+  }
+  const std::size_t end = text.rfind('\n');
+  if (end == std::string::npos)
+    std::filesystem::remove(path, error);
+  else
+    std::filesystem::resize_file(path, end + 1, error);
+}
+
+}  // namespace
+
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
     : path_(path), columns_(columns.size()) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  if (error) fail(error.message());
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file_ < 0) fail(std::strerror(errno));
+  if (error) throw WriteError(path.string() + ": cannot be written: " + error.message());
+  file_.open(path, std::ios::trunc);
+  if (!file_) throw WriteError(path.string() + ": cannot be written: " + std::strerror(errno));
   text_row(columns);
-  if (const int failure = write_rows()) {
-    ::close(file_);
-    std::filesystem::remove(path, error);
-    fail(std::strerror(failure));
-  }
-}
-
-CsvWriter::~CsvWriter() {
-  write_rows();
-  ::close(file_);
+  flush();
 }
 
 void CsvWriter::row(std::span<const double> values) {
-  PEDICEL_ASSERT(values.size() == columns_);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i) waiting_ += ',';
-    waiting_ += format_number(values[i]);
-  }
-  waiting_ += '\n';
+  std::vector<std::string> cells;
+  for (const double value : values) cells.push_back(format_number(value));
+  text_row(cells);
 }
 
+// In one piece, which goes to the file in one piece: who is killed leaves whole rows.
 void CsvWriter::text_row(const std::vector<std::string>& cells) {
   PEDICEL_ASSERT(cells.size() == columns_);
-  for (std::size_t i = 0; i < cells.size(); ++i) waiting_ += (i ? "," : "") + cells[i];
-  waiting_ += '\n';
+  std::string row;
+  for (std::size_t i = 0; i < cells.size(); ++i) row += (i ? "," : "") + cells[i];
+  file_ << row + '\n';
 }
 
 void CsvWriter::flush() {
-  if (const int error = write_rows()) fail(std::strerror(error));
-}
-
-// In one go, so that one who is killed leaves whole rows; what fits only in part is taken back.
-int CsvWriter::write_rows() {
-  const std::string rows = std::exchange(waiting_, {});
-  std::size_t done = 0;
-  while (done < rows.size()) {
-    const ssize_t n = ::write(file_, rows.data() + done, rows.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      const int error = n < 0 ? errno : ENOSPC;
-      if (::ftruncate(file_, written_) != 0) return error;
-      ::lseek(file_, written_, SEEK_SET);
-      return error;
-    }
-    done += static_cast<std::size_t>(n);
-  }
-  written_ += static_cast<off_t>(rows.size());
-  return 0;
-}
-
-void CsvWriter::fail(const std::string& reason) const {
+  if (file_.flush()) return;
+  const std::string reason = std::strerror(errno);
+  file_.close();
+  keep_whole_rows(path_);
   throw WriteError(path_.string() + ": cannot be written: " + reason);
 }
 

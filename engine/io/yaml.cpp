@@ -4,26 +4,12 @@
 #include <cmath>
 
 #include "io/atomic_file.h"
+#include "io/bounds.h"
 #include "io/csv.h"
 
 namespace pedicel::io {
 
 namespace {
-
-std::string bounds_text(const Bounds& bounds) {
-  if (std::isfinite(bounds.minimum) && std::isfinite(bounds.maximum))
-    return "a number between " + format_number(bounds.minimum) + " and " +
-           format_number(bounds.maximum);
-  if (std::isfinite(bounds.minimum))
-    return std::string("a number ") + (bounds.open_minimum ? "> " : ">= ") +
-           format_number(bounds.minimum);
-  return "a finite number";
-}
-
-bool within(double value, const Bounds& bounds) {
-  if (!std::isfinite(value) || value > bounds.maximum) return false;
-  return bounds.open_minimum ? value > bounds.minimum : value >= bounds.minimum;
-}
 
 std::optional<double> parse_number(const YAML::Node& node) {
   if (!node.IsScalar() || node.Tag() == "!") return std::nullopt;  // "!" marks a quoted scalar
@@ -59,6 +45,21 @@ void check_duplicate_keys(const YAML::Node& node, const std::string& file,
 }
 
 }  // namespace
+
+std::string bounds_text(const Bounds& bounds) {
+  if (std::isfinite(bounds.minimum) && std::isfinite(bounds.maximum))
+    return "a number between " + format_number(bounds.minimum) + " and " +
+           format_number(bounds.maximum);
+  if (std::isfinite(bounds.minimum))
+    return std::string("a number ") + (bounds.open_minimum ? "> " : ">= ") +
+           format_number(bounds.minimum);
+  return "a finite number";
+}
+
+bool within(double value, const Bounds& bounds) {
+  if (!std::isfinite(value) || value > bounds.maximum) return false;
+  return bounds.open_minimum ? value > bounds.minimum : value >= bounds.minimum;
+}
 
 SourcePosition YamlNode::position() const {
   const YAML::Mark mark = node_.Mark();

@@ -1,10 +1,14 @@
 #include "render/image.h"
 
 #include <png.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 
 #include "core/check.h"
 #include "core/diagnostics.h"
-#include "io/atomic_file.h"
 
 namespace pedicel::render {
 
@@ -44,14 +48,23 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
   return bytes;
 }
 
+// Without waiting for the disk, as io::write_file_atomically() does: films have many pictures.
 void write_png(const std::filesystem::path& path, const Image& image) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
-  try {
-    io::write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                              io::Durable::no);
-  } catch (const io::WriteError& error) {
-    throw OutputError(error.what());
-  }
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  const std::filesystem::path part = path.string() + ".part" + std::to_string(::getpid());
+  const auto fail = [&](const std::string& reason) {
+    std::filesystem::remove(part, error);
+    throw OutputError(path.string() + ": cannot be written: " + reason);
+  };
+  std::ofstream file(part, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush()) fail(std::strerror(errno));
+  file.close();
+  std::filesystem::rename(part, path, error);
+  if (error) fail(error.message());
 }
 
 Image read_png(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "world/scene_sections.h"
+#include "world/settings.h"
 
 namespace pedicel::world::sections {
 
@@ -40,7 +41,7 @@ ScenePicture read_picture(const io::YamlNode& node) {
 SceneVideo read_video(const io::YamlNode& node) {
   SceneVideo video;
   io::YamlMap map(node, "video");
-  video.fps = map.number("fps", {1.0, 240.0}, video.fps);
+  video.fps = map.number("fps", video_rates, video.fps);
   video.camera = map.text("camera", "");
   if (const auto size = map.optional("size")) {
     const auto parts = size->list("size");
