@@ -1,20 +1,24 @@
 #include "app/cli.h"
 
 #include <CLI/CLI.hpp>
-#include <csignal>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <thread>
 
 #include "app/diagnose.h"
+#include "app/effective_scene.h"
 #include "app/fit.h"
 #include "app/observe.h"
 #include "app/parallel_worlds.h"
+#include "app/param_sweep.h"
 #include "app/rod_options.h"
 #include "app/run_arguments.h"
 #include "app/validate.h"
+#include "app/verbosity.h"
 #include "app/version.h"
 #include "core/check.h"
+#include "core/stop.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "render/image.h"
@@ -39,26 +43,23 @@ enum Exit {
 
 constexpr const char* exit_codes =
     "Exit codes: 0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the "
-    "simulation "
-    "is unstable, 5 an expectation is not met, 6 output cannot be written, 77 pictures were asked "
-    "for and there is no OpenGL, 130 stopped by Ctrl-C. diagnose: 0 the model is adequate, 10 a "
-    "cause is named, 11 several fit alike, 12 an unknown cause, 13 unusable data, 14 our own "
-    "numerical error is too large.";
+    "simulation is unstable, 5 an expectation is not met or a comparison beyond its tolerance, 6 "
+    "output cannot be written, 77 pictures were asked for and there is no OpenGL, 128 plus the "
+    "signal where one stopped it (130 Ctrl-C, 143 SIGTERM, 129 SIGHUP, 152 SIGXCPU, 141 SIGPIPE). "
+    "diagnose: 0 the model is adequate, 10 a cause is named, 11 several fit alike, 12 an unknown "
+    "cause, 13 unusable data, 14 our own numerical error is too large.";
 
 constexpr const char* cache_place =
     "Distance grids of collision meshes are kept in the folder that PEDICEL_CACHE names (\"off\": "
     "nowhere), else in $XDG_CACHE_HOME/pedicel, else in ~/.cache/pedicel; at most 512 MB, those "
     "used longest ago go first.";
 
-extern "C" void request_stop(int) {
-  stop_requested = true;
-}
-
 /// `pedicel --script FILE [SCENE]`: commands in place of a window, see session/script.h.
 int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   SessionOptions options;
   options.packages = a.packages;
   options.waits = true;
+  stop_in_good_order();
   Session session(options);
   std::unique_ptr<FilmMaker> films;
   if (make_films) films = make_films(session);
@@ -84,15 +85,25 @@ RunOptions options_of_run(const RunArguments& a) {
   return options;
 }
 
+int end_of_run(const world::Scene& scene, const RunArguments& a, const RunOptions& options,
+               const RunResult& result) {
+  if (a.json) std::cout << to_json(scene, result) << std::endl;
+  if (!a.quiet) say(Verbosity::lines, "written to %s", options.out.string().c_str());
+  return result.exit_code;
+}
+
 int run_verb(const RunArguments& a, const MakeFilms& make_films) {
   if (!a.script.empty()) return script_verb(a, make_films);
   if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
   const RunOptions options = options_of_run(a);
   const world::Scene scene = load_scene(a);
-  const RunResult result = run_with_sweep(scene, options);
-  if (a.json) std::cout << to_json(scene, result) << std::endl;
-  if (!a.quiet) std::fprintf(stderr, "written to %s\n", options.out.string().c_str());
-  return result.exit_code;
+  if (a.print_scene) {
+    std::cout << effective_scene(scene) << std::flush;
+    return ok;
+  }
+  if (a.param_sweep.empty()) return end_of_run(scene, a, options, run_with_sweep(scene, options));
+  return end_of_run(scene, a, options,
+                    run_param_sweep(scene, read_param_sweep(a.param_sweep), options));
 }
 
 void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
@@ -100,7 +111,6 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
   app.add_option("--screenshot", window.screenshot, "writes a picture there (PNG), off screen");
   app.add_option("--record", window.record,
                  "writes a film there, off screen: *.mp4, or pictures (frame_%05d.png)");
-  app.add_option("--camera", window.camera, "of the scene's, for the film (default: the first)");
   app.add_flag("--with-ui", window.with_interface,
                "the picture or the film shows the window with its panels");
   app.add_option("--at", window.time, "simulated time of the picture, s")
@@ -116,32 +126,58 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
       ->check(CLI::IsMember({"window", "offscreen", "null"}));
 }
 
+void set_verbosity(const RunArguments& a) {
+  if (a.verbosity) set_verbosity(static_cast<Verbosity>(*a.verbosity));
+}
+
+/// What a picture or a film of the window would leave undone.
+void check_picture_arguments(const RunArguments& a) {
+  const std::pair<const char*, bool> of_runs[] = {
+      {"--steps", a.steps.has_value()},        {"--log", !a.log.empty()},
+      {"--events", !a.events.empty()},         {"--trajectory", !a.trajectory.empty()},
+      {"--compare", !a.compare.empty()},       {"--save-state", !a.save_state.empty()},
+      {"--load-state", !a.load_state.empty()}, {"--param-sweep", !a.param_sweep.empty()},
+      {"--print-scene", a.print_scene}};
+  for (const auto& [option, given] : of_runs)
+    if (given)
+      throw UsageError(std::string(option) +
+                       ": is of a run off screen, expected it without --screenshot and --record");
+}
+
+std::optional<double> duration_of(const RunArguments& a) {
+  const std::string text = a.number("duration");
+  if (text.empty()) return std::nullopt;
+  world::Scene scene;
+  world::apply_override(scene, "duration", text, "--");
+  return scene.duration;
+}
+
 /// The window, or a run off screen: with --headless, with what only a run can give, and where no
 /// window can be opened.
 int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
                 const OpenDesktop& open_desktop, const MakeFilms& make_films) {
+  check_run_arguments(a);
+  set_verbosity(a);
   const bool picture = !window.screenshot.empty() || !window.record.empty();
+  if (picture) check_picture_arguments(a);
   if (!window.record.empty() && a.scene.empty())
     throw UsageError("--record: no scene given, expected one to make a film of");
-  const bool run = a.headless || a.json || a.quiet || !a.out.empty() || !a.script.empty();
-  if (!open_desktop || (run && !picture)) return run_verb(a, make_films);
+  if (!open_desktop || (a.asks_for_run() && !picture)) return run_verb(a, make_films);
   if (!window.screenshot.empty() && !window.screenshot.ends_with(".png"))
     throw UsageError("--screenshot " + window.screenshot + ": expected a name that ends in .png");
   window.file = a.scene;
   window.unit = unit_of_text(a.unit, "--unit");
   window.script = a.script;
   window.set = a.set;
-  const auto set = [&](const char* key, auto value) {
-    if (value)
-      window.set.push_back(std::string(key) + "=" +
-                           io::format_number(static_cast<double>(*value), 17));
-  };
-  set("dt", a.dt), set("seed", a.seed), set("threads", a.threads);
+  for (const char* key : {"dt", "seed", "threads"})
+    if (const std::string text = a.number(key); !text.empty())
+      window.set.push_back(std::string(key) + "=" + text);
   window.packages = a.packages;
   window.playing = !a.scene.empty() && !paused;
   if (const auto size = run_options(a).size) window.size = *size, window.sized = true;
-  window.duration = a.duration;
+  window.duration = duration_of(a);
   window.fps = a.fps;
+  window.camera = a.camera;
   window.quiet = a.quiet;
   if (const std::optional<int> code = open_desktop(window)) return *code;
   if (!a.scene.empty()) return run_verb(a, make_films);
@@ -150,6 +186,10 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
 
 /// `pedicel sweep SCENE --set key=v1,v2,...`: the scene's own sweep is replaced by this one.
 int sweep_verb(RunArguments a) {
+  check_run_arguments(a);
+  set_verbosity(a);
+  if (!a.param_sweep.empty() || !a.load_state.empty())
+    throw UsageError("sweep: expected neither --param-sweep nor --load-state");
   std::optional<world::SceneSweep> sweep;
   std::vector<std::string> plain;
   for (const std::string& assignment : a.set) {
@@ -164,6 +204,8 @@ int sweep_verb(RunArguments a) {
       const std::size_t end = std::min(values.find(',', start), values.size());
       const auto value = world::to_number(values.substr(start, end - start));
       if (!value) throw UsageError("--set " + assignment + ": expected numbers between the commas");
+      if (std::ranges::count(sweep->values, *value) > 0)
+        throw UsageError("--set " + assignment + ": a value comes twice, expected each once");
       sweep->values.push_back(*value);
       start = end + 1;
     }
@@ -175,9 +217,16 @@ int sweep_verb(RunArguments a) {
   if (scene.sweep && scene.sweep->key != sweep->key)
     std::erase_if(scene.expectations, [](const auto& e) { return e.over_sweep(); });
   scene.sweep = sweep;
-  const RunResult result = run_with_sweep(scene, options);
-  if (a.json) std::cout << to_json(scene, result) << std::endl;
-  return result.exit_code;
+  if (a.print_scene) {
+    std::cout << effective_scene(scene) << std::flush;
+    return ok;
+  }
+  return end_of_run(scene, a, options, run_with_sweep(scene, options));
+}
+
+CLI::Range range_of(std::string_view key) {
+  const io::Bounds bounds = world::scene_bounds(key);
+  return CLI::Range(bounds.minimum, bounds.maximum);
 }
 
 /// What the command line says of a benchmark. What is not given is the bench's or the scene's own.
@@ -197,8 +246,8 @@ void add_bench_options(CLI::App& bench, BenchArguments& a) {
       ->check(CLI::Range(1, 100000));
   bench.add_option("--threads", a.threads, "threads (default: 1; with --worlds all cores)")
       ->check(CLI::Range(1, 1024));
-  bench.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(1e-6, 0.1));
-  bench.add_option("--duration", a.duration, "simulated time, s")->check(CLI::Range(1e-3, 1e4));
+  bench.add_option("--dt", a.dt, "time step, s")->check(range_of("dt"));
+  bench.add_option("--duration", a.duration, "simulated time, s")->check(range_of("duration"));
   bench.add_option("--set", a.set, "rods.KEY=VALUE, of a scene any of its keys; may be repeated")
       ->allow_extra_args(false);
   bench.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies")
@@ -240,17 +289,14 @@ WorldsResult bench_scene(const BenchArguments& a) {
   RunArguments run;
   run.scene = a.options.name;
   run.set = a.set;
-  run.dt = a.dt;
-  run.duration = a.duration;
+  if (a.dt) run.numbers.emplace_back("dt", io::exact_number(*a.dt));
+  if (a.duration) run.numbers.emplace_back("duration", io::exact_number(*a.duration));
   const world::Scene scene = load_scene(run);
   return run_worlds(scene_worlds(scene, {a.packages, {}, asset_leaf_folders()}),
                     worlds_options(a, scene.dt, scene.duration));
 }
 
 int bench_verb(const BenchArguments& a) {
-  // Writes no file that would have to be ended in good order: Ctrl-C ends it at once.
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
   const auto print = [&a](const auto& result) {
     std::cout << (a.json ? to_json(result) : to_text(result)) << std::endl;
     return ok;
@@ -263,27 +309,30 @@ int bench_verb(const BenchArguments& a) {
 
 int guarded(const std::function<int()>& verb) {
   try {
-    return verb();
+    const int code = verb();
+    return stop_requested ? stop_exit_code() : code;
+  } catch (const Stopped&) {
+    return stop_exit_code();
   } catch (const InvalidFile& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    say(Verbosity::errors, "%s", error.what());
     return invalid;
   } catch (const UsageError& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    say(Verbosity::errors, "error: %s", error.what());
     return usage;
   } catch (const UnstableWorld& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    say(Verbosity::errors, "error: %s", error.what());
     return unstable;
   } catch (const io::WriteError& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    say(Verbosity::errors, "error: %s", error.what());
     return unwritable;
   } catch (const render::OutputError& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    say(Verbosity::errors, "error: %s", error.what());
     return unwritable;
   } catch (const NoPictures& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    say(Verbosity::errors, "%s", error.what());
     return no_pictures;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    say(Verbosity::errors, "error: %s", error.what());
     return failure;
   }
 }
@@ -291,8 +340,7 @@ int guarded(const std::function<int()>& verb) {
 }  // namespace
 
 int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFilms& make_films) {
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  hear_stop_signals();
   CLI::App app("Pedicel: a sandbox where robots handle plants.");
   app.footer(std::string(exit_codes) + "\n" + cache_place);
   app.set_version_flag("--version", "pedicel " + version() + " (" + git_hash() + ")");

@@ -47,7 +47,7 @@ using MakeFilms = std::function<std::unique_ptr<FilmMaker>(Session&)>;
 /// `open_desktop` there is no window. Codes:
 /// (0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the simulation is unstable,
 /// 5 an expectation is not met, 6 output cannot be written, 77 pictures were asked for and there is
-/// no OpenGL, 130 stopped by the user).
+/// no OpenGL, 128 plus the signal where one stopped it).
 int run_cli(int argc, char** argv, const OpenDesktop& open_desktop = {},
             const MakeFilms& make_films = {});
 

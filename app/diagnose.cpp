@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/experiment_run.h"
-#include "app/headless.h"
+#include "core/stop.h"
 #include "discrepancy/diagnosis.h"
 #include "discrepancy/report.h"
 #include "io/atomic_file.h"
@@ -45,9 +45,10 @@ int run(const DiagnoseArguments& a) {
     options.note = [&progress](const std::string& sentence) { progress.note(sentence); };
   discrepancy::Diagnosis diagnosis = discrepancy::diagnose(experiment, options);
   progress.end(diagnosis.stopped);
-  if (diagnosis.stopped) return 130;
+  if (diagnosis.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("diagnosis_", experiment);
-  write_results(folder, experiment, diagnosis);
+  a.write(folder,
+          [&](const std::filesystem::path& in) { write_results(in, experiment, diagnosis); });
   if (a.json)
     std::cout << to_json(diagnosis.verdict) << std::endl;
   else

@@ -7,6 +7,9 @@
 #include <cstdio>
 #include <thread>
 
+#include "core/stop.h"
+#include "io/output_folder.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -25,6 +28,14 @@ std::filesystem::path ExperimentArguments::folder(const std::string& prefix,
                                                   const discrepancy::Experiment& measured) const {
   if (!out.empty()) return out;
   return std::filesystem::path("out") / (prefix + measured.folder.filename().string());
+}
+
+void ExperimentArguments::write(
+    const std::filesystem::path& folder,
+    const std::function<void(const std::filesystem::path&)>& write) const {
+  stop_in_good_order();
+  const std::string replaced = io::write_folder(folder, write);
+  if (!replaced.empty()) std::fprintf(stderr, "%s\n", replaced.c_str());
 }
 
 void add_experiment(CLI::App& verb, ExperimentArguments& a) {

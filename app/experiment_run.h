@@ -25,6 +25,9 @@ struct ExperimentArguments {
   /// `out`, or out/<prefix><name of the experiment's folder>.
   std::filesystem::path folder(const std::string& prefix,
                                const discrepancy::Experiment& measured) const;
+  /// io::write_folder(), and says what was replaced.
+  void write(const std::filesystem::path& folder,
+             const std::function<void(const std::filesystem::path&)>& write) const;
 };
 
 /// Adds the experiment itself, which is the verb's first argument.

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/experiment_run.h"
-#include "app/headless.h"
+#include "core/stop.h"
 #include "discrepancy/diagnosis.h"
 #include "discrepancy/parameter_fit.h"
 #include "discrepancy/parameter_request.h"
@@ -31,11 +31,13 @@ int run(const FitArguments& a) {
   options.progress = progress.callback(a.quiet);
   const discrepancy::ParameterFit fit = fit_parameters(experiment, starts, options);
   progress.end(fit.stopped);
-  if (fit.stopped) return 130;
+  if (fit.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("fit_", experiment);
-  plant::write_plant_file(folder / "fitted.plant.yaml",
-                          discrepancy::extended_plant(experiment, fit.summary.hypothesis));
-  io::write_file_atomically(folder / "fit.json", to_json(fit) + "\n");
+  a.write(folder, [&](const std::filesystem::path& in) {
+    plant::write_plant_file(in / "fitted.plant.yaml",
+                            discrepancy::extended_plant(experiment, fit.summary.hypothesis));
+    io::write_file_atomically(in / "fit.json", to_json(fit) + "\n");
+  });
   if (a.json)
     std::cout << to_json(fit) << std::endl;
   else

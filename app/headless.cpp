@@ -9,17 +9,19 @@
 
 #include "app/channels.h"
 #include "app/meta.h"
+#include "app/run_state.h"
 #include "app/scene_view.h"
+#include "app/verbosity.h"
 #include "app/version.h"
+#include "core/stop.h"
 #include "core/timer.h"
+#include "io/atomic_file.h"
 
 namespace pedicel::app {
 
-std::atomic<bool> stop_requested{false};
-
 namespace {
 
-constexpr int exit_unstable = 4, exit_unmet = 5, exit_no_pictures = 77, exit_stopped = 130;
+constexpr int exit_unstable = 4, exit_unmet = 5, exit_no_pictures = 77;
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -37,17 +39,48 @@ std::string unstable(const world::StepReport& report) {
   return text + world::remedy(static_cast<world::StepError>(report.errors & world::fatal_errors));
 }
 
+/// The folder of a run, taken once there is something to write: what was there goes now.
+std::shared_ptr<io::OutputFolder> take_folder(const std::filesystem::path& folder) {
+  if (folder.empty()) return nullptr;
+  stop_in_good_order();
+  auto taken = std::make_shared<io::OutputFolder>(folder, files_of_a_run());
+  if (!taken->replaced().empty()) say(Verbosity::warnings, "%s", taken->replaced().c_str());
+  return taken;
+}
+
+/// A simulation, at the state that the run goes on from.
+class Started {
+ public:
+  Started(const world::Scene& scene, const RunOptions& options)
+      : simulation(scene, options.simulation) {
+    if (!options.save_state.empty()) model = model_hash(simulation);
+    if (options.load_state.empty()) return;
+    const RunState state = read_state(options.load_state);
+    say(Verbosity::lines, "%s: the %ld steps up to it are done again",
+        options.load_state.string().c_str(), state.steps);
+    go_to_state(simulation, state, options.load_state);
+  }
+
+  Simulation simulation;
+  std::uint64_t model = 0;  // model_hash(), where the state is to be saved
+};
+
 /// One run: the simulation and everything that watches it.
 class Run {
  public:
   Run(const world::Scene& scene, const RunOptions& options)
       : scene_(scene),
         options_(options),
-        simulation_(scene, options.simulation),
+        started_(scene, options),
+        simulation_(started_.simulation),
+        output_(take_folder(options.out)),
         recorder_(options.out, scene.log_rate),
         view_(simulation_) {
     result_.folder = options.out;
+    result_.output = output_;
+    if (output_) output_->file("log.csv"), output_->file("events.csv");
     add_channels(recorder_, simulation_);
+    begin_at(simulation_.world());
     recorder_.open();
     simulation_.world().set_recorder(&recorder_);
     for (const world::ScenePicture& picture : scene.pictures) {
@@ -65,12 +98,15 @@ class Run {
 
   RunResult go() {
     picture_now();
-    const long steps = std::lround(scene_.duration / scene_.dt);
+    const long before = simulation_.world().steps();
+    const long steps = options_.steps
+                           ? *options_.steps
+                           : std::max(0L, std::lround(scene_.duration / scene_.dt) - before);
     for (long i = 0; i < steps && result_.exit_code == 0; ++i) {
       step();
       show_progress(i + 1, steps);
       if (stop_requested) {
-        result_.exit_code = exit_stopped;
+        result_.exit_code = stop_exit_code();
         result_.error = "stopped by the user";
       }
     }
@@ -79,6 +115,13 @@ class Run {
   }
 
  private:
+  /// What a loaded state has behind it is not recorded again.
+  void begin_at(const world::SimWorld& world) {
+    if (world.steps() == 0) return;
+    events_ = simulation_.plant_step().detached().size();
+    next_frame_ = last_picture_time_ = world.time();
+  }
+
   void step() {
     if (wants_history_ && pictures_ && pictures_->available())
       view_.fill(history_.next(), strain_history_);
@@ -89,6 +132,8 @@ class Run {
     ++result_.steps;
     for (const auto& all = simulation_.plant_step().detached(); events_ < all.size(); ++events_) {
       recorder_.add_event(to_event(all[events_]));
+      say(Verbosity::everything, "t = %.4f s: %s comes off (%s)", report.time,
+          all[events_].fruit.c_str(), all[events_].event.cause.c_str());
       picture_event();
     }
     picture_now();
@@ -142,18 +187,19 @@ class Run {
       view_.fill(coloured, true);
       frame = &coloured;
     }
-    const auto path = options_.out / (name + (picture.camera.empty() ? "" : "_" + picture.camera) +
-                                      (picture.strain ? "_strain" : "") + ".png");
+    const auto path = output_->file(name + (picture.camera.empty() ? "" : "_" + picture.camera) +
+                                    (picture.strain ? "_strain" : "") + ".png");
     if (pictures_->save(path, *frame, view_.camera(picture.camera, *frame), video_.size[0],
                         video_.size[1]))
-      result_.pictures.push_back(path);
+      result_.pictures.push_back(path), say(Verbosity::everything, "picture %s", path.c_str());
   }
 
   void open_video() {
     video_ = scene_.video;
     if (options_.fps) video_.fps = *options_.fps;
     if (options_.size) video_.size = *options_.size;
-    pictures_->open_video(options_.out / "run.mp4", video_);
+    output_->file("run_frames/");  // without ffmpeg
+    pictures_->open_video(output_->file("run.mp4"), video_);
   }
 
   void finish() {
@@ -176,10 +222,26 @@ class Run {
     const bool unmet = std::any_of(result_.verdicts.begin(), result_.verdicts.end(),
                                    [](const world::Verdict& v) { return !v.met; });
     if (result_.exit_code == 0 && unmet) result_.exit_code = exit_unmet;
+    if (options_.comparison_with) compare_with_measured();
     if (result_.exit_code == 0 && pictures_ && !pictures_->available())
       result_.exit_code = exit_no_pictures;
-    if (!options_.out.empty()) write_meta(options_.out / "log.meta.json", simulation_, result_);
+    if (output_) write_meta(output_->file("log.meta.json"), simulation_, result_);
+    copy_table("log.csv", options_.log);
+    copy_table("events.csv", options_.events);
+    if (!options_.save_state.empty() && result_.exit_code != exit_unstable)
+      write_state(options_.save_state, state_of(simulation_, started_.model));
     say_end();
+  }
+
+  void copy_table(const char* name, const std::filesystem::path& wanted) const {
+    if (!wanted.empty()) io::write_file_atomically(wanted, io::read_file(options_.out / name));
+  }
+
+  void compare_with_measured() {
+    const ComparisonRequest& wanted = *options_.comparison_with;
+    result_.comparison =
+        compare(wanted.measured, wanted.tolerance, recorder_.columns(), recorder_.rows());
+    if (result_.exit_code == 0 && !result_.comparison->within()) result_.exit_code = exit_unmet;
   }
 
   void add_limits() {
@@ -202,8 +264,9 @@ class Run {
   }
 
   void say_start() const {
-    for (const std::string& note : simulation_.notes()) std::fprintf(stderr, "%s\n", note.c_str());
-    if (options_.quiet) return;
+    for (const std::string& note : simulation_.notes())
+      say(Verbosity::warnings, "%s", note.c_str());
+    if (is_quiet()) return;
     int elements = 0;
     for (int p = 0; p < simulation_.rods().size(); ++p)
       elements += simulation_.rods().model(p).size();
@@ -216,8 +279,8 @@ class Run {
   }
 
   void say_end() const {
-    if (!result_.error.empty()) std::fprintf(stderr, "error: %s\n", result_.error.c_str());
-    if (options_.quiet) return;
+    if (!result_.error.empty()) say(Verbosity::errors, "error: %s", result_.error.c_str());
+    if (is_quiet()) return;
     std::fprintf(
         stderr,
         "%ld steps, %.3f s simulated, %.2f s wall, %.3f ms/step p50, %.3f p95, %.2f x real "
@@ -228,10 +291,17 @@ class Run {
         static_cast<unsigned long long>(result_.state_hash));
     for (const world::Verdict& verdict : result_.verdicts)
       std::fprintf(stderr, "%s\n", world::to_string(verdict).c_str());
+    if (!result_.comparison) return;
+    for (const ColumnComparison& column : result_.comparison->columns)
+      std::fprintf(stderr, "%s\n", to_string(column, result_.comparison->tolerance).c_str());
+    for (const std::string& column : result_.comparison->left_out)
+      std::fprintf(stderr, "%s: not in the log, not compared\n", column.c_str());
   }
 
+  bool is_quiet() const { return options_.quiet || verbosity() < Verbosity::lines; }
+
   void show_progress(long done, long all) {
-    if (options_.quiet || !isatty(2)) return;
+    if (is_quiet() || !isatty(2)) return;
     if (done < all && progress_.seconds() < 0.2) return;
     progress_.restart();
     std::fprintf(stderr, "\r%5.1f %%  t = %.2f s%s",
@@ -241,7 +311,9 @@ class Run {
 
   const world::Scene& scene_;
   RunOptions options_;
-  Simulation simulation_;
+  Started started_;
+  Simulation& simulation_;  // of started_
+  std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
   SceneView view_;
   std::unique_ptr<PictureTaker> pictures_;
@@ -258,9 +330,36 @@ class Run {
 
 }  // namespace
 
+const std::vector<std::string>& files_of_a_run() {
+  static const std::vector<std::string> names = {"log.csv",    "events.csv",  "log.meta.json",
+                                                 "run.mp4",    "report.html", "sweep.csv",
+                                                 "solvers.csv"};
+  return names;
+}
+
 RunResult run_scene(const world::Scene& scene, const RunOptions& options) {
   return Run(scene, options).go();
 }
+
+namespace {
+
+nlohmann::ordered_json comparison_json(const Comparison& comparison) {
+  nlohmann::ordered_json json = {{"measured", comparison.measured.string()},
+                                 {"tolerance", comparison.tolerance},
+                                 {"within", comparison.within()},
+                                 {"columns", nlohmann::ordered_json::array()}};
+  for (const ColumnComparison& one : comparison.columns)
+    json["columns"].push_back({{"column", one.column},
+                               {"samples", one.samples},
+                               {"largest", one.largest},
+                               {"rms", one.rms},
+                               {"time_s", one.time},
+                               {"within", one.within}});
+  json["left_out"] = comparison.left_out;
+  return json;
+}
+
+}  // namespace
 
 std::string to_json(const world::Scene& scene, const RunResult& result) {
   char hash[17];
@@ -288,6 +387,7 @@ std::string to_json(const world::Scene& scene, const RunResult& result) {
   for (const world::Verdict& v : result.verdicts)
     json["expectations"].push_back(
         {{"what", world::to_string(v.expectation)}, {"met", v.met}, {"measured", v.measured}});
+  if (result.comparison) json["comparison"] = comparison_json(*result.comparison);
   json["out"] = result.folder.string();
   return json.dump(2);
 }

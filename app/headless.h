@@ -1,23 +1,34 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/compare.h"
 #include "app/log_plots.h"
 #include "app/simulation.h"
+#include "io/output_folder.h"
 #include "world/recorder.h"
 
 namespace pedicel::app {
 
-/// Set by the signal handler; a run that sees it ends with its files closed (exit code 130).
-extern std::atomic<bool> stop_requested;
+/// A comparison with measured values that a run is to end with.
+struct ComparisonRequest {
+  io::CsvTable measured;
+  double tolerance = 0.0;  ///< in each column's own unit
+};
 
 struct RunOptions {
   SimulationOptions simulation;
-  std::filesystem::path out;  ///< folder; empty: nothing is written
+  std::filesystem::path out;          ///< folder; empty: nothing is written
+  std::filesystem::path log, events;  ///< copies of log.csv and events.csv; empty: none
+  std::optional<long> steps;          ///< to be done, in place of the scene's duration
+  std::filesystem::path
+      save_state;  ///< written at the end, also of a run that is stopped; empty: not
+  std::filesystem::path load_state;  ///< the run goes on from there; empty: from the beginning
+  std::optional<ComparisonRequest> comparison_with;
   bool pictures = true;
   bool video = true;
   bool comparison = true;     ///< compare_solvers(), where the scene's sweep is one for it
@@ -37,18 +48,24 @@ struct RunResult {
   std::string residual;  ///< Simulation::worst_residual()
   std::string error;     ///< why it ended early; empty: it did not
   std::vector<world::Verdict> verdicts;
+  std::optional<Comparison> comparison;  ///< with measured values
   std::vector<world::Event> events;
   std::vector<StalkLimits> limits;              ///< of every fruit, for the plots
   std::vector<std::filesystem::path> pictures;  ///< in the order taken
   std::optional<std::filesystem::path> video;
   std::filesystem::path folder;
+  std::shared_ptr<io::OutputFolder> output;  ///< taken for the run; null: nothing is written
 
   double real_time_factor() const { return wall > 0.0 ? simulated / wall : 0.0; }
 };
 
+/// What every run may write into its folder, beside its pictures.
+const std::vector<std::string>& files_of_a_run();
+
 /// Runs a scene off screen, once, without its sweep: steps it, records it, takes its pictures and
 /// its video, and judges its expectations (those over a sweep are left out). Throws InvalidFile for
-/// a scene that cannot be built and io::WriteError for an output that cannot be written.
+/// a scene that cannot be built, Stopped while it is built, and io::WriteError for an output that
+/// cannot be written. Where stop_requested it ends with its files closed (stop_exit_code()).
 RunResult run_scene(const world::Scene& scene, const RunOptions& options);
 
 /// Runs a scene, and its sweep where it has one (each value in a folder of its own, without video),

@@ -9,10 +9,13 @@
 #include "app/scene_plants.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "core/stop.h"
 #include "discrepancy/simulator.h"
+#include "io/output_folder.h"
 #include "io/yaml.h"
 #include "plant/effects.h"
 #include "world/scene_reader.h"
+#include "world/settings.h"
 
 namespace pedicel::app {
 
@@ -145,7 +148,8 @@ void add_observe_options(CLI::App& observe, ObserveArguments& a) {
       .add_option("--noise-colour", a.noise_colour, "correlation with the sample before (AR(1))")
       ->check(CLI::Range(0.0, 0.999));
   observe.add_option("--distance", a.distance, "between nodes, m")->check(CLI::Range(1e-4, 1.0));
-  observe.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(1e-6, 0.1));
+  const io::Bounds dt = world::scene_bounds("dt");
+  observe.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(dt.minimum, dt.maximum));
   observe.add_option("--threads", a.threads)->check(CLI::Range(1, 1024));
   observe
       .add_option(
@@ -162,7 +166,11 @@ int observe_verb(const ObserveArguments& a) {
   if (a.noise_position > 0.0) experiment.noise.position_std = a.noise_position;
   if (a.noise_force > 0.0) experiment.noise.force_std = a.noise_force;
   simulate(a, experiment);
-  discrepancy::write_experiment(a.out, experiment);
+  stop_in_good_order();
+  const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {
+    discrepancy::write_experiment(in, experiment);
+  });
+  if (!replaced.empty()) std::fprintf(stderr, "%s\n", replaced.c_str());
   std::fprintf(stderr, "written to %s\n", a.out.c_str());
   return 0;
 }

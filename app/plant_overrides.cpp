@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "io/bounds.h"
+#include "plant/plant_numbers.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -38,13 +40,6 @@ std::string all_keys() {
   return text + "sampling.connect, sampling.distance";
 }
 
-// The bounds are those of the plant file; check_plant() cannot see where a value came from.
-bool in_bounds(const std::string& key, double value) {
-  if (key == "material.poisson_ratio") return value > -1.0 && value <= 0.5;
-  if (key == "material.damping_time") return value >= 0.0;
-  return value > 0.0;
-}
-
 // Curves of other tissue than the plant (a soft stalk on a woody stem) stay so much softer, lighter
 // or calmer than it. Without a number of the plant to compare with, or with 0, there is no ratio.
 void set_material(plant::PlantFile& plant, const std::string& key,
@@ -77,10 +72,10 @@ void apply_plant_overrides(plant::PlantFile& plant, const std::vector<world::Set
       continue;
     }
     const std::optional<double> value = world::to_number(setting.text);
-    if (!value || !in_bounds(setting.key, *value)) {
-      diagnostics.error(setting.where,
-                        setting.key + " is \"" + setting.text +
-                            "\", expected a number that a plant file may hold there");
+    const io::Bounds bounds = plant::number_bounds(setting.key);
+    if (!value || !io::within(*value, bounds)) {
+      diagnostics.error(setting.where, setting.key + " is \"" + setting.text + "\", expected " +
+                                           io::bounds_text(bounds));
       continue;
     }
     if (detach != detach_keys().end()) {

@@ -26,6 +26,11 @@ std::vector<ReportExpectation> expectations_of(const RunResult& result) {
   std::vector<ReportExpectation> all;
   for (const world::Verdict& verdict : result.verdicts)
     all.push_back({world::to_string(verdict.expectation), joined(verdict.measured), verdict.met});
+  if (result.comparison)
+    for (const ColumnComparison& one : result.comparison->columns)
+      all.push_back({one.column + " within " + number(result.comparison->tolerance) + " of " +
+                         result.comparison->measured.filename().string(),
+                     "largest " + number(one.largest) + ", rms " + number(one.rms), one.within});
   return all;
 }
 
@@ -62,7 +67,7 @@ std::optional<std::filesystem::path> telling_picture(const RunResult& run) {
 }
 
 void add_sweep(const world::Scene& scene, const std::vector<SweepRun>& sweep,
-               const std::filesystem::path& folder, RunSummary& summary) {
+               io::OutputFolder& output, RunSummary& summary) {
   if (sweep.empty()) return;
   const world::Expectation* by = measured_by(scene);
   const std::string measured = by ? by->quantity : "state hash";
@@ -85,10 +90,10 @@ void add_sweep(const world::Scene& scene, const std::vector<SweepRun>& sweep,
   }
   if (by) summary.sweep_plot = sweep_plot(scene.sweep->key, values, measured, results);
   summary.files.emplace_back("sweep.csv", "the sweep's values and what was measured");
-  io::write_file_atomically(folder / "sweep.csv", csv);
+  io::write_file_atomically(output.file("sweep.csv"), csv);
 }
 
-void add_comparison(const SolverComparison& comparison, const std::filesystem::path& folder,
+void add_comparison(const SolverComparison& comparison, io::OutputFolder& output,
                     RunSummary& summary) {
   const std::string& quantity = comparison.quantity;
   summary.solvers.header = {"sampling.distance (m)", quantity + ", direct solver",
@@ -107,7 +112,7 @@ void add_comparison(const SolverComparison& comparison, const std::filesystem::p
       (comparison.equal ? "The last two lines are as good as the direct solver, within a tenth."
                         : "The position-based solver does not become as good as the direct one.");
   summary.files.emplace_back("solvers.csv", "both solvers over the sweep, and at equal error");
-  io::write_file_atomically(folder / "solvers.csv", to_csv(comparison));
+  io::write_file_atomically(output.file("solvers.csv"), to_csv(comparison));
 }
 
 std::vector<std::pair<std::string, std::string>> numbers_of(const RunResult& result) {
@@ -160,10 +165,10 @@ void write_scene_report(const world::Scene& scene, const RunResult& result,
   summary.files = {{"log.csv", "everything that was recorded, over time"},
                    {"events.csv", "the fruits that came off"},
                    {"log.meta.json", "version, seed, settings and state hash of this run"}};
-  add_sweep(scene, sweep, result.folder, summary);
-  if (comparison) add_comparison(*comparison, result.folder, summary);
+  add_sweep(scene, sweep, *result.output, summary);
+  if (comparison) add_comparison(*comparison, *result.output, summary);
   summary.machine = "pedicel " + version() + " (" + git_hash() + ") on " + machine();
-  write_run_report(summary, result.folder / "report.html");
+  write_run_report(summary, result.output->file("report.html"));
 }
 
 }  // namespace pedicel::app

@@ -5,6 +5,7 @@
 
 #include "app/scene_report.h"
 #include "app/solver_comparison.h"
+#include "core/stop.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -12,6 +13,12 @@ namespace pedicel::app {
 namespace {
 
 constexpr int exit_unmet = 5;
+
+/// Reads back as the same number.
+std::string text_of(double value) {
+  const std::string text = io::format_number(value);
+  return world::to_number(text) == value ? text : io::exact_number(value);
+}
 
 // "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
 void say(const std::string& label, const RunResult& result) {
@@ -24,26 +31,44 @@ void say(const std::string& label, const RunResult& result) {
   std::fprintf(stderr, "%s %.2f x real time\n", text.c_str(), result.real_time_factor());
 }
 
-std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options) {
+std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options,
+                                io::OutputFolder* output) {
   std::vector<SweepRun> runs;
   for (const double value : scene.sweep->values) {
     RunOptions one = options;
     one.video = false;
     one.quiet = true;
-    const std::string label = scene.sweep->key + "=" + io::format_number(value);
-    if (!options.out.empty()) one.out = options.out / ("sweep_" + label);
-    runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
+    one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
+    const std::string label = scene.sweep->key + "=" + text_of(value);
+    if (output) one.out = output->file("sweep_" + label + "/");
+    try {
+      runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
+    } catch (const Stopped&) {
+      break;
+    }
     if (!options.quiet) say(label, runs.back().result);
     if (stop_requested) break;
   }
   return runs;
 }
 
+/// Nothing where it was stopped: half of one would say what is not so.
+std::optional<SolverComparison> whole_comparison(const world::Scene& scene,
+                                                 const std::vector<SweepRun>& runs,
+                                                 const RunOptions& options) {
+  try {
+    auto comparison = compare_solvers(scene, runs, options);
+    if (!stop_requested) return comparison;
+  } catch (const Stopped&) {
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 world::Scene scene_of_value(const world::Scene& scene, double value) {
   world::Scene one = scene;
-  world::apply_override(one, scene.sweep->key, io::format_number(value));
+  world::apply_override(one, scene.sweep->key, text_of(value));
   one.sweep.reset();
   one.expectations.clear();
   for (world::Expectation expectation : scene.expectations) {
@@ -74,7 +99,8 @@ double measured_in(const world::Expectation& wanted, const RunResult& run) {
 RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
   RunResult result = run_scene(scene, options);
   std::vector<SweepRun> runs;
-  if (scene.sweep && result.exit_code != 4 && !stop_requested) runs = run_sweep(scene, options);
+  if (scene.sweep && result.exit_code != 4 && !stop_requested)
+    runs = run_sweep(scene, options, result.output.get());
   for (const world::Expectation& expectation : scene.expectations) {
     if (!expectation.over_sweep()) continue;
     std::vector<double> values;
@@ -85,11 +111,15 @@ RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
     if (!result.verdicts.back().met && result.exit_code == 0) result.exit_code = exit_unmet;
   }
   for (const SweepRun& run : runs)
-    if (run.result.exit_code == 4 || run.result.exit_code == 130)
-      result.exit_code = run.result.exit_code;
-  if (options.out.empty()) return result;
+    if (run.result.exit_code == 4) result.exit_code = 4;
   std::optional<SolverComparison> comparison;
-  if (options.comparison) comparison = compare_solvers(scene, runs, options);
+  if (!options.out.empty() && options.comparison && !stop_requested)
+    comparison = whole_comparison(scene, runs, options);
+  if (stop_requested) {
+    result.exit_code = stop_exit_code();
+    if (result.error.empty()) result.error = Stopped().what();
+  }
+  if (!result.output) return result;
   write_scene_report(scene, result, runs, comparison);
   return result;
 }

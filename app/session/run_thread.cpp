@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "core/stop.h"
 #include "core/timer.h"
 
 namespace pedicel::app {
@@ -73,6 +74,10 @@ void RunThread::loop() {
       wait_for_work(lock);
       if (stop_) return;
       if (!requests_.empty() || build_) continue;
+    }
+    if (stop_requested) {
+      pause();
+      continue;
     }
     if (is_held() || (to_do_ == 0 && mode_ != RunMode::playing)) continue;
     if (to_do_ == 0 && !held_ && speed_ > 0.0 && steady_clock::now() < due()) continue;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/stop.h"
 #include "session/run_thread.h"
 
 /// Going back: steps that are kept are shown again, for others the run is done anew.
@@ -69,7 +70,7 @@ void RunThread::replay_to(long step) {
   maker_.forget(false);
   log.begin(run_->simulation());
   if (step < most_kept) keep_step();
-  while (run_->steps() < step && !stopping_) {
+  while (run_->steps() < step && !stopping_ && !stop_requested) {
     run_->step();
     log.observe(run_->simulation());
     if (run_->steps() + most_kept > step) keep_step();

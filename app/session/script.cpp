@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "core/stop.h"
 #include "io/atomic_file.h"
 
 namespace pedicel::app {
@@ -38,6 +39,7 @@ int run_script(const std::filesystem::path& file, Session& session, std::ostream
       return invalid;
     }
     Result result = session.run(*command);
+    if (stop_requested) return stop_exit_code();
     if (result.ok && session.snapshot()->mode == RunMode::unstable)
       result = {false, session.snapshot()->error};
     if (!result.ok) {

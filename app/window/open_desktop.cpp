@@ -12,6 +12,7 @@
 #include "app/window/desktop.h"
 #include "app/window/film.h"
 #include "core/check.h"
+#include "core/stop.h"
 #include "session/measured_data.h"
 #include "session/script.h"
 #include "world/settings.h"
@@ -20,7 +21,7 @@ namespace pedicel::app {
 
 namespace {
 
-constexpr int no_opengl = 77, invalid_file = 3, unstable = 4, stopped = 130;
+constexpr int no_opengl = 77, invalid_file = 3, unstable = 4;
 
 /// False, with the faults on standard error, where it cannot be opened.
 bool open_file(Session& session, const DesktopRequest& request) {
@@ -78,8 +79,7 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   desktop.ui().preferences.seen_hint = !request.file.empty();
   desktop.ui().view.automatic_quality = false;
   desktop.ui().view.quality = CanvasQuality::best;
-  if (!request.camera.empty())
-    desktop.use_camera(camera_index(*session.snapshot(), request.camera));
+  camera_index(*session.snapshot(), request.camera);  // there is such a one
   if (!request.script.empty())
     if (const int code = run_script(request.script, session, std::cout, std::cerr)) return code;
   if (session.measured().experiment())
@@ -87,7 +87,13 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   else if (request.time > 0.0)
     session.control().run_for(request.time);
   session.control().wait();
-  for (int i = 0; i < 6; ++i) desktop.frame();
+  // The first pictures lay the panels out and frame the scene; the camera may follow what moves.
+  for (int i = 0; i < 5; ++i) {
+    desktop.frame();
+    if (!request.camera.empty())
+      desktop.use_camera(camera_index(*session.snapshot(), request.camera));
+  }
+  desktop.frame();
   const auto picture = request.with_interface
                            ? desktop.window_picture()
                            : desktop.scene_picture(request.size[0], request.size[1]);
@@ -127,6 +133,7 @@ int make_film(const DesktopRequest& request, const DesktopOptions& options) {
   wanted.size = request.sized ? request.size : video.size;
   wanted.camera = request.camera.empty() ? video.camera : request.camera;
   wanted.with_interface = request.with_interface;
+  stop_in_good_order();
   session.begin_film(wanted);
   int code = 0;
   if (request.script.empty())
@@ -138,7 +145,7 @@ int make_film(const DesktopRequest& request, const DesktopOptions& options) {
     if (!request.quiet) std::fprintf(stderr, "%s\n", made.c_str());
   }
   if (code) return code;
-  if (session.snapshot()->mode != RunMode::unstable) return stop_requested ? stopped : 0;
+  if (session.snapshot()->mode != RunMode::unstable) return stop_requested ? stop_exit_code() : 0;
   std::fprintf(stderr, "error: unstable: %s\n", session.snapshot()->error.c_str());
   return unstable;
 }
@@ -168,6 +175,7 @@ std::optional<int> open_desktop(const DesktopRequest& request) {
   about.packages = request.packages;
   about.waits = picture;
   if (!picture) about.autosave = autosave_folder();
+  if (!picture) stop_in_good_order();
   Session session(about);
   if (!picture) options.preferences = preferences_path();
   const bool opened = open_file(session, request);
@@ -183,7 +191,7 @@ std::optional<int> open_desktop(const DesktopRequest& request) {
   while (desktop.frame() && !stop_requested) tally.add(*desktop.ui().snapshot);
   std::fprintf(stderr, "%ld steps, %.3f s simulated, largest strain %.3f, %ld breaks\n",
                tally.steps, tally.time, tally.strain, tally.breaks);
-  return 0;
+  return stop_requested ? stop_exit_code() : 0;
 }
 
 }  // namespace pedicel::app

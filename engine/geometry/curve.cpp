@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "core/stop.h"
 
 namespace pedicel::geometry {
 
@@ -54,6 +55,7 @@ Curve::Curve(std::vector<Piece> pieces, std::span<const double> radii, int parts
     : pieces_(std::move(pieces)), radii_(radii.begin(), radii.end()) {
   double arc = 0.0;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    throw_if_stopped();
     control_arcs_.push_back(arc);
     for (int k = 0; k < parts_per_piece; ++k) {
       const double u = double(k) / parts_per_piece;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "core/stop.h"
 #include "core/thread_pool.h"
 
 namespace pedicel::geometry {
@@ -86,21 +87,25 @@ GridDistance::GridDistance(const MeshDistance& mesh, const GridSettings& setting
   sample_coarse(mesh, threads);
   const std::vector<std::uint8_t> near = nodes_near_surface(settings.band);
   threads.for_each(nodes_.z() * nodes_.y(), [&](int row) {
+    if (stop_requested) return;
     const int y = row % nodes_.y(), z = row / nodes_.y();
     RowSampler sampler(mesh);
     for (int x = 0; x < nodes_.x(); ++x)
       if (near[index(x, y, z)]) samples_[index(x, y, z)] = sampler.sample(node(x, y, z));
   });
+  throw_if_stopped();  // rows are missing then
 }
 
 void GridDistance::sample_coarse(const MeshDistance& mesh, ThreadPool& pool) {
   const Eigen::Vector3i coarse = (nodes_.array() - 1) / kBlock + 1;
   pool.for_each(coarse.z() * coarse.y(), [&](int row) {
+    if (stop_requested) return;
     const int y = kBlock * (row % coarse.y()), z = kBlock * (row / coarse.y());
     RowSampler sampler(mesh);
     for (int x = 0; x < nodes_.x(); x += kBlock)
       samples_[index(x, y, z)] = sampler.sample(node(x, y, z));
   });
+  throw_if_stopped();
   // Between them linearly, axis by axis: exactly the trilinear interpolant of the coarse cells.
   const auto fill = [&](int from, int step, int k) {
     const float t = static_cast<float>(k) / kBlock;

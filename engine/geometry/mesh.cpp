@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "core/diagnostics.h"
+#include "core/stop.h"
 #include "geometry/mesh_file.h"
 
 namespace pedicel::geometry {
@@ -46,6 +47,7 @@ void append_mesh(const aiMesh& source, const Transform& transform, TriangleMesh&
 
 void append_node(const aiScene& scene, const aiNode& node, const Transform& parent,
                  TriangleMesh& mesh) {
+  throw_if_stopped();
   const Transform transform = parent * from_assimp(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i)
     append_mesh(*scene.mMeshes[node.mMeshes[i]], transform, mesh);
@@ -62,6 +64,7 @@ void merge_equal_vertices(TriangleMesh& mesh) {
   std::map<Vec3, int, decltype(less)> index(less);
   std::vector<Vec3> kept;
   for (auto& triangle : mesh.triangles) {
+    throw_if_stopped();
     for (int& vertex : triangle) {
       const Vec3& point = mesh.vertices[vertex];
       const auto [place, added] = index.try_emplace(point, static_cast<int>(kept.size()));

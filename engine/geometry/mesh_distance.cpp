@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "core/stop.h"
+
 namespace pedicel::geometry {
 
 namespace {
@@ -45,6 +47,7 @@ void MeshDistance::set_normals() {
     return edges.try_emplace(std::minmax(t[k], t[(k + 1) % 3]), Vec3::Zero()).first->second;
   };
   for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    throw_if_stopped();
     const auto& t = mesh_.triangles[i];
     const Vec3 corners[] = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
     const Vec3 normal =

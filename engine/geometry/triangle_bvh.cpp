@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/stop.h"
 
 namespace pedicel::geometry {
 
@@ -40,6 +41,7 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
 }
 
 void TriangleBvh::build(int first, int count) {
+  throw_if_stopped();
   const std::size_t self = nodes_.size();
   Node node;
   Aabb centres;

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostics.h"
@@ -22,24 +24,47 @@ std::string megabytes(std::size_t bytes) {
   return std::to_string(bytes >> 20) + " MB";
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw WriteError(path.string() + ": cannot be written: " + std::strerror(errno));
-}
-
-void write_all(int file, const std::string& contents, const std::filesystem::path& path) {
-  std::size_t done = 0;
-  while (done < contents.size()) {
-    const ssize_t n = ::write(file, contents.data() + done, contents.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) {
-      const int reason = errno;
-      ::close(file);
-      errno = reason;
-      fail(path);
-    }
-    done += static_cast<std::size_t>(n);
+/// A file beside its target that becomes it, or goes.
+class Part {
+ public:
+  explicit Part(const std::filesystem::path& target)
+      : target_(target), name_(target.string() + ".part" + std::to_string(::getpid())) {
+    file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (file_ < 0) fail();
   }
-}
+  ~Part() {
+    if (file_ >= 0) ::close(file_);
+    if (!placed_) ::unlink(name_.c_str());
+  }
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  void write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail();
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+  }
+
+  void place() {
+    if (::fsync(file_) != 0) fail();
+    if (::close(std::exchange(file_, -1)) != 0) fail();
+    if (::rename(name_.c_str(), target_.c_str()) != 0) fail();
+    placed_ = true;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw WriteError(target_.string() + ": cannot be written: " + std::strerror(errno));
+  }
+
+  const std::filesystem::path& target_;
+  std::string name_;
+  int file_ = -1;
+  bool placed_ = false;
+};
 
 }  // namespace
 
@@ -50,17 +75,9 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
     if (error)
       throw WriteError(path.parent_path().string() + ": cannot be created: " + error.message());
   }
-  const std::filesystem::path part = path.string() + ".part" + std::to_string(::getpid());
-  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) fail(path);
-  write_all(file, contents, path);
-  if (::fsync(file) != 0 || ::close(file) != 0) fail(path);
-  if (::rename(part.c_str(), path.c_str()) != 0) {
-    const int reason = errno;
-    ::unlink(part.c_str());
-    errno = reason;
-    fail(path);
-  }
+  Part part(path);
+  part.write(contents);
+  part.place();
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <string_view>
 
 #include "core/check.h"
@@ -122,34 +124,6 @@ CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
   }
   if (diagnostics.error_count() > before) return {};
   return table;
-}
-
-CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
-    : path_(path), columns_(columns.size()) {
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  file_.open(path, std::ios::trunc);
-  if (!file_) throw WriteError(path.string() + ": cannot be written");
-  text_row(columns);
-  flush();
-}
-
-void CsvWriter::row(std::span<const double> values) {
-  PEDICEL_ASSERT(values.size() == columns_);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    file_ << (i ? "," : "") << format_number(values[i]);
-  file_ << '\n';
-}
-
-void CsvWriter::text_row(const std::vector<std::string>& cells) {
-  PEDICEL_ASSERT(cells.size() == columns_);
-  for (std::size_t i = 0; i < cells.size(); ++i) file_ << (i ? "," : "") << cells[i];
-  file_ << '\n';
-}
-
-void CsvWriter::flush() {
-  file_.flush();
-  if (!file_) throw WriteError(path_.string() + ": cannot be written");
 }
 
 std::string format_number(double value, int digits) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/atomic_file.h"
+#include "io/bounds.h"
 #include "io/csv.h"
 
 namespace pedicel::io {
@@ -12,21 +13,6 @@ namespace {
 
 /// Bytes; as nodes a text takes some hundred times as much memory. 250,000 drawn points are 6 MB.
 constexpr std::size_t largest_yaml = std::size_t{8} << 20;
-
-std::string bounds_text(const Bounds& bounds) {
-  if (std::isfinite(bounds.minimum) && std::isfinite(bounds.maximum))
-    return "a number between " + format_number(bounds.minimum) + " and " +
-           format_number(bounds.maximum);
-  if (std::isfinite(bounds.minimum))
-    return std::string("a number ") + (bounds.open_minimum ? "> " : ">= ") +
-           format_number(bounds.minimum);
-  return "a finite number";
-}
-
-bool within(double value, const Bounds& bounds) {
-  if (!std::isfinite(value) || value > bounds.maximum) return false;
-  return bounds.open_minimum ? value > bounds.minimum : value >= bounds.minimum;
-}
 
 std::optional<double> parse_number(const YAML::Node& node) {
   if (!node.IsScalar() || node.Tag() == "!") return std::nullopt;  // "!" marks a quoted scalar
@@ -98,6 +84,21 @@ class Surveyor {
 };
 
 }  // namespace
+
+std::string bounds_text(const Bounds& bounds) {
+  if (std::isfinite(bounds.minimum) && std::isfinite(bounds.maximum))
+    return "a number between " + format_number(bounds.minimum) + " and " +
+           format_number(bounds.maximum);
+  if (std::isfinite(bounds.minimum))
+    return std::string("a number ") + (bounds.open_minimum ? "> " : ">= ") +
+           format_number(bounds.minimum);
+  return "a finite number";
+}
+
+bool within(double value, const Bounds& bounds) {
+  if (!std::isfinite(value) || value > bounds.maximum) return false;
+  return bounds.open_minimum ? value > bounds.minimum : value >= bounds.minimum;
+}
 
 SourcePosition YamlNode::position() const {
   const YAML::Mark mark = node_.Mark();

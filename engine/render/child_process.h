@@ -9,8 +9,9 @@
 namespace pedicel::render {
 
 /// Another program that reads our bytes from its standard input. Started without a shell, so that
-/// no character of a file name means anything; in a process group of its own, so that Ctrl-C ends
-/// only us and we can close its input in good order.
+/// no character of a file name means anything; in a process group of its own and deaf to the
+/// signals that ask programs to stop, so that these end only us and we can close its input in good
+/// order. It ends by itself when its input does: also where we were killed.
 class ChildProcess {
  public:
   /// `arguments[0]` is looked up in PATH. started() is false where it cannot be run.

@@ -25,10 +25,6 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 }
 void ignore(png_structp, png_const_charp) {}
 
-std::string reason() {
-  return std::strerror(errno);
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Image& image) {
@@ -52,19 +48,23 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
   return bytes;
 }
 
+// Without waiting for the disk, as io::write_file_atomically() does: films have many pictures.
 void write_png(const std::filesystem::path& path, const Image& image) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   const std::filesystem::path part = path.string() + ".part" + std::to_string(::getpid());
-  {
-    std::ofstream file(part, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    if (!file.flush()) throw OutputError(path.string() + ": cannot be written: " + reason());
-  }
+  const auto fail = [&](const std::string& reason) {
+    std::filesystem::remove(part, error);
+    throw OutputError(path.string() + ": cannot be written: " + reason);
+  };
+  std::ofstream file(part, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush()) fail(std::strerror(errno));
+  file.close();
   std::filesystem::rename(part, path, error);
-  if (error) throw OutputError(path.string() + ": cannot be written: " + error.message());
+  if (error) fail(error.message());
 }
 
 Image read_png(const std::filesystem::path& path) {

@@ -1,7 +1,9 @@
 #include "render/video.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -31,14 +33,80 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw OutputError(folder.string() + ": cannot be created: " + error.message());
 }
 
+// H.264 in yuv420p wants even sides. In fragments of a second, each playable once it is written:
+// what is left of a film whose makers were killed plays, too.
 std::vector<std::string> encoder_arguments(const std::filesystem::path& file, int width, int height,
                                            double rate) {
-  return {"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
-          "-s", std::to_string(width) + "x" + std::to_string(height), "-r", number(rate), "-i",
-          "pipe:0", "-vf",
-          // H.264 in yuv420p wants even sides.
-          "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "fast", "-crf", "20",
-          "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4", "file:" + file.string()};
+  const int second = std::max(1, static_cast<int>(std::lround(rate)));
+  return {"ffmpeg",
+          "-nostdin",
+          "-loglevel",
+          "error",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pix_fmt",
+          "rgb24",
+          "-s",
+          std::to_string(width) + "x" + std::to_string(height),
+          "-r",
+          number(rate),
+          "-i",
+          "pipe:0",
+          "-vf",
+          "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "fast",
+          "-crf",
+          "20",
+          "-g",
+          std::to_string(second),
+          "-pix_fmt",
+          "yuv420p",
+          "-movflags",
+          "+frag_keyframe+empty_moov+default_base_moof",
+          "-flush_packets",
+          "1",
+          "-f",
+          "mp4",
+          "file:" + file.string()};
+}
+
+/// Runs ffmpeg to its end; what it complains of, empty where all went well.
+std::string complaint_of(const std::vector<std::string>& arguments) {
+  std::vector<std::string> all = {"ffmpeg", "-nostdin", "-loglevel", "error", "-xerror", "-y"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  ChildProcess program(all);
+  const int code = program.finish();
+  const std::string words = program.complaint();
+  if (code != 0 || !words.empty()) return words.empty() ? "ffmpeg ended early" : words;
+  return {};
+}
+
+/// The same film with its index at the front, as players like it; false where that cannot be done.
+bool write_indexed(const std::filesystem::path& film, const std::filesystem::path& indexed) {
+  const bool written = complaint_of({"-i", "file:" + film.string(), "-c", "copy", "-movflags",
+                                     "+faststart", "-f", "mp4", "file:" + indexed.string()})
+                           .empty();
+  std::error_code error;
+  if (!written) std::filesystem::remove(indexed, error);
+  return written;
+}
+
+/// What is wrong with a film's file; empty: nothing.
+std::string fault_of(const std::filesystem::path& film) {
+  return complaint_of({"-i", "file:" + film.string(), "-c", "copy", "-f", "null", "-"});
+}
+
+/// "run.mp4.part", or where that is taken "run.mp4.part1234".
+std::filesystem::path part_of(const std::filesystem::path& path) {
+  std::filesystem::path part = path.string() + ".part";
+  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (file >= 0) ::close(file);
+  if (file < 0) part += std::to_string(::getpid());
+  return part;
 }
 
 /// "frame_%05d.png", taken apart.
@@ -73,7 +141,7 @@ class Mp4Writer : public VideoWriter {
  public:
   Mp4Writer(const std::filesystem::path& path, int width, int height, double rate)
       : path_(path),
-        part_(path.string() + ".part" + std::to_string(::getpid())),
+        part_(part_of(path)),
         width_(width),
         height_(height),
         encoder_(encoder_arguments(part_, width, height, rate)) {}
@@ -89,24 +157,27 @@ class Mp4Writer : public VideoWriter {
     check_frame(frame, width_, height_);
     if (finished_) throw UsageError("VideoWriter: a frame after finish()");
     if (!encoder_.send(frame.rgb)) {
+      ++frames_;
       finish();
-      fail();
+      fail("it ended early");
     }
     ++frames_;
   }
 
+  // The encoder's word is not enough: on a full disk it may end well and leave half a film.
   void finish() override {
     if (finished_) return;
     finished_ = true;
     const int code = encoder_.finish();
-    std::error_code error;
-    if (code != 0 || frames_ == 0) {
-      std::filesystem::remove(part_, error);
-      if (code != 0 && frames_ > 0) fail();
-      return;
+    if (frames_ == 0) return drop();
+    if (code != 0) fail("it ended early");
+    const std::filesystem::path indexed = part_.string() + "0";
+    if (write_indexed(part_, indexed)) {
+      drop();
+      return place(indexed);
     }
-    std::filesystem::rename(part_, path_, error);
-    if (error) throw OutputError(path_.string() + ": cannot be written: " + error.message());
+    if (const std::string fault = fault_of(part_); !fault.empty()) fail(fault);
+    place(part_);
   }
 
   int frames() const override { return frames_; }
@@ -114,10 +185,23 @@ class Mp4Writer : public VideoWriter {
   std::filesystem::path result() const override { return path_; }
 
  private:
-  [[noreturn]] void fail() const {
+  void drop() const {
+    std::error_code error;
+    std::filesystem::remove(part_, error);
+  }
+
+  void place(const std::filesystem::path& film) const {
+    std::error_code error, ignored;
+    std::filesystem::rename(film, path_, error);
+    if (!error) return;
+    std::filesystem::remove(film, ignored);
+    throw OutputError(path_.string() + ": cannot be written: " + error.message());
+  }
+
+  [[noreturn]] void fail(const std::string& otherwise) const {
+    drop();
     const std::string words = encoder_.complaint();
-    throw OutputError(path_.string() +
-                      ": ffmpeg failed: " + (words.empty() ? "it ended early" : words));
+    throw OutputError(path_.string() + ": ffmpeg failed: " + (words.empty() ? otherwise : words));
   }
 
   std::filesystem::path path_, part_;
@@ -136,6 +220,10 @@ class PictureWriter : public VideoWriter {
         height_(height),
         why_(std::move(why)) {
     make_folder(folder);
+    const std::filesystem::path first = folder_ / name_.text(0);
+    if (std::filesystem::exists(first))
+      throw OutputError(first.string() +
+                        ": is there already, expected a folder without an earlier film's pictures");
   }
 
   void add(const Image& frame) override {

@@ -3,10 +3,13 @@
 #include <set>
 
 #include "world/scene_sections.h"
+#include "world/settings.h"
 
 namespace pedicel::world {
 
 namespace {
+
+constexpr double most_gravity = 100.0;  // m/s2, as of WorldSettings
 
 void read_head(io::YamlMap& map, Scene& scene) {
   std::string stem = scene.file.stem().string();  // without .yaml
@@ -14,12 +17,19 @@ void read_head(io::YamlMap& map, Scene& scene) {
   scene.name = map.text("name", stem);
   scene.purpose = map.text("purpose");
   scene.see = map.text("see");
-  scene.duration = map.number("duration", io::positive);
-  scene.dt = map.number("dt", {1e-7, 1.0}, scene.dt);
-  scene.log_rate = map.number("log_rate", io::positive, scene.log_rate);
-  scene.seed = map.integer("seed", 0, 1000000000, scene.seed);
-  scene.threads = map.integer("threads", 1, 256, scene.threads);
+  scene.duration = map.number("duration", scene_bounds("duration"));
+  scene.dt = map.number("dt", scene_bounds("dt"), scene.dt);
+  scene.log_rate = map.number("log_rate", scene_bounds("log_rate"), scene.log_rate);
+  const auto whole = [&](const char* key, int otherwise) {
+    const io::Bounds bounds = scene_bounds(key);
+    return map.integer(key, static_cast<int>(bounds.minimum), static_cast<int>(bounds.maximum),
+                       otherwise);
+  };
+  scene.seed = whole("seed", scene.seed);
+  scene.threads = whole("threads", scene.threads);
   scene.gravity = map.vector("gravity", scene.gravity);
+  if (scene.gravity.cwiseAbs().maxCoeff() > most_gravity)
+    map.optional("gravity")->error("gravity: expected three numbers between -100 and 100 m/s2");
   if (const auto rods = map.optional("rods")) scene.rods = sections::read_settings(*rods, "rods");
   if (const auto coupling = map.optional("coupling"))
     scene.coupling = sections::read_settings(*coupling, "coupling");

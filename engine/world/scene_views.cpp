@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "world/scene_sections.h"
+#include "world/settings.h"
 
 namespace pedicel::world::sections {
 
@@ -40,7 +41,7 @@ ScenePicture read_picture(const io::YamlNode& node) {
 SceneVideo read_video(const io::YamlNode& node) {
   SceneVideo video;
   io::YamlMap map(node, "video");
-  video.fps = map.number("fps", {1.0, 240.0}, video.fps);
+  video.fps = map.number("fps", video_rates, video.fps);
   video.camera = map.text("camera", "");
   if (const auto size = map.optional("size")) {
     const auto parts = size->list("size");
@@ -60,6 +61,9 @@ SceneSweep read_sweep(const io::YamlNode& node) {
   if (const auto values = map.required("values")) {
     sweep.values = values->numbers("values");
     if (sweep.values.size() < 2) values->error("values: expected at least two");
+    for (std::size_t i = 1; i < sweep.values.size(); ++i)
+      if (std::count(sweep.values.begin(), sweep.values.begin() + i, sweep.values[i]) > 0)
+        values->error("values: one of them comes twice, expected each once");
   }
   map.finish();
   return sweep;

@@ -50,9 +50,9 @@ void apply_number(const Setting& setting, const std::string& section, const Para
     diagnostics.error(setting.where, section + "." + *refused);
 }
 
-/// A number of the scene itself that `--set` reaches.
+/// A number of the scene itself: the one description of its bounds.
 struct SceneNumber {
-  const char* key;
+  std::string_view key;
   double minimum, maximum;
   bool whole;
 };
@@ -62,20 +62,21 @@ constexpr SceneNumber scene_numbers[] = {{"duration", 1e-6, 1e6, false},
                                          {"seed", 0, 1e9, true},
                                          {"threads", 1, 256, true}};
 
-double checked(const SceneNumber& number, const std::string& text) {
+double checked(const SceneNumber& number, const std::string& text, const std::string& asked) {
   const std::optional<double> value = to_number(text);
   if (value && *value >= number.minimum && *value <= number.maximum &&
       (!number.whole || *value == std::floor(*value)))
     return *value;
-  throw UsageError(std::string(number.key) + " = \"" + text + "\": must be a " +
+  throw UsageError(asked + std::string(number.key) + " = \"" + text + "\": must be a " +
                    (number.whole ? "whole " : "") + "number between " +
                    io::format_number(number.minimum) + " and " + io::format_number(number.maximum));
 }
 
-bool set_scene_number(Scene& scene, const std::string& key, const std::string& text) {
+bool set_scene_number(Scene& scene, const std::string& key, const std::string& text,
+                      const std::string& asked) {
   for (const SceneNumber& number : scene_numbers) {
     if (key != number.key) continue;
-    const double value = checked(number, text);
+    const double value = checked(number, text, asked);
     if (key == "duration") scene.duration = value;
     if (key == "dt") scene.dt = value;
     if (key == "log_rate") scene.log_rate = value;
@@ -84,6 +85,12 @@ bool set_scene_number(Scene& scene, const std::string& key, const std::string& t
     return true;
   }
   return false;
+}
+
+/// In the place of an earlier one of that key.
+void take(std::vector<Setting>& settings, Setting setting) {
+  std::erase_if(settings, [&](const Setting& one) { return one.key == setting.key; });
+  settings.push_back(std::move(setting));
 }
 
 bool starts_with(const std::string& text, const std::string& prefix) {
@@ -102,13 +109,19 @@ void set_on_plant(Scene& scene, const std::string& rest, Setting setting) {
   for (ScenePlant& plant : scene.plants) {
     if (!starts_with(rest, plant.name + ".")) continue;
     setting.key = rest.substr(plant.name.size() + 1);
-    plant.set.push_back(setting);
+    take(plant.set, setting);
     return;
   }
   throw UsageError(setting.where.file + ": the scene has no plant of that name");
 }
 
 }  // namespace
+
+io::Bounds scene_bounds(std::string_view key) {
+  const auto number = std::ranges::find(scene_numbers, key, &SceneNumber::key);
+  PEDICEL_ASSERT(number != std::end(scene_numbers));
+  return {number->minimum, number->maximum};
+}
 
 std::optional<double> to_number(const std::string& text) {
   double value = 0.0;
@@ -138,12 +151,12 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
 
 void apply_override(Scene& scene, const std::string& key, const std::string& value,
                     const std::string& asked) {
-  if (set_scene_number(scene, key, value)) return;
+  if (set_scene_number(scene, key, value, asked)) return;
   const Setting setting{key, value, {asked + key, 0, 0}};
   if (starts_with(key, "rods.")) {
-    scene.rods.push_back({key.substr(5), value, setting.where});
+    take(scene.rods, {key.substr(5), value, setting.where});
   } else if (starts_with(key, "coupling.")) {
-    scene.coupling.push_back({key.substr(9), value, setting.where});
+    take(scene.coupling, {key.substr(9), value, setting.where});
   } else if (starts_with(key, "robot.")) {
     set_on_robot(scene, setting);
   } else if (starts_with(key, "plants.")) {
@@ -154,7 +167,7 @@ void apply_override(Scene& scene, const std::string& key, const std::string& val
                      "robot.gripper_force, plants.NAME.KEY, or an override of every plant such as "
                      "detach.stretch");
   } else {
-    for (ScenePlant& plant : scene.plants) plant.set.push_back(setting);
+    for (ScenePlant& plant : scene.plants) take(plant.set, setting);
   }
 }
 

@@ -2,10 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/parameter.h"
+#include "io/yaml.h"
 #include "world/scene.h"
 
 namespace pedicel::world {
@@ -26,10 +28,18 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
 /// The number that a text is, as it is written in our files; nothing where it is none.
 std::optional<double> to_number(const std::string& text);
 
+/// Hz, that a video may have, wherever that is said.
+inline constexpr io::Bounds video_rates{1.0, 240.0};
+
+/// What the scene's own numbers may be, wherever they come from: duration, dt, log_rate, seed,
+/// threads. Asserts that there is such a key.
+io::Bounds scene_bounds(std::string_view key);
+
 /// Changes a scene as `--set key=value` does: dt, duration, seed, threads, log_rate, rods.KEY,
-/// coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant) and any other KEY that is an override of every plant
-/// (detach.stretch). `asked` comes before the key in the place that a fault names ("--set ").
-/// Throws UsageError where the key or the value is impossible.
+/// coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant) and any other KEY that is an
+/// override of every plant (detach.stretch). Of equal keys the last one counts. `asked` comes before
+/// the key in the place that a fault names ("--set "). Throws UsageError where the key or the value
+/// is impossible.
 void apply_override(Scene& scene, const std::string& key, const std::string& value,
                     const std::string& asked = "");
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/stop.h"
 #include "cosserat/rotation.h"
 
 namespace pedicel::cosserat {
@@ -424,6 +425,7 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   const double change = plant.change.largest;
   ++report.iterations;
   report.last_change = change;
+  if (settling_ && stop_requested) return true;  // settle() throws
   const bool first = plant.last_change == 0.0;
   double gain = plant.gain * std::max(1.0, change / std::max(plant.gain_change, 1.0e-300));
   if (!first) {

@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "cosserat/direct_solver.h"
 #include "cosserat/joint_law.h"
 
@@ -34,6 +35,7 @@ StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
     for (int i = 0; i < (extended ? 2 : 1); ++i) {
       rest();
       report = solver.step(model, state, input);
+      throw_if_stopped();
     }
     if (model.air.empty() || (report.errors == none && report.last_change <= followed)) break;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/stop.h"
 #include "cosserat/direct_solver.h"
 #include "cosserat/exact_hessian.h"
 #include "cosserat/rotation.h"
@@ -194,6 +195,7 @@ Standing stand_as_drawn(RodModel& model, const Vec3& gravity) {
   if (!standing.solvable) return standing;
   const Loads loads = carried(model, outer);
   for (int e = 0; e < model.size(); ++e) {
+    throw_if_stopped();
     Element& element = model.elements[e];
     const Quat& before = rotation_before(model, e);
     const auto rest =

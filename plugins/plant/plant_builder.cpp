@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stop.h"
 #include "cosserat/rotation.h"
 #include "io/csv.h"
 #include "plant/apply_effects.h"
@@ -91,6 +92,7 @@ class Builder {
   }
 
   void add_segment(int node_index) {
+    throw_if_stopped();
     const GraphNode& node = graph_.nodes[node_index];
     const int parent_node = graph_.kept_parent(node_index);
     const GraphNode& parent = graph_.nodes[parent_node];
@@ -144,6 +146,7 @@ class Builder {
   void add_leaves() {
     int number = 0;
     for (const PlantLeaf& leaf : plant_.leaves) {
+      throw_if_stopped();
       const auto file = find_leaf_template(leaf.leaf_template, options_.leaf_folders);
       if (!file) {
         diagnostics_.error(leaf.where,

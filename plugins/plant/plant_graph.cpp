@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/stop.h"
 #include "geometry/curve_distance.h"
 #include "io/csv.h"
 
@@ -132,6 +133,7 @@ class Connector {
     for (std::size_t other = 0; other < curves_.size(); ++other)
       for (const bool at_end : {false, true}) {
         if (other == curve) continue;
+        throw_if_stopped();
         const auto foot = geometry::closest_on_curve(curves_[curve], end_of(other, at_end));
         if (foot.distance >= plant_.connect) continue;
         for (const double arc : {foot.arc - junction_, foot.arc, foot.arc + junction_})
@@ -162,6 +164,7 @@ class Connector {
     // Also where a curve goes on from another's end: an element has the section of one curve.
     if (parent >= 0) graph_.nodes[parent].carries = true;
     for (std::size_t k = 0; k < arcs.size(); ++k) {
+      throw_if_stopped();
       GraphNode node;
       node.position = curves_[join.curve].point(arcs[k]);
       if (k == 0 && parent >= 0 &&
@@ -180,6 +183,7 @@ class Connector {
 
   // The nearest node of the tree to either end of a curve.
   Join nearest_node(std::size_t curve) const {
+    throw_if_stopped();
     Join best;
     for (const bool at_end : {false, true}) {
       const Vec3 end = end_of(curve, at_end);
@@ -273,9 +277,11 @@ std::vector<geometry::Curve> make_curves(const PlantFile& plant) {
 double sampling_step(const std::vector<geometry::Curve>& curves, double connect, double distance) {
   const double floor = 0.25 * std::min(connect, distance);
   double closest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < curves.size(); ++i)
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    throw_if_stopped();
     for (std::size_t j = 0; j < i && 0.99 * closest > floor; ++j)
       closest = std::min(closest, geometry::closest_on_curves(curves[i], curves[j]).distance);
+  }
   return std::clamp(0.99 * closest, floor, std::max(floor, 0.25 * distance));
 }
 

@@ -1,6 +1,7 @@
 #include "io/yaml.h"
 #include "plant/effects.h"
 #include "plant/plant_file.h"
+#include "plant/plant_numbers.h"
 #include "plant/plant_size.h"
 
 namespace pedicel::plant {
@@ -9,8 +10,6 @@ namespace {
 
 using io::YamlMap;
 using io::YamlNode;
-
-constexpr io::Bounds poisson{-1.0, 0.5, true};
 
 std::optional<double> optional_number(YamlMap& map, const std::string& key,
                                       const io::Bounds& bounds) {
@@ -30,10 +29,13 @@ Vec3 direction(const YamlNode& node, const std::string& what) {
 MaterialValues read_material(const YamlNode& node) {
   YamlMap map(node, "material");
   MaterialValues material;
-  material.youngs_modulus = optional_number(map, "youngs_modulus", io::positive);
-  material.poisson_ratio = optional_number(map, "poisson_ratio", poisson);
-  material.density = optional_number(map, "density", io::positive);
-  material.damping_time = optional_number(map, "damping_time", io::not_negative);
+  material.youngs_modulus =
+      optional_number(map, "youngs_modulus", number_bounds("material.youngs_modulus"));
+  material.poisson_ratio =
+      optional_number(map, "poisson_ratio", number_bounds("material.poisson_ratio"));
+  material.density = optional_number(map, "density", number_bounds("material.density"));
+  material.damping_time =
+      optional_number(map, "damping_time", number_bounds("material.damping_time"));
   map.finish();
   return material;
 }
@@ -84,11 +86,11 @@ PlantCurve read_curve(const YamlNode& node) {
 DetachLimits read_limits(const YamlNode& node) {
   YamlMap map(node, "detach");
   DetachLimits limits;
-  limits.stretch = optional_number(map, "stretch", io::positive);
-  limits.bend = optional_number(map, "bend", io::positive);
-  limits.force = optional_number(map, "force", io::positive);
-  limits.moment = optional_number(map, "moment", io::positive);
-  limits.torsion = optional_number(map, "torsion", io::positive);
+  limits.stretch = optional_number(map, "stretch", number_bounds("detach.stretch"));
+  limits.bend = optional_number(map, "bend", number_bounds("detach.bend"));
+  limits.force = optional_number(map, "force", number_bounds("detach.force"));
+  limits.moment = optional_number(map, "moment", number_bounds("detach.moment"));
+  limits.torsion = optional_number(map, "torsion", number_bounds("detach.torsion"));
   map.finish();
   return limits;
 }
@@ -145,8 +147,8 @@ PlantFile read_plant(YamlMap& map) {
   if (const auto material = map.optional("material")) plant.material = read_material(*material);
   if (const auto sampling = map.required("sampling")) {
     YamlMap inner(*sampling, "sampling");
-    plant.connect = inner.number("connect", io::positive);
-    plant.distance = inner.number("distance", io::positive);
+    plant.connect = inner.number("connect", number_bounds("sampling.connect"));
+    plant.distance = inner.number("distance", number_bounds("sampling.distance"));
     inner.finish();
   }
   plant.root = map.vector("root");

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <mutex>
 #include <set>
@@ -15,6 +14,7 @@
 #include "core/thread_pool.h"
 #include "discrepancy/case_run.h"
 #include "discrepancy/score_report.h"
+#include "core/stop.h"
 #include "discrepancy/score_table.h"
 #include "io/atomic_file.h"
 
@@ -23,11 +23,6 @@ namespace {
 using namespace pedicel;
 using namespace pedicel::hidden;
 namespace fs = std::filesystem;
-
-std::atomic<bool> stop_requested{false};
-void request_stop(int) {
-  stop_requested = true;
-}
 
 struct Arguments {
   std::uint64_t seed = 1;
@@ -81,7 +76,7 @@ class Bench {
     if (!scores_.empty()) write_score_report(out_, scores_, a_.seed);
     std::printf("%s\n%s\nwritten to %s\n", markdown(score_table(scores_)).c_str(),
                 markdown(confusion(scores_)).c_str(), out_.c_str());
-    return stop_requested ? 130 : 0;
+    return stop_requested ? stop_exit_code() : 0;
   }
 
  private:
@@ -167,8 +162,8 @@ int main(int argc, char** argv) {
   app.add_option("--out", a.out, "folder of the results")->capture_default_str();
   app.add_flag("--keep", a.keep, "keep the experiment folders");
   CLI11_PARSE(app, argc, argv);
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  hear_stop_signals();
+  stop_in_good_order();
   try {
     return Bench(a).run();
   } catch (const io::WriteError& error) {

@@ -12,63 +12,13 @@
 #include <thread>
 
 #include "cosserat/rod_model.h"
-#include "io/atomic_file.h"
 #include "io/csv.h"
-#include "support/stem_plants.h"
+#include "program_case.h"
 
 namespace pedicel {
 namespace {
 
 using ::testing::HasSubstr;
-
-const char* const quick_scene = R"(format: pedicel-scene
-version: 1
-purpose: a stem that stands
-see: nothing moves
-duration: 0.1
-plants:
-  - {name: stem, file: stem.plant.yaml}
-expect:
-  - {quantity: detached_count, is: 0}
-)";
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-class Program : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::path(::testing::TempDir()) / ("program_" + std::string(test->name()));
-    std::filesystem::remove_all(folder_);
-    write("stem.plant.yaml", bent_stem_text);
-    write("quick.scene.yaml", quick_scene);
-  }
-  void write(const std::string& name, const std::string& text) {
-    io::write_file_atomically(folder_ / name, text);
-  }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  /// The exit code; what it printed is then in out_ and err_.
-  int run(const std::string& arguments) {
-    const std::string command = std::string(PEDICEL_PROGRAM) + " " + arguments + " >" +
-                                path("stdout") + " 2>" + path("stderr");
-    const int status = std::system(command.c_str());
-    out_ = io::read_file(folder_ / "stdout");
-    err_ = io::read_file(folder_ / "stderr");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  int run_scene(const std::string& more = {}, const std::string& scene = "quick.scene.yaml") {
-    return run("--headless " + path(scene) + " --out " + path("out") + " --no-pictures " + more);
-  }
-
-  std::filesystem::path folder_;
-  std::string out_, err_;
-};
 
 TEST_F(Program, GoodRunEndsWith0AndLeavesItsFiles) {
   EXPECT_EQ(run_scene("--json"), 0) << err_;
