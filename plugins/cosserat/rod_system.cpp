@@ -71,6 +71,7 @@ void RodSystem::add_contact_source(int plant, std::unique_ptr<ContactSource> sou
 }
 
 void RodSystem::step(double dt, const Vec3& gravity) {
+  if (plants_.empty()) return;  // a world of robots and bodies alone
   if (settings_.solver == SolverKind::direct) {
     if (beds_.empty()) make_beds();
     if (beds_.size() == 1)

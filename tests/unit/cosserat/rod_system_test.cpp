@@ -53,6 +53,29 @@ TEST(RodSystem, SameBitsWithOneAndTwoThreads) {
   }
 }
 
+// A world of robots and bodies alone; a plant may come later.
+TEST(RodSystem, WithoutPlantsAStepDoesNothing) {
+  for (const SolverKind kind : {SolverKind::direct, SolverKind::position_based})
+    for (const int threads : {1, 2}) {
+      RodSettings settings;
+      settings.solver = kind;
+      RodSystem system(settings, threads);
+      StateHash before, after;
+      system.add_to(before);
+      system.step(dt, gravity);
+      system.change_settings(settings);
+      system.step(dt, gravity);
+      system.add_to(after);
+      EXPECT_EQ(before.value(), after.value());
+      EXPECT_EQ(system.size(), 0);
+      plant_garden(system);
+      for (int i = 0; i < 10; ++i) system.step(dt, gravity);
+      StateHash later;
+      system.add_to(later);
+      EXPECT_EQ(later.value(), hash_after(settings, threads, 10));
+    }
+}
+
 // Many plants are stepped in beds, a few plants each, and from 8,000 elements on their rows stand
 // on huge pages. Damping that a plant gets on the way takes more of them.
 TEST(RodSystem, ManyPlantsMoveAsOneAlone) {
