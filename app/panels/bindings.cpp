@@ -31,6 +31,7 @@ const std::vector<Binding>& bindings() {
       {Action::redo, Key::z, true, true, "Edit", "Redo"},
       {Action::redo, Key::y, true, false, "Edit", "Redo"},
       {Action::remove, Key::del, false, false, "Edit", "Remove what is selected"},
+      {Action::duplicate, Key::d, true, false, "Edit", "Duplicate the chosen plant, body, camera"},
       {Action::draw_mode, Key::d, false, false, "Edit", "Draw stems, on or off"},
       {Action::point_kind, Key::v, false, false, "Edit", "Point: smooth, corner, linear"},
       {Action::insert_point, Key::insert, false, false, "Edit", "Insert a point behind the chosen"},

@@ -29,6 +29,7 @@ enum class Action {
   undo,
   redo,
   remove,
+  duplicate,
   draw_mode,
   point_kind,
   insert_point,

@@ -44,6 +44,7 @@ class DataPanel : public Panel {
       return;
     }
     title(ui, *experiment);
+    if (!ui.session.measured().experiment()) return;  // closed
     trial_and_time(ui, *experiment);
     models(ui);
     markers(ui, *experiment);
@@ -125,6 +126,8 @@ class DataPanel : public Panel {
     if (left > 0) note("simulating: " + std::to_string(left) + " trials to go");
     if (ui.session.measured_plant() < 0)
       note("The document's plant is not as it was measured (any more).");
+    if (wide_button("Close experiment")) ui.run(Command("close experiment", {}));
+    tip("Leaves the measured data; the plant stays");
   }
 
   void trial_and_time(Ui& ui, const discrepancy::Experiment& experiment) {

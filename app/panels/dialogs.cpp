@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "app/panels/add_menu.h"
 #include "app/panels/file_list.h"
 #include "app/panels/layout.h"
 #include "app/panels/theme.h"
@@ -121,16 +122,22 @@ void info(Ui& ui) {
 void files(Ui& ui) {
   static FileList list;
   const bool saves = ui.dialog == Dialog::save_as;
-  const bool imports = ui.dialog == Dialog::import_plant;
-  if (begin_dialog(ui, saves ? "Save as" : imports ? "Import a plant" : "Open", 640, 480)) {
-    const auto chosen = list.draw(ui, saves);
+  const bool imports = ui.dialog == Dialog::import_plant, robots = ui.dialog == Dialog::add_robot;
+  const char* title = saves     ? "Save as"
+                      : imports ? "Import a plant"
+                      : robots  ? "Add a robot (URDF)"
+                                : "Open";
+  if (begin_dialog(ui, title, 640, 480)) {
+    const auto chosen = list.draw(ui, saves, robots);
     if (chosen) {
       ui.dialog = Dialog::none;
       if (imports) {
         ui.report(ui.session.import_plant(*chosen));
+      } else if (robots) {
+        add_robot(ui, *chosen);
       } else if (saves) {
-        const Result result = ui.session.save(*chosen);
-        ui.say(result.ok ? "saved in " + chosen->string() : result.text);
+        ui.dialog = Dialog::save_as;  // until it is saved
+        ui.save_to(*chosen);
       } else {
         ui.open(*chosen);
       }
@@ -181,30 +188,36 @@ void recover(Ui& ui) {
   ImGui::End();
 }
 
-/// Saved first, where there is a file to save to; else a name is asked for, and the person goes on
-/// from there.
-void save_and_go_on(Ui& ui) {
-  if (ui.session.path().empty()) {
-    ui.dialog = Dialog::save_as;
-    return;
-  }
-  const Result saved = ui.session.save();
-  if (!ui.report(saved)) return;
-  ui.dialog = Dialog::none;
-  ui.after_leaving();
-}
-
 void unsaved(Ui& ui) {
   if (begin_dialog(ui, "Edits that are not saved", 460, 125)) {
     const std::string name = ui.session.path().filename().string();
     note((name.empty() ? "The new scene" : name) + " was changed since it was saved.");
     ImGui::Spacing();
-    if (ImGui::Button("Save")) save_and_go_on(ui);
+    if (ImGui::Button("Save")) ui.save();
     ImGui::SameLine();
     if (ImGui::Button("Do not save")) {
       ui.dialog = Dialog::none;
-      ui.session.give_up_edits();
-      ui.after_leaving();
+      ui.leave_now();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel")) ui.dialog = Dialog::none;
+  }
+  ImGui::End();
+}
+
+void overwrite(Ui& ui) {
+  if (begin_dialog(ui, "Write over a file?", 520, 190)) {
+    const std::string& text = ui.overwrite_text;
+    const bool changed = text.find("another program") != std::string::npos;
+    note(text.substr(0, text.find(", expected")) + ".");
+    note("What it says now stays beside it, as NAME~.");
+    ImGui::Spacing();
+    if (ImGui::Button("Write over it")) ui.save_to(ui.overwrite_path, true);
+    ImGui::SameLine();
+    if (changed) {
+      if (ImGui::Button("Read it anew")) ui.dialog = Dialog::none, ui.ask(Action::reload);
+    } else if (ImGui::Button("Another name")) {
+      ui.dialog = Dialog::save_as;
     }
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) ui.dialog = Dialog::none;
@@ -217,10 +230,14 @@ void unsaved(Ui& ui) {
 void draw_dialogs(Ui& ui) {
   switch (ui.dialog) {
     case Dialog::none:
+      ui.after_leaving = nullptr;  // the question was closed without an answer
       return;
+    case Dialog::overwrite:
+      return overwrite(ui);
     case Dialog::open:
     case Dialog::save_as:
     case Dialog::import_plant:
+    case Dialog::add_robot:
       return files(ui);
     case Dialog::help:
       return help(ui);

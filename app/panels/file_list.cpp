@@ -15,11 +15,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool can_be_opened(const fs::path& path) {
+bool can_be_opened(const fs::path& path, bool robots) {
   const std::string name = path.filename().string();
   const auto ends = [&name](const char* with) { return name.ends_with(with); };
+  if (robots) return ends(".urdf");
   return ends(".scene.yaml") || ends(".plant.yaml") || ends(".csv") || ends(".mtg") ||
          name == "experiment.yaml";
+}
+
+std::string what_is_saved(const Ui& ui) {
+  const std::string plant = ui.chosen_plant();
+  return "NAME.scene.yaml: the scene with everything. NAME.plant.yaml: " +
+         (plant.empty() ? std::string("a plant") : "the plant \"" + plant + "\"") + " alone.";
 }
 
 }  // namespace
@@ -32,7 +39,7 @@ void FileList::read() {
     std::error_code ignored;
     const bool is_folder = entry.is_directory(ignored);
     if (entry.path().filename().string().starts_with('.')) continue;
-    if (is_folder || can_be_opened(entry.path())) entries_.push_back({entry.path(), is_folder});
+    if (is_folder || can_be_opened(entry.path(), robots_)) entries_.push_back({entry.path(), is_folder});
   }
   if (error) problem_ = folder_.string() + ": " + error.message();
   std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
@@ -40,17 +47,18 @@ void FileList::read() {
   });
 }
 
-std::optional<fs::path> FileList::draw(Ui& ui, bool saves) {
+std::optional<fs::path> FileList::draw(Ui& ui, bool saves, bool robots) {
+  robots_ = robots;
   if (folder_.empty() || ImGui::IsWindowAppearing()) {
     const fs::path open = ui.session.path();
     std::error_code ignored;
     folder_ = fs::absolute(open.empty() ? fs::path(".") : open, ignored);
     folder_ = open.empty() ? fs::current_path(ignored) : folder_.parent_path();
-    typed_ = saves ? (open.empty() ? (folder_ / "plant.plant.yaml").string() : open.string()) : "";
+    typed_ = saves ? ui.session.suggested_name().string() : "";
     read();
   }
   std::optional<fs::path> chosen;
-  const char* verb = saves ? "Save" : "Open";
+  const char* verb = saves ? "Save" : robots ? "Add" : "Open";
   const float button = ImGui::CalcTextSize(verb).x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(rest_width(button + ImGui::GetStyle().ItemSpacing.x));
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
@@ -62,11 +70,16 @@ std::optional<fs::path> FileList::draw(Ui& ui, bool saves) {
     fs::path path(typed_);
     if (path.is_relative()) path = folder_ / path;
     std::error_code ignored;
-    if (!fs::is_directory(path, ignored))
+    const bool is_folder = fs::is_directory(path, ignored);
+    if (saves && !is_folder && !path.has_extension())
+      path += ui.session.suggested_name().string().ends_with(".plant.yaml") ? ".plant.yaml"
+                                                                            : ".scene.yaml";
+    if (!is_folder)
       chosen = path;
     else
       folder_ = path, typed_.clear(), read();
   }
+  if (saves) note(what_is_saved(ui));
   note(folder_.string());
   if (!problem_.empty()) ImGui::TextColored(palette().error, "%s", problem_.c_str());
   if (ImGui::BeginChild("files", ImVec2(0, 0), true)) {

@@ -12,8 +12,8 @@ struct Ui;
 /// Folders and files to choose from, with a line to type a path into.
 class FileList {
  public:
-  /// Draws it into the current window. The file that was chosen, once.
-  std::optional<std::filesystem::path> draw(Ui& ui, bool saves);
+  /// Draws it into the current window. The file that was chosen, once. `robots`: URDFs are listed.
+  std::optional<std::filesystem::path> draw(Ui& ui, bool saves, bool robots = false);
 
  private:
   struct Entry {
@@ -21,6 +21,7 @@ class FileList {
     bool is_folder = false;
   };
   void read();
+  bool robots_ = false;
 
   std::filesystem::path folder_;
   std::string typed_, problem_;

@@ -1,11 +1,14 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "app/panels/add_menu.h"
 #include "app/panels/panel.h"
 #include "app/panels/stem_editor.h"
 #include "app/panels/theme.h"
+#include "app/panels/thing_editor.h"
 #include "app/panels/ui.h"
 #include "app/panels/widgets.h"
 
@@ -20,8 +23,12 @@ class PlantsPanel : public Panel {
   Dock dock() const override { return Dock::left; }
 
   void draw(Ui& ui) override {
-    if (ImGui::Button("New plant")) new_plant(ui);
-    tip("Adds a plant without stems, to draw");
+    if (ImGui::Button("Add")) ImGui::OpenPopup("add");
+    tip("Adds a robot, a body, a camera, a plant");
+    if (ImGui::BeginPopup("add")) {
+      draw_add_menu(ui);
+      ImGui::EndPopup();
+    }
     ImGui::SameLine();
     if (ImGui::Button("Import")) ui.dialog = Dialog::import_plant;
     tip("Adds the plant of a plant file, a skeleton table (CSV) or an MTG");
@@ -35,6 +42,7 @@ class PlantsPanel : public Panel {
       for (const DocumentPlant& plant : ui.session.document().plants) plant_node(ui, plant);
       if (ui.session.document().plants.empty()) note("No plants yet. Press D and draw one.");
       robot_node(ui);
+      scene_nodes(ui);
     }
     ImGui::EndChild();
     if (ui.selection && ImGui::BeginChild("details")) draw_details(ui);
@@ -42,16 +50,6 @@ class PlantsPanel : public Panel {
   }
 
  private:
-  static void new_plant(Ui& ui) {
-    std::string name = "plant";
-    for (int i = 2; ui.session.document().plant_index(name) >= 0; ++i)
-      name = "plant_" + std::to_string(i);
-    if (!ui.run(Command("new plant", {{"plant", name}}))) return;
-    ui.draw.plant = name;
-    ui.draw.on = true;
-    ui.show_panel = "Draw";
-  }
-
   void export_menu(Ui& ui) {
     if (!ImGui::BeginPopup("export")) return;
     const auto& plants = ui.session.document().plants;
@@ -80,7 +78,7 @@ class PlantsPanel : public Panel {
     const bool open = ImGui::TreeNodeEx(
         name.c_str(), ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanFullWidth |
                           (ui.draw.plant == name ? ImGuiTreeNodeFlags_Framed : 0));
-    if (ImGui::IsItemClicked()) ui.draw.plant = name;
+    if (ImGui::IsItemClicked()) choose_plant(ui, name);
     tip("Strokes go to the plant that is framed");
     if (!open) return;
     if (plant.file) {
@@ -114,10 +112,33 @@ class PlantsPanel : public Panel {
            describe(ui.selection, *ui.snapshot) == plant + "/" + leaf;
   }
 
+  /// Bodies, ground and cameras of the document.
+  static void scene_nodes(Ui& ui) {
+    const world::Scene& scene = *ui.session.document().scene;
+    const auto is = [&](Selection::Kind kind, const std::string& name) {
+      return ui.selection.kind == kind && describe(ui.selection, *ui.snapshot) == name;
+    };
+    for (const auto& body : scene.bodies)
+      if (leaf(body.name, is(Selection::Kind::body, body.name))) choose_body(ui, body.name);
+    if (scene.ground && leaf("ground", ui.selection.kind == Selection::Kind::ground))
+      choose_ground(ui);
+    for (const auto& camera : scene.cameras)
+      if (leaf(camera.name + "  (camera)", is(Selection::Kind::camera, camera.name)))
+        choose_camera(ui, camera.name);
+  }
+
   static void robot_node(Ui& ui) {
     if (!ui.snapshot->assets || !ui.snapshot->assets->robot) return;
     const auto& links = ui.snapshot->assets->robot->links;
-    if (!ImGui::TreeNodeEx("robot", ImGuiTreeNodeFlags_SpanFullWidth)) return;
+    const bool open = ImGui::TreeNodeEx(
+        ui.snapshot->assets->scene.robot->name.c_str(),
+        ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow);
+    if (ImGui::IsItemClicked() && !links.empty()) {
+      ui.selection = {};
+      ui.selection.kind = Selection::Kind::link;
+      ui.selection.link = std::max(ui.snapshot->assets->robot->root, 0);
+    }
+    if (!open) return;
     for (std::size_t l = 0; l < links.size(); ++l) {
       const bool chosen =
           ui.selection.kind == Selection::Kind::link && ui.selection.link == static_cast<int>(l);

@@ -5,6 +5,7 @@
 #include "app/panels/copy_part.h"
 #include "app/panels/point_editor.h"
 #include "app/panels/theme.h"
+#include "app/panels/thing_editor.h"
 #include "app/panels/widgets.h"
 #include "app/plant_drawing.h"
 #include "app/plant_step.h"
@@ -45,6 +46,15 @@ void stem_numbers(Ui& ui, const std::string& plant, const plant::PlantCurve& cur
         {{"plant", plant}, {"stem", curve.name}, {"from", 1e-3 * foot}, {"to", 1e-3 * top}}));
 }
 
+/// The robot takes it off.
+void pick_button(Ui& ui, const std::string& organ) {
+  if (!ui.snapshot->robot.present) return;
+  if (wide_button("Take off with the robot") &&
+      ui.run(Command("pick", {{"organ", organ}})))
+    ui.session.control().play();
+  tip("Leads the tool to the fruit, shuts the gripper on it and pulls back and down");
+}
+
 void fruit_details(Ui& ui) {
   const PlantSnapshot* plant = plant_of(ui);
   if (!plant || ui.selection.fruit >= static_cast<int>(plant->model->fruits.size())) return;
@@ -76,8 +86,9 @@ void fruit_details(Ui& ui) {
                                     {"stem", one.place.curve},
                                     {"at", at}}));
     tip("0 is the first point of " + one.place.curve + ", 1 its last; or drag it in the scene (D)");
+    pick_button(ui, plant->model->name + "/" + one.name);
     if (wide_button("Delete fruit")) {
-      ui.run(Command("delete organ", {{"plant", plant->model->name}, {"name", one.name}}));
+      ui.remove(Command("delete organ", {{"plant", plant->model->name}, {"name", one.name}}));
       ui.selection = {};
       return;
     }
@@ -196,7 +207,8 @@ void draw_details(Ui& ui) {
   elided(describe(ui.selection, *ui.snapshot), rest_width(), &palette().warning);
   ImGui::PopFont();
   if (ui.selection.kind == Kind::fruit) return fruit_details(ui);
-  if (ui.selection.kind == Kind::link) return link_details(ui);
+  if (ui.selection.kind == Kind::link) link_details(ui);
+  if (draw_thing(ui)) return;
   if (ui.selection.kind == Kind::element) element_details(ui);
   std::string plant;
   if (const plant::PlantLeaf* found = chosen_leaf(ui, plant)) {
@@ -217,7 +229,7 @@ void draw_details(Ui& ui) {
   if (ui.selection.to_tip) return;
   heading(ui, "Stem");
   if (wide_button("Delete stem")) {
-    if (ui.run(Command("delete stem", {{"plant", plant}, {"stem", curve.name}}))) ui.selection = {};
+    if (ui.remove(Command("delete stem", {{"plant", plant}, {"stem", curve.name}}))) ui.selection = {};
   }
   tip("With its branches and all that is on them");
 }

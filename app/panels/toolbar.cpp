@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdio>
 
+#include "app/panels/add_menu.h"
 #include "app/panels/layout.h"
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
@@ -49,6 +50,14 @@ void speed_choice(Ui& ui) {
       ")");
 }
 
+void add_button(Ui& ui) {
+  if (ImGui::Button("Add")) ImGui::OpenPopup("add to scene");
+  tip("Adds a robot, a body, a camera, a plant to the scene");
+  if (!ImGui::BeginPopup("add to scene")) return;
+  draw_add_menu(ui);
+  ImGui::EndPopup();
+}
+
 /// Draws a toggle for a part of the window.
 void part_toggle(const char* label, bool& shown, const char* what) {
   if (shown) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_TabActive));
@@ -89,6 +98,8 @@ void draw_toolbar(Ui& ui) {
   ImGui::SameLine();
   speed_choice(ui);
   gap(ui);
+  add_button(ui);
+  ImGui::SameLine();
   action_button(ui, Action::draw_mode, Icon::pencil, true, ui.draw.on);
   ImGui::SameLine();
   action_button(ui, Action::screenshot, Icon::camera);

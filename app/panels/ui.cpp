@@ -1,7 +1,12 @@
 #include "app/panels/ui.h"
 
+#include <algorithm>
+
 #include "app/plant_step.h"
+#include "core/check.h"
+#include "session/command_table.h"
 #include "session/measured_commands.h"
+#include "session/scene_references.h"
 
 namespace pedicel::app {
 
@@ -18,6 +23,77 @@ void Ui::leave_document(std::function<void()> next) {
   if (!session.dirty()) return next();
   after_leaving = std::move(next);
   dialog = Dialog::unsaved;
+}
+
+void Ui::leave_now() {
+  const auto next = std::move(after_leaving);
+  after_leaving = nullptr;
+  if (next) next();
+}
+
+void Ui::save() {
+  if (session.needs_name())
+    dialog = Dialog::save_as;
+  else
+    save_to({});
+}
+
+void Ui::save_to(const std::filesystem::path& path, bool overwrite) {
+  SaveWishes wishes;
+  wishes.overwrite = overwrite;
+  if (!path.empty() && !is_scene(path)) wishes.plant = chosen_plant();
+  const Result saved = session.save(path, wishes);
+  say(saved.text);
+  if (saved.overwrites) {
+    overwrite_path = path;
+    overwrite_text = saved.text;
+    dialog = Dialog::overwrite;
+  } else if (saved.ok) {
+    dialog = Dialog::none;
+    if (!session.dirty()) leave_now();
+  }
+}
+
+bool Ui::remove(const Command& command) {
+  Document without = session.document();
+  const std::vector<std::string> broken_before = broken_references(without);
+  std::vector<Command> before;
+  std::string with;
+  const auto clear = [&](const std::string& name) {
+    const std::string by = references_to(without, name);
+    if (by.empty()) return;
+    with += (with.empty() ? "" : ", ") + by;
+    before.push_back(Command("clear references", {{"name", name}}));
+    clear_references(without, name);
+  };
+  for (const char* thing : {"plant", "body"})
+    if (command.verb() == std::string("delete ") + thing) clear(command.word(thing));
+  if (command.verb() == "delete robot") clear("robot");
+  try {
+    apply_command(without, command);
+  } catch (const UsageError&) {
+    return run(command);  // says why
+  }
+  for (const std::string& name : broken_references(without))
+    if (std::ranges::find(broken_before, name) == broken_before.end()) clear(name);
+  session.begin_gesture();
+  bool done = true;
+  for (const Command& one : before) done = done && run(one);
+  done = done && run(command);
+  session.end_gesture();
+  if (done && !with.empty())
+    say("with it went " + with + ": " + keys_of(Action::undo) + " brings all back");
+  return done;
+}
+
+std::string Ui::chosen_plant() const {
+  const auto there = [&](const std::string& name) {
+    return session.document().plant_index(name) >= 0;
+  };
+  if (there(selection.plant_name)) return selection.plant_name;
+  const std::string organ = describe(selection, *snapshot);
+  if (const std::string name = organ.substr(0, organ.find('/')); there(name)) return name;
+  return there(draw.plant) ? draw.plant : std::string();
 }
 
 void Ui::open(const std::filesystem::path& path) {
@@ -50,7 +126,14 @@ std::string describe(const Selection& s, const Snapshot& snapshot) {
           s.link < static_cast<int>(snapshot.assets->robot->links.size()))
         return snapshot.assets->robot->links[static_cast<std::size_t>(s.link)].name;
       return "a link";
+    case Kind::plant:
+      return s.plant_name;
+    case Kind::camera:
+      return s.thing;
+    case Kind::ground:
+      return "ground";
     case Kind::body:
+      if (!s.thing.empty()) return s.thing;
       if (s.body < static_cast<int>(snapshot.bodies.size()))
         return snapshot.bodies[static_cast<std::size_t>(s.body)].info->description.name;
       return "a body";

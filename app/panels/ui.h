@@ -19,7 +19,19 @@ struct ImFont;
 namespace pedicel::app {
 
 /// A window over the others; one at a time.
-enum class Dialog { none, open, save_as, help, info, problem, recover, unsaved, import_plant };
+enum class Dialog {
+  none,
+  open,
+  save_as,
+  help,
+  info,
+  problem,
+  recover,
+  unsaved,
+  import_plant,
+  overwrite,
+  add_robot,
+};
 
 /// How fast things go, for the profiler.
 struct FrameTimes {
@@ -51,6 +63,8 @@ struct Ui {
 
   /// What was asked for by keys, buttons and menus, to be done at the end of the picture.
   std::deque<Action> actions;
+  Vec3 view_eye = Vec3::UnitX(), view_target = Vec3::Zero();  ///< m, W: how the scene is seen
+  double view_fov = 0.7;                                      ///< rad, vertical
   std::string show_panel;  ///< tab to be brought to the front; emptied by the layout
   std::optional<Eigen::AlignedBox3d> frame_box;  ///< what the camera is to show next
   std::string notice;                            ///< one line over the scene that fades
@@ -73,6 +87,19 @@ struct Ui {
   /// Opens a file, so. An experiment's data go beside the document, which stays.
   void open(const std::filesystem::path& path);
   std::function<void()> after_leaving;  ///< waits for that answer
+  /// Does what waited, once.
+  void leave_now();
+
+  /// Saves, or asks for what is missing: a name, or whether a file may be written over.
+  void save();
+  void save_to(const std::filesystem::path& path, bool overwrite = false);
+  std::filesystem::path overwrite_path;  ///< that the dialog asks about; empty: where it came from
+  std::string overwrite_text;
+  /// Runs a command that takes something away; what the scene says of it (a robot's program that
+  /// goes to it) goes with it in the same step, and that is said.
+  bool remove(const Command& command);
+  /// The plant that is chosen, or that strokes go to; empty: neither.
+  std::string chosen_plant() const;
 };
 
 /// "tomato/fruit_3", "link_4", "stem of tomato, point 2": what the selection is.

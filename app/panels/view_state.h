@@ -54,10 +54,11 @@ struct ViewState {
 
 /// What a person points at or has chosen.
 struct Selection {
-  enum class Kind { none, element, fruit, link, body, curve_point, curve };
+  enum class Kind { none, element, fruit, link, body, curve_point, curve, plant, camera, ground };
   Kind kind = Kind::none;
   int plant = -1, element = -1, fruit = -1, link = -1, body = -1;  ///< of the snapshot
-  std::string plant_name, curve;  ///< of the document: curve, curve_point
+  std::string plant_name, curve;  ///< of the document: curve, curve_point, plant
+  std::string thing;              ///< of the document: body, camera
   int point = -1;
   bool to_tip = false;          ///< element: from the place on to the stem's tip
   double back = 0.0;            ///< m, place on the element
@@ -68,8 +69,8 @@ struct Selection {
   bool same_thing(const Selection& other) const {
     return kind == other.kind && plant == other.plant && element == other.element &&
            fruit == other.fruit && link == other.link && body == other.body &&
-           plant_name == other.plant_name && curve == other.curve && point == other.point &&
-           to_tip == other.to_tip;
+           plant_name == other.plant_name && curve == other.curve && thing == other.thing &&
+           point == other.point && to_tip == other.to_tip;
   }
 };
 

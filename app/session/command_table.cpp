@@ -18,7 +18,8 @@ std::string upper(std::string text) {
 std::vector<CommandDescription> whole_table() {
   std::vector<CommandDescription> table = stem_commands();
   for (const auto& part :
-       {organ_commands(), document_commands(), run_commands(), measured_commands()})
+       {organ_commands(), document_commands(), scene_commands(), thing_commands(),
+        robot_scene_commands(), run_commands(), measured_commands()})
     table.insert(table.end(), part.begin(), part.end());
   return table;
 }

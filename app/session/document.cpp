@@ -6,6 +6,7 @@
 #include "plant/plant_source.h"
 #include "session/plant_import.h"
 #include "world/scene_reader.h"
+#include "world/scene_writer.h"
 #include "world/settings.h"
 
 namespace pedicel::app {
@@ -25,6 +26,14 @@ std::shared_ptr<const world::Scene> bare_scene() {
   scene->duration = 10.0;
   scene->ground = world::GroundPlane{};
   return scene;
+}
+
+/// What commands change of it beside the plants; recorded waypoints are the document's own.
+std::string scene_hash_text(const world::Scene& scene) {
+  world::Scene things = scene;
+  things.name = things.purpose = things.see = {};
+  if (things.robot) things.robot->recorded.clear();
+  return world::scene_text_without_plants(things, {});
 }
 
 /// Reads the plant files that a scene names. One that is absent and optional is left to the scene's
@@ -70,8 +79,16 @@ plant::PlantFile& Document::edit_plant(const std::string& name) {
   return edited;
 }
 
+world::Scene& Document::edit_scene() {
+  auto copy = std::make_shared<world::Scene>(*scene);
+  world::Scene& edited = *copy;
+  scene = std::move(copy);
+  return edited;
+}
+
 std::uint64_t Document::state_hash() const {
   StateHash hash;
+  add_text(hash, scene_hash_text(*scene));
   for (const DocumentPlant& one : plants) {
     add_text(hash, one.entry.name);
     add_text(hash, one.file ? plant::plant_text(*one.file) : "");

@@ -26,7 +26,8 @@ using RobotWaypoint = world::RecordedPose;
 /// Everything that a user edits, as a value: copies are cheap (plants are shared until one is
 /// changed), so a document's past states are kept whole for undo.
 struct Document {
-  /// As read; its plants are in `plants`. Made up where a lone plant, or nothing, was opened.
+  /// Robot, bodies, ground, cameras and the rest; its plants are as they were read, those of now are
+  /// in `plants`. Made up where a lone plant, or nothing, was opened.
   std::shared_ptr<const world::Scene> scene;
   std::filesystem::path path;  ///< the scene's or the lone plant's; empty: new
   double unit = 0.0;           ///< m, of the lone plant's file; 0: as that says
@@ -41,6 +42,9 @@ struct Document {
   const plant::PlantFile& plant(const std::string& name) const;
   /// The same, to change it: a copy of its own.
   plant::PlantFile& edit_plant(const std::string& name);
+
+  /// The scene, to change it: a copy of its own. The plants of now are in `plants`.
+  world::Scene& edit_scene();
 
   /// Of everything that commands change, bit by bit; not of paths.
   std::uint64_t state_hash() const;

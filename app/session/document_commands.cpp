@@ -6,6 +6,7 @@
 #include "coupling/coupling_settings.h"
 #include "session/command_table.h"
 #include "session/document.h"
+#include "session/scene_things.h"
 #include "session/settings_check.h"
 
 /// Plants as a whole, settings and waypoints as commands.
@@ -17,17 +18,11 @@ using Kind = ArgumentKind;
 
 const ArgumentDescription plant_name{"plant", Kind::word, true, "name of the plant in the scene"};
 
-void check_new(const Document& document, const std::string& name) {
-  if (document.plant_index(name) >= 0)
-    throw UsageError("a plant \"" + name + "\" is there already, expected a new name");
-  if (name.empty() || name.find('/') != std::string::npos)
-    throw UsageError("a plant's name \"" + name + "\", expected one without /");
-}
-
 void add(Document& document, const std::string& name, plant::PlantFile file, const Command& c) {
   DocumentPlant one;
   one.entry.name = name;
-  if (c.has("position")) one.entry.pose.position = c.point("position");
+  one.entry.pose = read_pose(c);
+  if (c.has("file")) one.entry.file = c.word("file");
   one.file = std::make_shared<const plant::PlantFile>(std::move(file));
   document.plants.push_back(std::move(one));
 }
@@ -35,7 +30,7 @@ void add(Document& document, const std::string& name, plant::PlantFile file, con
 /// A herb's green stem: the order of magnitude of turgid stems (Niklas, Plant Biomechanics, 1992,
 /// table 2.1); what a drawing says later replaces it.
 void new_plant(Document& document, const Command& c) {
-  check_new(document, c.word("plant"));
+  check_new_name(document, ThingKind::plant, c.word("plant"));
   plant::PlantFile file;
   file.name = c.word("plant");
   file.material = {2.0e8, 0.35, 800.0, 0.02};
@@ -45,7 +40,7 @@ void new_plant(Document& document, const Command& c) {
 }
 
 void add_plant(Document& document, const Command& c) {
-  check_new(document, c.word("plant"));
+  check_new_name(document, ThingKind::plant, c.word("plant"));
   Diagnostics diagnostics;
   auto file = plant::parse_plant(c.word("text"), c.word("plant"), diagnostics);
   if (!file) throw UsageError(sentences(diagnostics.all()));
@@ -62,19 +57,7 @@ void set_plant(Document& document, const Command& c) {
   if (!file) throw UsageError(sentences(diagnostics.all()));
   DocumentPlant& one = document.plants[index];
   one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
-  if (c.has("position")) one.entry.pose.position = c.point("position");
-}
-
-void delete_plant(Document& document, const Command& c) {
-  const int index = document.plant_index(c.word("plant"));
-  if (index < 0) document.plant(c.word("plant"));  // says which there are
-  document.plants.erase(document.plants.begin() + std::max(index, 0));
-}
-
-void move_plant(Document& document, const Command& c) {
-  const int index = document.plant_index(c.word("plant"));
-  if (index < 0) document.plant(c.word("plant"));
-  document.plants[std::max(index, 0)].entry.pose.position = c.point("to");
+  one.entry.pose = read_pose(c, one.entry.pose);
 }
 
 void set(Document& document, const Command& c) {
@@ -140,24 +123,22 @@ std::vector<CommandDescription> document_commands() {
   const Scope d = Scope::document;
   const ArgumentDescription position{"position", Kind::point, false,
                                      "m, in the world (the origin)"};
+  const ArgumentDescription turn{"turn", Kind::numbers, false,
+                                 "x,y,z,w, or roll,pitch,yaw in rad (none)"};
+  const ArgumentDescription file{"file", Kind::text, false,
+                                 "plant file that it came from and is saved to (none)"};
   return {
-      {"new plant", d, {plant_name, position}, "Adds a plant without stems, to draw.", new_plant},
+      {"new plant", d, {plant_name, position, turn}, "Adds a plant without stems, to draw.", new_plant},
       {"add plant",
        d,
-       {plant_name, {"text", Kind::text, true, "of a plant file, lines ended by \\n"}, position},
+       {plant_name, {"text", Kind::text, true, "of a plant file, lines ended by \\n"}, position, turn, file},
        "Adds a plant as a plant file says it.",
        add_plant},
       {"set plant",
        d,
-       {plant_name, {"text", Kind::text, true, "of a plant file, lines ended by \\n"}, position},
+       {plant_name, {"text", Kind::text, true, "of a plant file, lines ended by \\n"}, position, turn, file},
        "Makes a plant what a plant file says; adds it where it is new.",
        set_plant},
-      {"delete plant", d, {plant_name}, "Takes a plant out of the scene.", delete_plant},
-      {"move plant",
-       d,
-       {plant_name, {"to", Kind::point, true, "m, in the world"}},
-       "Puts a plant elsewhere.",
-       move_plant},
       {"set",
        d,
        {{"key", Kind::word, true, "rods.KEY, coupling.KEY, plants.NAME.KEY, dt, ..."},

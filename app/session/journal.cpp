@@ -13,6 +13,8 @@
 
 #include "io/atomic_file.h"
 #include "session/command.h"
+#include "session/scene_things.h"
+#include "world/scene_writer.h"
 
 namespace pedicel::app {
 
@@ -40,12 +42,28 @@ std::string empty_plant_text(const DocumentPlant& one) {
   const auto sampling = [&](const char* key, double value) {
     return line(Command("set sampling", {{"plant", name}, {"key", key}, {"value", value}}));
   };
-  return line(Command("new plant", {{"plant", name}, {"position", one.entry.pose.position}})) +
+  return line(Command("new plant", {{"plant", name},
+                                    {"position", one.entry.pose.position},
+                                    {"turn", turn_numbers(one.entry.pose.rotation)}})) +
          material("youngs_modulus", file.material.youngs_modulus) +
          material("poisson_ratio", file.material.poisson_ratio) +
          material("density", file.material.density) +
          material("damping_time", file.material.damping_time) + sampling("connect", file.connect) +
          sampling("distance", file.distance);
+}
+
+/// The scene without what is recorded; of its plants only the names, since it speaks of them.
+std::string scene_line(const Document& document) {
+  world::Scene scene = *document.scene;
+  if (scene.robot) scene.robot->recorded.clear();
+  scene.plants.clear();
+  for (const DocumentPlant& one : document.plants) {
+    world::ScenePlant& plant = scene.plants.emplace_back();
+    plant.name = one.entry.name;
+    plant.source = world::ScenePlant::Source::built_in;
+    plant.built_in = "none";
+  }
+  return Command("set scene", {{"text", world::scene_text(scene, {})}}).text() + "\n";
 }
 
 std::string base_text(const Document& document) {
@@ -59,13 +77,14 @@ std::string base_text(const Document& document) {
 
 // Plants that the document's file does not say itself are added; the others are set.
 std::string state_commands(const Document& document) {
-  std::string text;
+  std::string text = scene_line(document);
   for (const DocumentPlant& one : document.plants) {
     if (one.file && one.file->curves.empty()) text += empty_plant_text(one);
     if (!one.file || one.file->curves.empty()) continue;
     text += Command("set plant", {{"plant", one.entry.name},
                                   {"text", plant::plant_text(*one.file)},
-                                  {"position", one.entry.pose.position}})
+                                  {"position", one.entry.pose.position},
+                                  {"turn", turn_numbers(one.entry.pose.rotation)}})
                 .text() +
             "\n";
   }

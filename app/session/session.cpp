@@ -46,6 +46,7 @@ void Session::set_document(Document document) {
   saved_settings_.clear();
   first_ = document_;
   saved_.reset();
+  files_.remember(document_);
   built_ = false;
   begin_journal();
   rebuild(true);
@@ -90,6 +91,7 @@ Result Session::run_text(const std::string& line) {
 Result Session::dispatch(const Command& command) {
   const CommandDescription* description = find_command(command.verb());
   if (!description) throw UsageError("no such command");
+  if (command.verb() == "add robot") return change_document(placed_robot(command));
   if (description->scope == Scope::document) return change_document(command);
   Result result =
       description->scope == Scope::session ? session_command(command) : run_command(command);

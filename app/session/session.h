@@ -10,6 +10,7 @@
 #include "robot/inverse_kinematics.h"
 #include "session/command.h"
 #include "session/document.h"
+#include "session/file_texts.h"
 #include "session/film.h"
 #include "session/history.h"
 #include "session/robot_goal.h"
@@ -34,6 +35,7 @@ struct Result {
   bool ok = true;
   std::string text;       ///< the fault, or what a query answers; may be empty
   bool bad_file = false;  ///< the fault is one of a file that was to be read
+  bool overwrites = false;  ///< refused, since a file would be lost: SaveWishes::overwrite does it
   explicit operator bool() const { return ok; }
 };
 
@@ -54,6 +56,12 @@ struct SessionParameter {
 /// Where journals lie by default: $XDG_STATE_HOME/pedicel, else ~/.local/state/pedicel; empty where
 /// there is neither.
 std::filesystem::path autosave_folder();
+
+/// What is meant beside a path to save to.
+struct SaveWishes {
+  std::string plant;       ///< to a *.plant.yaml: which; empty: the only one
+  bool overwrite = false;  ///< over a file that is there, or that another program has changed
+};
 
 struct SessionOptions {
   std::vector<std::string> packages;  ///< "NAME=PATH"
@@ -79,16 +87,25 @@ class Session {
   void open_empty();
   /// Reads the files anew; edits that were not saved are lost (undo brings them back).
   bool reload();
-  /// Writes the plants that have changed, each to its own file (the old one stays beside it as
-  /// NAME~), and what was changed of the scene into its file. A new plant needs `path`.
-  Result save(const std::filesystem::path& path = {});
+  /// Without a path: what has changed into the files it came from; plants that have none get one
+  /// beside the scene. To a *.scene.yaml: the scene with everything, which is open from then on;
+  /// files that are there stay as they are. To a *.plant.yaml: one plant, and nothing else is
+  /// written; where it is all that there is, that is its file from then on. What was in a file
+  /// before stays beside it as NAME~; comments and layout stay. A file that is there, and one that
+  /// another program has changed since it was read, is written over where that is wished.
+  Result save(const std::filesystem::path& path = {}, const SaveWishes& wishes = {});
+  /// Whether save() would ask for a path.
+  bool needs_name() const;
+  /// A name to save under that fits what is open, and is free.
+  std::filesystem::path suggested_name() const;
   /// One plant as it is drawn: *.plant.yaml, *.csv (skeleton), *.obj or *.ply.
   Result export_plant(const std::string& plant, const std::filesystem::path& path);
   /// Adds the plant of a plant file, skeleton table or MTG to the document.
   Result import_plant(const std::filesystem::path& path, const std::string& name = {},
                       double unit = 0.0);
   bool dirty() const;
-  /// Nobody wants the edits since the document was saved: their journal goes with the session.
+  /// The program ends, and nobody wants the edits since the document was saved: their journal goes
+  /// with the session.
   void give_up_edits() { saved_hash_ = hash_; }
   const std::filesystem::path& path() const { return document_.path; }
 
@@ -218,6 +235,9 @@ class Session {
     long step = 0;
   };
   void set_document(Document document);
+  Result save_scene(const std::filesystem::path& path, bool overwrite);
+  Result save_plant(const std::filesystem::path& path, const SaveWishes& wishes);
+  void mark_saved(bool wrote);
   void rebuild(bool restart = false);
   Result dispatch(const Command& command);
   void take_back(const Document& document);
@@ -226,6 +246,7 @@ class Session {
   void forget_in_log(const std::vector<Command>& commands);
   void forget_file_faults();
   Result change_document(const Command& command);
+  Command placed_robot(const Command& command) const;
   void record(History::Step step);
   void note(const std::string& line);
   void note_step(const std::string& verb, const History::Step& step);
@@ -236,6 +257,7 @@ class Session {
   Result robot_command(const Command& command);
   Result tool_command(const Command& command);
   Result program_command(const Command& command);
+  Result pick(const Command& command);
   Result play(robot::Trajectory trajectory, bool loops);
   robot::Trajectory waypoint_trajectory(const robot::KinematicModel& model) const;
   Result pull_command(const Command& command);
@@ -246,6 +268,7 @@ class Session {
   void film_due();
   void run_for(double duration);
   double next_picture() const;
+  void leave_experiment();
   Result adopt(ExperimentReading& reading);
   void tell_faults(const std::vector<std::string>& faults);
   Result move_joints(const Eigen::VectorXd& q);
@@ -262,6 +285,7 @@ class Session {
   std::vector<std::pair<std::string, std::string>> saved_settings_;
   Document first_;                 // as it was opened
   std::optional<Document> saved_;  // as it was written to its files since
+  FileTexts files_;                // as they were read or written
   History history_;
   std::optional<Gesture> gesture_;
   std::vector<std::string> log_;

@@ -69,6 +69,11 @@ Result Session::open_experiment(const std::filesystem::path& path) {
   return options_.waits ? finish_reading() : Result{true, "reading " + path.string()};
 }
 
+// The data of a plant that is not there would stand in the air.
+void Session::leave_experiment() {
+  if (measured_->experiment() && measured_plant() < 0) measured_->close();
+}
+
 void Session::cancel_reading() {
   if (!reading_) return;
   reading_->cancel();

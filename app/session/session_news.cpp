@@ -2,6 +2,7 @@
 
 #include "session/experiment_reading.h"
 #include "session/measured_data.h"
+#include "session/scene_references.h"
 #include "session/session.h"
 
 /// What the simulation's thread has to tell, and what becomes of edits that cannot be simulated.
@@ -67,11 +68,15 @@ bool Session::take_back_unbuilt() {
   const History::Step& step = history_.last();
   const std::string why = summary_of(unbuilt_->problems);
   const std::string verb = step.commands.empty() ? "the change" : step.commands.back().verb();
+  std::string hint;
+  for (const std::string& name : broken_references(document_))
+    hint += (hint.empty() ? ", expected \"clear references " : "\", \"clear references ") + name;
+  if (!hint.empty()) hint += "\" before";
   forget_in_log(step.commands);
   const std::size_t steps = step.commands.size();
   take_back(history_.drop());
   for (std::size_t i = 0; i < steps; ++i) add_to_journal("undo");
-  say(Severity::error, verb + ": taken back, for it could not be simulated: " + why);
+  say(Severity::error, verb + ": taken back, for it could not be simulated: " + why + hint);
   return true;
 }
 

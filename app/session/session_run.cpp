@@ -85,7 +85,8 @@ Result Session::session_command(const Command& c) {
   if (verb == "new") open_empty();
   if (verb == "reload" && !reload()) return {false, messages_.back().sentence, true};
   if (verb == "save script") return save_script(*this, c.word("file"));
-  if (verb == "save") return save(c.word_or("file", ""));
+  if (verb == "save")
+    return save(c.word_or("file", ""), {c.word_or("plant", ""), c.whole_or("overwrite", 0) != 0});
   if (verb == "import")
     return import_plant(c.word("file"), c.word_or("plant", ""),
                         unit_of_text(c.word_or("unit", ""), "unit"));

@@ -116,6 +116,7 @@ Result Session::program_command(const Command& c) {
   const std::string& verb = c.verb();
   const bool loops = c.has("loop") && c.whole("loop") != 0;
   if (verb == "play trajectory") return play_trajectory(c.word("file"), loops);
+  if (verb == "pick") return pick(c);
   if (verb == "play waypoints") return play_waypoints(loops);
   if (verb == "stop robot") {
     kinematics_of(*snapshot());

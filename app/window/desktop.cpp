@@ -219,6 +219,8 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
     ui_.view.camera = -1;
   }
   scene_.camera = camera_.camera();
+  ui_.view_eye = scene_.camera.eye, ui_.view_target = scene_.camera.target;
+  ui_.view_fov = scene_.camera.field_of_view;
 
   const auto start = std::chrono::steady_clock::now();
   list_.clear();

@@ -62,7 +62,10 @@ void Desktop::perform(Action action) {
       control.set_speed(1.0);
       break;
     case Action::quit:
-      ui_.leave_document([this] { quits_ = true; });
+      ui_.leave_document([this] {
+        ui_.session.give_up_edits();
+        quits_ = true;
+      });
       break;
     default:
       perform_file(action);
@@ -79,15 +82,9 @@ void Desktop::perform_file(Action action) {
     case Action::save_as:
       ui_.dialog = Dialog::save_as;
       break;
-    case Action::save: {
-      if (ui_.session.path().empty()) {
-        ui_.dialog = Dialog::save_as;
-        break;
-      }
-      const Result saved = ui_.session.save();
-      ui_.say(saved.ok && saved.text.empty() ? "saved" : saved.text);
+    case Action::save:
+      ui_.save();
       break;
-    }
     case Action::new_document:
       ui_.leave_document([this] { ui_.session.open_empty(); });
       break;

@@ -1,4 +1,5 @@
 #include "app/panels/point_editor.h"
+#include "app/panels/thing_editor.h"
 #include "app/window/desktop.h"
 #include "app/window/draw_tool.h"
 
@@ -61,8 +62,11 @@ void Desktop::perform_edit(Action action) {
     case Action::select_parent:
       if (!draw_tool_->thicken(-1.0)) walk(parent_element);
       break;
+    case Action::duplicate:
+      duplicate_thing(ui_);
+      break;
     case Action::remove:
-      draw_tool_->remove_selected(ui_);
+      if (!remove_thing(ui_)) draw_tool_->remove_selected(ui_);
       break;
     case Action::accept:
       break;

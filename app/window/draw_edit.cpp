@@ -134,7 +134,7 @@ void DrawTool::move_point(Ui& ui, const SceneFrame& frame) {
 void DrawTool::remove_selected(Ui& ui) {
   std::string plant;
   if (const auto organ = organ_of(ui, ui.selection)) {
-    if (ui.run(Command("delete organ", {{"plant", organ->plant}, {"name", organ->name}})))
+    if (ui.remove(Command("delete organ", {{"plant", organ->plant}, {"name", organ->name}})))
       ui.selection = {};
     return;
   }
@@ -144,13 +144,13 @@ void DrawTool::remove_selected(Ui& ui) {
   if (ui.selection.to_tip) {
     const auto place = stem_place(ui, ui.selection);
     if (place &&
-        ui.run(Command("trim stem", {{"plant", plant}, {"stem", stem}, {"at", place->at}})))
+        ui.remove(Command("trim stem", {{"plant", plant}, {"stem", stem}, {"at", place->at}})))
       ui.selection = {};
   } else if (ui.selection.kind == Selection::Kind::curve_point) {
     if (ui.run(Command("delete point",
                        {{"plant", plant}, {"stem", stem}, {"point", ui.selection.point}})))
       choose_curve(ui, plant, stem);
-  } else if (ui.run(Command("delete stem", {{"plant", plant}, {"stem", stem}}))) {
+  } else if (ui.remove(Command("delete stem", {{"plant", plant}, {"stem", stem}}))) {
     ui.selection = {};
   }
 }

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "core/check.h"
+#include "io/yaml_words.h"
 
 namespace pedicel::io {
 
@@ -31,6 +32,19 @@ std::size_t end_of_line(const std::string& text, std::size_t at) {
   return std::min(text.find('\n', at), text.size());
 }
 
+/// Behind blanks, line ends and comments.
+std::size_t next_token(const std::string& text, std::size_t at) {
+  while (at < text.size()) {
+    if (std::isspace(static_cast<unsigned char>(text[at])))
+      ++at;
+    else if (begins_comment(text, at))
+      at = end_of_line(text, at);
+    else
+      break;
+  }
+  return at;
+}
+
 std::size_t end_of_plain(const std::string& text, std::size_t at, bool in_flow) {
   std::size_t end = at;
   for (std::size_t i = at; i < text.size() && text[i] != '\n'; ++i) {
@@ -47,8 +61,50 @@ std::size_t start_of(const YAML::Node& node) {
   return static_cast<std::size_t>(node.Mark().pos);
 }
 
+std::size_t start_of(const std::string& text, const YAML::Node& node) {
+  std::size_t at = start_of(node);
+  while (at < text.size() && (text[at] == '&' || text[at] == '!')) {
+    at = std::min(text.find_first_of(" \t\r\n", at), text.size());
+    at = next_token(text, at);
+  }
+  return at;
+}
+
+std::size_t end_of_key(const std::string& text, const YAML::Node& key) {
+  const std::size_t from = start_of(key);
+  const bool quoted = text[from] == '"' || text[from] == '\'';
+  const std::size_t word = quoted ? end_of_quoted(text, from) : from + key.Scalar().size();
+  return std::min(text.find(':', word), text.size() - 1) + 1;
+}
+
+std::size_t end_of_alias(const std::string& text, const YAML::Node& key, std::size_t& at) {
+  at = next_token(text, end_of_key(text, key));
+  if (at >= text.size() || text[at] != '*') return 0;
+  return std::min(text.find_first_of(" \t\r\n,]}", at), text.size());
+}
+
+std::string flow_text(const YAML::Node& node) {
+  if (node.IsSequence()) {
+    std::string items;
+    for (const auto& item : node) items += (items.empty() ? "" : ", ") + flow_text(item);
+    return "[" + items + "]";
+  }
+  if (node.IsMap()) {
+    std::string items;
+    for (const auto& item : node)
+      items += (items.empty() ? "" : ", ") + flow_text(item.first) + ": " + flow_text(item.second);
+    return "{" + items + "}";
+  }
+  if (!node.IsScalar()) return "null";
+  const std::string& scalar = node.Scalar();
+  const bool is_plain = node.Tag() != "!" && !scalar.empty() &&
+                        scalar.find_first_of(",[]{}#&*!|>'\"%@`\n") == std::string::npos &&
+                        scalar.find(": ") == std::string::npos;
+  return is_plain ? scalar : yaml_quoted(scalar);
+}
+
 bool is_flow(const std::string& text, const YAML::Node& node) {
-  const char first = text.at(start_of(node));
+  const char first = text.at(start_of(text, node));
   return first == '{' || first == '[';
 }
 
@@ -72,7 +128,7 @@ std::size_t end_of_flow(const std::string& text, std::size_t at) {
 }
 
 std::size_t end_of_value(const std::string& text, const YAML::Node& node, bool in_flow) {
-  const std::size_t at = start_of(node);
+  const std::size_t at = start_of(text, node);
   if (!node.IsScalar() && !is_flow(text, node))
     throw UsageError("a block, expected a value in one line to change");
   if (!node.IsScalar()) return end_of_flow(text, at);

@@ -46,7 +46,7 @@ void insert_line(std::string& text, std::size_t end, const std::string& line) {
 }
 
 void insert_in_flow(std::string& text, const YAML::Node& node, const std::string& entry) {
-  const std::size_t close = end_of_flow(text, start_of(node)) - 1;
+  const std::size_t close = end_of_flow(text, start_of(text, node)) - 1;
   std::size_t at = close;
   while (at > 0 && std::isspace(static_cast<unsigned char>(text[at - 1]))) --at;
   text.insert(at, (node.size() == 0 || text[at - 1] == ',' ? "" : ", ") + entry);
@@ -54,9 +54,9 @@ void insert_in_flow(std::string& text, const YAML::Node& node, const std::string
 
 void insert_key(std::string& text, const YAML::Node& map, const std::string& key,
                 const std::string& value) {
-  const std::string entry = key + ": " + value;
+  const std::string entry = key + (value.front() == '\n' ? ":" : ": ") + value;
   if (is_flow(text, map)) return insert_in_flow(text, map, entry);
-  std::size_t last = start_of(map);
+  std::size_t last = start_of(text, map);
   for (const auto& item : map) last = std::max(last, start_of(item.first));
   const std::size_t column = static_cast<std::size_t>(map.begin()->first.Mark().column);
   insert_line(text, end_of_block_entry(text, last, column, false),
@@ -93,7 +93,35 @@ YAML::Node follow(const std::string& text, const Path& path, Path& left, bool& i
 }
 
 bool same(const YAML::Node& a, const YAML::Node& b) {
-  return YAML::Dump(a) == YAML::Dump(b);
+  return flow_text(a) == flow_text(b);
+}
+
+/// Whether a changed text says a value.
+void check_value(const std::string& changed, const Path& path, const std::string& value) {
+  Path left;
+  bool in_flow = false;
+  const YAML::Node now = follow(changed, path, left, in_flow);
+  if (!left.empty() || !same(now, load(value)))
+    refuse(path, "cannot be changed where it stands, expected a plain map and value");
+}
+
+/// An entry in lines, all but its first moved to the right.
+std::string moved(const std::string& item, std::size_t column) {
+  std::string text;
+  for (const char c : item) {
+    text += c;
+    if (c == '\n') text += std::string(column, ' ');
+  }
+  return text;
+}
+
+bool is_in_lines(const std::string& item) {
+  return item.find('\n') != std::string::npos;
+}
+
+/// As an entry of a list in brackets.
+std::string in_flow_text(const std::string& item) {
+  return is_in_lines(item) ? flow_text(load(item)) : item;
 }
 
 }  // namespace
@@ -102,13 +130,42 @@ YamlText::YamlText(std::string text) : text_(std::move(text)) {
   load(text_);
 }
 
+// Down the path; what an alias stood for has none of its own that matter, or is expanded further
+// down.
+void YamlText::expand_aliases(const Path& path) {
+  YAML::Node node = load(text_);
+  for (const std::string& part : path) {
+    if (node.IsSequence()) {
+      const std::size_t index = std::stoul(part);
+      if (index >= node.size()) return;
+      const std::size_t at = start_of(node[index]);
+      if (at < start_of(node)) refuse(path, "goes through an alias in a list");
+      node.reset(node[index]);
+      continue;
+    }
+    if (!node.IsMap() || !node[part].IsDefined()) return;
+    std::size_t at = 0, end = 0;
+    for (const auto& item : node)
+      if (item.first.Scalar() == part) end = end_of_alias(text_, item.first, at);
+    if (end > 0) {
+      text_.replace(at, end - at, flow_text(node[part]));
+      return expand_aliases(path);
+    }
+    node.reset(node[part]);
+  }
+}
+
 void YamlText::set(const Path& path, const std::string& value) {
+  if (path.empty()) refuse(path, "the whole file, expected a key");
+  expand_aliases(path);
   std::string changed = text_;
   Path left;
   bool in_flow = false;
   const YAML::Node node = follow(changed, path, left, in_flow);
+  if (left.empty() && !node.IsScalar() && !node.IsNull() && !is_flow(changed, node))
+    return set_block(path, value);
   if (left.empty()) {
-    const std::size_t at = start_of(node);
+    const std::size_t at = start_of(changed, node);
     changed.replace(at, end_of_value_at(changed, node, in_flow, path) - at, value);
   } else {
     std::string nested = value;
@@ -117,13 +174,31 @@ void YamlText::set(const Path& path, const std::string& value) {
       refuse(path, "expected a map to add it to");
     insert_key(changed, node, left.front(), nested);
   }
-  const YAML::Node now = follow(changed, path, left, in_flow);
-  if (!left.empty() || YAML::Dump(now) != YAML::Dump(load(value)))
-    refuse(path, "cannot be changed where it stands, expected a plain map and value");
+  check_value(changed, path, value);
+  text_ = std::move(changed);
+}
+
+// From behind its key to its last line.
+void YamlText::set_block(const Path& path, const std::string& value) {
+  Path left;
+  bool in_flow = false;
+  const YAML::Node map = follow(text_, Path(path.begin(), path.end() - 1), left, in_flow);
+  if (!map.IsMap()) refuse(path, "a block in a list, expected a value in one line to change");
+  std::string changed = text_;
+  for (const auto& item : map) {
+    if (item.first.Scalar() != path.back()) continue;
+    const std::size_t key = start_of(item.first), from = end_of_key(changed, item.first);
+    std::size_t end = end_of_block_entry(changed, key, key - line_start(changed, key), false);
+    while (end > from && std::isspace(static_cast<unsigned char>(changed[end - 1]))) --end;
+    changed.replace(from, end - from, " " + value);
+    break;
+  }
+  check_value(changed, path, value);
   text_ = std::move(changed);
 }
 
 void YamlText::remove(const Path& path) {
+  expand_aliases(Path(path.begin(), path.end() - 1));
   Path left;
   bool in_flow = false;
   follow(text_, path, left, in_flow);
@@ -145,7 +220,7 @@ void YamlText::remove(const Path& path) {
   }
   std::string changed = text_;
   if (is_flow(changed, map)) {
-    const std::size_t open = start_of(map);
+    const std::size_t open = start_of(text_, map);
     from = before ? changed.rfind(',', own) : open + 1;
     to = end_of_flow(changed, open) - 1;
     if (next != std::string::npos) from = own, to = next;
@@ -157,34 +232,54 @@ void YamlText::remove(const Path& path) {
     if (map.size() == 1 && from > 0) changed.insert(changed.rfind(':', from) + 1, " {}");
   }
   const YAML::Node now = follow(changed, above, left, in_flow);
-  if (!left.empty() || YAML::Dump(now) != YAML::Dump(wanted))
+  if (!left.empty() || !same(now, wanted))
     refuse(path, "cannot be taken out where it stands");
   text_ = std::move(changed);
 }
 
 void YamlText::append(const Path& list, const std::string& item) {
+  expand_aliases(list);
   Path left;
   bool in_flow = false;
   const YAML::Node node = follow(text_, list, left, in_flow);
-  if (!left.empty()) return set(list, "[" + item + "]");
+  if (!left.empty()) {
+    const bool lines = list.size() == 1 && !is_flow(text_, node);
+    return set(list, lines ? "\n  - " + moved(item, 4) : "[" + in_flow_text(item) + "]");
+  }
   if (!node.IsSequence()) refuse(list, "no list, expected one to add to");
-  const std::size_t count = node.size();
+  insert(list, static_cast<int>(node.size()), item);
+}
+
+void YamlText::insert(const Path& list, int index, const std::string& item) {
+  expand_aliases(list);
+  Path left;
+  bool in_flow = false;
+  const YAML::Node node = follow(text_, list, left, in_flow);
+  const std::size_t count = left.empty() && node.IsSequence() ? node.size() : 0;
+  const auto at = static_cast<std::size_t>(index);
+  if (!left.empty() || !node.IsSequence() || index < 0 || at > count)
+    refuse(list, "there is no place " + std::to_string(index));
   std::string changed = text_;
-  if (is_flow(changed, node)) {
-    insert_in_flow(changed, node, item);
+  if (is_flow(changed, node) && at == count) {
+    insert_in_flow(changed, node, in_flow_text(item));
+  } else if (is_flow(changed, node)) {
+    changed.insert(start_of(node[at]), in_flow_text(item) + ", ");
   } else {
-    const std::size_t dash = dash_of(changed, start_of(node[count - 1]));
-    const std::size_t column = dash - line_start(changed, dash);
-    insert_line(changed, end_of_block_entry(changed, dash, column, true),
-                std::string(column, ' ') + "- " + item);
+    const std::size_t dash = dash_of(changed, start_of(node[at == 0 ? 0 : at - 1]));
+    const std::size_t line = line_start(changed, dash), column = dash - line;
+    insert_line(changed, at == 0 ? line : end_of_block_entry(changed, dash, column, true),
+                std::string(column, ' ') + "- " + moved(item, column + 2));
   }
   const YAML::Node now = follow(changed, list, left, in_flow);
-  if (!now.IsSequence() || now.size() != count + 1 || !same(now[count], load(item)))
-    refuse(list, "cannot be added to, expected a plain list");
+  bool as_meant = left.empty() && now.IsSequence() && now.size() == count + 1;
+  for (std::size_t i = 0; as_meant && i <= count; ++i)
+    as_meant = same(now[i], i == at ? load(item) : node[i < at ? i : i - 1]);
+  if (!as_meant) refuse(list, "cannot be added to, expected a plain list");
   text_ = std::move(changed);
 }
 
 void YamlText::erase(const Path& list, int index) {
+  expand_aliases(list);
   Path left;
   bool in_flow = false;
   const YAML::Node node = follow(text_, list, left, in_flow);
@@ -193,7 +288,8 @@ void YamlText::erase(const Path& list, int index) {
   if (index < 0 || at >= count) refuse(list, "there is no entry " + std::to_string(index));
   std::string changed = text_;
   if (count == 1 && is_flow(changed, node)) {
-    changed.replace(start_of(node), end_of_flow(changed, start_of(node)) - start_of(node), "[]");
+    const std::size_t open = start_of(changed, node);
+    changed.replace(open, end_of_flow(changed, open) - open, "[]");
   } else if (is_flow(changed, node)) {
     const std::size_t own = start_of(node[at]);
     const Path path = {name_of(list), std::to_string(index)};

@@ -1,7 +1,5 @@
-#include <string_view>
-
 #include "io/atomic_file.h"
-#include "io/csv.h"
+#include "io/yaml_words.h"
 #include "plant/plant_file.h"
 
 namespace pedicel::plant {
@@ -9,19 +7,7 @@ namespace pedicel::plant {
 namespace {
 
 std::string exact(double value) {
-  return io::exact_number(value);
-}
-
-bool is_plain(const std::string& text) {
-  static constexpr std::string_view letters =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
-  static constexpr std::string_view inside = "0123456789 .-";
-  if (text.empty() || letters.find(text.front()) == std::string_view::npos) return false;
-  if (text.back() == ' ' || text == "null" || text == "Null" || text == "NULL") return false;
-  for (const char c : text)
-    if (letters.find(c) == std::string_view::npos && inside.find(c) == std::string_view::npos)
-      return false;
-  return true;
+  return io::yaml_number(value);
 }
 
 std::string word(const std::string& text) {
@@ -138,18 +124,7 @@ std::string section_text(const std::string& key, const std::vector<Item>& items,
 }  // namespace
 
 std::string yaml_word(const std::string& text) {
-  if (is_plain(text)) return text;
-  static constexpr std::string_view digits = "0123456789abcdef";
-  std::string quoted = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (code < 0x20 || code == 0x7f)
-      quoted += std::string("\\x") + digits[code >> 4] + digits[code & 15];
-    else
-      quoted += c;
-  }
-  return quoted + '"';
+  return io::yaml_word(text);
 }
 
 std::string effect_text(const Effect& effect) {

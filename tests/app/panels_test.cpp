@@ -105,7 +105,8 @@ TEST_P(Panels, DrawOptionsOfEveryThing) {
 }
 
 TEST_P(Panels, DialogsAndLegends) {
-  for (const Dialog dialog : {Dialog::help, Dialog::info, Dialog::open, Dialog::unsaved}) {
+  for (const Dialog dialog : {Dialog::help, Dialog::info, Dialog::open, Dialog::unsaved,
+                              Dialog::save_as, Dialog::overwrite, Dialog::add_robot}) {
     desk_->ui().dialog = dialog;
     desk_->frames(4);
     check("dialog" + std::to_string(static_cast<int>(dialog)), panel_window("left", ""));
@@ -141,7 +142,7 @@ TEST(Toolbar, FitsIntoANarrowWindow) {
       items += met[i] != 0;
       EXPECT_TRUE(met[i] == 0 || met[i - 1] == 0) << "one covers another at scale " << scale;
     }
-    EXPECT_EQ(items, 16) << "scale " << scale;
+    EXPECT_EQ(items, 17) << "scale " << scale;
   }
 }
 

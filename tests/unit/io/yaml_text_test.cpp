@@ -123,7 +123,6 @@ TEST(YamlText, WhatCannotBeChangedSoIsRefused) {
     return std::string("taken");
   };
   EXPECT_THAT(refusal({"dt", "more"}, "1"), HasSubstr("dt.more: goes through a value"));
-  EXPECT_THAT(refusal({"rods"}, "1"), HasSubstr("rods: a block"));
   EXPECT_THAT(refusal({"plants", "7", "file"}, "x"), HasSubstr("no such entry"));
   EXPECT_THROW(YamlText("a: [1"), UsageError);
 }

@@ -117,7 +117,7 @@ TEST(PlantFileReader, FillsInTheDefaults) {
       "format: pedicel-plant\nversion: 1\nname: p\n"
       "sampling: {connect: 0.01, distance: 0.02}\nroot: [0, 0, 0]\n"
       "curves: [{name: a, points: [[0, 0, 0], [0, 0, 1]], radius: 0.01,\n"
-      "  material: {youngs_modulus: 5e+08, poisson_ratio: 0, density: 1, damping_time: 0}}]\n");
+      "  material: {youngs_modulus: 5.0e+8, poisson_ratio: 0, density: 1, damping_time: 0}}]\n");
   EXPECT_EQ(plant.shape, Shape::drawn);
   EXPECT_EQ(plant.material, MaterialValues{});
   ASSERT_EQ(plant.curves.size(), 1u);

@@ -171,10 +171,14 @@ TEST_F(SavedScene, PlantsComeAndGo) {
   run("draw stem third s 0,0,0;0,0,0.2 0.003");
   run("move plant third -0.5,0,0");
   run("delete plant right");
-  EXPECT_THAT(session.save().text, HasSubstr("no file yet"));
-  EXPECT_EQ(text(), scene_text) << "half of it is not written";
   std::filesystem::create_directory(folder / "plants");
-  must(session.save(folder / "plants" / "third.plant.yaml"));
+  const Result alone = session.save(folder / "plants" / "third.plant.yaml", {"third", false});
+  must(alone);
+  EXPECT_THAT(alone.text, HasSubstr("the plant \"third\" alone"));
+  EXPECT_EQ(text(), scene_text) << "a plant's name saves a plant";
+  EXPECT_TRUE(session.dirty());
+  must(session.save());
+  EXPECT_FALSE(session.dirty());
   EXPECT_THAT(text(), HasSubstr("- {name: third, file: plants/third.plant.yaml, "
                                 "position: [-0.5, 0, 0]}\n"));
   EXPECT_THAT(text(), ::testing::Not(HasSubstr("right")));
@@ -197,10 +201,9 @@ TEST_F(SavedScene, AnImportedPlantBecomesAFileOnceItIsEdited) {
   must(session.save());
   EXPECT_EQ(text(), with(imported, "newton_iterations: 3", "newton_iterations: 4"));
   run("set sampling left distance 0.05");
-  EXPECT_THAT(session.save().text, HasSubstr("no file yet"));
-  must(session.save(folder / "edited.plant.yaml"));
+  must(session.save());
   EXPECT_THAT(text(), HasSubstr("- {name: left, set: {detach.stretch: 0.1}, "
-                                "file: edited.plant.yaml}  # of the paper"));
+                                "file: left_2.plant.yaml}  # of the paper"));
   Session other(waiting());
   ASSERT_TRUE(other.open(file));
   EXPECT_EQ(other.document().plant("left").distance, 0.05);

@@ -63,7 +63,9 @@ TEST_F(Files, UndoDoesNotForgetWhereItWasSaved) {
   must(session.run_text("new plant r"));
   must(session.run_text("draw stem q s 0,0,0;0,0,1 0.01"));
   must(session.run_text("draw stem r s 0,0,0;0,0,1 0.01"));
-  EXPECT_THAT(session.save(folder / "both.plant.yaml").text, HasSubstr("2 plants have no file"));
+  EXPECT_THAT(session.save(folder / "both.plant.yaml").text,
+              HasSubstr("which plant, expected plant=NAME, one of: p, q, r"));
+  EXPECT_THAT(session.save().text, HasSubstr("expected a path *.scene.yaml"));
 }
 
 TEST_F(Files, AnEditByHandAndReload) {

@@ -1,0 +1,265 @@
+#include <algorithm>
+
+#include "app/scene_plants.h"
+#include "core/check.h"
+#include "io/atomic_file.h"
+#include "session/plant_import.h"
+#include "session/plant_save.h"
+#include "session/scene_save.h"
+#include "session/session.h"
+#include "world/scene_reader.h"
+#include "world/scene_writer.h"
+
+/// Saving: what goes into which file, and what is asked before.
+namespace pedicel::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(file, none);
+}
+
+/// Its own plant file; empty: it has none.
+fs::path file_of(const DocumentPlant& one) {
+  return is_plant_file(one.entry.file) ? one.entry.file : fs::path();
+}
+
+bool is_drawn(const DocumentPlant& one) {
+  return one.file && !one.file->curves.empty();
+}
+
+/// Whether its file, of whatever kind, says the same.
+bool is_as_read(const DocumentPlant& one) {
+  const fs::path source = app::source_of(one.entry);
+  if (source.empty() || !is_there(source)) return false;
+  Diagnostics diagnostics;
+  const auto there = read_plant(source, diagnostics, one.entry.unit);
+  return there && *there == *one.file;
+}
+
+std::string names_of(const Document& document) {
+  std::string names;
+  for (const DocumentPlant& one : document.plants)
+    if (is_drawn(one)) names += (names.empty() ? "" : ", ") + one.entry.name;
+  return names;
+}
+
+/// The plant that is all that there is to be saved; null: there is more, or nothing.
+const DocumentPlant* only_plant(const Document& document) {
+  if (is_scene(document.path)) return nullptr;
+  const world::Scene plain = *empty_document().scene;
+  const bool bare = world::scene_text_without_plants(*document.scene, {}) ==
+                    world::scene_text_without_plants(plain, {});
+  const auto drawn = [](const DocumentPlant& one) { return is_drawn(one); };
+  if (!bare || std::ranges::count_if(document.plants, drawn) != 1) return nullptr;
+  return &*std::ranges::find_if(document.plants, drawn);
+}
+
+bool is_empty(const Document& document) {
+  const auto drawn = [](const DocumentPlant& one) { return is_drawn(one) || !one.file; };
+  return document.path.empty() && std::ranges::none_of(document.plants, drawn) &&
+         world::scene_text_without_plants(*document.scene, {}) ==
+             world::scene_text_without_plants(*empty_document().scene, {});
+}
+
+/// Whether another plant, which says something else, comes from the same file.
+bool is_shared(const Document& document, std::size_t index) {
+  const DocumentPlant& one = document.plants[index];
+  for (std::size_t p = 0; p < document.plants.size(); ++p)
+    if (p != index && is_same_file(document.plants[p].entry.file, one.entry.file) &&
+        document.plants[p].file && !(*document.plants[p].file == *one.file))
+      return true;
+  return false;
+}
+
+/// STEM.ENDING, or the first number with which it is free.
+fs::path free_file(const fs::path& folder, const std::string& stem, const std::string& ending) {
+  fs::path file = folder / (stem + ending);
+  for (int i = 2; is_there(file); ++i) file = folder / (stem + "_" + std::to_string(i) + ending);
+  return file;
+}
+
+/// What was done, for people.
+struct Saved {
+  std::vector<fs::path> written, kept;
+  bool lost_comments = false;
+
+  std::string text() const {
+    if (written.empty() && kept.empty()) return "nothing to save";
+    std::string names;
+    for (const fs::path& file : written.empty() ? kept : written)
+      names += (names.empty() ? "" : ", ") + file.string();
+    return (written.empty() ? "unchanged " : "saved ") + names +
+           (lost_comments ? " (anew, the comments are in NAME~)" : "");
+  }
+};
+
+Result refusal_to_overwrite(const fs::path& file, bool changed) {
+  const std::string why =
+      changed ? " was changed by another program since it was read, expected reload, or "
+              : " is there already, expected a new name, or ";
+  return {false, file.string() + why + "overwrite=1 to write over it", false, true};
+}
+
+/// The text of a plant for a file: what is `there` already, with what has changed.
+std::string text_for(const fs::path& there, const plant::PlantFile& plant, Saved& saved) {
+  if (there.empty() || !is_there(there)) return plant::plant_text(plant);
+  bool keeps = true;
+  const std::string text = changed_plant_text(io::read_file(there), plant, keeps);
+  saved.lost_comments = saved.lost_comments || !keeps;
+  return text;
+}
+
+}  // namespace
+
+bool Session::needs_name() const {
+  if (is_scene(document_.path) || is_empty(document_)) return false;
+  const DocumentPlant* one = only_plant(document_);
+  return document_.path.empty() || !one || file_of(*one).empty();
+}
+
+fs::path Session::suggested_name() const {
+  std::error_code none;
+  const fs::path folder =
+      document_.path.empty() ? fs::current_path(none) : fs::absolute(document_.path).parent_path();
+  if (is_scene(document_.path)) return fs::absolute(document_.path);
+  const DocumentPlant* one = only_plant(document_);
+  if (one && !document_.path.empty())
+    return file_of(*one).empty() ? free_file(folder, one->entry.name, ".plant.yaml")
+                                 : fs::absolute(file_of(*one));
+  const std::string stem = document_.plants.empty() ? "scene" : document_.plants[0].entry.name;
+  return free_file(folder, stem, ".scene.yaml");
+}
+
+Result Session::save(const fs::path& path, const SaveWishes& wishes) {
+  end_gesture();
+  try {
+    if (is_scene(path)) return save_scene(path, wishes.overwrite);
+    if (!path.empty() && !is_plant_file(path))
+      return {false, path.string() +
+                         ", expected *.scene.yaml for the scene or *.plant.yaml for a plant (see "
+                         "export for other files)"};
+    if (!path.empty()) return save_plant(path, wishes);
+    if (is_scene(document_.path)) return save_scene(document_.path, wishes.overwrite);
+    if (is_empty(document_)) return {true, "nothing to save"};
+    const DocumentPlant* one = only_plant(document_);
+    if (!needs_name()) return save_plant(file_of(*one), wishes);
+    return {false, one ? "plant \"" + one->entry.name + "\" has no file yet, expected a path"
+                       : "the scene has no file yet, expected a path *.scene.yaml"};
+  } catch (const UsageError& fault) {
+    return {false, fault.what()};
+  } catch (const InvalidFile& fault) {
+    return {false, sentences(fault.all()), true};
+  } catch (const io::WriteError& fault) {
+    return {false, fault.what()};
+  }
+}
+
+// Plants first: a scene file names files that are there.
+Result Session::save_scene(const fs::path& path, bool overwrite) {
+  const bool same = is_same_file(path, document_.path);
+  if (!same && is_there(path) && !overwrite) return refusal_to_overwrite(path, false);
+  if (same && files_.has_changed(path) && !overwrite) {
+    Diagnostics diagnostics;  // a faulty one says its fault
+    if (!world::read_scene(path, diagnostics)) throw InvalidFile(diagnostics);
+    return refusal_to_overwrite(path, true);
+  }
+  Saved saved;
+  std::vector<std::pair<std::size_t, fs::path>> targets;
+  for (std::size_t p = 0; p < document_.plants.size(); ++p) {
+    const DocumentPlant& one = document_.plants[p];
+    if (!is_drawn(one)) continue;
+    if (is_as_read(one)) {
+      if (same) saved.kept.push_back(one.entry.file);
+      continue;
+    }
+    const bool own = same && !file_of(one).empty() && !is_shared(document_, p);
+    if (own && files_.has_changed(file_of(one)) && !overwrite)
+      return refusal_to_overwrite(file_of(one), true);
+    targets.emplace_back(p, own ? file_of(one)
+                                : free_file(path.parent_path(), one.entry.name, ".plant.yaml"));
+  }
+  const fs::path before = document_.path;
+  Document changed = document_;
+  for (const auto& [p, file] : targets) {
+    DocumentPlant& one = changed.plants[p];
+    const std::string text = text_for(file_of(one), *one.file, saved);
+    write_with_backup(file, text);
+    files_.remember(file, text);
+    saved.written.push_back(file);
+    one.entry.file = file;
+    one.entry.source = world::ScenePlant::Source::file;
+    one.entry.unit = 0.0;
+    one.entry.optional = false, one.entry.fallback.clear();
+  }
+  const bool has_text = is_scene(before) && is_there(before);
+  changed.path = path;
+  const std::string was = same && is_there(path) ? io::read_file(path) : std::string();
+  const std::string text = has_text
+                               ? changed_scene_text(changed, io::read_file(before), before, path)
+                               : new_scene_text(changed, path);
+  if (text != was) write_with_backup(path, text);
+  (text == was ? saved.kept : saved.written).push_back(path);
+  files_.remember(path, text);
+  document_ = std::move(changed);
+  saved_settings_ = document_.settings;
+  mark_saved(!saved.written.empty());
+  return {true, saved.text()};
+}
+
+Result Session::save_plant(const fs::path& path, const SaveWishes& wishes) {
+  const DocumentPlant* only = only_plant(document_);
+  const auto drawn = [](const DocumentPlant& one) { return is_drawn(one); };
+  const bool one_drawn = std::ranges::count_if(document_.plants, drawn) == 1;
+  if (wishes.plant.empty() && !one_drawn)
+    return {false, names_of(document_).empty() ? "no plant to save, expected one with a stem"
+                                               : "which plant, expected plant=NAME, one of: " +
+                                                     names_of(document_)};
+  const std::string name = wishes.plant.empty()
+                               ? std::ranges::find_if(document_.plants, drawn)->entry.name
+                               : wishes.plant;
+  const plant::PlantFile& plant = document_.plant(name);
+  DocumentPlant& one = document_.plants[static_cast<std::size_t>(document_.plant_index(name))];
+  if (plant.curves.empty()) return {false, "plant \"" + name + "\" has no stem yet"};
+  const bool own = is_same_file(path, file_of(one));
+  if (!own && is_there(path) && !wishes.overwrite) return refusal_to_overwrite(path, false);
+  if (own && files_.has_changed(path) && !wishes.overwrite) return refusal_to_overwrite(path, true);
+  Saved saved;
+  if (own && is_as_read(one)) {
+    saved.kept.push_back(path);
+  } else {
+    const std::string text = text_for(file_of(one), plant, saved);
+    write_with_backup(path, text);
+    files_.remember(path, text);
+    saved.written.push_back(path);
+  }
+  const bool alone = only == &one;
+  if (alone || file_of(one).empty()) {
+    one.entry.file = path;
+    one.entry.source = world::ScenePlant::Source::file;
+    one.entry.unit = 0.0;
+    one.entry.optional = false, one.entry.fallback.clear();
+  }
+  if (!alone) return {true, saved.text() + ", the plant \"" + name + "\" alone"};
+  document_.path = path;
+  mark_saved(!saved.written.empty());
+  return {true, saved.text()};
+}
+
+// Scripts begin with what was opened: where that was written over, with commands that make it.
+void Session::mark_saved(bool wrote) {
+  saved_hash_ = hash_;
+  if (wrote) {
+    const bool over_first = first_.path.empty() || is_same_file(document_.path, first_.path);
+    if (over_first)
+      saved_ = document_;
+    else if (!saved_)
+      saved_ = first_;
+  }
+  begin_journal();
+}
+
+}  // namespace pedicel::app
