@@ -8,6 +8,7 @@
 
 #include "app/panels/theme.h"
 #include "app/window/draw_tool.h"
+#include "app/window/selection_follow.h"
 
 namespace pedicel::app {
 
@@ -120,6 +121,13 @@ void Desktop::follow_fonts() {
   ui_.scale = static_cast<float>(scale);
 }
 
+/// What is chosen stays the same thing in the newest snapshot.
+void Desktop::follow_snapshot() {
+  const std::shared_ptr<const Snapshot> newest = ui_.session.snapshot();
+  ui_.selection = follow_selection(ui_.selection, *ui_.snapshot, *newest);
+  ui_.snapshot = newest;
+}
+
 /// Another document: its own first camera, and nothing chosen. The same one read anew keeps both.
 void Desktop::follow_document() {
   const Snapshot& snapshot = *ui_.snapshot;
@@ -165,7 +173,7 @@ bool Desktop::frame() {
   for (const std::string& path : dropped) ui_.open(path);
   ui_.session.update();
   lead_film();
-  ui_.snapshot = ui_.session.snapshot();
+  follow_snapshot();
   follow_document();
   follow_camera();
 

@@ -68,6 +68,7 @@ class Desktop : private FilmMaker {
   struct Context;  // ImGui's, first made and last destroyed
 
   void follow_fonts();
+  void follow_snapshot();
   void follow_document();
   void follow_camera();
   void keys();

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "app/window/selection_follow.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -39,6 +41,7 @@ void SceneMouse::press(Ui& ui, const SceneFrame& frame, int button, bool tool_ha
   button_ = button;
   pressed_at_ = ImGui::GetIO().MousePos;
   pressed_on_ = ui.hover;
+  pressed_in_ = ui.snapshot;
   to_tip_ = button == 0 && ImGui::GetIO().KeyAlt;
   meant_ = choose(ui, button, tool_has_left);
   drag_ = Drag::undecided;
@@ -94,6 +97,7 @@ void SceneMouse::move(Ui& ui, ViewCamera& camera, const SceneFrame& frame) {
 
 void SceneMouse::click(Ui& ui, ViewCamera& camera) {
   if (button_ != 0 && !(button_ == 1 && ImGui::IsMouseDoubleClicked(1))) return;
+  pressed_on_ = follow_selection(pressed_on_, *pressed_in_, *ui.snapshot);
   ui.selection = pressed_on_;
   ui.selection.to_tip = to_tip_ && pressed_on_.kind == Selection::Kind::element;
   if (pressed_on_.kind == Selection::Kind::element || pressed_on_.kind == Selection::Kind::fruit)
