@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "session/document.h"
+#include "session/document_bounds.h"
 
 namespace pedicel::app {
 
@@ -57,6 +58,7 @@ void apply_command(Document& document, const Command& command) {
     throw UsageError("\"" + command.verb() + "\" does not change the document");
   Document changed = document;
   description->apply(changed, command);
+  check_bounds(document, changed);
   document = std::move(changed);
 }
 
