@@ -106,8 +106,7 @@ class DrawPanel : public Panel {
     share(ui, "Taper start", d.taper_start, "Where along the stem it begins to get thinner");
     share(ui, "Taper end", d.taper_end, "Where along the stem it has its smallest radius");
     heading(ui, "Projection plane");
-    radio_row(ui, d.plane, std::array<const char*, 3>{"View", "Ground", "Tangent"});
-    tip("Tangent: the plane along the stem that the stroke begins on");
+    planes(d);
     heading(ui, "Depth");
     radio_row(ui, d.depth, std::array<const char*, 2>{"Cursor", "Surface"});
     if (d.depth != DrawDepth::surface) return;
@@ -115,6 +114,23 @@ class DrawPanel : public Panel {
     tip("The depth is taken where the stroke begins; else the stroke creeps over what it crosses");
     if (!d.only_first)
       millimetres(ui, "Offset", d.offset, 0.1f, 50.0f, "From the surface towards the eye");
+  }
+
+  static void planes(DrawMode& d) {
+    struct Plane {
+      const char *name, *what;
+    };
+    constexpr std::array<Plane, 4> planes = {
+        {{"Upright", "The upright plane that faces the camera: what is drawn upright stands so"},
+         {"View", "The plane of the picture: leans with the camera"},
+         {"Ground", "Level, at the height where the stroke begins"},
+         {"Tangent", "The plane along the stem that the stroke begins on"}}};
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      if (i) stay_in_row(planes[i].name);
+      if (ImGui::RadioButton(planes[i].name, d.plane == static_cast<PlaneChoice>(i)))
+        d.plane = static_cast<PlaneChoice>(i);
+      tip(planes[i].what);
+    }
   }
 
   static void fruit_options(Ui& ui, DrawMode& d) {

@@ -73,7 +73,7 @@ struct Selection {
   }
 };
 
-enum class PlaneChoice { view, ground, tangent };
+enum class PlaneChoice { upright, view, ground, tangent };
 enum class DrawDepth { cursor, surface };
 enum class DrawThing { stem, fruit, leaf, trim };
 
@@ -85,7 +85,7 @@ struct DrawMode {
   bool detect_corners = true;
   double radius_min = 0.0015, radius_max = 0.004;  ///< m
   double taper_start = 0.0, taper_end = 1.0;       ///< 1, share of the way from max to min
-  PlaneChoice plane = PlaneChoice::view;
+  PlaneChoice plane = PlaneChoice::upright;
   DrawDepth depth = DrawDepth::surface;
   bool only_first = true;         ///< depth taken from the stroke's start
   double offset = 0.0;            ///< m, from the surface

@@ -44,6 +44,8 @@ ProjectorOptions projector_options(const DrawMode& d, double height) {
     options.plane = StrokePlane::ground;
   else if (d.plane == PlaneChoice::tangent)
     options.plane = StrokePlane::tangent;
+  else if (d.plane == PlaneChoice::view)
+    options.plane = StrokePlane::view;
   options.only_first = d.only_first;
   options.offset = creeps ? d.offset : 0.0;
   options.ground = height;
