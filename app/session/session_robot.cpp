@@ -47,6 +47,7 @@ robot::IkResult descend_in_steps(const robot::KinematicModel& model, robot::IkTa
     if (target.orientation_W) target.orientation_W = tool_W.rotation.slerp(share, end);
     if (i == steps && target.orientation_W) target.orientation_W = end;
     result = robot::descend(model, target, q, settings);
+    if (!result.reached) break;
     q = result.q;
   }
   return result;
