@@ -45,12 +45,13 @@ class DataPanel : public Panel {
     }
     title(ui, *experiment);
     if (!ui.session.measured().experiment()) return;  // closed
+    diagnosis_.draw(ui);
     trial_and_time(ui, *experiment);
     models(ui);
     markers(ui, *experiment);
     plot(ui, *experiment);
     shown(ui);
-    diagnosis_.draw(ui);
+    diagnosis_.draw_result(ui);
   }
 
   void idle(Ui& ui) override { follow(ui); }

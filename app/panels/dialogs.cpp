@@ -132,7 +132,7 @@ void files(Ui& ui) {
     if (chosen) {
       ui.dialog = Dialog::none;
       if (imports) {
-        ui.report(ui.session.import_plant(*chosen));
+        ui.import_plant(*chosen);
       } else if (robots) {
         add_robot(ui, *chosen);
       } else if (saves) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 
+#include "app/panels/drag_bar.h"
 #include "app/panels/panel.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui.h"
@@ -104,13 +105,17 @@ class TuningPanel : public Panel {
     caption(ui, short_name(p), text, p.changed ? palette().warning : palette().text, tip_of(p));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6.0f * ui.scale, 0.0f));
     control(ui, p);
-    if (p.changed) {
-      ImGui::SameLine();
-      if (ImGui::Button("reset")) ui.report(ui.session.reset_parameter(p.key));
-      tip("Back to " + number_text(p.initial, 5));
-    }
+    reset_button(ui, p);
     ImGui::PopStyleVar();
     ImGui::PopID();
+  }
+
+  /// Its room is always kept, so that a bar does not change its length in the hand.
+  static void reset_button(Ui& ui, const SessionParameter& p) {
+    if (!p.changed) return;
+    ImGui::SameLine();
+    if (ImGui::Button("reset")) ui.report(ui.session.reset_parameter(p.key));
+    tip("Back to " + number_text(p.initial, 5));
   }
 
   void control(Ui& ui, const SessionParameter& p) {
@@ -120,25 +125,16 @@ class TuningPanel : public Panel {
       return;
     }
     double value = dragged_ == p.key ? dragged_value_ : p.value;
-    int whole = static_cast<int>(value);
-    const int low = static_cast<int>(p.minimum), high = static_cast<int>(p.maximum);
-    const float reset = p.changed ? ImGui::CalcTextSize("reset").x + 20.0f * ui.scale : 0.0f;
-    ImGui::SetNextItemWidth(rest_width(reset));
-    const ImGuiSliderFlags flags =
-        ImGuiSliderFlags_AlwaysClamp |
-        (p.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    ImGui::SetNextItemWidth(rest_width(ImGui::CalcTextSize("reset").x + 20.0f * ui.scale));
     const bool moved =
-        p.whole ? ImGui::SliderScalar("##value", ImGuiDataType_S32, &whole, &low, &high, "", flags)
-                : ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &p.minimum,
-                                      &p.maximum, "", flags);
-    if (p.whole) value = whole;
+        drag_bar(ui, "##value", value, {p.minimum, p.maximum, p.logarithmic, p.whole});
     const bool started = ImGui::IsItemActivated(), held = ImGui::IsItemActive();
-    tip(tip_of(p) + "\nCtrl+click: type a value.");
+    tip(tip_of(p) + "\n" + how_to_drag);
     if (started) {
       ui.session.begin_gesture();
       dragged_ = p.key, dragged_value_ = p.value;
     }
-    if (moved && value != p.value) dragged_value_ = value, set(ui, p, value);
+    if (moved) dragged_value_ = value, set(ui, p, value);
     if (!held && dragged_ == p.key) {
       ui.session.end_gesture();
       dragged_.clear();

@@ -67,6 +67,7 @@ struct Ui {
   double view_fov = 0.7;                                      ///< rad, vertical
   std::string show_panel;  ///< tab to be brought to the front; emptied by the layout
   std::optional<Eigen::AlignedBox3d> frame_box;  ///< what the camera is to show next
+  std::string frame_plant;                       ///< the same, once that plant is simulated
   std::string notice;                            ///< one line over the scene that fades
   double notice_time = 0.0;                      ///< s, of the platform's clock
   double now = 0.0;                              ///< s
@@ -100,6 +101,8 @@ struct Ui {
   bool remove(const Command& command);
   /// The plant that is chosen, or that strokes go to; empty: neither.
   std::string chosen_plant() const;
+  /// Adds the plant of a file; it is shown whole once it is built.
+  void import_plant(const std::filesystem::path& path);
 };
 
 /// "tomato/fruit_3", "link_4", "stem of tomato, point 2": what the selection is.

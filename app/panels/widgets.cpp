@@ -3,24 +3,16 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "app/panels/drag_bar.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui.h"
 
 namespace pedicel::app {
-
-void tip(const std::string& text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  if (ImGui::GetCurrentContext() && ImGui::GetIO().MouseDown[0]) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(22.0f * ImGui::GetFontSize());
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
 
 void heading(const Ui& ui, const char* text) {
   ImGui::Spacing();
@@ -167,11 +159,12 @@ bool slider(const Ui& ui, const std::string& name, double& value, double low, do
   ImGui::PushID(name.c_str());
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6.0f * ui.scale, 0.0f));
   ImGui::SetNextItemWidth(-1);
-  const bool moved =
-      ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, "", flags);
+  const BarRange range{low, high, (flags & ImGuiSliderFlags_Logarithmic) != 0};
+  const bool moved = drag_bar(ui, "##value", value, range);
   ImGui::PopStyleVar();
   ImGui::PopID();
-  tip((what.empty() ? "" : what + "\n") + std::string("Ctrl+click: type a value."));
+  if (moved) value = std::clamp(value, low, high);
+  tip((what.empty() ? "" : what + "\n") + std::string(how_to_drag));
   return moved;
 }
 

@@ -35,7 +35,7 @@ bool icon_button(const char* id, Icon icon, const std::string& tip, bool enabled
 bool action_button(Ui& ui, Action action, Icon icon, bool enabled = true, bool active = false);
 void draw_icon(ImDrawList& list, Icon icon, const ImVec2& centre, float size, ImU32 colour);
 
-/// A tip over the last item, wrapped, after a moment.
+/// A tip for the last item, wrapped, once the pointer rests on it; beside the dock that it is of.
 void tip(const std::string& text);
 /// A heading inside a panel.
 void heading(const Ui& ui, const char* text);
@@ -61,11 +61,14 @@ std::string number_text(double value, int digits = 4);
 /// With its unit, in the prefix that reads best for m, N, Pa, s ("12.3 mm", "4.2 MPa").
 std::string quantity_text(double value, const std::string& unit, int digits = 3);
 
+/// For the tips of bars that are dragged.
+inline constexpr char how_to_drag[] = "Drag; with Shift finer. Ctrl+click: type a value.";
+
 /// A name to the left and, dim, a value to the right; what does not fit of the name ends in "...".
 void caption(const Ui& ui, const std::string& name, const std::string& value, const ImVec4& colour,
              const std::string& what = "");
 /// A slider under its caption: on the slider itself the grab would cover the value. `format` is
-/// printf's, for the value. True while it is moved; Ctrl+click types a value.
+/// printf's, for the value. True when it was moved, or a value typed, within its ends.
 bool slider(const Ui& ui, const std::string& name, double& value, double low, double high,
             const char* format, ImGuiSliderFlags flags = 0, const std::string& what = "");
 

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "session/document.h"
+#include "session/document_bounds.h"
 
 namespace pedicel::app {
 
@@ -18,8 +19,8 @@ std::string upper(std::string text) {
 std::vector<CommandDescription> whole_table() {
   std::vector<CommandDescription> table = stem_commands();
   for (const auto& part :
-       {organ_commands(), document_commands(), scene_commands(), thing_commands(),
-        robot_scene_commands(), run_commands(), measured_commands()})
+       {organ_commands(), document_commands(), waypoint_commands(), scene_commands(),
+        thing_commands(), robot_scene_commands(), run_commands(), measured_commands()})
     table.insert(table.end(), part.begin(), part.end());
   return table;
 }
@@ -58,6 +59,7 @@ void apply_command(Document& document, const Command& command) {
     throw UsageError("\"" + command.verb() + "\" does not change the document");
   Document changed = document;
   description->apply(changed, command);
+  check_bounds(document, changed);
   document = std::move(changed);
 }
 

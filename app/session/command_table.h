@@ -51,6 +51,7 @@ std::vector<CommandDescription> document_commands();
 std::vector<CommandDescription> scene_commands();
 std::vector<CommandDescription> thing_commands();
 std::vector<CommandDescription> robot_scene_commands();
+std::vector<CommandDescription> waypoint_commands();
 std::vector<CommandDescription> run_commands();
 std::vector<CommandDescription> measured_commands();
 

@@ -6,6 +6,13 @@
 
 namespace pedicel::app {
 
+DrawPlane upright_plane(const Vec3& view_direction, const Vec3& point) {
+  constexpr double steepest = 0.17;  // cosine, 10 degrees from straight down
+  const Vec3 level(view_direction.x(), view_direction.y(), 0.0);
+  if (level.norm() < steepest * view_direction.norm()) return view_plane(view_direction, point);
+  return {point, -level.normalized()};
+}
+
 DrawPlane view_plane(const Vec3& view_direction, const Vec3& point) {
   return {point, -view_direction.normalized()};
 }
@@ -88,8 +95,10 @@ void StrokeProjector::choose_plane(const Ray& ray) {
     const auto first = start_ ? start_ : on_surface(ray);
     if (options_.only_first || !first)
       plane_ = view_plane(view_direction_, first.value_or(fallback_));
-  } else {
+  } else if (options_.plane == StrokePlane::view) {
     plane_ = view_plane(view_direction_, start_.value_or(fallback_));
+  } else {
+    plane_ = upright_plane(view_direction_, start_.value_or(fallback_));
   }
 }
 

@@ -19,6 +19,9 @@ struct DrawPlane {
   Vec3 point = Vec3::Zero();    ///< m, W
   Vec3 normal = Vec3::UnitZ();  ///< unit, W
 };
+/// Upright, through a point, and faces the view as well as that allows; seen from straight above or
+/// below it faces the view.
+DrawPlane upright_plane(const Vec3& view_direction, const Vec3& point);
 /// Faces the view, through a point.
 DrawPlane view_plane(const Vec3& view_direction, const Vec3& point);
 DrawPlane ground_plane(double height);
@@ -46,10 +49,10 @@ class Surfaces {
   coupling::ColliderSet colliders_;
 };
 
-enum class StrokePlane { view, ground, tangent, surface };
+enum class StrokePlane { upright, view, ground, tangent, surface };
 
 struct ProjectorOptions {
-  StrokePlane plane = StrokePlane::view;
+  StrokePlane plane = StrokePlane::upright;
   bool only_first = true;  ///< on surfaces: the depth of the first place counts for the stroke
   double offset = 0.0;     ///< m, above the surface
   double ground = 0.0;     ///< m, its height

@@ -81,7 +81,10 @@ Result Session::import_plant(const std::filesystem::path& path, const std::strin
                              double unit) {
   Diagnostics diagnostics;
   const auto file = read_plant(path, diagnostics, unit);
-  if (!file) return {false, sentences(diagnostics.all()), true};
+  if (!file) {
+    if (!options_.waits) say(diagnostics.all(), false);  // whole, and to stay
+    return {false, sentences(diagnostics.all()), true};
+  }
   // The text goes into the command, so that the log does not depend on the file.
   std::string as = name.empty() ? file->name : name;
   if (name.empty()) as = free_name(document_, ThingKind::plant, as);

@@ -122,8 +122,10 @@ void DrawTool::move_point(Ui& ui, const SceneFrame& frame) {
   const Pose pose = plant_pose(ui.session, plant_);
   const Vec3 now =
       pose * file->curves[static_cast<std::size_t>(c)].points[static_cast<std::size_t>(point_)];
-  DrawPlane plane = view_plane(frame.camera.target - frame.camera.eye, now);
-  if (ui.draw.plane == PlaneChoice::ground) plane = ground_plane(now.z());
+  const Vec3 view = frame.camera.target - frame.camera.eye;
+  const DrawPlane plane = ui.draw.plane == PlaneChoice::ground    ? ground_plane(now.z())
+                          : ui.draw.plane == PlaneChoice::upright ? upright_plane(view, now)
+                                                                  : view_plane(view, now);
   if (const auto to = meet(ray_of(frame.ray(ImGui::GetIO().MousePos)), plane))
     ui.run(Command("move point", {{"plant", plant_},
                                   {"stem", stem_},

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "app/window/selection_follow.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -39,6 +41,7 @@ void SceneMouse::press(Ui& ui, const SceneFrame& frame, int button, bool tool_ha
   button_ = button;
   pressed_at_ = ImGui::GetIO().MousePos;
   pressed_on_ = ui.hover;
+  pressed_in_ = ui.snapshot;
   to_tip_ = button == 0 && ImGui::GetIO().KeyAlt;
   meant_ = choose(ui, button, tool_has_left);
   drag_ = Drag::undecided;
@@ -52,7 +55,7 @@ void SceneMouse::press(Ui& ui, const SceneFrame& frame, int button, bool tool_ha
   grabbed_W_ = ui.hover.place_W;
   PullPlace place{ui.hover.plant, ui.hover.element, ui.hover.back};
   place.stiffness = ui.preferences.pull_stiffness;
-  ui.session.control().begin_pull(place, grabbed_W_);
+  ui.session.begin_pull(place, grabbed_W_);
   ui.selection = ui.hover;
   (void)frame;
 }
@@ -94,6 +97,7 @@ void SceneMouse::move(Ui& ui, ViewCamera& camera, const SceneFrame& frame) {
 
 void SceneMouse::click(Ui& ui, ViewCamera& camera) {
   if (button_ != 0 && !(button_ == 1 && ImGui::IsMouseDoubleClicked(1))) return;
+  pressed_on_ = follow_selection(pressed_on_, *pressed_in_, *ui.snapshot);
   ui.selection = pressed_on_;
   ui.selection.to_tip = to_tip_ && pressed_on_.kind == Selection::Kind::element;
   if (pressed_on_.kind == Selection::Kind::element || pressed_on_.kind == Selection::Kind::fruit)
@@ -124,8 +128,9 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
     const double steps = ui.preferences.invert_wheel ? -io.MouseWheel : io.MouseWheel;
     const render::Ray ray = frame.ray(io.MousePos);
     const Vec3 forward = (frame.camera.target - frame.camera.eye).normalized();
-    // The place under the pointer, at most as far as four times the target.
-    const double far = 4.0 * camera.distance() / std::max(ray.direction.dot(forward), 0.2);
+    // The place under the pointer; beside things at most as far as the target, so that the wheel
+    // does not fly past it towards the floor behind.
+    const double far = camera.distance() / std::max(ray.direction.dot(forward), 0.2);
     const double reach = ui.hover ? ui.hover.distance : std::min(ui.hover.distance, far);
     camera.dolly(steps, reach > 0.0 ? Vec3(ray.origin + reach * ray.direction) : camera.target());
     ui.view.camera = -1;

@@ -50,7 +50,8 @@ class SceneMouse {
   ImVec2 pressed_at_{0, 0};
   Vec3 grabbed_W_ = Vec3::Zero();  // m, of a pull
   Selection pressed_on_;
-  bool to_tip_ = false;  // Alt was down: from there to the tip
+  std::shared_ptr<const Snapshot> pressed_in_;  // that it is of
+  bool to_tip_ = false;                         // Alt was down: from there to the tip
 };
 
 }  // namespace pedicel::app

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/window/scene_marks.h"
+#include "app/window/selection_follow.h"
 #include "render/colormap.h"
 #include "session/robot_goal.h"
 
@@ -36,20 +37,35 @@ std::vector<double> contact_forces(const Snapshot& snapshot, int plant, int elem
   return force;
 }
 
-}  // namespace
-
-bool is_chosen(const Selection& selection, const cosserat::RodModel& model, int plant,
-               int element) {
-  if (selection.to_tip && selection.kind == Selection::Kind::element && selection.plant == plant) {
-    int e = element;
-    while (e > selection.element) e = model.elements[static_cast<std::size_t>(e)].parent;
-    return e == selection.element;
+/// Of every element: whether it is chosen.
+std::vector<bool> chosen_elements(const Selection& selection, const cosserat::RodModel& model,
+                                  int plant) {
+  std::vector<bool> chosen(model.elements.size(), false);
+  if (selection.to_tip && selection.kind == Selection::Kind::element) {
+    if (selection.plant != plant) return chosen;
+    for (int e = selection.element; e >= 0 && e < model.size(); ++e) {
+      const auto i = static_cast<std::size_t>(e);
+      const int parent = model.elements[i].parent;
+      chosen[i] =
+          e == selection.element || (parent >= 0 && chosen[static_cast<std::size_t>(parent)]);
+    }
+    return chosen;
   }
-  return selection.kind == Selection::Kind::element && selection.plant == plant &&
-         selection.element < model.size() &&
-         model.elements[static_cast<std::size_t>(element)].organ ==
-             model.elements[static_cast<std::size_t>(selection.element)].organ;
+  const int organ = chosen_organ(selection, model, plant);
+  if (organ < 0) return chosen;
+  for (std::size_t e = 0; e < chosen.size(); ++e) chosen[e] = model.elements[e].organ == organ;
+  return chosen;
 }
+
+void highlight(std::vector<Colour>& colours, const cosserat::RodModel& model, int plant,
+               const Selection& selection, const Selection& hover) {
+  const std::vector<bool> chosen = chosen_elements(selection, model, plant);
+  const std::vector<bool> pointed = chosen_elements(hover, model, plant);
+  for (std::size_t e = 0; e < chosen.size(); ++e)
+    if (chosen[e] || pointed[e]) colours[e] = lighter(colours[e], chosen[e] ? 0.75f : 0.4f);
+}
+
+}  // namespace
 
 void SnapshotView::follow(const Snapshot& snapshot) {
   shapes_.follow(snapshot);
@@ -124,13 +140,7 @@ void SnapshotView::fill(render::DrawList& list, const Snapshot& snapshot, const 
     if (p == view.hidden_plant) continue;
     const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
     std::vector<Colour> tints = colours(snapshot, p, view);
-    for (int e = 0; e < plant.model->size(); ++e) {
-      const auto i = static_cast<std::size_t>(e);
-      if (is_chosen(selection, *plant.model, p, e))
-        tints[i] = lighter(tints[i], 0.75f);
-      else if (is_chosen(hover, *plant.model, p, e))
-        tints[i] = lighter(tints[i], 0.4f);
-    }
+    highlight(tints, *plant.model, p, selection, hover);
     plants_[static_cast<std::size_t>(p)].drawing->add_to(list, plant.state, tints, view.leaves);
   }
   for (std::size_t l = 0; l < shapes_.links().size() && l < snapshot.robot.links.size(); ++l)
@@ -164,12 +174,14 @@ Eigen::AlignedBox3d bounds_of(const Selection& s, const Snapshot& snapshot,
   }
   const PlantSnapshot* plant = at(snapshot.plants, s.plant);
   if (!plant) return box;
-  if (s.kind == Kind::element)
+  if (s.kind == Kind::element) {
+    const std::vector<bool> chosen = chosen_elements(s, *plant->model, s.plant);
     for (int e = 0; e < plant->model->size(); ++e)
-      if (plant->state.alive[e] && is_chosen(s, *plant->model, s.plant, e)) {
+      if (plant->state.alive[e] && chosen[static_cast<std::size_t>(e)]) {
         box.extend(plant->state.position[e]);
         box.extend(start_of(*plant->model, plant->state, e));
       }
+  }
   if (s.kind != Kind::fruit || !at(plant->model->fruits, s.fruit) ||
       plant->state.fruit_gone[static_cast<std::size_t>(s.fruit)])
     return box;

@@ -38,8 +38,4 @@ class SnapshotView {
 Eigen::AlignedBox3d bounds_of(const Selection& selection, const Snapshot& snapshot,
                               const RigidShapes& shapes);
 
-/// Elements with the same organ, or all from the chosen place to the tips, for pictures of what is
-/// chosen.
-bool is_chosen(const Selection& selection, const cosserat::RodModel& model, int plant, int element);
-
 }  // namespace pedicel::app

@@ -35,7 +35,7 @@ inline constexpr io::Bounds video_rates{1.0, 240.0};
 /// threads. Asserts that there is such a key.
 io::Bounds scene_bounds(std::string_view key);
 
-/// Changes a scene as `--set key=value` does: dt, duration, seed, threads, log_rate, rods.KEY,
+/// Changes a scene as `--set key=value` does: dt, duration, gravity (x,y,z), seed, threads, log_rate, rods.KEY,
 /// coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant) and any other KEY that is an
 /// override of every plant (detach.stretch). Of equal keys the last one counts. `asked` comes before
 /// the key in the place that a fault names ("--set "). Throws UsageError where the key or the value

@@ -24,6 +24,31 @@ TEST(DrawPlanes, MeetRaysInFront) {
   EXPECT_LT(tangent.normal.dot(Vec3::UnitY()), -0.5);
 }
 
+TEST(DrawPlanes, UprightOnesStandAndFaceTheView) {
+  const Vec3 view = Vec3(1, 2, -1.5).normalized(), point(0.1, 0.2, 0.3);
+  const DrawPlane plane = upright_plane(view, point);
+  EXPECT_EQ(plane.normal.z(), 0.0);
+  EXPECT_NEAR(plane.normal.norm(), 1.0, 1.0e-12);
+  EXPECT_NEAR(plane.normal.dot(Vec3(-1, -2, 0).normalized()), 1.0, 1.0e-12);
+  const DrawPlane above = upright_plane(Vec3(0.01, 0, -1), point);
+  EXPECT_GT(above.normal.z(), 0.99) << "seen from straight above";
+}
+
+// A person draws a line up in the picture, and means a stem that stands.
+TEST(DrawPlanes, AStrokeUpThePictureStandsUpright) {
+  const Vec3 eye(-1, -1.5, 1.2), foot(0.2, 0.1, 0.0), forward = (foot - eye).normalized();
+  StrokeProjector stroke(ProjectorOptions{}, forward, nullptr);
+  stroke.set_fallback(foot);
+  EXPECT_NEAR((*stroke.place(towards(eye, foot)) - foot).norm(), 0.0, 1.0e-12);
+  const Vec3 right = forward.cross(Vec3::UnitZ()).normalized(), up = right.cross(forward);
+  for (const double height : {0.1, 0.2, 0.4}) {
+    const auto place = stroke.place(towards(eye, foot + height * up));
+    ASSERT_TRUE(place);
+    EXPECT_NEAR((*place - foot).head<2>().norm(), 0.0, 1.0e-9);
+    EXPECT_GT(place->z(), height);
+  }
+}
+
 class Scene : public ::testing::Test {
  protected:
   Scene() : session(waiting()) {
