@@ -122,7 +122,7 @@ void set_on_robot(Scene& scene, const Setting& setting) {
     throw UsageError(setting.where.file + ": expected robot.gripper_force");
   if (!scene.robot) throw UsageError(setting.where.file + ": the scene has no robot");
   scene.robot->gripper_force =
-      checked({"robot.gripper_force", 0.0, largest_gripper_force, false}, setting.text);
+      checked({"", 0.0, largest_gripper_force, false}, setting.text, setting.where.file);
 }
 
 void set_on_plant(Scene& scene, const std::string& rest, Setting setting) {
