@@ -216,8 +216,12 @@ class Run {
     if (pictures_ && options_.video) result_.video = pictures_->finish_video();
     for (const world::Expectation& expectation : scene_.expectations) {
       if (expectation.over_sweep()) continue;
-      result_.verdicts.push_back(world::judge(
-          expectation, simulation_.measurements().value(expectation, simulation_.world())));
+      const double measured = simulation_.measurements().value(expectation, simulation_.world());
+      if (std::isnan(measured) && is_of_what_is_left_out(expectation))
+        std::fprintf(stderr, "not judged: %s (its plant is not there)\n",
+                     world::to_string(expectation).c_str());
+      else
+        result_.verdicts.push_back(world::judge(expectation, measured));
     }
     const bool unmet = std::any_of(result_.verdicts.begin(), result_.verdicts.end(),
                                    [](const world::Verdict& v) { return !v.met; });
@@ -242,6 +246,17 @@ class Run {
     result_.comparison =
         compare(wanted.measured, wanted.tolerance, recorder_.columns(), recorder_.rows());
     if (result_.exit_code == 0 && !result_.comparison->within()) result_.exit_code = exit_unmet;
+  }
+
+  // Of an optional plant whose file is not there, or, if no plant is there, of all of them.
+  bool is_of_what_is_left_out(const world::Expectation& expectation) const {
+    return std::ranges::any_of(scene_.plants, [&](const world::ScenePlant& plant) {
+      for (int p = 0; p < simulation_.rods().size(); ++p)
+        if (simulation_.rods().model(p).name == plant.name) return false;
+      return expectation.plant == plant.name || expectation.fruit.starts_with(plant.name + "/") ||
+             (expectation.plant.empty() && expectation.fruit.empty() &&
+              simulation_.rods().size() == 0);
+    });
   }
 
   void add_limits() {
