@@ -28,15 +28,17 @@ constexpr double watched_speed = 50.0;
 JointDrive::JointDrive(const RobotDescription& robot, const KinematicModel& model,
                        const RobotSettings& settings, MultiBody& multibody)
     : model_(model), settings_(settings), multibody_(multibody), dynamics_(robot, model) {
-  rows_ = std::make_unique<JointRows>(&multibody.body(), lay_out(robot, model));
-  multibody_.world().addMultiBodyConstraint(rows_.get());
+  if (multibody.joints() > 0) {  // Bullet keeps no constraint without links
+    rows_ = std::make_unique<JointRows>(&multibody.body(), lay_out(robot, model));
+    multibody_.world().addMultiBodyConstraint(rows_.get());
+  }
   effort_ = model.effort_limits();
   velocity_.setZero(model.dofs());
   acceleration_ = wanted_ = forward_ = recoil_ = velocity_;
 }
 
 JointDrive::~JointDrive() {
-  multibody_.world().removeMultiBodyConstraint(rows_.get());
+  if (rows_ != nullptr) multibody_.world().removeMultiBodyConstraint(rows_.get());
 }
 
 std::vector<JointRows::Row> JointDrive::lay_out(const RobotDescription& robot,

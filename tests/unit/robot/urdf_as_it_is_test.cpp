@@ -67,7 +67,7 @@ TEST(UrdfAsItIs, MinusOneIsNoLimit) {
   ASSERT_TRUE(found.robot) << found.text;
   EXPECT_EQ(found.robot->joints[0].effort, Joint::unlimited);
   EXPECT_EQ(found.robot->joints[0].velocity, Joint::unlimited);
-  EXPECT_THAT(found.text, HasSubstr("t.urdf:2:92: warning: joint 'j': effort -1, taken as "
+  EXPECT_THAT(found.text, HasSubstr("t.urdf:2:95: warning: joint 'j': effort -1, taken as "
                                     "unlimited"));
 }
 
