@@ -142,11 +142,12 @@ std::optional<plant::PlantFile> read_scene_plant(const ScenePlant& plant,
                                                  Diagnostics& diagnostics) {
   const std::filesystem::path source = source_of(plant);
   if (source.empty()) return std::nullopt;
-  // The fallback of an MTG is a plant file.
+  // The fallback of an MTG is a plant file, and so is what has no name that tells.
   const bool own = source == plant.file;
-  const bool is_mtg = own && plant.source == ScenePlant::Source::mtg;
-  return plant::read_plant_source(source, own ? plant.unit : 0.0, diagnostics,
-                                  is_mtg ? plant::SourceKind::mtg : plant::source_kind(source));
+  plant::SourceKind kind = plant::source_kind(source);
+  if (kind == plant::SourceKind::unknown) kind = plant::SourceKind::plant_file;
+  if (own && plant.source == ScenePlant::Source::mtg) kind = plant::SourceKind::mtg;
+  return plant::read_plant_source(source, own ? plant.unit : 0.0, diagnostics, kind);
 }
 
 std::vector<ScenePlantModel> build_plants(const world::Scene& scene,

@@ -65,7 +65,8 @@ std::string Session::script() const {
   std::string text;
   if (!first_.path.empty() && (scene || !saved_)) {
     const auto file = std::filesystem::absolute(first_.path).lexically_normal();
-    std::map<std::string, Value> arguments = {{"file", file.string()}};
+    std::map<std::string, Value> arguments;
+    arguments.emplace("file", file.string());
     if (first_.unit > 0.0) arguments.emplace("unit", io::exact_number(first_.unit));
     text = line(Command("open", std::move(arguments)));
     if (saved_) text += way_back(first_, *saved_);

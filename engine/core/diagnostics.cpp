@@ -14,8 +14,20 @@ std::string place(const SourcePosition& where) {
   return file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column) + ": ";
 }
 
+// A text of several lines is one of ours, what stands in a file is quoted in it.
+std::string printable_lines(std::string_view text) {
+  std::string out;
+  while (true) {
+    const std::size_t end = text.find('\n');
+    out += printable(text.substr(0, end));
+    if (end == std::string_view::npos) return out;
+    out += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
 std::string sentence(const Diagnostic& diagnostic) {
-  std::string text = printable(diagnostic.what);
+  std::string text = printable_lines(diagnostic.what);
   if (diagnostic.more > 0)
     text += " (and " + std::to_string(diagnostic.more) + " more like it, the last in line " +
             std::to_string(diagnostic.last_line) + ")";

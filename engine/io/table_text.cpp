@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/table_dialect.h"
+#include "io/text_file.h"
 #include "io/unit_text.h"
 
 namespace pedicel::io {
@@ -64,7 +65,7 @@ std::string unit_in_comment(std::string_view comment) {
 }
 
 TableText::TableText(std::string_view text, std::string file, Diagnostics& diagnostics)
-    : file_(std::move(file)), diagnostics_(diagnostics), scanner_(text) {
+    : file_(std::move(file)), diagnostics_(diagnostics), scanner_(without_mark(text)) {
   find_header();
   if (!good_) return;
   take_units();

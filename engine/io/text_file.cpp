@@ -109,14 +109,18 @@ void check_bytes(std::string_view text, const std::string& file) {
 
 }  // namespace
 
+std::string_view without_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF"sv) ? text.substr(3) : text;
+}
+
 std::string text_of_bytes(std::string bytes, const std::string& file) {
   const std::string_view view = bytes;
   if (view.starts_with("\xFF\xFE\0\0"sv) || view.starts_with("\0\0\xFE\xFF"sv))
     throw InvalidFile({file}, "is UTF-32, expected UTF-8: save it as UTF-8");
   if (view.starts_with("\xFF\xFE"sv) || view.starts_with("\xFE\xFF"sv))
     bytes = utf8_of_utf16(view.substr(2), view[0] == '\xFE', file);
-  else if (view.starts_with("\xEF\xBB\xBF"sv))
-    bytes.erase(0, 3);
+  else
+    bytes.erase(0, view.size() - without_mark(view).size());
   if (const std::string other = kind_of_bytes(bytes); !other.empty())
     throw InvalidFile({file}, "is " + other);
   // What DOS and old editors end a text with.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace pedicel::io {
 
@@ -17,5 +18,8 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t longes
 
 /// The same for bytes that are there already; `file` stands for them in errors.
 std::string text_of_bytes(std::string bytes, const std::string& file);
+
+/// A text without the byte order mark that it may begin with.
+std::string_view without_mark(std::string_view text);
 
 }  // namespace pedicel::io

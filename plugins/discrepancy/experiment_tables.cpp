@@ -69,7 +69,7 @@ class SampleTable {
         error(table_.header_line, 0, "no column " + expected[i] + ", expected " + all);
       else
         io::to_si(table_, found[i], expected[i],
-                  expected[i].starts_with('q') ? io::Quantity::none : quantity, diagnostics_);
+                  is_quaternion(expected[i]) ? io::Quantity::none : quantity, diagnostics_);
     return found;
   }
 
@@ -103,6 +103,9 @@ class SampleTable {
   }
 
  private:
+  static bool is_quaternion(const std::string& name) {
+    return name.size() == 2 && name[0] == 'q' && name[1] >= 'w' && name[1] <= 'z';
+  }
   // As it is written, else whatever its capitals and its unit.
   static int index_of(const std::vector<std::string>& expected, const std::string& name) {
     const auto exact = std::find(expected.begin(), expected.end(), name);

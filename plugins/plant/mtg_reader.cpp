@@ -299,7 +299,7 @@ class MtgParser {
 
 std::vector<SkeletonNode> parse_mtg(const std::string& text, const std::string& file,
                                     Diagnostics& diagnostics, double unit) {
-  return MtgParser(file, diagnostics, unit).parse(text);
+  return MtgParser(file, diagnostics, unit).parse(io::without_mark(text));
 }
 
 std::optional<PlantFile> read_mtg(const std::filesystem::path& path, const MtgOptions& options,

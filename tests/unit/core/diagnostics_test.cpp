@@ -58,10 +58,12 @@ TEST(Diagnostics, WhatRepeatsIsSaidOnceWithACount) {
 }
 
 TEST(Diagnostics, NothingHiddenReachesTheTerminal) {
-  EXPECT_EQ(to_string({Severity::error, {"a\x1B[2J.csv", 1, 1}, "\"\x07\x7F\nb\" is odd"}),
-            "a\\x1B[2J.csv:1:1: error: \"\\x07\\x7F\\nb\" is odd");
+  EXPECT_EQ(to_string({Severity::error, {"a\x1B[2J.csv", 1, 1}, "\"\x07\x7F\tb\" is odd"}),
+            "a\\x1B[2J.csv:1:1: error: \"\\x07\\x7F\\tb\" is odd");
   EXPECT_EQ(printable("caf\xC3\xA9 \xE2\x88\x92 \xF0\x9F\x8C\xB1"),
             "caf\xC3\xA9 \xE2\x88\x92 \xF0\x9F\x8C\xB1");
+  EXPECT_EQ(in_quotes("a\nb"), "\"a\\nb\"");
+  EXPECT_EQ(to_string({Severity::error, {}, "one\ntwo"}), "error: one\ntwo");
   EXPECT_EQ(printable("caf\xE9"), "caf\\xE9");  // Latin-1
   EXPECT_EQ(printable("\xC0\xAF \xED\xA0\x80"), "\\xC0\\xAF \\xED\\xA0\\x80");
   EXPECT_EQ(printable("\xC2\x9B 31m"), "\\xC2\\x9B 31m");     // a control of eight bits

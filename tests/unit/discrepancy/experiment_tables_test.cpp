@@ -54,6 +54,8 @@ TEST_F(ExperimentTables, UnitsChangeTheNumbers) {
   expect_marker("time (ms),m.x (cm),m.y (cm),m.z (cm)\n500,100,200,300\n");
   expect_marker("time_ms,m.x_mm,m.y_mm,m.z_mm\n500,1000,2000,3000\n");
   expect_marker("time_s,m.x_m,m.y_m,m.z_m\n0.5,1,2,3\n");
+  const Samples named = markers("time,qx.x (mm),qx.y (mm),qx.z (mm)\n0,1000,0,0\n", {"qx"});
+  EXPECT_EQ(named.value(0, 0), 1.0);
   const Samples force =
       read_force(write("time,fx (mN),fy (N),fz (gf)\n0,1000,2,1000\n"), diagnostics_);
   EXPECT_DOUBLE_EQ(force.value(0, 0), 1.0);

@@ -130,7 +130,7 @@ TEST(SkeletonWays, DropsNoColumnInSilence) {
       read("x,y,z,parentid,vid,edgetype,colour,age\n0,0,0,,1,<,red,3\n0,0,1,1,2,<,red,4\n").said,
       "t.csv:1:1: warning: columns that are not read: colour, age");
   EXPECT_THAT(read("x,y,z,parentid,vid,edgetype,X\n").said,
-              HasSubstr("t.csv:1:28: error: column \"X\" says the same as \"x\""));
+              HasSubstr("t.csv:1:29: error: column \"X\" says the same as \"x\""));
   EXPECT_THAT(
       read("x,y,parentid\n").said,
       HasSubstr("t.csv:1:1: error: a column is missing (z, vid, edgetype), expected x,y,z"));

@@ -186,6 +186,25 @@ TEST_F(Files, ASkeletonTableGoesOutAndComesBack) {
   EXPECT_EQ(session.document().plants.size(), 1u);
 }
 
+TEST_F(Files, ATableIsReadInTheUnitThatIsNamed) {
+  const std::string file = (folder / "cm.csv").string();
+  std::ofstream(file) << "x,y,z,parentid,vid,edgetype\n0,0,0,,1,<\n0,0,10,1,2,<\n0,0,20,2,3,<\n";
+  draw_plant(session);
+  must(session.run_text("import " + file + " plant=again unit=cm"));
+  const auto height = [&](const char* name) {
+    return session.document().plant(name).curves[0].points.back().z();
+  };
+  EXPECT_NEAR(height("again"), 0.2, 1.0e-12);
+  EXPECT_THAT(session.messages().back().text, HasSubstr("cm.csv: notice: 0.2 m tall, 3 nodes"));
+  EXPECT_THAT(session.run_text("import " + file + " plant=third unit=furlong").text,
+              HasSubstr("unit furlong: expected m, cm, mm or a number of metres"));
+  must(session.run_text("open " + file + " unit=0.01"));
+  EXPECT_NEAR(height("cm"), 0.2, 1.0e-12);
+  EXPECT_TRUE(session.reload());
+  EXPECT_NEAR(height("cm"), 0.2, 1.0e-12);
+  EXPECT_THAT(session.script(), HasSubstr("unit=0.01"));
+}
+
 // Branches anywhere between control points, thin stalks, smooth curves: the same plant again, but
 // for what a table cannot say, and from then on the same to the last bit.
 TEST_F(Files, ATableOfAPlantIsReadAsTheSamePlant) {
