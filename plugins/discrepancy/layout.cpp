@@ -56,7 +56,7 @@ Mat3 Layout::compliance(const Spot& spot) const {
     const cosserat::Load load{element, back, force};
     const bool found = find_equilibrium(built_.model, state, gravity_, {&load, 1});
     const Vec3 there = cosserat::point_on(built_.model, state, element, back);
-    return found ? Vec3(there - spot.settled) : Vec3::Constant(std::nan(""));
+    return found ? Vec3(there - spot.settled) : Vec3(Vec3::Constant(std::nan("")));
   };
   // A force by which the place moves a little along its softest axis.
   double force = 1.0e-3, most = 0.0;  // N, m

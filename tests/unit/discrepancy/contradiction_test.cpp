@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "discrepancy/admission.h"
+#include "io/yaml.h"
+#include "plant/effects.h"
 #include "unit/discrepancy/laboratory.h"
 
 namespace pedicel::discrepancy {
@@ -301,6 +303,53 @@ TEST_P(KnownEffects, AreLeftToTheDiagnosis) {
   EXPECT_EQ(sentence(contradictions(experiment)), "");
 }
 INSTANTIATE_TEST_SUITE_P(Some, KnownEffects, ::testing::ValuesIn(known_effects), name_of);
+
+struct Hidden {
+  std::string name, effect;  ///< the effect as a file writes it
+};
+std::ostream& operator<<(std::ostream& out, const Hidden& hidden) {
+  return out << hidden.name;
+}
+
+// As large as makes sense, and larger.
+const Hidden hidden_effects[] = {
+    {"HalfTheModulus", "{name: youngs_modulus, factor: 0.5}"},
+    {"ThreeTimesTheModulus", "{name: youngs_modulus, factor: 3}"},
+    {"AHeavyTip", "{name: extra_mass, mass: 0.03, where: {curve: stem, at: 0.9}}"},
+    {"ASoftRoot", "{name: base_compliance, stiffness: 0.5}"},
+    {"AWeakSegment",
+     "{name: weak_segment, factor: 0.1, length: 0.08, where: {curve: stem, at: 0.4}}"},
+    {"AGradient", "{name: stiffness_gradient, gradient: -1.5}"},
+    {"Softening", "{name: material_nonlinearity, coefficient: -0.3, k0: 1}"},
+    {"Anisotropy", "{name: anisotropy, ratio: 0.4, direction: [0.7, 0.7, 0]}"},
+    {"Friction", "{name: internal_friction, curvature: 0.1, ratio: 0.6}"},
+    {"Relaxation", "{name: relaxation, fraction: 0.6, time: 1.5}"},
+    {"Creep", "{name: creep, fraction: 0.6, time: 40}"},
+    {"Yield", "{name: yield, curvature: 0.3}"},
+    {"MassDamping", "{name: mass_damping, rate: 20}"},
+    {"Wind", "{name: wind, velocity: [1.5, 1.5, 0], drag_area: 0.1}"},
+    {"Gust", "{name: gust, velocity: [0, 2, 0], drag_area: 0.1, frequency: 0.5, amplitude: 0.6}"},
+    {"LeafDrag", "{name: leaf_drag, drag_area: 0.3}"},
+    {"ASoftGrip", "{name: grip_compliance, stiffness: 15}"},
+    {"ASlip", "{name: grip_slip, distance: -0.06, time: 0.7}"},
+    {"Latency", "{name: latency, delay: 0.3}"},
+    {"ATurnedFrame", "{name: frame_rotation, rotation: [0.2, -0.2, 0.1]}"},
+    {"AnOffset", "{name: marker_offset, marker: m5, offset: [0.02, -0.03, 0.03]}"},
+    {"AForceGain", "{name: force_gain, gain: 0.3, offset: [0.1, 0, -0.1]}"},
+};
+
+class HiddenEffects : public ::testing::TestWithParam<Hidden> {};
+
+TEST_P(HiddenEffects, AreLeftToTheDiagnosis) {
+  Diagnostics diagnostics;
+  const io::YamlNode node = io::parse_yaml(GetParam().effect, "effect.yaml", diagnostics);
+  const plant::EffectKind* kind = plant::find_effect(node.raw()["name"].Scalar());
+  ASSERT_NE(kind, nullptr);
+  const plant::Effect effect = plant::read_effect(node, kind->home);
+  ASSERT_EQ(diagnostics.text(), "");
+  EXPECT_EQ(sentence(contradictions(laboratory::measured({effect}))), "");
+}
+INSTANTIATE_TEST_SUITE_P(Some, HiddenEffects, ::testing::ValuesIn(hidden_effects), name_of);
 
 }  // namespace
 }  // namespace pedicel::discrepancy
