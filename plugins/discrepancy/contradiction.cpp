@@ -11,8 +11,9 @@ namespace pedicel::discrepancy {
 namespace {
 
 // In this order: a wrong clock or unit makes all that comes later look wrong, too.
-constexpr std::array checks = {check_clock, check_units, check_frame,    check_labels,
-                               check_holds, check_drive, check_releases, check_paths};
+constexpr std::array checks = {check_copies, check_clock, check_units, check_frame,
+                               check_labels, check_holds, check_drive, check_releases,
+                               check_paths,  check_jumps, check_force};
 
 }  // namespace
 

@@ -35,6 +35,7 @@ struct Fault {
 };
 using Check = std::optional<Fault>(const TrialView&);
 
+Check check_copies;    ///< tables that are another trial's
 Check check_clock;     ///< tables that begin, end or tick on a clock of their own
 Check check_units;     ///< markers that are not in metres
 Check check_frame;     ///< axes or an origin that are not the plant's
@@ -43,5 +44,7 @@ Check check_holds;     ///< paths that are not those of the held points
 Check check_drive;     ///< motion on another clock than what is done
 Check check_releases;  ///< what is held too long or not long enough
 Check check_paths;     ///< motion that is not what is done
+Check check_jumps;     ///< free motion with a gap that the clock hides
+Check check_force;     ///< forces that are not newtons, or not the holder's
 
 }  // namespace pedicel::discrepancy

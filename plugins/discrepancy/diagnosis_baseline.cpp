@@ -44,7 +44,9 @@ void Procedure::fit_baseline() {
   log_.noise(setup_->data());
   result_.base = fit_growing(evaluator, start, fit_options(), horizons);
   log_.fit("Baseline", result_.base, setup_->samples());
+  if (stopped()) return;
   refine();
+  if (stopped()) return;
   setup_->renew_noise(result_.base.hypothesis);
   Evaluator again = setup_->evaluator();
   if (add_plainly_seen(again, fit_options(), result_.unseen, result_.base.hypothesis)) {
@@ -94,6 +96,7 @@ void Procedure::look() {
   log_.say("looking for anything that is wrong", 0.15);
   anchor_at(result_.base);
   result_.directions = directions_at(result_.base);
+  if (stopped()) return;
   result_.before = judged(result_.directions, result_.base);
   if (quiet_with_junctions(result_.before, result_.base)) {
     // The base has more numbers now; a search for what pulled it starts from there.
@@ -128,6 +131,7 @@ void Procedure::look_at_check_trials() {
 
 // The directed tests, and what they do not look for.
 Alarm Procedure::judged(std::vector<Direction>& directions, const FitSummary& model) const {
+  if (stopped()) return {};
   Alarm alarm = judge(directions, model, numerical_, options_.seed);
   alarm.leftover = leftover(setup_->data(), fit_options().trials, model, numerical_);
   alarm.raised = alarm.raised || alarm.leftover.shows();

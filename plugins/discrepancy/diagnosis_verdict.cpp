@@ -152,7 +152,7 @@ void Procedure::tell_of_force() {
   if (!remainder.empty()) remainder += ". ";
   remainder +=
       force.found ? force.sentence() : "No force at a marker explains it. Do not extrapolate.";
-  if (force.fit.why == "not run") return;
+  if (force.fit.why == "not run" || stopped()) return;
   anchor_at(force.fit);
   std::vector<Direction> left = directions_at(force.fit);
   const Alarm alarm = judged(left, force.fit);

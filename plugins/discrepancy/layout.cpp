@@ -1,11 +1,18 @@
 #include "discrepancy/layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "discrepancy/equilibrium.h"
 #include "discrepancy/variant_plant.h"
 
 namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double small_way = 0.01;  // of the reach: there a plant is a spring
+
+}  // namespace
 
 std::optional<Layout> Layout::of(const Experiment& experiment) {
   try {
@@ -21,13 +28,13 @@ Layout::Layout(const Experiment& experiment)
       drawn_(cosserat::drawn_state(built_.model)),
       settled_(drawn_) {
   const cosserat::RodModel& model = built_.model;
-  const Vec3 gravity =
-      experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
-  if (!find_equilibrium(model, settled_, gravity, {})) settled_ = drawn_;
+  gravity_ = experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
+  if (!find_equilibrium(model, settled_, gravity_, {})) settled_ = drawn_;
   root_ = model.root.position;
   for (const cosserat::Element& element : model.elements) {
     far_.push_back(element.length + (element.parent < 0 ? 0.0 : far_[element.parent]));
     reach_ = std::max(reach_, far_.back());
+    mass_ += element.mass;
   }
   for (const Marker& marker : experiment.markers) markers_.push_back(spot(marker.place));
 }
@@ -40,6 +47,26 @@ Spot Layout::spot(const plant::CurvePlace& place) const {
   spot.settled = cosserat::point_on(built_.model, settled_, element, back);
   spot.from_root = far_[element] - back;
   return spot;
+}
+
+Mat3 Layout::compliance(const Spot& spot) const {
+  const auto [element, back] = spot.point;
+  const auto moved = [&](const Vec3& force) {
+    cosserat::RodState state = settled_;
+    const cosserat::Load load{element, back, force};
+    const bool found = find_equilibrium(built_.model, state, gravity_, {&load, 1});
+    const Vec3 there = cosserat::point_on(built_.model, state, element, back);
+    return found ? Vec3(there - spot.settled) : Vec3(Vec3::Constant(std::nan("")));
+  };
+  // A force by which the place moves a little along its softest axis.
+  double force = 1.0e-3, most = 0.0;  // N, m
+  for (int axis = 0; axis < 3; ++axis)
+    most = std::max(most, moved(force * Vec3::Unit(axis)).norm());
+  force *= small_way * reach_ / most;
+  Mat3 compliance;
+  for (int axis = 0; axis < 3; ++axis)
+    compliance.col(axis) = moved(force * Vec3::Unit(axis)) / force;
+  return 0.5 * (compliance + compliance.transpose());
 }
 
 double Layout::along(const Spot& a, const Spot& b) const {

@@ -27,6 +27,9 @@ class Layout {
   Spot spot(const plant::CurvePlace& place) const;
   /// m along the plant, from one to the other.
   double along(const Spot& a, const Spot& b) const;
+  /// m/N, of a small force at a place of the settled plant; NaN where none is found.
+  Mat3 compliance(const Spot& spot) const;
+  double mass() const { return mass_; }       ///< kg, of the plant
   const Vec3& root() const { return root_; }  ///< m, W
   double reach() const { return reach_; }     ///< m, to the end that is farthest from the root
 
@@ -39,7 +42,8 @@ class Layout {
   std::vector<double> far_;  // m from the root to each element's child node
   std::vector<Spot> markers_;
   Vec3 root_ = Vec3::Zero();
-  double reach_ = 0.0;
+  Vec3 gravity_ = Vec3::Zero();  // m/s2
+  double reach_ = 0.0, mass_ = 0.0;
 };
 
 }  // namespace pedicel::discrepancy

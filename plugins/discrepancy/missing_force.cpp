@@ -45,7 +45,9 @@ class Inference {
     choose_centre();
     look_at_places();
     const bool of_sensor = look_at_sensor();
-    if (of_sensor) {
+    if (stopped()) {
+      places_.clear();
+    } else if (of_sensor) {
       conclude_sensor();
     } else if (!places_.empty() && places_.front().free.evidence > options_.least_evidence) {
       try_laws();
@@ -54,13 +56,19 @@ class Inference {
       result_.terms = refits.laws();
       result_.fit = refits.best();
       if (!result_.terms.empty()) result_.evidence = result_.terms.front().evidence;
-      conclude();
+      if (!stopped()) conclude();
     }
     result_.simulations = responses_->simulations();
     return std::move(result_);
   }
 
  private:
+  // What is found then is not used.
+  bool stopped() const {
+    const std::atomic<bool>* stop = evaluator_.simulator().stop();
+    return stop && *stop;
+  }
+
   void note(const std::string& sentence) const {
     if (options_.note) options_.note(sentence);
   }
@@ -102,6 +110,7 @@ class Inference {
   void look_at_places() {
     double most = 0.0;
     for (const int marker : markers()) {
+      if (stopped()) return;
       ForcePlace place;
       place.space = responses_->force_at(marker);
       place.free = free_history(place.space);
@@ -129,6 +138,7 @@ class Inference {
       groups.push_back({m});
     }
     for (const std::vector<int>& group : groups) {
+      if (stopped()) return false;
       const double evidence = free_history(responses_->displacement_of(group)).evidence;
       if (evidence <= sensor_evidence_) continue;
       sensor_evidence_ = evidence;
@@ -157,6 +167,7 @@ class Inference {
   void try_laws() {
     std::map<std::string, std::size_t> tried;  // places of each curve
     for (const ForcePlace& place : places_) {
+      if (stopped()) return;
       const bool loud = &place - places_.data() < most_loud;
       if (++tried[place.space.place.curve] > 2 && !loud) continue;
       const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);

@@ -11,9 +11,11 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double agrees = 0.9;
+constexpr int least_rows = 8;
+constexpr double visible = 10.0;     // times the noise, of what moves
 constexpr double contradicts = 0.5;  // of the motion is not what is done
 constexpr double least_way = 0.02;   // of the reach, rms: of less a plant may make anything
-constexpr double seen = 100.0;       // times the noise, of what leads a marker
+constexpr double seen = 30.0;        // times the noise, of what leads a marker
 constexpr double rests = 0.03;       // of the way of the point beside it
 
 std::string percent(double share) {
@@ -60,6 +62,7 @@ std::optional<Fault> goes_elsewhere(const Beside& beside) {
   if (!beside.drive().path) return std::nullopt;
   const Following f = beside.follow();
   const double reach = beside.view().layout->reach();
+  if (f.rows < least_rows) return std::nullopt;
   if (f.driven < std::max(least_way * reach, seen * beside.noise())) return std::nullopt;
   if (f.moved < rests * f.driven)
     return Fault{"markers.csv",
@@ -70,7 +73,7 @@ std::optional<Fault> goes_elsewhere(const Beside& beside) {
                           "go along",
                           1e3 * f.driven) +
                      likely(beside, f)};
-  if (beside.explained() > contradicts) return std::nullopt;
+  if (f.moved < visible * beside.noise() || beside.explained() > contradicts) return std::nullopt;
   return Fault{"markers.csv", "has " + beside.marker() + " go another way than " + beside.what() +
                                   " leads the plant beside it, which explains " +
                                   percent(beside.explained()) +

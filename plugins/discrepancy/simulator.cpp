@@ -201,16 +201,25 @@ struct Simulator::Impl {
   }
 
   std::vector<Prediction> run(std::span<const Request> requests) {
+    if (stop) return nothing(requests);
     std::vector<Wanted> wanted;
     for (const Request& request : requests) wanted.push_back(want(request));
     std::vector<Job> jobs = make_jobs(requests, wanted);
-    for (Job& job : jobs) job.possible = check(job);
+    for (Job& job : jobs) {
+      if (stop) return nothing(requests);
+      job.possible = check(job);
+    }
     const std::vector<Group> groups = make_groups(jobs);
     std::vector<Prediction> out(requests.size());
     for (const Job& job : jobs)
       if (!job.possible)
         for (const int r : job.requests) out[r] = nothing(requests[r]);
     pool.for_each(static_cast<int>(groups.size()), [&](int g) {
+      if (stop) {
+        for (const int j : groups[g].jobs)
+          for (const int r : jobs[j].requests) out[r] = nothing(requests[r]);
+        return;
+      }
       const auto motions = simulate(jobs, groups[g]);
       for (std::size_t i = 0; i < motions.size(); ++i)
         for (const int r : jobs[groups[g].jobs[i]].requests)
@@ -245,6 +254,12 @@ struct Simulator::Impl {
       return false;
     }
     return true;
+  }
+
+  std::vector<Prediction> nothing(std::span<const Request> requests) const {
+    std::vector<Prediction> none;
+    for (const Request& request : requests) none.push_back(nothing(request));
+    return none;
   }
 
   Prediction nothing(const Request& request) const {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "discrepancy/admission.h"
+#include "io/yaml.h"
+#include "plant/effects.h"
 #include "unit/discrepancy/laboratory.h"
 
 namespace pedicel::discrepancy {
@@ -112,6 +114,121 @@ const Mistake units_and_frames[] = {
      {"push/markers.csv", "aside of the plant's drawing by about (0.1,", "origin elsewhere?"}},
 };
 
+Vec3 point(const Trial& trial, int row, int marker) {
+  return trial.markers.value.block<1, 3>(row, 3 * marker).transpose();
+}
+void put(Trial& trial, int row, int marker, const Vec3& x) {
+  trial.markers.value.block<1, 3>(row, 3 * marker) = x.transpose();
+}
+std::function<void(Trial&)> exchange(int a, int b, int from) {
+  return [=](Trial& trial) {
+    for (int row = from; row < trial.markers.size(); ++row) {
+      const Vec3 keep = point(trial, row, a);
+      put(trial, row, a, point(trial, row, b));
+      put(trial, row, b, keep);
+    }
+  };
+}
+void every_seventh_is_zero(Trial& trial) {
+  for (int row = 6; row < trial.markers.size(); row += 7) put(trial, row, 8, Vec3::Zero());
+}
+void copy_column(Trial& trial) {
+  for (int row = 0; row < trial.markers.size(); ++row) put(trial, row, 2, point(trial, row, 1));
+}
+// The tracker loses a marker for good and takes something in the room for it.
+void ghost(Trial& trial) {
+  for (int row = 60; row < trial.markers.size(); ++row) put(trial, row, 6, Vec3(0.9, 0.4, 0.1));
+}
+// 40 frames are lost, and the clock goes on from the last.
+void drop_frames(Trial& trial) {
+  constexpr int at = 60, lost = 33;
+  Samples& all = trial.markers;
+  const int rows = all.size() - lost;
+  all.value.middleRows(at, rows - at) = all.value.bottomRows(rows - at).eval();
+  all.value.conservativeResize(rows, Eigen::NoChange);
+  all.time.resize(rows);
+}
+std::function<void(Trial&)> path(const std::function<Vec3(const Vec3&)>& change) {
+  return [=](Trial& trial) {
+    for (Vec3& x : trial.holds[0].path.position) x = change(x);
+  };
+}
+std::function<void(Trial&)> force(double factor) {
+  return [=](Trial& trial) { trial.force.value *= factor; };
+}
+
+const Mistake labels[] = {
+    {"LabelsSwappedHalfWay",
+     in(release_x, exchange(1, 8, 100)),
+     {"release_x/markers.csv", "m2 and m9 exchange their places from 2 s on", "swapped"}},
+    {"NeighboursSwappedHalfWay",
+     in(push, exchange(1, 2, 200)),
+     {"push/markers.csv", "m2 and m3 exchange their places from 4 s on"}},
+    {"LabelsSwappedFromTheStart",
+     in_all(exchange(1, 2, 0)),
+     {"release_x/markers.csv", "m2 and m3 each where the plant has the other"}},
+    {"AColumnCopied",
+     in(release_y, copy_column),
+     {"release_y/markers.csv", "same numbers for m2 and m3 in 201 rows"}},
+    {"ZerosForNotSeen",
+     in(release_x, every_seventh_is_zero),
+     {"release_x/markers.csv", "m9 at exactly 0, 0, 0 in 28 rows", "expected empty cells"}},
+    {"AGhost", in(release_x, ghost), {"release_x/markers.csv", "m7", "a ghost"}},
+    {"AMarkerAtAnotherPlace",
+     [](Experiment& experiment) { experiment.markers[2].place.at = 0.75; },
+     {"release_x/markers.csv", "where the plant is 0.03", "expected m3 at 0.75 of stem"}},
+};
+
+const Mistake drives[] = {
+    {"MarkersOfAnotherTrial",
+     [](Experiment& e) { std::swap(e.trials[release_x].markers, e.trials[release_y].markers); },
+     {"release_x/markers.csv", "go another way than hold.csv", "the markers of trial release_y?"}},
+    {"ACopiedFile",
+     [](Experiment& e) { e.trials[weights].markers = e.trials[push].markers; },
+     {"weights/markers.csv", "same numbers as push/markers.csv", "copied?"}},
+    {"FoldersExchanged",
+     [](Experiment& e) {
+       Trial &one = e.trials[release_x], &other = e.trials[push];
+       std::swap(one.markers, other.markers);
+       std::swap(one.force, other.force);
+       std::swap(one.holds[0].path, other.holds[0].path);
+     },
+     {"release_x/markers.csv", "follow hold.csv until 8 s, where it is let go at 1 s"}},
+    {"APathInMillimetres",
+     in(release_x, path([](const Vec3& x) { return Vec3(1e3 * x); })),
+     {"release_x/hold.csv", "in millimetres?"}},
+    {"APathWithYUp",
+     in(push, path([](const Vec3& x) { return Vec3(x.x(), x.z(), -x.y()); })),
+     {"push/hold.csv", "read as (x, -z, y)", "y up in place of z?"}},
+    {"ThePathOfAnotherPoint",
+     in(release_x, path([](const Vec3& x) { return Vec3(x - Vec3(0.03, -0.006, 0.2)); })),
+     {"release_x/hold.csv", "path of the point at"}},
+    {"QuaternionsWithWFirst",
+     in(release_x,
+        [](Trial& trial) {
+          Path& path = trial.holds[0].path;  // 1, 0, 0, 0, read as x, y, z, w
+          path.rotation.assign(path.time.size(), Quat(0, 1, 0, 0));
+        }),
+     {"release_x/hold.csv", "expected qx, qy, qz, qw"}},
+    {"AReleaseThatWasEarlier",
+     in(release_x, [](Trial& t) { t.holds[0].release = 2.0; }),
+     {"release_x/markers.csv", "held until 2 s", "earlier"}},
+    {"AReleaseThatWasLater",
+     in(release_x, [](Trial& t) { t.holds[0].release = 0.3; }),
+     {"release_x/markers.csv", "let go at 0.3 s", "later"}},
+    {"AnotherRate",
+     in(push, times([](double t) { return 1.2 * t; })),
+     {"push/markers.csv", "times as fast as that of hold.csv", "rate of frames?"}},
+    {"FramesDroppedUncounted",
+     in(release_x, drop_frames),
+     {"release_x/markers.csv", "markers jump between 1.18 and 1.2 s", "frames dropped"}},
+    {"ForcesOnTheSensor", in(push, force(-1.0)), {"push/force.csv", "of the opposite sign?"}},
+    {"ForcesInGrams", in(push, force(101.97)), {"push/force.csv", "expected newtons", "in grams?"}},
+    {"ForcesInKilonewtons",
+     in(push, force(1e-3)),
+     {"push/force.csv", "expected newtons", "in kilonewtons?"}},
+};
+
 class Contradictions : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(Contradictions, AreTold) {
@@ -130,6 +247,8 @@ TEST_P(Contradictions, AreTold) {
 constexpr auto name_of = [](const auto& info) { return info.param.name; };
 INSTANTIATE_TEST_SUITE_P(Clock, Contradictions, ::testing::ValuesIn(clocks), name_of);
 INSTANTIATE_TEST_SUITE_P(Frame, Contradictions, ::testing::ValuesIn(units_and_frames), name_of);
+INSTANTIATE_TEST_SUITE_P(Label, Contradictions, ::testing::ValuesIn(labels), name_of);
+INSTANTIATE_TEST_SUITE_P(Drive, Contradictions, ::testing::ValuesIn(drives), name_of);
 
 // What has a name of its own among the causes.
 Vec3 turned(const Vec3& x, double angle) {
@@ -148,6 +267,32 @@ const Mistake known_effects[] = {
        for (Trial& trial : experiment.trials) trial.markers.value.col(12).array() += 0.045;
      },
      {}},
+    {"LabelsSwappedForAWhile",
+     in(release_x,
+        [](Trial& trial) {
+          exchange(1, 2, 100)(trial);
+          exchange(1, 2, 120)(trial);
+        }),
+     {}},
+    {"AFrozenMarker",
+     in(release_x,
+        [](Trial& trial) {
+          for (int row = 100; row < trial.markers.size(); ++row)
+            put(trial, row, 8, point(trial, 100, 8));
+        }),
+     {}},
+    {"ASeldomSampledRecord",
+     in_all([](Trial& trial) {
+       Samples few;
+       few.value.resize((trial.markers.size() + 11) / 12, trial.markers.value.cols());
+       for (int row = 0; row < few.value.rows(); ++row) {
+         few.time.push_back(trial.markers.time[12 * row]);
+         few.value.row(row) = trial.markers.value.row(12 * row);
+       }
+       trial.markers = few;
+     }),
+     {}},
+    {"AForceGainOfATenth", in_all([](Trial& trial) { trial.force.value *= 0.2; }), {}},
 };
 
 class KnownEffects : public ::testing::TestWithParam<Mistake> {};
@@ -158,6 +303,53 @@ TEST_P(KnownEffects, AreLeftToTheDiagnosis) {
   EXPECT_EQ(sentence(contradictions(experiment)), "");
 }
 INSTANTIATE_TEST_SUITE_P(Some, KnownEffects, ::testing::ValuesIn(known_effects), name_of);
+
+struct Hidden {
+  std::string name, effect;  ///< the effect as a file writes it
+};
+std::ostream& operator<<(std::ostream& out, const Hidden& hidden) {
+  return out << hidden.name;
+}
+
+// As large as makes sense, and larger.
+const Hidden hidden_effects[] = {
+    {"HalfTheModulus", "{name: youngs_modulus, factor: 0.5}"},
+    {"ThreeTimesTheModulus", "{name: youngs_modulus, factor: 3}"},
+    {"AHeavyTip", "{name: extra_mass, mass: 0.03, where: {curve: stem, at: 0.9}}"},
+    {"ASoftRoot", "{name: base_compliance, stiffness: 0.5}"},
+    {"AWeakSegment",
+     "{name: weak_segment, factor: 0.1, length: 0.08, where: {curve: stem, at: 0.4}}"},
+    {"AGradient", "{name: stiffness_gradient, gradient: -1.5}"},
+    {"Softening", "{name: material_nonlinearity, coefficient: -0.3, k0: 1}"},
+    {"Anisotropy", "{name: anisotropy, ratio: 0.4, direction: [0.7, 0.7, 0]}"},
+    {"Friction", "{name: internal_friction, curvature: 0.1, ratio: 0.6}"},
+    {"Relaxation", "{name: relaxation, fraction: 0.6, time: 1.5}"},
+    {"Creep", "{name: creep, fraction: 0.6, time: 40}"},
+    {"Yield", "{name: yield, curvature: 0.3}"},
+    {"MassDamping", "{name: mass_damping, rate: 20}"},
+    {"Wind", "{name: wind, velocity: [1.5, 1.5, 0], drag_area: 0.1}"},
+    {"Gust", "{name: gust, velocity: [0, 2, 0], drag_area: 0.1, frequency: 0.5, amplitude: 0.6}"},
+    {"LeafDrag", "{name: leaf_drag, drag_area: 0.3}"},
+    {"ASoftGrip", "{name: grip_compliance, stiffness: 15}"},
+    {"ASlip", "{name: grip_slip, distance: -0.06, time: 0.7}"},
+    {"Latency", "{name: latency, delay: 0.3}"},
+    {"ATurnedFrame", "{name: frame_rotation, rotation: [0.2, -0.2, 0.1]}"},
+    {"AnOffset", "{name: marker_offset, marker: m5, offset: [0.02, -0.03, 0.03]}"},
+    {"AForceGain", "{name: force_gain, gain: 0.3, offset: [0.1, 0, -0.1]}"},
+};
+
+class HiddenEffects : public ::testing::TestWithParam<Hidden> {};
+
+TEST_P(HiddenEffects, AreLeftToTheDiagnosis) {
+  Diagnostics diagnostics;
+  const io::YamlNode node = io::parse_yaml(GetParam().effect, "effect.yaml", diagnostics);
+  const plant::EffectKind* kind = plant::find_effect(node.raw()["name"].Scalar());
+  ASSERT_NE(kind, nullptr);
+  const plant::Effect effect = plant::read_effect(node, kind->home);
+  ASSERT_EQ(diagnostics.text(), "");
+  EXPECT_EQ(sentence(contradictions(laboratory::measured({effect}))), "");
+}
+INSTANTIATE_TEST_SUITE_P(Some, HiddenEffects, ::testing::ValuesIn(hidden_effects), name_of);
 
 }  // namespace
 }  // namespace pedicel::discrepancy

@@ -93,7 +93,8 @@ inline void add_trials(Experiment& experiment) {
   add_samples(pushed.force, 8.0, 3);
 }
 
-inline Experiment measured() {
+/// With something hidden in the plant, the grip or the instruments.
+inline Experiment measured(const std::vector<plant::Effect>& hidden = {}) {
   Experiment experiment;
   experiment.title = "a day in a laboratory";
   experiment.folder = "day";
@@ -109,10 +110,10 @@ inline Experiment measured() {
   experiment.noise = {position_std, force_std};
   add_trials(experiment);
   Simulator simulator(experiment, {0.02, 1.0 / 240}, 1);
-  const Variant nominal;
+  const Variant variant{hidden, {}};
   Random random(5);
   for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t) {
-    const Simulator::Request request{&nominal, t};
+    const Simulator::Request request{&variant, t};
     const Prediction seen = simulator.run({&request, 1}).front();
     Trial& trial = experiment.trials[t];
     trial.markers.value = seen.markers;

@@ -1,0 +1,84 @@
+// Forces. Led slowly, a point pulls back like a spring: what holds it pushes the way it goes, about
+// as hard as the nominal plant says. Only a plant that gains energy would pull the other way.
+#include <Eigen/LU>
+#include <cmath>
+
+#include "discrepancy/following.h"
+#include "discrepancy/sentence.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double agrees = 0.5;  // of the force's motion
+// A modulus ten times off, and a gain of the sensor beside.
+constexpr double most_off = 30.0;
+constexpr double slow = 0.1;  // of the square of the plant's first frequency
+constexpr double sure = 4.0;  // deviations
+constexpr int least_rows = 10;
+
+Track force_track(const Trial& trial) {
+  Track track;
+  for (int row = 0; row < trial.force.size(); ++row) {
+    const Vec3 f = trial.force.value.row(row).head<3>().transpose();
+    if (!f.allFinite()) continue;
+    track.time.push_back(trial.force.time[row]);
+    track.place.push_back(f);
+  }
+  return track;
+}
+
+// 1/s2, of the mean speed of a path over its mean way.
+double frequency_square(const Path& path, double until) {
+  Vec3 mean = Vec3::Zero();
+  double speed = 0.0, way = 0.0, time = 0.0;
+  for (const Vec3& x : path.position) mean += x / static_cast<double>(path.position.size());
+  for (std::size_t i = 1; i < path.time.size() && path.time[i] <= until; ++i) {
+    const double dt = path.time[i] - path.time[i - 1];
+    speed += (path.position[i] - path.position[i - 1]).squaredNorm() / dt;
+    way += dt * (path.position[i] - mean).squaredNorm();
+    time += dt;
+  }
+  return way > 0.0 ? speed / way : 0.0;
+}
+
+std::string likely_unit(double ratio) {
+  if (ratio > 50.0 && ratio < 320.0) return "; in grams?";
+  if (ratio >= 320.0 && ratio < 3200.0) return "; in millinewtons?";
+  if (ratio < 3e-3 && ratio > 3e-4) return "; in kilonewtons?";
+  return "";
+}
+
+}  // namespace
+
+std::optional<Fault> check_force(const TrialView& view) {
+  const Trial& trial = view.trial;
+  if (!view.layout || trial.force.size() == 0 || trial.holds.empty()) return std::nullopt;
+  const std::vector<Drive> drives = drives_of(view);
+  if (drives.empty() || drives.front().kind != Drive::Kind::hold) return std::nullopt;
+  const Drive& drive = drives.front();
+  const Following f = following(force_track(trial), drive);
+  if (f.rows < least_rows || f.driven <= 0.0) return std::nullopt;
+  const Mat3 plant = view.layout->compliance(drive.spot);
+  if (!plant.allFinite() || plant.determinant() <= 0.0) return std::nullopt;
+  if (frequency_square(*drive.path, drive.until) * plant.trace() * view.layout->mass() > slow)
+    return std::nullopt;
+  // Led along one axis, a point is held along the others, too.
+  const double grip = trial.holds.front().stiffness ? 1.0 / *trial.holds.front().stiffness : 0.0;
+  const Mat3 both = plant + grip * Mat3::Identity();
+  const double expected = f.along.dot(both.inverse() * f.along);
+  const double measured = f.gain.dot(f.along);
+  const double error = sure * f.left / (f.driven * std::sqrt(static_cast<double>(f.rows)));
+  const std::string said = text(
+      "changes by %.3g N for a metre that the held point is led, and the nominal plant takes "
+      "%.3g N: expected ",
+      measured, expected);
+  if (measured < -error && f.explained() > agrees && -measured > expected / most_off)
+    return Fault{"force.csv", said + "the holder's pull on the plant; of the opposite sign?"};
+  const bool is_large = measured - error > most_off * expected && f.explained() > agrees;
+  const bool is_small = std::abs(measured) + error < expected / most_off;
+  if (!is_large && !is_small) return std::nullopt;
+  return Fault{"force.csv", said + "newtons" + likely_unit(measured / expected)};
+}
+
+}  // namespace pedicel::discrepancy
