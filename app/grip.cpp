@@ -76,17 +76,16 @@ void Grip::tell_colliders() {
 void Grip::end(double dt) {
   robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
-  double position = now_.aim;
-  load_ = 0.0;
+  double position = now_.aim, load = 0.0;
   for (const coupling::ColliderSource* source : sources_) {
     const cosserat::DriveEnd& end = source->drive_ends()[drive_];
-    load_ += end.load;
+    load += end.load;
     if (std::abs(end.position - now_.aim) > std::abs(position - now_.aim)) position = end.position;
   }
   was_stopped_ = position != now_.aim;
   if (was_stopped_ || position != now_.reference)
     robot.place_joint(joint, position, (position - now_.start) / dt);
-  if (load_ != 0.0) robot.add_motor_load(joint, load_);
+  if (load != 0.0) robot.add_motor_load(joint, load);
   if (contacts_) push_palm();
 }
 

@@ -28,9 +28,6 @@ class Grip {
   /// To be added after the plants.
   world::Participant& after() { return after_; }
 
-  /// N or N m, what the motor pressed with in the last step; negative where it opens.
-  double load() const { return load_; }
-
  private:
   template <void (Grip::*function)(double dt)>
   class Part : public world::Participant {
@@ -59,7 +56,6 @@ class Grip {
   robot::Jacobian jacobian_;
   cosserat::ContactDrive now_;
   bool was_stopped_ = false;  // by what it pressed, in the step before
-  double load_ = 0.0;
 };
 
 }  // namespace pedicel::app

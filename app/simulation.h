@@ -86,8 +86,6 @@ class Simulation {
   /// Null where the scene has no robot.
   const RobotControl* robot() const { return robot_.get(); }
   RobotControl* robot() { return robot_.get(); }
-  /// Null where the robot has no gripper, or does not hold its joints by their motors.
-  const Grip* grip() const { return grip_.get(); }
   /// What a user should know and that stops nothing, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -125,7 +123,7 @@ class Simulation {
   std::vector<cosserat::SelfContact*> self_contacts_;
   std::unique_ptr<RobotControl> robot_;
   coupling::ColliderSet colliders_;
-  std::unique_ptr<Grip> grip_;  // null where nothing grips
+  std::unique_ptr<Grip> grip_;  // null without a gripper that its motor moves
   std::unique_ptr<PlantStep> plant_step_;
   std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
   std::unique_ptr<Measurements> measurements_;

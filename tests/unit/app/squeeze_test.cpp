@@ -158,6 +158,37 @@ TEST_P(Squeeze, ASoftFruitIsNotCrushedThrough) {
   EXPECT_GT(sim->robot()->robot().positions()[sim->robot()->gripper()], 0.4 * 0.012);
 }
 
+// The cherry tomato's last stalk, between the arm's pads, a fruit's shoulder beside it: shut on to
+// 0, then pulled by 50 mm sideways and up. It used to end as unstable, organ unknown.
+TEST_P(Squeeze, TheCherryTomatosStalkIsHeld) {
+  const std::string assets = PEDICEL_SOURCE_DIR;
+  const SceneCase files;
+  const auto sim = files.simulation(
+      "dt: 0.004166666666666667\ncoupling: {friction: 0.8, direction: " + std::string(GetParam()) +
+      "}\nplants:\n  - {name: truss, file: " + assets +
+      "/plants/cherry_tomato.plant.yaml}\nrobot:\n  name: arm\n  file: " + assets +
+      "/assets/robots/stalk6/stalk6.urdf\n"
+      "  position: [0.52, 0, 0.2]\n  orientation: [0, 0, 1, 0]\n  tool: tool\n"
+      "  gripper: finger_joint\n  gripper_force: 1000\n  waypoints:\n"
+      "    - {time: 0, at: {fruit: truss/fruit_5}, offset: [0.1, 0, 0.02], facing: {approach: "
+      "[-1, 0, 0], across: [0, 1, 0]}, gripper: 0.02}\n"
+      "    - {time: 1.0, at: {fruit: truss/fruit_5}, offset: [0, 0, 0.02]}\n"
+      "    - {time: 1.2, at: {fruit: truss/fruit_5}, offset: [0, 0, 0.02], gripper: 0.0}\n"
+      "    - {time: 2.5, at: {fruit: truss/fruit_5}, offset: [0.05, 0, 0.05], gripper: 0.0}\n");
+  int unsolved = 0;
+  for (int i = 0; i < 600; ++i) {
+    const auto& report = sim->step();
+    ASSERT_EQ(report.errors & world::fatal_errors, 0u) << report.culprit << ": " << report.cause;
+    unsolved += (report.errors & world::plant_not_converged) != 0;
+    const Fingers fingers = fingers_of(*sim);
+    EXPECT_LE(fingers.normal[0] + fingers.normal[1], 1.05 * (40.0 + joint_friction));
+    if (i < 320) continue;
+    EXPECT_GT(fingers.normal[0], 15.0) << i;
+    EXPECT_GT(fingers.normal[1], 15.0) << i;
+  }
+  EXPECT_LT(unsolved, 20);
+}
+
 INSTANTIATE_TEST_SUITE_P(Directions, Squeeze, testing::Values("one_way", "two_way"));
 
 // A grip that holds from the start is a grip, and is said; one whose pad has the axis inside cannot
