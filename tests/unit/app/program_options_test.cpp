@@ -29,7 +29,7 @@ duration: 0.5   # s
 plants:
   - {name: p, file: fruit.plant.yaml, set: {material.density: 700}}
 loads:
-  - {fruit: p/f, force: [1, 0, 0.5], from: 0, to: 1, ramp: true}
+  - {fruit: p/f, force: [3, 0, 1.5], from: 0, to: 1, ramp: true}
 ground: {}
 cameras:
   - {name: front, eye: [1, 0, 0.2]}
