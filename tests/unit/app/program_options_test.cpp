@@ -161,7 +161,7 @@ TEST_F(ProgramOptions, AStateThatDoesNotFitIsRefused) {
   expect_refused(load + " --dt 0.002", "with other plants or settings", 3);
   const std::string text = io::read_file(state);
   write("state.yaml", text.substr(0, text.size() - 5));
-  expect_refused(load, "expected 16 hexadecimal digits", 3);
+  expect_refused(load, "state.yaml:8", 3);
   write("state.yaml", text.substr(0, text.find("steps")));
   expect_refused(load, "missing key \"steps\"", 3);
   write("state.yaml", with(text, "version: 1", "version: 2"));
