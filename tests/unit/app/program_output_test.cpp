@@ -109,6 +109,18 @@ class ProgramStop : public ProgramOutput, public ::testing::WithParamInterface<i
   void write_long_scene() {
     write("long.scene.yaml", with(quick_scene, "duration: 0.1", "duration: 100000"));
   }
+  /// Until it has a handler of SIGTERM.
+  static bool wait_until_it_hears(pid_t child) {
+    for (int i = 0; i < 600; ++i) {
+      std::ifstream status("/proc/" + std::to_string(child) + "/status");
+      for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigCgt:") &&
+            (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1))
+          return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
   static constexpr double at_once = 2.0;  // s; a second, on a machine that does other things too
 };
 INSTANTIATE_TEST_SUITE_P(Signals, ProgramStop, ::testing::Values(SIGINT, SIGTERM, SIGHUP, SIGXCPU));
@@ -134,6 +146,7 @@ TEST_P(ProgramStop, LoadingIsStoppedAtOnce) {
              "file: stem.plant.yaml, repeat: {count: [100, 100], spacing: [1, 1]}}"));
   const pid_t child =
       start({"--headless", path("many.scene.yaml"), "--out", path("out"), "--no-pictures"});
+  ASSERT_TRUE(wait_until_it_hears(child));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   ::kill(child, GetParam());
   double seconds = 0.0;
