@@ -1,7 +1,5 @@
 #include "app/param_sweep.h"
 
-#include <cstdio>
-
 #include "app/verbosity.h"
 #include "core/check.h"
 #include "core/stop.h"
@@ -14,10 +12,10 @@ namespace {
 
 constexpr int exit_ok = 0, exit_unstable = 4, exit_unmet = 5;
 
+/// "run_001"
 std::string folder_of(std::size_t row) {
-  char name[16];
-  std::snprintf(name, sizeof name, "run_%03zu", row + 1);
-  return name;
+  const std::string number = std::to_string(row + 1);
+  return "run_" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
 }
 
 world::Scene scene_of_row(const world::Scene& scene, const io::CsvTable& table, std::size_t row) {

@@ -35,7 +35,8 @@ namespace {
 void add_number(CLI::App& app, RunArguments& a, const std::string& option, const std::string& key,
                 const std::string& help) {
   app.add_option_function<std::string>(
-      option, [&a, key](const std::string& text) { a.numbers.emplace_back(key, text); }, help);
+         option, [&a, key](const std::string& text) { a.numbers.emplace_back(key, text); }, help)
+      ->type_name("NUMBER");
 }
 
 void add_table_options(CLI::App& app, RunArguments& a) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/stop.h"
 #include "io/csv.h"
 #include "world/settings.h"
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <string_view>
 
 namespace pedicel {
 
@@ -30,15 +31,14 @@ long milliseconds() {
   return 1000L * now.tv_sec + now.tv_nsec / 1000000L;
 }
 
-[[noreturn]] void end_at_once(int signal) {
-  constexpr char words[] = "\nstopped at once\n";
+[[noreturn]] void end_at_once(int signal, std::string_view words) {
   if (signal != SIGPIPE) [[maybe_unused]]
-    const ssize_t written = ::write(STDERR_FILENO, words, sizeof words - 1);
+    const ssize_t written = ::write(STDERR_FILENO, words.data(), words.size());
   ::_exit(128 + signal);
 }
 
 extern "C" void on_stop_signal(int signal) {
-  if (!in_good_order) end_at_once(signal);
+  if (!in_good_order) end_at_once(signal, "\nstopped; nothing was written\n");
   int none = 0;
   if (stop_signal.compare_exchange_strong(none, signal)) {
     first_signal_at = milliseconds();
@@ -46,7 +46,8 @@ extern "C" void on_stop_signal(int signal) {
     return;
   }
   const bool comes_in_numbers = signal == SIGXCPU || signal == SIGPIPE;
-  if (!comes_in_numbers && milliseconds() - first_signal_at >= one_signal) end_at_once(signal);
+  if (!comes_in_numbers && milliseconds() - first_signal_at >= one_signal)
+    end_at_once(signal, "\nstopped at once\n");
 }
 
 /// `ulimit -t` sets both limits, and the kernel kills at the hard one without a word before: so the

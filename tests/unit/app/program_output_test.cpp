@@ -22,9 +22,9 @@ class ProgramOutput : public Program {
     err_ = io::read_file(folder_ / "stderr");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  io::CsvTable log() const {
+  io::CsvTable log(const std::string& out = "out") const {
     Diagnostics diagnostics;
-    io::CsvTable table = io::read_csv(folder_ / "out/log.csv", {true, true}, diagnostics);
+    io::CsvTable table = io::read_csv(folder_ / out / "log.csv", {true, true}, diagnostics);
     EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.text();
     return table;
   }
@@ -109,6 +109,18 @@ class ProgramStop : public ProgramOutput, public ::testing::WithParamInterface<i
   void write_long_scene() {
     write("long.scene.yaml", with(quick_scene, "duration: 0.1", "duration: 100000"));
   }
+  /// Until it has a handler of SIGTERM.
+  static bool wait_until_it_hears(pid_t child) {
+    for (int i = 0; i < 600; ++i) {
+      std::ifstream status("/proc/" + std::to_string(child) + "/status");
+      for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigCgt:") &&
+            (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1))
+          return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  }
   static constexpr double at_once = 2.0;  // s; a second, on a machine that does other things too
 };
 INSTANTIATE_TEST_SUITE_P(Signals, ProgramStop, ::testing::Values(SIGINT, SIGTERM, SIGHUP, SIGXCPU));
@@ -134,6 +146,7 @@ TEST_P(ProgramStop, LoadingIsStoppedAtOnce) {
              "file: stem.plant.yaml, repeat: {count: [100, 100], spacing: [1, 1]}}"));
   const pid_t child =
       start({"--headless", path("many.scene.yaml"), "--out", path("out"), "--no-pictures"});
+  ASSERT_TRUE(wait_until_it_hears(child));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   ::kill(child, GetParam());
   double seconds = 0.0;
@@ -175,17 +188,18 @@ TEST_F(ProgramOutput, AFilmIsReadableAfterAStopAndAfterAKill) {
   write("film.scene.yaml", with(quick_scene, "duration: 0.1", "duration: 100000") +
                                "video: {fps: 30, size: [64, 48]}\n");
   for (const int signal : {SIGTERM, SIGKILL}) {
+    const std::string out = "out_" + std::to_string(signal);
     const pid_t child =
-        start({"--headless", path("film.scene.yaml"), "--out", path("out"), "--quiet"});
-    ASSERT_TRUE(wait_for("out/log.csv", 20000));
-    std::this_thread::sleep_for(std::chrono::seconds(4));
+        start({"--headless", path("film.scene.yaml"), "--out", path(out), "--quiet"});
+    ASSERT_TRUE(wait_for(out + "/log.csv", 5000));
+    std::this_thread::sleep_for(std::chrono::seconds(3));
     ::kill(child, signal);
     EXPECT_EQ(exit_code_of(child), signal == SIGKILL ? -1 : 143);
-    const fs::path film = folder_ / (signal == SIGKILL ? "out/run.mp4.part" : "out/run.mp4");
     std::this_thread::sleep_for(std::chrono::seconds(1));  // the encoder ends by itself
+    const fs::path film = folder_ / out / (signal == SIGKILL ? "run.mp4.part" : "run.mp4");
     if (!fs::exists(film)) GTEST_SKIP() << "no OpenGL";
     EXPECT_GT(frames_of(film), 10);
-    EXPECT_GT(log().rows.size(), 1u);
+    EXPECT_GT(log(out).rows.size(), 1u);
   }
 }
 
