@@ -97,6 +97,7 @@ void write_numbers(io::YamlText& text, const Scene& before, const Scene& now) {
   write("log_rate", before.log_rate, now.log_rate);
   write("seed", before.seed, now.seed);
   write("threads", before.threads, now.threads);
+  if (before.gravity != now.gravity) text.set({"gravity"}, list_of(now.gravity));
 }
 
 /// A line a place: such lists are long.
@@ -161,8 +162,8 @@ void write_plants(io::YamlText& text, const Document& document, const Scene& bef
 }
 
 bool says(const Scene& read, const Scene& wanted) {
-  if (read.dt != wanted.dt || read.duration != wanted.duration || read.seed != wanted.seed ||
-      values_of(read.rods) != values_of(wanted.rods) ||
+  if (read.dt != wanted.dt || read.gravity != wanted.gravity || read.duration != wanted.duration ||
+      read.seed != wanted.seed || values_of(read.rods) != values_of(wanted.rods) ||
       values_of(read.coupling) != values_of(wanted.coupling))
     return false;
   if (read.robot && wanted.robot && read.robot->recorded != wanted.robot->recorded) return false;

@@ -16,10 +16,16 @@ std::string set_line(const std::string& key, double value) {
   return line(Command("set", {{"key", key}, {"value", io::exact_number(value)}}));
 }
 
+std::string gravity_text(const Document& document) {
+  const Vec3& g = document.scene->gravity;
+  return io::exact_number(g.x()) + "," + io::exact_number(g.y()) + "," + io::exact_number(g.z());
+}
+
 /// Sets a key that the scene file has got since back to what it was; a comment where that is no
 /// number. One of every plant (`detach.stretch`) is one of each.
 std::string key_back(const Document& first, const std::string& key) {
   if (key == "dt") return set_line(key, first.scene->dt);
+  if (key == "gravity") return line(Command("set", {{"key", key}, {"value", gravity_text(first)}}));
   std::string text;
   for (const SessionParameter& one : document_parameters(first, first))
     if (one.key == key || (one.key.starts_with("plants.") && one.key.ends_with("." + key)))

@@ -86,6 +86,26 @@ bool set_scene_number(Scene& scene, const std::string& key, const std::string& t
   return false;
 }
 
+/// "0,0,-9.81" or "[0, 0, -9.81]".
+Vec3 vector_of(const std::string& key, const std::string& text) {
+  std::string plain;
+  for (const char c : text)
+    if (c != '[' && c != ']' && c != ' ') plain += c;
+  Vec3 value = Vec3::Zero();
+  std::size_t start = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t end = axis < 2 ? plain.find(',', start) : plain.size();
+    const auto number =
+        end == std::string::npos ? std::nullopt : to_number(plain.substr(start, end - start));
+    if (!number || !(std::abs(*number) <= 1e3))
+      throw UsageError(key + " = \"" + text +
+                       "\": must be x,y,z, numbers between -1000 and 1000 m/s2");
+    value[axis] = *number;
+    start = end + 1;
+  }
+  return value;
+}
+
 bool starts_with(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0 && text.size() > prefix.size();
 }
@@ -131,6 +151,10 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
 void apply_override(Scene& scene, const std::string& key, const std::string& value,
                     const std::string& asked) {
   if (set_scene_number(scene, key, value)) return;
+  if (key == "gravity") {
+    scene.gravity = vector_of(key, value);
+    return;
+  }
   const Setting setting{key, value, {asked + key, 0, 0}};
   if (starts_with(key, "rods.")) {
     scene.rods.push_back({key.substr(5), value, setting.where});
@@ -139,9 +163,10 @@ void apply_override(Scene& scene, const std::string& key, const std::string& val
   } else if (starts_with(key, "plants.")) {
     set_on_plant(scene, key.substr(7), setting);
   } else if (key.find('.') == std::string::npos) {
-    throw UsageError(setting.where.file +
-                     ": expected duration, dt, log_rate, seed, threads, rods.KEY, coupling.KEY, "
-                     "plants.NAME.KEY, or an override of every plant such as detach.stretch");
+    throw UsageError(
+        setting.where.file +
+        ": expected duration, dt, gravity, log_rate, seed, threads, rods.KEY, coupling.KEY, "
+        "plants.NAME.KEY, or an override of every plant such as detach.stretch");
   } else {
     for (ScenePlant& plant : scene.plants) plant.set.push_back(setting);
   }

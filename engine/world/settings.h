@@ -26,10 +26,10 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
 /// The number that a text is, as it is written in our files; nothing where it is none.
 std::optional<double> to_number(const std::string& text);
 
-/// Changes a scene as `--set key=value` does: dt, duration, seed, threads, log_rate, rods.KEY,
-/// coupling.KEY, plants.NAME.KEY (one plant) and any other KEY that is an override of every plant
-/// (detach.stretch). `asked` comes before the key in the place that a fault names ("--set ").
-/// Throws UsageError where the key or the value is impossible.
+/// Changes a scene as `--set key=value` does: dt, duration, gravity (x,y,z), seed, threads,
+/// log_rate, rods.KEY, coupling.KEY, plants.NAME.KEY (one plant) and any other KEY that is an
+/// override of every plant (detach.stretch). `asked` comes before the key in the place that a fault
+/// names ("--set "). Throws UsageError where the key or the value is impossible.
 void apply_override(Scene& scene, const std::string& key, const std::string& value,
                     const std::string& asked = "");
 
