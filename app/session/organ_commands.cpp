@@ -3,6 +3,7 @@
 #include "plant/plant_edit.h"
 #include "session/command_table.h"
 #include "session/document.h"
+#include "session/effective_plant.h"
 
 /// Fruits, leaves, masses, supports and materials as commands: thin covers of plant/organ_edit.h.
 namespace pedicel::app {
@@ -83,6 +84,10 @@ void set_material(Document& document, const Command& c) {
   plant::set_material(edited(document, c), c.word_or("stem", ""), c.word("key"), c.number("value"));
 }
 
+void keep_one(Document& document, const Command& c) {
+  keep_setting(document, c.word("key"));
+}
+
 void set_sampling(Document& document, const Command& c) {
   plant::set_sampling(edited(document, c), c.word("key"), c.number("value"));
 }
@@ -111,6 +116,11 @@ std::vector<CommandDescription> plant_value_commands() {
         {"stem", Kind::word, false, "one stem; left out: the plant's default"}},
        "Sets a constant of the plant's material, or of one stem's.",
        set_material},
+      {"keep setting",
+       d,
+       {{"key", Kind::word, true, "of a plant, that was set: plants.NAME.KEY, or KEY of all"}},
+       "Writes one setting into the plants that it is about, so that it is no setting any more.",
+       keep_one},
       {"set sampling",
        d,
        {plant_name,
