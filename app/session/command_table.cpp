@@ -18,8 +18,8 @@ std::string upper(std::string text) {
 
 std::vector<CommandDescription> whole_table() {
   std::vector<CommandDescription> table = stem_commands();
-  for (const auto& part :
-       {organ_commands(), document_commands(), run_commands(), measured_commands()})
+  for (const auto& part : {organ_commands(), document_commands(), waypoint_commands(),
+                           run_commands(), measured_commands()})
     table.insert(table.end(), part.begin(), part.end());
   return table;
 }

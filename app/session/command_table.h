@@ -48,6 +48,7 @@ const CommandDescription* find_command(const std::string& verb);
 std::vector<CommandDescription> stem_commands();
 std::vector<CommandDescription> organ_commands();
 std::vector<CommandDescription> document_commands();
+std::vector<CommandDescription> waypoint_commands();
 std::vector<CommandDescription> run_commands();
 std::vector<CommandDescription> measured_commands();
 
