@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "render/colormap.h"
@@ -51,6 +52,31 @@ std::vector<TubePoint> chain(const RodModel& model, const RodState& state, int f
     points.push_back(point);
   }
   return points;
+}
+
+/// Half extents of a flat bar in its element's frame, m; nothing where it is round. A rectangle's
+/// radius is half of its smaller extent, which lies along axis 1; a round stem's moment of inertia
+/// is another one.
+std::optional<Vec3> bar_of(const Element& element) {
+  constexpr double slack = 1e-6;  // of the radius
+  const double radius = element.radius_near;
+  if (!(radius > 0.0) || element.radius_far != radius || !(element.section.mass > 0.0)) return {};
+  const double half1 = std::sqrt(3.0 * element.section.inertia2 / element.section.mass);
+  if (std::abs(half1 - radius) > slack * radius) return {};
+  const double half2 = std::sqrt(3.0 * element.section.inertia1 / element.section.mass);
+  return Vec3(half1, half2, 0.5 * element.length);
+}
+
+/// Whether it was one.
+bool add_bar(DrawList& list, const RodModel& model, const RodState& state, int e,
+             const render::Material& material, const Colour& colour) {
+  const auto half = bar_of(model.elements[static_cast<std::size_t>(e)]);
+  if (!half) return false;
+  render::Material look = material;
+  look.colour = colour;
+  const Vec3 middle = 0.5 * (start_of(model, state, e) + state.position[e]);
+  list.boxes.push_back({{middle, state.orientation[e]}, *half, look});
+  return true;
 }
 
 }  // namespace
@@ -112,6 +138,10 @@ void PlantDrawing::add_chains(DrawList& list, const RodState& state,
     const bool goes_on = parent >= 0 && next[parent] == e;
     if (!state.alive[e] || goes_on) continue;
     const render::Material& material = material_of(e);
+    if (bar_of(model_.elements[e])) {
+      for (int k = e; k >= 0; k = next[k]) add_bar(list, model_, state, k, material, colours_of[k]);
+      continue;
+    }
     list.add_tube(chain(model_, state, e, next, colours_of), material.roughness, material.specular);
   }
 }

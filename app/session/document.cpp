@@ -1,5 +1,8 @@
 #include "session/document.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/scene_plants.h"
 #include "core/check.h"
 #include "core/state_hash.h"
@@ -25,6 +28,31 @@ std::shared_ptr<const world::Scene> bare_scene() {
   scene->duration = 10.0;
   scene->ground = world::GroundPlane{};
   return scene;
+}
+
+/// A bar that lies at height 0 would be half in the ground: it lies on it. Stems that stand in it
+/// do so, and what hangs below 0 is meant to.
+double ground_under(const plant::PlantFile& plant) {
+  constexpr double lies = 0.5;    // sine of the steepest that lies
+  constexpr double level = 1e-6;  // m
+  for (const plant::PlantCurve& curve : plant.curves)
+    for (const Vec3& point : curve.points)
+      if (point.z() < -level) return 0.0;
+  double lowest = 0.0;
+  for (const plant::PlantCurve& curve : plant.curves)
+    for (std::size_t i = 1; i < curve.points.size(); ++i) {
+      const Vec3 piece = curve.points[i] - curve.points[i - 1];
+      if (std::abs(piece.z()) > lies * piece.norm()) continue;
+      const double half =
+          curve.section.kind == plant::SectionKind::rectangle
+              ? 0.5 * (std::abs(curve.section.normal.z()) >= 0.7 * curve.section.normal.norm()
+                           ? curve.section.height
+                           : curve.section.width)
+          : curve.radius.empty() ? 0.0
+                                 : curve.radius[std::min(i, curve.radius.size() - 1)];
+      lowest = std::min(lowest, std::min(curve.points[i].z(), curve.points[i - 1].z()) - half);
+    }
+  return lowest;
 }
 
 /// Reads the plant files that a scene names. One that is absent and optional is left to the scene's
@@ -94,6 +122,16 @@ bool is_lone_plant(const std::filesystem::path& path) {
   return name.ends_with(".plant.yaml") || name.ends_with(".csv") || name.ends_with(".mtg");
 }
 
+void stand_on_ground(Document& document) {
+  double lowest = 0.0;
+  for (const DocumentPlant& one : document.plants)
+    if (one.file) lowest = std::min(lowest, ground_under(*one.file));
+  if (lowest >= 0.0 || !document.scene->ground) return;
+  auto scene = std::make_shared<world::Scene>(*document.scene);
+  scene->ground->height = lowest;
+  document.scene = std::move(scene);
+}
+
 Document empty_document() {
   Document document;
   document.scene = bare_scene();
@@ -115,6 +153,7 @@ Document open_document(const std::filesystem::path& path) {
     if (is_plant_file(path)) one.entry.file = path;
     one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
     document.plants.push_back(std::move(one));
+    stand_on_ground(document);
   }
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   document.path = path;

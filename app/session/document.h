@@ -51,6 +51,9 @@ bool is_scene(const std::filesystem::path& path);
 /// By its name: *.plant.yaml, *.csv (a skeleton) or *.mtg.
 bool is_lone_plant(const std::filesystem::path& path);
 
+/// Lowers the ground of a document without a scene file under plants that lie in it.
+void stand_on_ground(Document& document);
+
 /// An empty document: ground, gravity, nothing on it.
 Document empty_document();
 /// Reads a scene (*.scene.yaml), a plant file, a skeleton table (*.csv) or an MTG (*.mtg) with

@@ -23,6 +23,7 @@ Document document_of(const discrepancy::Experiment& experiment) {
   one.entry.name = experiment.plant.name;
   one.file = std::make_shared<const plant::PlantFile>(experiment.plant);
   document.plants.push_back(std::move(one));
+  stand_on_ground(document);
   return document;
 }
 
