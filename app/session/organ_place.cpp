@@ -57,6 +57,21 @@ std::optional<Vec3> place_of(const Snapshot& snapshot, const world::Anchor& anch
   return std::nullopt;
 }
 
+std::optional<Vec3> place_of_break(const Snapshot& snapshot, const world::Event& event) {
+  for (const PlantSnapshot& plant : snapshot.plants) {
+    const cosserat::RodModel& model = *plant.model;
+    for (const cosserat::Fruit& fruit : model.fruits) {
+      if (model.name + "/" + fruit.name != event.organ) continue;
+      int e = fruit.element;
+      while (e >= 0 && !plant.state.alive[static_cast<std::size_t>(e)])
+        e = model.elements[static_cast<std::size_t>(e)].parent;
+      if (e < 0) return model.root.position;
+      return plant.state.position[static_cast<std::size_t>(e)];
+    }
+  }
+  return std::nullopt;
+}
+
 std::string organ_names(const Snapshot& snapshot) {
   constexpr std::size_t shown = 12;
   std::vector<std::string> names;

@@ -22,6 +22,11 @@ std::vector<CommandDescription> control_commands() {
        {{"count", Kind::whole, false, "steps (1)"}},
        "So many steps back, exactly.",
        nullptr},
+      {"go to",
+       r,
+       {{"time", Kind::number, true, "s, of the run"}},
+       "To a time of the run, back or forward, exactly, then holds.",
+       nullptr},
       {"run",
        r,
        {{"duration", Kind::number, true, "s, simulated"}},
@@ -88,6 +93,7 @@ std::vector<CommandDescription> robot_commands() {
        "Plays joint positions from a file, from now on.",
        nullptr},
       {"play waypoints", r, {loop}, "Plays the recorded waypoints from now on.", nullptr},
+      {"home robot", r, {}, "Moves all joints to where they start.", nullptr},
       {"stop robot", r, {}, "Ends what the robot plays: it stays where it is.", nullptr},
   };
 }

@@ -36,6 +36,12 @@ void RunControl::step_back(long count) {
 void RunControl::go_to_step(long step) {
   impl_->thread.ask([step](RunThread& t) { t.go_to(step); });
 }
+void RunControl::take_back_to(long step) {
+  impl_->thread.ask([step](RunThread& t) {
+    t.go_to(step);
+    t.act([](LiveRun&) {});  // nothing is done from here on
+  });
+}
 void RunControl::reset() {
   impl_->thread.ask([](RunThread& t) { t.reset(); });
 }

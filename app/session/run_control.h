@@ -52,6 +52,9 @@ class RunControl {
   void step_back(long count = 1);
   /// To a step of the run, either way.
   void go_to_step(long step);
+  /// To a step before this one; what was done to the run since (pulls, robot) is forgotten, so that
+  /// playing on does not do it again.
+  void take_back_to(long step);
   /// Back to time 0; what was done to the run (pulls, robot) is forgotten, the plants stay.
   void reset();
   /// Simulated s a wall s; 0: as fast as it goes.

@@ -192,6 +192,7 @@ void Session::take_back(const Document& document) {
 
 Result Session::undo() {
   end_gesture();
+  if (Result pull = undo_pull(); pull.ok) return finish(std::move(pull));
   if (!history_.can_undo()) return {false, "nothing to undo"};
   const std::string name = history_.undo_name();
   const History::Step& step = history_.last();

@@ -102,8 +102,10 @@ class Session {
   void end_gesture();
   /// As if the gesture had not begun.
   void cancel_gesture();
+  /// The last edit or, where one was made since, the last pull.
   Result undo();
   Result redo();
+  bool can_undo() const;
   const History& history() const { return history_; }
   const Document& document() const { return document_; }
   /// Whether what is simulated is what is drawn: false while it is being built, and where it cannot
@@ -116,6 +118,9 @@ class Session {
   std::string script() const;
 
   // The simulation.
+  /// Begins a pull of a place by hand; control() moves and ends it. undo() takes it back: the run
+  /// goes to the step where it began.
+  void begin_pull(const PullPlace& place, const Vec3& target_W);
   RunControl& control() { return control_; }
   const RunControl& control() const { return control_; }
   std::shared_ptr<const Snapshot> snapshot() const { return control_.snapshot(); }
@@ -150,6 +155,8 @@ class Session {
   Result aim_tool(const Pose& tool_W, bool turned, bool as_near_as_can_be);
   /// Moves the tool by a shift (m, W) and a turn (rad, a rotation vector, W), or says why not.
   Result jog(const Vec3& shift_W, const Vec3& turn_W = Vec3::Zero());
+  /// Whether somebody leads the robot by hand, rather than that it follows what the scene says.
+  bool robot_is_led() const;
   /// Plays the recorded waypoints from now on; with `loops` over and over until it is stopped: the
   /// way back to the first takes the time that the joints need by hand.
   Result play_waypoints(bool loops = false);
@@ -208,6 +215,13 @@ class Session {
     Document before_last;  // its last command
     std::vector<Command> commands;
   };
+  /// A pull that undo() would take back.
+  struct Pulled {
+    std::uint64_t stage = 0;  // of the simulation
+    long step = 0;            // where it began
+    std::size_t history = 0;  // steps of the document then
+    bool by_command = false;  // it is in the log
+  };
   /// The last pose asked for.
   struct Aim {
     ToolGoal goal;
@@ -233,11 +247,16 @@ class Session {
   Result run_command(const Command& command);
   Result robot_command(const Command& command);
   Result tool_command(const Command& command);
+  Result home_robot();
   Result program_command(const Command& command);
   Result play(robot::Trajectory trajectory, bool loops);
   robot::Trajectory waypoint_trajectory(const robot::KinematicModel& model) const;
   Result pull_command(const Command& command);
+  void note_pull(bool by_command);
+  bool has_pull() const;
+  Result undo_pull();
   Result step_back(long steps);
+  Result go_to(double time);
   Result expect_command(const Command& command) const;
   Result measured_command(const Command& command);
   Result film_command(const Command& command);
@@ -270,6 +289,7 @@ class Session {
   std::filesystem::path failed_path_;  // what could not be opened, for reload()
   std::unique_ptr<MeasuredData> measured_;
   std::optional<Aim> aim_;
+  std::vector<Pulled> pulls_;  // the last one at the end
   FilmMaker* film_ = nullptr;
   double film_fps_ = 30.0, film_start_ = 0.0;  // Hz, s
   long film_pictures_ = 0;

@@ -179,7 +179,10 @@ Result Session::export_plant(const std::string& plant, const std::filesystem::pa
 Result Session::import_plant(const std::filesystem::path& path, const std::string& name) {
   Diagnostics diagnostics;
   const auto file = read_plant(path, diagnostics);
-  if (!file) return {false, sentences(diagnostics.all()), true};
+  if (!file) {
+    if (!options_.waits) say(diagnostics.all(), false);  // whole, and to stay
+    return {false, sentences(diagnostics.all()), true};
+  }
   // The text goes into the command, so that the log does not depend on the file.
   const Command command("add plant", {{"plant", name.empty() ? file->name : name},
                                       {"text", plant::plant_text(*file)}});

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "core/check.h"
 #include "io/csv.h"
 #include "session/robot_goal.h"
@@ -26,6 +29,30 @@ void check_limits(const robot::KinematicModel& model, const Eigen::VectorXd& q) 
   }
 }
 
+/// From where the tool is to the target in small steps, each from the last one's joints, as a hand
+/// leads it: one descent over a wide turn ends in another branch, and the arm flips over.
+robot::IkResult descend_in_steps(const robot::KinematicModel& model, robot::IkTarget target,
+                                 const Pose& tool_W, const Vec3& offset, Eigen::VectorXd q,
+                                 const robot::IkSettings& settings) {
+  constexpr double turn = 0.2, way = 0.05;  // rad, m, of a step
+  const Vec3 from = tool_W.position - tool_W.rotation * offset, to = target.position_W;
+  const Quat end = target.orientation_W.value_or(tool_W.rotation);
+  const double angle = target.orientation_W ? tool_W.rotation.angularDistance(end) : 0.0;
+  const double asked = std::max(angle / turn, (to - from).norm() / way);
+  const int steps = std::clamp(static_cast<int>(std::ceil(asked)), 1, 60);
+  robot::IkResult result;
+  for (int i = 1; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    target.position_W = from + share * (to - from);
+    if (target.orientation_W) target.orientation_W = tool_W.rotation.slerp(share, end);
+    if (i == steps && target.orientation_W) target.orientation_W = end;
+    result = robot::descend(model, target, q, settings);
+    if (!result.reached) break;
+    q = result.q;
+  }
+  return result;
+}
+
 }  // namespace
 
 robot::IkResult Session::reach(const Pose& tool_W, bool turned) const {
@@ -40,7 +67,14 @@ robot::IkResult Session::reach(const Pose& tool_W, bool turned) const {
   settings.restarts = 6;
   settings.loyalty = 0.1;
   if (!scene.gripper.empty()) settings.held = {joint_of(model, scene.gripper)};
-  return robot::inverse_kinematics(model, target, start_of(now->robot), settings);
+  const Eigen::VectorXd start = start_of(now->robot);
+  const robot::IkResult led = descend_in_steps(model, target, tool_at(*now, model, start),
+                                               scene.tool_offset, start, settings);
+  if (led.reached) return led;
+  // Another branch of the arm: the one that turns the joints least.
+  const std::vector<Eigen::VectorXd> others = robot::ik_solutions(model, target, start, settings);
+  if (others.empty()) return robot::inverse_kinematics(model, target, start, settings);
+  return robot::descend(model, target, others.front(), settings);
 }
 
 Result Session::move_joints(const Eigen::VectorXd& q) {
@@ -109,6 +143,27 @@ Result Session::tool_command(const Command& c) {
   return aim_tool(tool, c.has("turn"), c.whole_or("near", 0) != 0);
 }
 
+// Where the robot stands at time 0.
+Result Session::home_robot() {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Eigen::VectorXd q = model.clamped(Eigen::VectorXd::Zero(model.dofs()));
+  for (const auto& [name, value] : now->assets->scene.robot->joints)
+    if (const int joint = model.joint_index(name); joint >= 0) q[joint] = value;
+  return move_joints(q);
+}
+
+bool Session::robot_is_led() const {
+  for (auto line = log_.rbegin(); line != log_.rend(); ++line) {
+    const std::string verb = line->substr(0, line->find(' '));
+    if (*line == "reset" || verb == "play") return false;
+    if (*line == "stop robot" || *line == "home robot") return true;
+    for (const char* one : {"joint", "joints", "jog", "tool", "gripper"})
+      if (verb == one) return true;
+  }
+  return false;
+}
+
 Result Session::robot_command(const Command& c) {
   const std::string& verb = c.verb();
   const auto now = snapshot();
@@ -124,6 +179,7 @@ Result Session::robot_command(const Command& c) {
     return move_joints(
         Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
   }
+  if (verb == "home robot") return home_robot();
   if (verb == "jog") return jog(c.point("shift"), c.has("turn") ? c.point("turn") : Vec3::Zero());
   if (verb == "tool") return tool_command(c);
   return program_command(c);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/check.h"
 #include "io/atomic_file.h"
@@ -106,6 +107,7 @@ Result Session::run_command(const Command& c) {
   if (verb == "pause") control_.pause();
   if (verb == "step") advance(steps_of(c));
   if (verb == "step back") return step_back(steps_of(c));
+  if (verb == "go to") return go_to(at_least_0(c, "time", "s"));
   if (verb == "run") run_for(at_least_0(c, "duration", "s"));
   if (verb == "reset") control_.reset();
   if (verb == "speed") control_.set_speed(at_least_0(c, "value", "simulated s a wall s"));
@@ -125,6 +127,13 @@ Result Session::step_back(long steps) {
   return {};
 }
 
+Result Session::go_to(double time) {
+  const auto now = snapshot();
+  if (!now->assets) return {false, "go to: nothing is simulated yet"};
+  control_.go_to_step(std::lround(time / now->assets->scene.dt));
+  return {};
+}
+
 Result Session::pull_command(const Command& c) {
   const auto now = snapshot();
   const std::optional<PullPlace> found = find_organ(*now, c.word("organ"), c.number_or("at", 1.0));
@@ -134,6 +143,7 @@ Result Session::pull_command(const Command& c) {
   PullPlace place = *found;
   place.stiffness = c.number_or("stiffness", place.stiffness);
   if (!(place.stiffness > 0.0)) return {false, "pull: stiffness, expected N/m above 0"};
+  note_pull(true);
   control_.begin_pull(place, c.point("to"));
   return {};
 }
