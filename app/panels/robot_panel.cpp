@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/panels/organ_numbers.h"
 #include "app/panels/panel.h"
 #include "app/panels/robot_program_part.h"
 #include "app/panels/theme.h"
@@ -84,6 +85,10 @@ class RobotPanel : public Panel {
     std::snprintf(text.data(), text.size(), "%.1f, %.1f, %.1f", p.x(), p.y(), p.z());
     row("Place, mm", text.data());
     goal(ui);
+    if (ImGui::Button("Home")) ui.run(Command("home robot", {}));
+    tip("All joints to where they start");
+    ImGui::SameLine();
+    tool_to_selection_button(ui);
     slider(ui, "Step", step_mm_, 1.0, 100.0, "%.0f mm", ImGuiSliderFlags_Logarithmic);
     constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
     const float width = (ImGui::GetContentRegionAvail().x - 5 * 4.0f * ui.scale) / 6.0f;
@@ -141,11 +146,16 @@ class RobotPanel : public Panel {
       ImGui::PopID();
     }
     if (goal->asked_W.position != problem_at_) problem_.clear();
+    // Its room is always kept: buttons must not go away from under the pointer.
     const std::string& text = goal->reached ? problem_ : goal->sentence;
-    if (text.empty()) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
-    ImGui::TextWrapped("%s", text.c_str());
-    ImGui::PopStyleColor();
+    const float room = 2.0f * ImGui::GetTextLineHeightWithSpacing();
+    if (ImGui::BeginChild("problem", ImVec2(0, room), false, ImGuiWindowFlags_NoScrollbar)) {
+      ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
+      ImGui::TextWrapped("%s", text.c_str());
+      ImGui::PopStyleColor();
+    }
+    ImGui::EndChild();
+    tip(text);
   }
 
   void jog(Ui& ui, const Vec3& shift, const Vec3& turn) {

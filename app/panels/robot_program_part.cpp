@@ -10,6 +10,25 @@
 
 namespace pedicel::app {
 
+namespace {
+
+/// "2 s   truss/fruit_5, gripper 12 mm".
+std::string text_of(const world::SceneWaypoint& one) {
+  std::string text = number_text(one.time, 4) + " s   ";
+  const Vec3 mm = 1e3 * one.position;
+  const std::string place = number_text(mm.x(), 3) + ", " + number_text(mm.y(), 3) + ", " +
+                            number_text(mm.z(), 3) + " mm";
+  if (one.at.kind == world::Anchor::Kind::none)
+    text += place;
+  else
+    text += (one.at.name.empty() ? std::string("tool") : one.at.name) +
+            (one.position.isZero() ? "" : " + " + place);
+  if (one.gripper) text += ", gripper " + number_text(1e3 * *one.gripper, 3) + " mm";
+  return text;
+}
+
+}  // namespace
+
 void RobotProgramPart::draw(Ui& ui) {
   heading(ui, "Program");
   draw_playing(ui);
@@ -19,11 +38,14 @@ void RobotProgramPart::draw(Ui& ui) {
 
 void RobotProgramPart::record(Ui& ui) {
   const std::vector<RobotWaypoint>& points = ui.session.document().waypoints;
+  const double time = points.empty() ? 1.0 : points.back().time + 1.0;
+  ui.run(Command("add waypoint", {{"time", time}, {"joints", pose(ui)}}));
+}
+
+std::vector<double> RobotProgramPart::pose(const Ui& ui) {
   const RobotSnapshot& robot = ui.snapshot->robot;
   const Eigen::VectorXd& q = robot.goal.size() && !robot.follows_program ? robot.goal : robot.q;
-  const double time = points.empty() ? 1.0 : points.back().time + 1.0;
-  ui.run(Command("add waypoint",
-                 {{"time", time}, {"joints", std::vector<double>(q.begin(), q.end())}}));
+  return {q.begin(), q.end()};
 }
 
 void RobotProgramPart::draw_playing(Ui& ui) {
@@ -33,7 +55,9 @@ void RobotProgramPart::draw_playing(Ui& ui) {
   tip("Adds a waypoint where the robot is to be now, a second after the last one");
   ImGui::SameLine();
   ImGui::BeginDisabled(none);
-  if (ImGui::Button("Play")) ui.run(Command("play waypoints", {{"loop", loop_ ? 1 : 0}}));
+  if (ImGui::Button("Play") && ui.run(Command("play waypoints", {{"loop", loop_ ? 1 : 0}})) &&
+      ui.snapshot->mode != RunMode::playing)
+    ui.session.control().play();  // a robot that moves is what was asked for
   tip("Plays the waypoints from now on");
   ImGui::EndDisabled();
   ImGui::SameLine();
@@ -56,19 +80,60 @@ void RobotProgramPart::draw_waypoints(Ui& ui) {
   const std::vector<RobotWaypoint> points = ui.session.document().waypoints;
   for (std::size_t i = 0; i < points.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    ImGui::AlignTextToFramePadding();
-    ImGui::Text("%d   at %.1f s", static_cast<int>(i) + 1, points[i].time);
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("Go").x -
-                    2 * ImGui::GetStyle().FramePadding.x - 1.25f * ImGui::GetFrameHeight() -
-                    ImGui::GetStyle().ItemSpacing.x);
-    if (ImGui::Button("Go")) ui.run(Command("joints", {{"values", points[i].joints}}));
-    tip("Moves the robot there");
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.25f * ImGui::GetFrameHeight());
-    if (icon_button("delete", Icon::cross, "Takes it away"))
-      ui.run(Command("delete waypoint", {{"index", static_cast<int>(i)}}));
+    waypoint_row(ui, points, static_cast<int>(i));
     ImGui::PopID();
   }
   if (points.empty()) note("No waypoints yet: move the robot and record.");
+  scene_program(ui);
+}
+
+/// Its number, its time to be typed, where it goes, and what may be done with it.
+void RobotProgramPart::waypoint_row(Ui& ui, const std::vector<RobotWaypoint>& points, int i) {
+  const RobotWaypoint& one = points[static_cast<std::size_t>(i)];
+  const float gap = 3.0f * ui.scale, letters = ImGui::GetFontSize();
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("%d", i + 1);
+  ImGui::SameLine(1.6f * letters);
+  ImGui::SetNextItemWidth(3.4f * letters);
+  double time = one.time;
+  if (number_field("##time", time, "%.4g s") && time != one.time)
+    ui.run(Command("set waypoint", {{"index", i}, {"time", time}}));
+  tip("s after the program's start");
+  ImGui::SameLine(0, gap);
+  if (ImGui::Button("Go")) ui.run(Command("joints", {{"values", one.joints}}));
+  tip("Moves the robot there");
+  ImGui::SameLine(0, gap);
+  if (ImGui::Button("Set")) ui.run(Command("set waypoint", {{"index", i}, {"joints", pose(ui)}}));
+  tip("Makes it where the robot is to be now");
+  ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(i == 0);
+  if (ImGui::ArrowButton("up", ImGuiDir_Up))
+    ui.run(Command("move waypoint", {{"index", i}, {"to", i - 1}}));
+  ImGui::EndDisabled();
+  tip("Earlier: the times stay, the poses change places");
+  ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(i + 1 == static_cast<int>(points.size()));
+  if (ImGui::ArrowButton("down", ImGuiDir_Down))
+    ui.run(Command("move waypoint", {{"index", i}, {"to", i + 1}}));
+  ImGui::EndDisabled();
+  tip("Later: the times stay, the poses change places");
+  ImGui::SameLine(0, gap);
+  if (icon_button("delete", Icon::cross, "Takes it away"))
+    ui.run(Command("delete waypoint", {{"index", i}}));
+}
+
+/// What the scene file has the robot do, which is planned when the scene is built.
+void RobotProgramPart::scene_program(Ui& ui) {
+  if (!ui.snapshot->assets || !ui.snapshot->assets->scene.robot) return;
+  const std::vector<world::SceneWaypoint>& program = ui.snapshot->assets->scene.robot->waypoints;
+  if (program.empty()) return;
+  heading(ui, "The scene's own program");
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const world::SceneWaypoint& one = program[i];
+    elided(std::to_string(i + 1) + "   " + text_of(one), rest_width());
+  }
+  if (ImGui::Button("Restart")) ui.run(Command("reset", {}));
+  tip("Back to time 0, where this program begins");
 }
 
 /// One name for all of it: the table of waypoints is a trajectory.

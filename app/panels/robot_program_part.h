@@ -1,6 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "session/document.h"
 
 namespace pedicel::app {
 
@@ -17,6 +20,10 @@ class RobotProgramPart {
   void draw_playing(Ui& ui);
   void draw_file(Ui& ui);
   void record(Ui& ui);
+  void waypoint_row(Ui& ui, const std::vector<RobotWaypoint>& points, int i);
+  void scene_program(Ui& ui);
+  /// Where the robot is to be now, rad or m.
+  static std::vector<double> pose(const Ui& ui);
 
   std::string file_ = "waypoints.csv";
   bool loop_ = false;

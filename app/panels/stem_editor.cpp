@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app/panels/copy_part.h"
+#include "app/panels/organ_numbers.h"
 #include "app/panels/point_editor.h"
 #include "app/panels/theme.h"
 #include "app/panels/widgets.h"
@@ -65,11 +66,9 @@ void fruit_details(Ui& ui) {
           {{"plant", plant->model->name}, {"name", one.name}, {"key", key}, {"value", value}}));
     };
     double radius = 1e3 * one.radius, density = one.density, at = one.place.at;
-    double stretch = one.detach.stretch.value_or(0.0), force = one.detach.force.value_or(0.0);
     if (labelled_number(ui, "Radius", "mm", radius)) set("radius", 1e-3 * radius);
     if (labelled_number(ui, "Density", "kg/m3", density)) set("density", density);
-    if (labelled_number(ui, "Comes off at strain", "", stretch)) set("stretch", stretch);
-    if (labelled_number(ui, "or at a force of", "N", force)) set("force", force);
+    draw_thresholds(ui, plant->model->name, one);
     if (labelled_number(ui, "Place on stem", "", at))
       ui.run(Command("move organ", {{"plant", plant->model->name},
                                     {"name", one.name},
@@ -154,6 +153,7 @@ void choose_fruit(Ui& ui, const std::string& plant, const std::string& fruit) {
       ui.selection.plant = static_cast<int>(p);
       ui.selection.fruit = f;
       ui.selection.element = model.fruits[static_cast<std::size_t>(f)].element;
+      ui.selection.back = model.fruits[static_cast<std::size_t>(f)].back;
     }
   }
 }
@@ -195,6 +195,7 @@ void draw_details(Ui& ui) {
   ImGui::PushFont(ui.bold);
   elided(describe(ui.selection, *ui.snapshot), rest_width(), &palette().warning);
   ImGui::PopFont();
+  draw_place(ui);
   if (ui.selection.kind == Kind::fruit) return fruit_details(ui);
   if (ui.selection.kind == Kind::link) return link_details(ui);
   if (ui.selection.kind == Kind::element) element_details(ui);
@@ -213,6 +214,8 @@ void draw_details(Ui& ui) {
   }
   stem_numbers(ui, plant, curve);
   draw_points(ui, plant, curve);
+  draw_stem_material(ui, plant, curve);
+  draw_stem_loads(ui, plant, curve);
   draw_copies(ui, plant, curve.name);
   if (ui.selection.to_tip) return;
   heading(ui, "Stem");

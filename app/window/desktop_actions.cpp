@@ -46,9 +46,16 @@ void Desktop::perform(Action action) {
     case Action::step_back:
       control.step_back();
       break;
-    case Action::reset:
-      control.reset();
+    case Action::reset: {
+      // The scene's program would take the robot out of the hand that leads it.
+      const bool led = ui_.session.robot_is_led();
+      ui_.run(Command("reset", {}));
+      if (led && ui_.snapshot->robot.present) {
+        ui_.run(Command("stop robot", {}));
+        ui_.say("The robot stays in your hand; its program begins by Restart in the panel Robot");
+      }
       break;
+    }
     case Action::reload:
       ui_.session.reload();
       break;

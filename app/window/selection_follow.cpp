@@ -116,6 +116,45 @@ Selection follow_selection(const Selection& selection, const Snapshot& before,
   }
 }
 
+Selection select_organ(const std::string& organ, const Snapshot& snapshot) {
+  if (const Selection fruit = fruit_on_plant({}, organ, snapshot)) return fruit;
+  if (const Selection body = body_named({}, organ, snapshot)) return body;
+  const auto at = find_organ(snapshot, organ, 0.5);
+  Selection found;
+  if (!at) return found;
+  found.kind = Kind::element;
+  found.plant = at->plant, found.element = at->element, found.back = at->back;
+  return found;
+}
+
+std::optional<Vec3> place_of(const Selection& s, const Snapshot& snapshot) {
+  const auto on_plant = [&](int plant, int element, double back) {
+    const PlantSnapshot& one = snapshot.plants[static_cast<std::size_t>(plant)];
+    return point_on(*one.model, one.state, element, back);
+  };
+  switch (s.kind) {
+    case Kind::fruit:
+      if (!names_an_element(s, snapshot) || is_gone(s, snapshot)) return {};
+      return on_plant(s.plant, s.element, s.back);
+    case Kind::element:
+      if (!names_an_element(s, snapshot)) return {};
+      return on_plant(s.plant, s.element, s.back);
+    case Kind::curve:
+    case Kind::curve_point:
+      if (const auto at = find_organ(snapshot, s.plant_name + "/" + s.curve, 0.5))
+        return on_plant(at->plant, at->element, at->back);
+      return {};
+    case Kind::body:
+      if (s.body < 0 || s.body >= static_cast<int>(snapshot.bodies.size())) return {};
+      return snapshot.bodies[static_cast<std::size_t>(s.body)].pose.position;
+    case Kind::link:
+      if (s.link < 0 || s.link >= static_cast<int>(snapshot.robot.links.size())) return {};
+      return snapshot.robot.links[static_cast<std::size_t>(s.link)].position;
+    default:
+      return {};
+  }
+}
+
 int chosen_organ(const Selection& s, const cosserat::RodModel& model, int plant) {
   if (s.kind == Kind::element && s.plant == plant && s.element >= 0 && s.element < model.size())
     return model.elements[static_cast<std::size_t>(s.element)].organ;

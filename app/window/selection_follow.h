@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "app/panels/view_state.h"
 #include "session/snapshot.h"
 
@@ -11,6 +13,14 @@ namespace pedicel::app {
 /// chosen where there is no such thing any more.
 Selection follow_selection(const Selection& selection, const Snapshot& before,
                            const Snapshot& after);
+
+/// Where the chosen thing is, m, W: a fruit's middle, the place of a stem that was clicked on or
+/// its middle, a body, a link; nothing where it is not there.
+std::optional<Vec3> place_of(const Selection& selection, const Snapshot& snapshot);
+
+/// A fruit on its plant, the body that it became, a stem or a leaf: "tomato/fruit_3"; nothing where
+/// there is none of that name.
+Selection select_organ(const std::string& organ, const Snapshot& snapshot);
 
 /// The organ of a plant that is chosen as a stem, wherever it was chosen (index into its organs);
 /// -1: none.
