@@ -127,7 +127,7 @@ void files(Ui& ui) {
     if (chosen) {
       ui.dialog = Dialog::none;
       if (imports) {
-        ui.report(ui.session.import_plant(*chosen));
+        ui.import_plant(*chosen);
       } else if (saves) {
         const Result result = ui.session.save(*chosen);
         ui.say(result.ok ? "saved in " + chosen->string() : result.text);

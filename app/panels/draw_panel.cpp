@@ -1,6 +1,8 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "app/panels/panel.h"
 #include "app/panels/theme.h"
@@ -48,6 +50,7 @@ class DrawPanel : public Panel {
     thing_buttons(ui, d);
     if (d.thing == DrawThing::stem) stem_options(ui, d);
     if (d.thing == DrawThing::fruit) fruit_options(ui, d);
+    if (d.thing == DrawThing::leaf) leaf_templates(d);
     if (d.thing == DrawThing::leaf)
       millimetres(ui, "Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
     heading(ui, "How");
@@ -133,11 +136,32 @@ class DrawPanel : public Panel {
     }
   }
 
+  /// Those that lie beside the program.
+  static void leaf_templates(DrawMode& d) {
+    static const std::vector<std::string> names = [] {
+      std::vector<std::string> found;
+      const std::string ending = ".leaf.yaml";
+      for (const auto& folder : asset_leaf_folders())
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+          if (const std::string file = entry.path().filename().string(); file.ends_with(ending))
+            found.push_back(file.substr(0, file.size() - ending.size()));
+      std::ranges::sort(found);
+      return found;
+    }();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (i) stay_in_row(names[i].c_str());
+      if (ImGui::RadioButton(names[i].c_str(), d.leaf_template == names[i]))
+        d.leaf_template = names[i];
+    }
+  }
+
   static void fruit_options(Ui& ui, DrawMode& d) {
     heading(ui, "Fruit");
     millimetres(ui, "Radius", d.fruit_radius, 2.0f, 60.0f, "Of the fruit");
     slider(ui, "Density", d.fruit_density, 200.0, 1500.0, "%.0f kg/m3");
-    slider(ui, "Comes off at a strain of", d.fruit_stretch, 0.01, 1.0, "%.2f");
+    slider(ui, "Comes off at a force of", d.fruit_force, 0.2, 50.0, "%.1f N",
+           ImGuiSliderFlags_Logarithmic, "A ripe cherry tomato 1 to 5 N, an apple 10 to 30 N");
+    slider(ui, "or at a strain of", d.fruit_stretch, 0.01, 1.0, "%.2f");
   }
 };
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "app/panels/theme.h"
+#include "app/panels/time_line.h"
 
 namespace pedicel::app {
 
 namespace {
 
 constexpr float narrow_drawer = 28.0f;  // letters
+constexpr float two_sidebars = 52.0f;   // letters of a window that has room for both
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -91,6 +93,18 @@ void Layout::dock(Ui& ui, Dock where, const char* id, const ImVec2& low, const I
   ImGui::End();
 }
 
+/// In a window for one sidebar only the last one that was asked for stays.
+void Layout::give_way(Ui& ui, float width) {
+  Preferences& p = ui.preferences;
+  for (const auto& panel : panels_)
+    if (panel->name() == asked_ && panel->dock() != Dock::bottom) last_side_ = panel->dock();
+  if (p.show_left && !had_left_) last_side_ = Dock::left;
+  if (p.show_right && !had_right_) last_side_ = Dock::right;
+  if (width < two_sidebars * ImGui::GetFontSize() && p.show_left && p.show_right)
+    (last_side_ == Dock::left ? p.show_right : p.show_left) = false;
+  had_left_ = p.show_left, had_right_ = p.show_right;
+}
+
 LayoutAreas Layout::draw(Ui& ui) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   Preferences& p = ui.preferences;
@@ -103,6 +117,7 @@ LayoutAreas Layout::draw(Ui& ui) {
     if (panel->dock() == Dock::bottom) p.show_bottom = true;
   }
   const float s = ui.scale;
+  give_way(ui, size.x);
   const float top = ImGui::GetFrameHeight() + 12.0f * s;
   const float status = ImGui::GetTextLineHeight() + 10.0f * s;
   const ImVec2 padding(8.0f * s, 6.0f * s);
@@ -133,7 +148,13 @@ LayoutAreas Layout::draw(Ui& ui) {
   if (bottom > 0)
     dock(ui, Dock::bottom, "bottom", ImVec2(below ? 0 : left, above),
          ImVec2(below ? size.x : size.x - right, high));
-  return {ImVec2(left, low), ImVec2(size.x - right, above)};
+  const float line = time_line_height(ui), scene_end = above - line;
+  if (line > 0.0f) {
+    const ImVec2 from(left, scene_end), to(size.x - right, above);
+    if (begin_bar("time line", from, to, ImVec2(0, 0))) draw_time_line(ui, from, to);
+    ImGui::End();
+  }
+  return {ImVec2(left, low), ImVec2(size.x - right, scene_end)};
 }
 
 }  // namespace pedicel::app

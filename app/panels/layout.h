@@ -27,12 +27,15 @@ class Layout {
 
  private:
   void dock(Ui& ui, Dock dock, const char* id, const ImVec2& low, const ImVec2& high);
+  void give_way(Ui& ui, float width);
   bool has(const Ui& ui, Dock dock) const;
   bool edge(const char* id, const ImVec2& low, const ImVec2& high, bool across, double& size,
             double sign, double least, double most, float scale);
 
   std::vector<std::unique_ptr<Panel>> panels_;
-  std::string asked_;  // tab that was asked for in the last picture
+  std::string asked_;                          // tab that was asked for in the last picture
+  Dock last_side_ = Dock::left;                // that was asked for last
+  bool had_left_ = false, had_right_ = false;  // in the last picture
 };
 
 // The bars, a file each.

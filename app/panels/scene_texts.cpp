@@ -93,13 +93,42 @@ void hint(Ui& ui, const LayoutAreas& areas) {
   ImGui::End();
 }
 
+/// Broken at blanks into lines of that width, three at most.
+std::string lines_in(const std::string& text, float width) {
+  constexpr int most = 3;
+  std::string all, rest = text;
+  for (int line = 1; !rest.empty(); ++line) {
+    std::size_t end = std::min(rest.find('\n'), rest.size());
+    while (end > 0 && ImGui::CalcTextSize(rest.substr(0, end).c_str()).x > width) {
+      const std::size_t blank = rest.rfind(' ', end - 1);
+      end = blank == std::string::npos ? 0 : blank;
+    }
+    if (end == 0 || (line == most && end < rest.size()))
+      return all + elide(rest.substr(0, rest.find('\n')), width);
+    all += rest.substr(0, end) + "\n";
+    rest.erase(0, std::min(end + 1, rest.size()));
+  }
+  if (!all.empty()) all.pop_back();
+  return all;
+}
+
 void notice(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
   constexpr double shown = 6.0;  // s
   if (ui.notice.empty() || ui.now - ui.notice_time > shown) return;
   const float room = areas.scene_max.x - areas.scene_min.x - 50.0f * ui.scale;
-  const std::string first = ui.notice.substr(0, ui.notice.find('\n'));
   plate(list, ImVec2(areas.scene_min.x + 12.0f * ui.scale, areas.scene_min.y + 44.0f * ui.scale),
-        elide(first, room), ui.scale, dark_ground, white);
+        lines_in(ui.notice, room), ui.scale, dark_ground, white);
+}
+
+/// What the arrows' lengths are.
+void contact_scale(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
+  if (!ui.view.contacts) return;
+  const std::string text = "contact arrows: 30 mm is 1 N, 60 mm 4 N, 95 mm 10 N";
+  const float tall = ImGui::GetTextLineHeight() + 10.0f * ui.scale;
+  const float room = areas.scene_max.x - areas.scene_min.x - 40.0f * ui.scale;
+  plate(list,
+        ImVec2(areas.scene_min.x + 12.0f * ui.scale, areas.scene_max.y - tall - 12.0f * ui.scale),
+        elide(text, room), ui.scale, dark_ground, white);
 }
 
 }  // namespace
@@ -128,6 +157,7 @@ void draw_scene_texts(Ui& ui, const LayoutAreas& areas) {
         ImVec2(areas.scene_max.x - 20.0f * ui.scale, areas.scene_min.y + 20.0f * ui.scale),
         6.0f * ui.scale, IM_COL32(224, 50, 45, 255));
   legend(ui, over, areas);
+  contact_scale(ui, over, areas);
   notice(ui, over, areas);
   hint(ui, areas);
 }

@@ -81,7 +81,7 @@ void draw_toolbar(Ui& ui) {
   ImGui::SameLine();
   action_button(ui, Action::reload, Icon::reload);
   gap(ui);
-  action_button(ui, Action::undo, Icon::undo, ui.session.history().can_undo());
+  action_button(ui, Action::undo, Icon::undo, ui.session.can_undo());
   ImGui::SameLine();
   action_button(ui, Action::redo, Icon::redo, ui.session.history().can_redo());
   gap(ui);

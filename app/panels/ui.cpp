@@ -27,6 +27,12 @@ void Ui::open(const std::filesystem::path& path) {
     leave_document([this, path] { session.open(path); });
 }
 
+void Ui::import_plant(const std::filesystem::path& path) {
+  // Not by the session's call: a command that is refused is an answer.
+  if (run(Command("import", {{"file", path.string()}})))
+    frame_plant = session.document().plants.back().entry.name;
+}
+
 std::string describe(const Selection& s, const Snapshot& snapshot) {
   using Kind = Selection::Kind;
   const auto plant = [&]() -> const cosserat::RodModel* {

@@ -53,6 +53,7 @@ struct Ui {
   std::deque<Action> actions;
   std::string show_panel;  ///< tab to be brought to the front; emptied by the layout
   std::optional<Eigen::AlignedBox3d> frame_box;  ///< what the camera is to show next
+  std::string frame_plant;                       ///< the same, once that plant is simulated
   std::string notice;                            ///< one line over the scene that fades
   double notice_time = 0.0;                      ///< s, of the platform's clock
   double now = 0.0;                              ///< s
@@ -73,6 +74,8 @@ struct Ui {
   /// Opens a file, so. An experiment's data go beside the document, which stays.
   void open(const std::filesystem::path& path);
   std::function<void()> after_leaving;  ///< waits for that answer
+  /// Adds the plant of a file; it is shown whole once it is built.
+  void import_plant(const std::filesystem::path& path);
 };
 
 /// "tomato/fruit_3", "link_4", "stem of tomato, point 2": what the selection is.

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/frames.h"
+#include "world/recorder.h"
 
 namespace pedicel::app {
 
@@ -26,6 +29,14 @@ struct MeasuredView {
   double residual_scale = 0.0;  ///< m, upper end of the residual colours; follows the model
 };
 
+/// What is known of the run, for the line of time.
+struct SeenRun {
+  std::uint64_t stage = 0;                                  ///< of the simulation
+  double until = 0.0;                                       ///< s, that it has been
+  std::size_t breaks = 0;                                   ///< that were told
+  std::shared_ptr<const std::vector<world::Event>> events;  ///< until then
+};
+
 /// What the picture of the scene shows.
 struct ViewState {
   ColourMap colours = ColourMap::none;
@@ -46,6 +57,7 @@ struct ViewState {
   bool automatic_quality = true;
   int quality = 1;
   int camera = -1;  ///< of the scene's; -1: led by hand
+  SeenRun seen;
   MeasuredView measured;
   int hidden_plant = -1;         ///< of the snapshot, shown otherwise; -1: none
   int residual_plant = -1;       ///< of the snapshot, that `residual` is about
@@ -92,7 +104,9 @@ struct DrawMode {
   double fruit_radius = 0.012;    ///< m
   double fruit_density = 1000.0;  ///< kg/m3
   double fruit_stretch = 0.15;    ///< 1, threshold of its stalk
+  double fruit_force = 3.0;       ///< N, threshold of its stalk: what a ripe cherry tomato takes
   double leaf_size = 0.08;        ///< m
+  std::string leaf_template = "tomato";  ///< of those beside the program
 
   int copies = 1;                     ///< of Repeat
   double copy_spacing = 0.03;         ///< m, along the parent

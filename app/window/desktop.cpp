@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "app/panels/theme.h"
+#include "app/panels/time_line.h"
 #include "app/window/draw_tool.h"
 #include "app/window/selection_follow.h"
 
@@ -14,7 +15,8 @@ namespace pedicel::app {
 
 namespace {
 
-constexpr double text_points = 15.0;  // px of a line of text at scale 1
+constexpr double least_above_ground = 0.01;  // m, of the eye
+constexpr double text_points = 15.0;         // px of a line of text at scale 1
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -126,25 +128,49 @@ void Desktop::follow_snapshot() {
   const std::shared_ptr<const Snapshot> newest = ui_.session.snapshot();
   ui_.selection = follow_selection(ui_.selection, *ui_.snapshot, *newest);
   ui_.snapshot = newest;
+  follow_run(ui_);
 }
 
 /// Another document: its own first camera, and nothing chosen. The same one read anew keeps both.
 void Desktop::follow_document() {
   const Snapshot& snapshot = *ui_.snapshot;
+  std::set<std::string> plants;
+  for (const PlantSnapshot& plant : snapshot.plants) plants.insert(plant.model->name);
+  // An experiment's plant takes the place of all others, and has no file.
+  const bool others = !plants.empty() && !shown_plants_.empty() &&
+                      std::ranges::none_of(plants, [&](const std::string& name) {
+                        return shown_plants_.contains(name);
+                      });
+  if (!plants.empty()) shown_plants_ = std::move(plants);
   if (shown_path_ != ui_.session.path()) {
     shown_path_ = ui_.session.path();
     framed_ = false;
     ui_.selection = {};
   }
+  if (others && ui_.session.history().size() == 0) framed_ = false;
+  frame_new_plant();
   std::string title = "Pedicel";
   if (!shown_path_.empty()) title = shown_path_.filename().string() + " - " + title;
   platform_.set_title(title);
-  if (framed_ || !snapshot.assets || snapshot.mode == RunMode::building) return;
+  if (framed_ || !snapshot.assets || !ui_.session.is_simulated()) return;
   framed_ = true;
   if (!snapshot.assets->scene.cameras.empty())
     use_camera(0);
   else
     ui_.ask(Action::frame_all);
+}
+
+/// One that was imported, as soon as it is there.
+void Desktop::frame_new_plant() {
+  for (const PlantSnapshot& plant : ui_.snapshot->plants) {
+    if (ui_.frame_plant.empty() || plant.model->name != ui_.frame_plant) continue;
+    Eigen::AlignedBox3d box;
+    for (int e = 0; e < plant.model->size(); ++e)
+      box.extend(plant.state.position[static_cast<std::size_t>(e)]);
+    box.extend(plant.model->root.position);
+    ui_.frame_box = box;
+    ui_.frame_plant.clear();
+  }
 }
 
 void Desktop::keys() {
@@ -221,6 +247,9 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
   const bool handle = tool_handles_.update(ui_, scene_);
   const bool tool = (ui_.dialog == Dialog::none && draw_tool_->update(ui_, scene_)) || handle;
   mouse_.update(ui_, camera_, scene_, view_.shapes(), tool);
+  if (const auto* assets = ui_.snapshot->assets.get();
+      ui_.view.camera < 0 && assets && assets->scene.ground)
+    camera_.stay_above(assets->scene.ground->height + least_above_ground);
   if (ui_.frame_box) {
     camera_.frame(*ui_.frame_box, size.x / size.y);
     ui_.frame_box.reset();

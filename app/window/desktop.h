@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "app/panels/layout.h"
 #include "app/platform/platform.h"
@@ -70,6 +72,7 @@ class Desktop : private FilmMaker {
   void follow_fonts();
   void follow_snapshot();
   void follow_document();
+  void frame_new_plant();
   void follow_camera();
   void keys();
   void draw_scene(const LayoutAreas& areas);
@@ -115,6 +118,7 @@ class Desktop : private FilmMaker {
   SceneFrame scene_;
   CanvasQuality quality_;
   std::filesystem::path shown_path_;
+  std::set<std::string> shown_plants_;  // that were in the picture last
   bool framed_ = false, quits_ = false, full_screen_ = false;
   std::unique_ptr<render::VideoWriter> video_;
   FilmRequest film_;

@@ -3,6 +3,8 @@
 #include "app/panels/widgets.h"
 #include "app/window/desktop.h"
 #include "app/window/draw_tool.h"
+#include "app/window/scene_marks.h"
+#include "session/organ_place.h"
 
 namespace pedicel::app {
 
@@ -32,6 +34,9 @@ void Desktop::draw_labels() {
     label(scene_, s.pull.target_W, quantity_text(s.pull.force_W.norm(), "N"), ui_.scale);
   if (const std::string text = draw_tool_->label(ui_); ui_.draw.on && !text.empty())
     label(scene_, draw_tool_->label_place(), text, ui_.scale);
+  for (const world::Event& event : recent_breaks(s))
+    if (const auto place = place_of_break(s, event))
+      label(scene_, *place, event.organ + ": came off", ui_.scale);
   if (s.culprit_plant >= 0 && s.culprit_element >= 0 &&
       s.culprit_plant < static_cast<int>(s.plants.size())) {
     const auto& state = s.plants[static_cast<std::size_t>(s.culprit_plant)].state;

@@ -35,6 +35,19 @@ double length_of(const std::vector<plant::StrokeSample>& stroke) {
   return length;
 }
 
+/// m, of the stem that a stroke begins on, there.
+double radius_at(const Session& session, const StemPlace& foot) {
+  const auto curve = drawn_curve(session, foot.plant, foot.stem);
+  return curve ? curve->radius(foot.at * curve->length()) : 0.0;
+}
+
+/// A branch is no thicker than what it grows from.
+void keep_thinner(std::vector<double>& radius, double parent) {
+  if (radius.empty() || !(parent > 0.0) || radius.front() <= parent) return;
+  const double share = parent / radius.front();
+  for (double& one : radius) one *= share;
+}
+
 ProjectorOptions projector_options(const DrawMode& d, double height) {
   ProjectorOptions options;
   const bool creeps = d.depth == DrawDepth::surface && !d.only_first;
@@ -95,6 +108,8 @@ void DrawTool::end_stroke(Ui& ui) {
   const auto shape = shape_of(stroke, d);
   if (!shape) return;
   std::vector<Vec3> points = shape->points;
+  std::vector<double> radius = shape->radius;
+  if (foot_) keep_thinner(radius, radius_at(ui.session, *foot_));
   ui.session.begin_gesture();
   bool taken = true;
   std::string plant = foot_ ? foot_->plant : d.plant;
@@ -112,10 +127,9 @@ void DrawTool::end_stroke(Ui& ui) {
   const Pose to_plant = plant_pose(ui.session, plant).inverse();
   for (Vec3& point : points) point = to_plant * Vec3(point + offset);
   const std::string stem = unused_name(ui.session, plant, foot_ ? "branch" : "stem");
-  taken = taken &&
-          ui.run(Command(
-              "draw stem",
-              {{"plant", plant}, {"stem", stem}, {"points", points}, {"radius", shape->radius}}));
+  taken = taken && ui.run(Command(
+                       "draw stem",
+                       {{"plant", plant}, {"stem", stem}, {"points", points}, {"radius", radius}}));
   if (!taken) return ui.session.cancel_gesture();
   ui.session.end_gesture();
   ui.draw.plant = plant;
@@ -134,13 +148,15 @@ void DrawTool::put_organ(Ui& ui, const StemPlace& place) {
                                  {"at", place.at},
                                  {"radius", d.fruit_radius},
                                  {"density", d.fruit_density},
-                                 {"stretch", d.fruit_stretch}}));
+                                 {"stretch", d.fruit_stretch},
+                                 {"force", d.fruit_force}}));
   else
     ui.run(Command("add leaf", {{"plant", place.plant},
                                 {"name", name},
                                 {"stem", place.stem},
                                 {"at", place.at},
-                                {"size", d.leaf_size}}));
+                                {"size", d.leaf_size},
+                                {"template", d.leaf_template}}));
 }
 
 }  // namespace pedicel::app

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "session/organ_place.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -45,6 +47,13 @@ void add_pull(DrawList& list, const PullSnapshot& pull) {
     list.add_arrow(pull.point_W, pull.target_W, 0.0018, pull_arrow);
 }
 
+/// A ball at what is left of the stalk.
+void add_breaks(DrawList& list, const Snapshot& snapshot) {
+  for (const world::Event& event : recent_breaks(snapshot))
+    if (const auto place = place_of_break(snapshot, event))
+      list.spheres.push_back({*place, 0.006, culprit_mark});
+}
+
 void add_culprit(DrawList& list, const Snapshot& snapshot) {
   const int p = snapshot.culprit_plant, e = snapshot.culprit_element;
   if (p < 0 || e < 0 || p >= static_cast<int>(snapshot.plants.size())) return;
@@ -54,6 +63,17 @@ void add_culprit(DrawList& list, const Snapshot& snapshot) {
 }
 
 }  // namespace
+
+std::vector<world::Event> recent_breaks(const Snapshot& snapshot) {
+  constexpr double shown = 1.5;  // s, simulated
+  constexpr std::size_t most = 6;
+  std::vector<world::Event> recent;
+  if (!snapshot.events) return recent;
+  for (std::size_t i = snapshot.events->size(); i-- > 0 && recent.size() < most;)
+    if (const world::Event& event = (*snapshot.events)[i]; snapshot.time - event.time <= shown)
+      recent.push_back(event);
+  return recent;
+}
 
 void add_axes(DrawList& list, const Pose& X_WF, double length) {
   constexpr std::array<Colour, 3> colours = {Colour::hex(0xd8342b), Colour::hex(0x37a837),
@@ -81,6 +101,7 @@ void add_marks(DrawList& list, const Snapshot& snapshot, const ViewState& view) 
     if (snapshot.robot.present) add_axes(list, snapshot.robot.tool, 0.08);
   }
   add_pull(list, snapshot.pull);
+  add_breaks(list, snapshot);
   add_culprit(list, snapshot);
 }
 

@@ -7,8 +7,12 @@
 namespace pedicel::app {
 
 /// Adds what is not a thing of the scene: arrows of contact and pulling forces, frames, rods as
-/// lines, what made it unstable.
+/// lines, where something has just come off, what made it unstable.
 void add_marks(render::DrawList& list, const Snapshot& snapshot, const ViewState& view);
+
+/// What came off in the last second and a half of the run, a few of it, the newest first: it is
+/// marked where it happened.
+std::vector<world::Event> recent_breaks(const Snapshot& snapshot);
 
 /// A cage about a chosen (or only pointed at) fruit, link or body; stems change their colour.
 void add_selection(render::DrawList& list, const Eigen::AlignedBox3d& box,

@@ -55,7 +55,7 @@ void SceneMouse::press(Ui& ui, const SceneFrame& frame, int button, bool tool_ha
   grabbed_W_ = ui.hover.place_W;
   PullPlace place{ui.hover.plant, ui.hover.element, ui.hover.back};
   place.stiffness = ui.preferences.pull_stiffness;
-  ui.session.control().begin_pull(place, grabbed_W_);
+  ui.session.begin_pull(place, grabbed_W_);
   ui.selection = ui.hover;
   (void)frame;
 }
@@ -128,8 +128,9 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
     const double steps = ui.preferences.invert_wheel ? -io.MouseWheel : io.MouseWheel;
     const render::Ray ray = frame.ray(io.MousePos);
     const Vec3 forward = (frame.camera.target - frame.camera.eye).normalized();
-    // The place under the pointer, at most as far as four times the target.
-    const double far = 4.0 * camera.distance() / std::max(ray.direction.dot(forward), 0.2);
+    // The place under the pointer; beside things at most as far as the target, so that the wheel
+    // does not fly past it towards the floor behind.
+    const double far = camera.distance() / std::max(ray.direction.dot(forward), 0.2);
     const double reach = ui.hover ? ui.hover.distance : std::min(ui.hover.distance, far);
     camera.dolly(steps, reach > 0.0 ? Vec3(ray.origin + reach * ray.direction) : camera.target());
     ui.view.camera = -1;

@@ -56,6 +56,16 @@ void ViewCamera::dolly(double steps, const Vec3& towards_W) {
   target_ += (1.0 - distance_ / before) * (towards_W - target_);
 }
 
+void ViewCamera::stay_above(double height) {
+  const double missing = height - camera().eye.z();
+  if (missing <= 0.0) return;
+  const double sine = (height - target_.z()) / distance_;
+  if (sine <= std::sin(steepest))
+    elevation_ = std::max(elevation_, std::asin(std::max(sine, -1.0)));
+  else
+    target_.z() += missing;
+}
+
 void ViewCamera::look_at(const Vec3& target_W) {
   render::Camera moved = camera();
   if ((moved.eye - target_W).norm() < nearest) return;

@@ -23,6 +23,8 @@ class ViewCamera {
   /// Moves the eye by steps of a wheel (> 0: nearer) towards the place `towards_W` under the
   /// pointer, which stays where it is in the picture.
   void dolly(double steps, const Vec3& towards_W);
+  /// The eye does not go below that height (m): the view gets flatter, or moves up as a whole.
+  void stay_above(double height);
   /// Turns about that place from now on; the eye stays.
   void look_at(const Vec3& target_W);
   /// Shows the whole box from the present direction.
