@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/panels/theme.h"
 #include "app/panels/widgets.h"
 
 namespace pedicel::app {
@@ -24,6 +25,10 @@ void mirror(Ui& ui, const std::string& plant, const std::string& stem) {
   }
   tip("Copies the stem with everything on it to the other side of its parent, or of the plane "
       "through its foot with this normal");
+  ImGui::SameLine();
+  ImGui::TextColored(palette().dim, "%s", by_itself ? "across its parent" : "by the normal");
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(palette().dim, "Normal x, y, z");
   constexpr int fields = 3;
   const float space = 4.0f * ui.scale;
   ImGui::SameLine();

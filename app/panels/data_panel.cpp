@@ -44,12 +44,13 @@ class DataPanel : public Panel {
       return;
     }
     title(ui, *experiment);
+    diagnosis_.draw(ui);
     trial_and_time(ui, *experiment);
     models(ui);
     markers(ui, *experiment);
     plot(ui, *experiment);
     shown(ui);
-    diagnosis_.draw(ui);
+    diagnosis_.draw_result(ui);
   }
 
   void idle(Ui& ui) override { follow(ui); }

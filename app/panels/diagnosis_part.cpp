@@ -47,6 +47,9 @@ void DiagnosisPart::draw(Ui& ui) {
     of_ = data.diagnosis();
     card_ = of_ ? card_of(*of_) : DiagnosisCard{};
   }
+}
+
+void DiagnosisPart::draw_result(Ui& ui) {
   if (of_) draw_card(ui);
 }
 
@@ -79,10 +82,14 @@ void DiagnosisPart::draw_card(Ui& ui) {
   }
   draw_rivals(ui);
   if (!card_.could_hide.empty() || !card_.unseen.empty()) {
-    heading(ui, "What could still hide");
+    if (!ImGui::CollapsingHeader("What could still hide")) return draw_next(ui);
     if (!card_.could_hide.empty()) paragraph(listed(card_.could_hide));
     if (!card_.unseen.empty()) note("These data cannot see at any size: " + listed(card_.unseen));
   }
+  draw_next(ui);
+}
+
+void DiagnosisPart::draw_next(Ui& ui) {
   heading(ui, "What to do next");
   paragraph(card_.next);
   draw_buttons(ui);

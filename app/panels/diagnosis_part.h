@@ -12,13 +12,17 @@ struct Ui;
 /// then the card with its rivals and what to do next.
 class DiagnosisPart {
  public:
+  /// The button that begins it, or how far it is.
   void draw(Ui& ui);
+  /// Its card; nothing before there is one.
+  void draw_result(Ui& ui);
 
  private:
   void draw_progress(Ui& ui);
   void draw_card(Ui& ui);
   void draw_causes(Ui& ui);
   void draw_rivals(Ui& ui);
+  void draw_next(Ui& ui);
   void draw_buttons(Ui& ui);
 
   const discrepancy::Diagnosis* of_ = nullptr;  // that the card is about

@@ -2,6 +2,9 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
+#include <ctime>
+#include <map>
 
 #include "app/panels/panel.h"
 #include "app/panels/theme.h"
@@ -43,6 +46,8 @@ class MessagesPanel : public Panel {
     const std::size_t news = std::min(said - shown_, messages.size());
     if (news > 0) ui.show_panel = "Messages";
     for (std::size_t i = messages.size() - news; i < messages.size(); ++i)
+      when_[messages[i].text] = clock_text();
+    for (std::size_t i = messages.size() - news; i < messages.size(); ++i)
       if (messages[i].can_retry) ui.problem = messages[i].text, ui.dialog = Dialog::problem;
     shown_ = said;
     const bool mended = std::none_of(messages.begin(), messages.end(),
@@ -51,7 +56,21 @@ class MessagesPanel : public Panel {
   }
 
  private:
-  static void message(Ui& ui, const Message& one) {
+  /// "14:03:05", local.
+  static std::string clock_text() {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    std::array<char, 16> text{};
+    std::strftime(text.data(), text.size(), "%H:%M:%S", &local);
+    return text.data();
+  }
+
+  void message(Ui& ui, const Message& one) {
+    if (const auto when = when_.find(one.text); when != when_.end() && !ui.filmed) {
+      ImGui::TextColored(palette().dim, "%s", when->second.c_str());
+      ImGui::SameLine();
+    }
     const bool fault = one.severity == Severity::error;
     ImGui::PushStyleColor(ImGuiCol_Text, fault ? palette().error : palette().warning);
     ImGui::TextWrapped("%s", one.text.c_str());
@@ -76,6 +95,7 @@ class MessagesPanel : public Panel {
 
   std::size_t shown_ = 0, scrolled_ = 0;
   std::string answer_;
+  std::map<std::string, std::string> when_;  // a text was said last
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 
 #include "app/panels/panel.h"
 #include "app/panels/plot.h"
@@ -43,8 +44,7 @@ class PlotsPanel : public Panel {
     ImGui::EndChild();
     ImGui::SameLine();
     const std::vector<PlotLine> lines = make_lines(ui);
-    draw_plot("plot", lines, view_, ImGui::GetContentRegionAvail(), "s");
-    name_lines(lines, view_);
+    draw_plots(ui, lines);
   }
 
  private:
@@ -52,6 +52,32 @@ class PlotsPanel : public Panel {
   static constexpr const char* trial_prefix = "trial: ";
   static constexpr std::array<const char*, 4> forces = {"force_x_N", "force_y_N", "force_z_N",
                                                         "force_N"};
+
+  /// "N" of "force_x_N", "force_x_N of the nominal model": what may share an axis.
+  static std::string unit_of(const std::string& name) {
+    for (const char* unit : {"_N", "_Nm", "_1", "_m", "_rad", "_J", "_s", "_deg", "_mm"}) {
+      const std::size_t at = name.rfind(unit);
+      if (at != std::string::npos && at + std::string(unit).size() == name.size()) return unit + 1;
+    }
+    return "";
+  }
+
+  /// One beside the other, one a unit: newtons and strains have no axis in common.
+  void draw_plots(const Ui& ui, const std::vector<PlotLine>& lines) {
+    std::map<std::string, std::vector<PlotLine>> by_unit;
+    for (const PlotLine& line : lines) by_unit[unit_of(line.name)].push_back(line);
+    if (by_unit.empty()) by_unit[""] = {};
+    ImVec2 size = ImGui::GetContentRegionAvail();
+    const float gap = 6.0f * ui.scale, count = static_cast<float>(by_unit.size());
+    size.x = std::max(10.0f, (size.x - gap * (count - 1.0f)) / count);
+    bool first = true;
+    for (const auto& [unit, group] : by_unit) {
+      if (!first) ImGui::SameLine(0, gap);
+      first = false;
+      draw_plot(("plot" + unit).c_str(), group, views_[unit], size, "s");
+      name_lines(group, views_[unit]);
+    }
+  }
 
   static ImU32 ink(const render::Colour& c) {
     return ImGui::ColorConvertFloat4ToU32(ImVec4(c.r, c.g, c.b, 1.0f));
@@ -63,7 +89,7 @@ class PlotsPanel : public Panel {
     experiment_ = ui.session.measured().number();
     std::erase_if(picked_, [](const std::string& one) { return one.starts_with(trial_prefix); });
     if (has_force(ui)) picked_ = {std::string(trial_prefix) + "force_N"};
-    view_.follows = true;
+    views_.clear();
   }
 
   static bool has_force(const Ui& ui) {
@@ -111,7 +137,7 @@ class PlotsPanel : public Panel {
         picked_.erase(at);
       else
         picked_.push_back(one);
-      view_.follows = true;
+      views_.clear();
     }
     ImGui::PopID();
     ImGui::PopStyleColor();
@@ -189,7 +215,7 @@ class PlotsPanel : public Panel {
   }
 
   std::vector<std::string> picked_;
-  PlotView view_;
+  std::map<std::string, PlotView> views_;  // a unit each
   char search_[64] = "";
   std::uint64_t stage_ = ~0ull;
   int experiment_ = -1;

@@ -153,6 +153,7 @@ void point_row(Ui& ui, const std::string& plant, const plant::PlantCurve& curve,
 
 void draw_points(Ui& ui, const std::string& plant, const plant::PlantCurve& curve) {
   heading(ui, "Points, mm");
+  if (!ui.draw.on) note("Press " + keys_of(Action::draw_mode) + " to see and drag them.");
   kind_buttons(ui, curve);
   point_buttons(ui);
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(2 * ui.scale, 1 * ui.scale));

@@ -1,3 +1,6 @@
+#include <imgui.h>
+#include <imgui_internal.h>
+
 #include "app/panels/point_editor.h"
 #include "app/window/desktop.h"
 #include "app/window/draw_tool.h"
@@ -67,7 +70,9 @@ void Desktop::perform_edit(Action action) {
     case Action::accept:
       break;
     case Action::cancel:
-      if (ui_.dialog != Dialog::none)
+      if (GImGui->OpenPopupStack.Size > 0)
+        ImGui::ClosePopupToLevel(0, false);  // a list, a menu
+      else if (ui_.dialog != Dialog::none)
         ui_.dialog = Dialog::none;
       else if (draw_tool_->cancel(ui_))
         break;
