@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/window/desktop.h"
+#include "places.h"
 
 namespace pedicel::app {
 

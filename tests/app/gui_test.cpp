@@ -6,6 +6,7 @@
 #include "core/check.h"
 #include "desk.h"
 #include "io/atomic_file.h"
+#include "places.h"
 #include "words.h"
 
 namespace pedicel::app {

@@ -12,6 +12,7 @@
 #include "geometry/grid_distance.h"
 #include "geometry/primitives_mesh.h"
 #include "geometry/shapes.h"
+#include "places.h"
 #include "plant/plant_builder.h"
 #include "plant/reference_plants.h"
 

@@ -13,6 +13,7 @@
 #include "discrepancy/cane_data.h"
 #include "discrepancy/causes.h"
 #include "discrepancy/fit.h"
+#include "places.h"
 
 namespace pedicel::discrepancy {
 namespace {

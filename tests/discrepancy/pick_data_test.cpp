@@ -12,6 +12,7 @@
 
 #include "discrepancy/pick.h"
 #include "io/csv.h"
+#include "places.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -14,6 +14,7 @@
 #include "discrepancy/diagnosis.h"
 #include "discrepancy/oscillation.h"
 #include "discrepancy/simulator.h"
+#include "places.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "places.h"
 #include "world/scene_reader.h"
 
 namespace pedicel {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "places.h"
 #include "stress/draw.h"
 #include "stress/sentence.h"
 #include "world/scene_reader.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cosserat/standing.h"
+#include "places.h"
 #include "plant/mtg_reader.h"
 #include "plant/plant_builder.h"
 #include "stress/draw.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cosserat/direct_solver.h"
+#include "places.h"
 #include "plant/plant_builder.h"
 
 // Every plant file that ships builds, and where it is drawn as it hangs, stays there: no node moves

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "places.h"
 #include "unit/robot/robot_cases.h"
 
 // Each rule of the URDF reader with the smallest file that breaks it, and the words it answers

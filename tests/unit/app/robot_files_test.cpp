@@ -11,6 +11,7 @@
 #include "core/diagnostics.h"
 #include "geometry/primitives_mesh.h"
 #include "io/atomic_file.h"
+#include "places.h"
 #include "support/temporary_folder.h"
 #include "world/scene_reader.h"
 

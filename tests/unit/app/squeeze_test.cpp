@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/colliders.h"
+#include "places.h"
 #include "unit/app/contact_cases.h"
 
 namespace pedicel::app {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "io/atomic_file.h"
+#include "places.h"
 
 namespace pedicel::app {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "geometry/grid_distance.h"
 #include "geometry/mass_properties.h"
+#include "places.h"
 #include "support.h"
 
 namespace pedicel::geometry {

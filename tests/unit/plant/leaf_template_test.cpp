@@ -12,6 +12,7 @@
 #include "cosserat/direct_solver.h"
 #include "cosserat/rod_state.h"
 #include "cosserat/standing.h"
+#include "places.h"
 
 namespace pedicel::plant::cases {
 namespace {

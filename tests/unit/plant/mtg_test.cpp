@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/atomic_file.h"
+#include "places.h"
 #include "plant/mtg_reader.h"
 
 namespace pedicel::plant {

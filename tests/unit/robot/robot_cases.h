@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/random.h"
+#include "places.h"
 #include "robot/robot.h"
 #include "robot/urdf_reader.h"
 

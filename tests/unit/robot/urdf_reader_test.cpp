@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "places.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "places.h"
 #include "session/session.h"
 
 /// A stem, a branch that hangs from its middle, a fruit at the branch's end.
