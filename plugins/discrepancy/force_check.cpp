@@ -13,7 +13,9 @@ namespace {
 constexpr double agrees = 0.5;  // of the force's motion
 // A modulus ten times off, and a gain of the sensor beside.
 constexpr double most_off = 30.0;
-constexpr double slow = 0.1;  // of the square of the plant's first frequency
+// Of the square of the plant's first frequency, as if all its mass moved with the held point; a
+// quarter of it does.
+constexpr double slow = 0.4;
 constexpr double sure = 4.0;  // deviations
 constexpr int least_rows = 10;
 
