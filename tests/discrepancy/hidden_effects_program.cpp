@@ -11,10 +11,10 @@
 #include <set>
 #include <thread>
 
+#include "core/stop.h"
 #include "core/thread_pool.h"
 #include "discrepancy/case_run.h"
 #include "discrepancy/score_report.h"
-#include "core/stop.h"
 #include "discrepancy/score_table.h"
 #include "io/atomic_file.h"
 
