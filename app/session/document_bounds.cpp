@@ -40,8 +40,8 @@ void check_plant(const plant::PlantFile& plant) {
     if (!(nodes <= most_nodes))
       throw UsageError("stem \"" + curve.name + "\" would take " + nodes_text(own) + " at " +
                        io::format_number(1e3 * plant.distance, 4) +
-                       " mm from node to node, expected at most " + nodes_text(most_nodes) +
-                       " in a plant");
+                       " mm from node to node, expected at most " + io::format_number(most_nodes) +
+                       " nodes in a plant");
   }
 }
 

@@ -159,9 +159,11 @@ TEST(Robot, HomeIsWhereItStarts) {
   const auto& joints = session.snapshot()->assets->scene.robot->joints;
   const auto now = session.snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
-  for (const auto& [name, value] : joints)
-    if (const int joint = model.joint_index(name); joint >= 0)
-      EXPECT_NEAR(now->robot.goal[joint], value, 1e-9) << name;
+  for (const auto& [name, value] : joints) {
+    const int joint = model.joint_index(name);
+    if (joint < 0) continue;
+    EXPECT_NEAR(now->robot.goal[joint], value, 1e-9) << name;
+  }
   must(session.run_text("reset"));
   EXPECT_FALSE(session.robot_is_led());
 }
