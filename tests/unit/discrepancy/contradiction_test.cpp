@@ -51,6 +51,7 @@ std::function<void(Trial&)> path_times(const std::function<double(double)>& chan
 
 using laboratory::push;
 using laboratory::release_x;
+using laboratory::release_y;
 using laboratory::weights;
 
 const Mistake clocks[] = {
