@@ -18,8 +18,7 @@ using world::Scene;
 using world::ScenePlant;
 
 bool has_plant(const Scene& scene, const std::string& name) {
-  return std::ranges::any_of(scene.plants,
-                             [&](const ScenePlant& one) { return one.name == name; });
+  return std::ranges::any_of(scene.plants, [&](const ScenePlant& one) { return one.name == name; });
 }
 
 /// A line a place: such lists are long.
@@ -41,6 +40,11 @@ Scene drawn_scene(const Document& document, const Scene& before) {
     const auto& one = document.plants[static_cast<std::size_t>(document.plant_index(plant.name))];
     return one.file && one.file->curves.empty() && !has_plant(before, plant.name);
   });
+  for (const ScenePlant& plant : scene.plants)
+    if (plant.name.find_first_of("/.") != std::string::npos)
+      throw UsageError("plant \"" + plant.name +
+                       "\" has a name with a point, which a scene cannot hold, expected \"rename "
+                       "plant\" before");
   for (const ScenePlant& plant : scene.plants)
     if (plant.file.empty() && plant.source != ScenePlant::Source::built_in)
       throw UsageError("plant \"" + plant.name +
@@ -113,12 +117,12 @@ std::string new_scene_text(const Document& document, const std::filesystem::path
 
 bool is_same_scene(const std::string& a, const std::string& b, const std::filesystem::path& path) {
   if (a == b) return true;
-  Diagnostics diagnostics;
-  const auto one = world::parse_scene(a, path, diagnostics);
-  const auto other = world::parse_scene(b, path, diagnostics);
-  return one && other &&
-         world::scene_text(*one, path.parent_path()) ==
-             world::scene_text(*other, path.parent_path());
+  try {
+    return world::scene_text(parsed(a, path), path.parent_path()) ==
+           world::scene_text(parsed(b, path), path.parent_path());
+  } catch (const InvalidFile&) {
+    return false;
+  }
 }
 
 }  // namespace pedicel::app

@@ -50,8 +50,11 @@ void check_new_name(const Document& document, ThingKind kind, const std::string&
   const std::string word = word_of(kind);
   if (std::ranges::count(names_of(document, kind), name) > 0)
     throw UsageError("a " + word + " \"" + name + "\" is there already, expected a new name");
-  if (name.empty() || name.find_first_of("/.") != std::string::npos)
-    throw UsageError("a " + word + "'s name \"" + name + "\", expected one without / and .");
+  // A plant file's own name may have a point; a scene refuses it when it is saved.
+  const bool plant = kind == ThingKind::plant;
+  if (name.empty() || name.find_first_of(plant ? "/" : "/.") != std::string::npos)
+    throw UsageError("a " + word + "'s name \"" + name + "\", expected one without /" +
+                     (plant ? "" : " and ."));
 }
 
 std::string free_name(const Document& document, ThingKind kind, const std::string& like) {

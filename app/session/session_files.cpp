@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/check.h"
 #include "io/atomic_file.h"
 #include "session/measured_commands.h"
@@ -87,7 +89,10 @@ Result Session::import_plant(const std::filesystem::path& path, const std::strin
   }
   // The text goes into the command, so that the log does not depend on the file.
   std::string as = name.empty() ? file->name : name;
-  if (name.empty()) as = free_name(document_, ThingKind::plant, as);
+  if (name.empty()) {
+    std::ranges::replace(as, '.', '_');  // scenes have none in a name
+    as = free_name(document_, ThingKind::plant, as);
+  }
   std::map<std::string, Value> arguments{{"plant", as}, {"text", plant::plant_text(*file)}};
   if (is_plant_file(path)) {
     const auto whole = std::filesystem::absolute(path).lexically_normal();

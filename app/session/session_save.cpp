@@ -47,22 +47,39 @@ std::string names_of(const Document& document) {
   return names;
 }
 
+/// The only plant that is drawn, else the only one of them without a file; empty: neither.
+std::string meant_plant(const Document& document) {
+  std::vector<std::string> drawn, without_file;
+  for (const DocumentPlant& one : document.plants) {
+    if (!is_drawn(one)) continue;
+    drawn.push_back(one.entry.name);
+    if (one.entry.file.empty()) without_file.push_back(one.entry.name);
+  }
+  if (drawn.size() == 1) return drawn.front();
+  return without_file.size() == 1 ? without_file.front() : std::string();
+}
+
+/// Whether nothing but plants was put into a scene that was made up. Its ground may lie lower,
+/// under a plant that lies.
+bool is_bare(const Document& document) {
+  world::Scene scene = *document.scene;
+  if (scene.ground) scene.ground->height = 0.0;
+  return world::scene_text_without_plants(scene, {}) ==
+         world::scene_text_without_plants(*empty_document().scene, {});
+}
+
 /// The plant that is all that there is to be saved; null: there is more, or nothing.
 const DocumentPlant* only_plant(const Document& document) {
-  if (is_scene(document.path)) return nullptr;
-  const world::Scene plain = *empty_document().scene;
-  const bool bare = world::scene_text_without_plants(*document.scene, {}) ==
-                    world::scene_text_without_plants(plain, {});
   const auto drawn = [](const DocumentPlant& one) { return is_drawn(one); };
-  if (!bare || std::ranges::count_if(document.plants, drawn) != 1) return nullptr;
+  if (is_scene(document.path) || !is_bare(document) ||
+      std::ranges::count_if(document.plants, drawn) != 1)
+    return nullptr;
   return &*std::ranges::find_if(document.plants, drawn);
 }
 
 bool is_empty(const Document& document) {
   const auto drawn = [](const DocumentPlant& one) { return is_drawn(one) || !one.file; };
-  return document.path.empty() && std::ranges::none_of(document.plants, drawn) &&
-         world::scene_text_without_plants(*document.scene, {}) ==
-             world::scene_text_without_plants(*empty_document().scene, {});
+  return document.path.empty() && std::ranges::none_of(document.plants, drawn) && is_bare(document);
 }
 
 /// Whether another plant, which says something else, comes from the same file.
@@ -179,8 +196,8 @@ Result Session::save_scene(const fs::path& path, bool overwrite) {
     const bool own = same && !file_of(one).empty() && !is_shared(document_, p);
     if (own && files_.has_changed(file_of(one)) && !overwrite)
       return refusal_to_overwrite(file_of(one), true);
-    targets.emplace_back(p, own ? file_of(one)
-                                : free_file(path.parent_path(), one.entry.name, ".plant.yaml"));
+    targets.emplace_back(
+        p, own ? file_of(one) : free_file(path.parent_path(), one.entry.name, ".plant.yaml"));
   }
   const fs::path before = document_.path;
   Document changed = document_;
@@ -212,15 +229,11 @@ Result Session::save_scene(const fs::path& path, bool overwrite) {
 
 Result Session::save_plant(const fs::path& path, const SaveWishes& wishes) {
   const DocumentPlant* only = only_plant(document_);
-  const auto drawn = [](const DocumentPlant& one) { return is_drawn(one); };
-  const bool one_drawn = std::ranges::count_if(document_.plants, drawn) == 1;
-  if (wishes.plant.empty() && !one_drawn)
-    return {false, names_of(document_).empty() ? "no plant to save, expected one with a stem"
-                                               : "which plant, expected plant=NAME, one of: " +
-                                                     names_of(document_)};
-  const std::string name = wishes.plant.empty()
-                               ? std::ranges::find_if(document_.plants, drawn)->entry.name
-                               : wishes.plant;
+  const std::string name = wishes.plant.empty() ? meant_plant(document_) : wishes.plant;
+  if (name.empty())
+    return {false, names_of(document_).empty()
+                       ? "no plant to save, expected one with a stem"
+                       : "which plant, expected plant=NAME, one of: " + names_of(document_)};
   const plant::PlantFile& plant = document_.plant(name);
   DocumentPlant& one = document_.plants[static_cast<std::size_t>(document_.plant_index(name))];
   if (plant.curves.empty()) return {false, "plant \"" + name + "\" has no stem yet"};

@@ -65,6 +65,14 @@ ProjectorOptions projector_options(const DrawMode& d, double height) {
   return options;
 }
 
+/// What a hand draws is no finer, and files are read by people: "0.0123", not 17 digits.
+double to_micrometre(double value) {
+  return std::round(1e6 * value) / 1e6;
+}
+Vec3 to_micrometres(const Vec3& point) {
+  return {to_micrometre(point.x()), to_micrometre(point.y()), to_micrometre(point.z())};
+}
+
 }  // namespace
 
 /// Its depth is that of the stem it begins on, of what lies under the pointer, or of the orbit's
@@ -110,11 +118,12 @@ void DrawTool::end_stroke(Ui& ui) {
   std::vector<Vec3> points = shape->points;
   std::vector<double> radius = shape->radius;
   if (foot_) keep_thinner(radius, radius_at(ui.session, *foot_));
+  for (double& value : radius) value = std::max(to_micrometre(value), 1e-6);
   ui.session.begin_gesture();
   bool taken = true;
   std::string plant = foot_ ? foot_->plant : d.plant;
   const plant::PlantFile* file = plant_file(ui.session, plant);
-  const Vec3 start = points.front();
+  const Vec3 start = to_micrometres(points.front());
   if (!foot_) {
     if (!file || !file->curves.empty()) {
       plant = unused_plant(ui.session);
@@ -125,7 +134,7 @@ void DrawTool::end_stroke(Ui& ui) {
   }
   const Vec3 offset = foot_ ? Vec3(foot_->drawn_W - foot_->now_W) : Vec3(Vec3::Zero());
   const Pose to_plant = plant_pose(ui.session, plant).inverse();
-  for (Vec3& point : points) point = to_plant * Vec3(point + offset);
+  for (Vec3& point : points) point = to_micrometres(to_plant * Vec3(point + offset));
   const std::string stem = unused_name(ui.session, plant, foot_ ? "branch" : "stem");
   taken = taken && ui.run(Command(
                        "draw stem",

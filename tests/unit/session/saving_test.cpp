@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const char* const plant_text = R"(# measured in May
+const char* const herb_text = R"(# measured in May
 format: pedicel-plant
 version: 1
 name: herb     # a herb
@@ -32,7 +32,7 @@ curves:
   - {name: twig, points: [[0, 0, 0.15], [0.1, 0, 0.2]], radius: *thin}   # thin
 )";
 
-const char* const scene_text = R"(format: pedicel-scene
+const char* const herb_scene = R"(format: pedicel-scene
 version: 1
 name: one          # of a kind
 purpose: a test
@@ -51,8 +51,8 @@ std::string with(std::string text, const std::string& from, const std::string& t
 class Saving : public ::testing::Test {
  protected:
   Saving() : session(waiting()) {
-    std::ofstream(plant) << plant_text;
-    std::ofstream(scene) << scene_text;
+    std::ofstream(plant) << herb_text;
+    std::ofstream(scene) << herb_scene;
   }
   void open(const std::filesystem::path& file) { ASSERT_TRUE(session.open(file)); }
   void run(const std::string& line) { must(session.run_text(line)); }
@@ -73,8 +73,8 @@ TEST_F(Saving, ASceneNameReceivesTheScene) {
   run("set dt 0.002");
   run("set radius herb stem 0.005");
   must(session.save(other));
-  EXPECT_EQ(text(scene), scene_text) << "the one that was open stays as it was";
-  EXPECT_EQ(text(plant), plant_text) << "and its plant";
+  EXPECT_EQ(text(scene), herb_scene) << "the one that was open stays as it was";
+  EXPECT_EQ(text(plant), herb_text) << "and its plant";
   EXPECT_FALSE(there(scene.string() + "~"));
   EXPECT_EQ(session.path(), other);
   EXPECT_FALSE(session.dirty());
@@ -87,7 +87,7 @@ TEST_F(Saving, ASceneNameReceivesTheScene) {
   EXPECT_EQ(again.document().plant("herb"), session.document().plant("herb"));
   run("set dt 0.001");
   must(session.save());
-  EXPECT_EQ(text(scene), scene_text);
+  EXPECT_EQ(text(scene), herb_scene);
   EXPECT_THAT(text(other), HasSubstr("dt: 0.001"));
 }
 
@@ -109,8 +109,8 @@ TEST_F(Saving, APlantNameReceivesThePlantAlone) {
   const Result saved = session.save(copy);
   must(saved);
   EXPECT_THAT(saved.text, HasSubstr("the plant \"herb\" alone"));
-  EXPECT_EQ(text(scene), scene_text);
-  EXPECT_EQ(text(plant), plant_text);
+  EXPECT_EQ(text(scene), herb_scene);
+  EXPECT_EQ(text(plant), herb_text);
   EXPECT_EQ(session.path(), scene);
   EXPECT_TRUE(session.dirty()) << "the scene is not saved by this";
   EXPECT_THAT(text(copy), HasSubstr("# the stem"));
@@ -161,7 +161,7 @@ TEST_F(Saving, TwoPlantsOfOneFilePartWhenOneIsChanged) {
   EXPECT_THAT(text(scene), HasSubstr("{name: second, file: herb.plant.yaml, position"));
   run("set radius second stem 0.006");
   must(session.save());
-  EXPECT_EQ(text(plant), plant_text) << "the first one's";
+  EXPECT_EQ(text(plant), herb_text) << "the first one's";
   EXPECT_THAT(text(scene), HasSubstr("second, file: second.plant.yaml"));
 }
 
@@ -187,7 +187,7 @@ TEST_F(Saving, AFileThatIsThereIsNotWrittenOverUnasked) {
 TEST_F(Saving, WhatAnotherProgramChangedIsNotWrittenOverUnasked) {
   open(scene);
   run("set radius herb twig 0.001");
-  const std::string theirs = with(plant_text, "density: 800", "density: 650");
+  const std::string theirs = with(herb_text, "density: 800", "density: 650");
   std::ofstream(plant) << theirs;
   const Result saved = session.save();
   EXPECT_FALSE(saved.ok);
@@ -205,7 +205,7 @@ TEST_F(Saving, WhatAnotherProgramChangedIsNotWrittenOverUnasked) {
 TEST_F(Saving, TheSceneFileToo) {
   open(scene);
   run("set dt 0.002");
-  const std::string theirs = with(scene_text, "duration: 1", "duration: 2");
+  const std::string theirs = with(herb_scene, "duration: 1", "duration: 2");
   std::ofstream(scene) << theirs;
   EXPECT_TRUE(session.save().overwrites);
   EXPECT_EQ(text(scene), theirs);
@@ -217,7 +217,7 @@ TEST_F(Saving, TheSceneFileToo) {
 TEST_F(Saving, CommentsOfAnotherProgramStay) {
   open(scene);
   run("set radius herb twig 0.001");
-  std::ofstream(plant) << with(plant_text, "# the stem", "# the stem, as Ann says");
+  std::ofstream(plant) << with(herb_text, "# the stem", "# the stem, as Ann says");
   must(session.save());
   EXPECT_THAT(text(plant), HasSubstr("# the stem, as Ann says"));
 }
@@ -228,29 +228,29 @@ TEST_F(Saving, OnlyWhatChangedIsWritten) {
   open(plant);
   run("move point herb stem 1 0.01,0,0.15");
   must(session.save());
-  EXPECT_EQ(text(plant), with(plant_text, "      - [0, 0, 0.15]\n", "      - [0.01, 0, 0.15]\n"));
+  EXPECT_EQ(text(plant), with(herb_text, "      - [0, 0, 0.15]\n", "      - [0.01, 0, 0.15]\n"));
   run("undo");
   must(session.save());
-  EXPECT_EQ(text(plant), plant_text);
+  EXPECT_EQ(text(plant), herb_text);
 }
 
 TEST_F(Saving, AnAnchorKeepsWhatOthersHaveOfIt) {
   open(plant);
   run("set radius herb stem 0.005");
   must(session.save());
-  EXPECT_EQ(text(plant), with(with(plant_text, "&thin 0.004", "&thin 0.005"), "*thin}", "0.004}"));
+  EXPECT_EQ(text(plant), with(with(herb_text, "&thin 0.004", "&thin 0.005"), "*thin}", "0.004}"));
 }
 
 TEST_F(Saving, OrgansComeAndGoInTheirFile) {
   open(plant);
   run("add fruit herb berry twig 1 0.01 force=2");
   must(session.save());
-  EXPECT_EQ(text(plant), plant_text + std::string("fruits:\n  - {name: berry, curve: twig, at: 1, "
-                                                  "radius: 0.01, density: 950, detach: {force: "
-                                                  "2}}\n"));
+  EXPECT_EQ(text(plant), herb_text + std::string("fruits:\n  - {name: berry, curve: twig, at: 1, "
+                                                 "radius: 0.01, density: 950, detach: {force: "
+                                                 "2}}\n"));
   run("delete stem herb twig");
   must(session.save());
-  std::string expected = plant_text;
+  std::string expected = herb_text;
   expected.erase(expected.find("  - {name: twig"));
   EXPECT_EQ(text(plant), expected);
 }

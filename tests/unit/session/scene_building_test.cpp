@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string arm = "assets/robots/stalk6/stalk6.urdf";
+const std::string stalk6 = "assets/robots/stalk6/stalk6.urdf";
 
 class Building : public ::testing::Test {
  protected:
@@ -31,7 +31,7 @@ class Building : public ::testing::Test {
   const world::Scene& scene() const { return *session.document().scene; }
   void build() {
     for (const char* line : draw_lines) run(line);
-    run("add robot " + source(arm).string() + " name=arm");
+    run("add robot " + source(stalk6).string() + " name=arm");
     run("add box table size=0.3,0.2,0.1 position=-0.4,0,0.05 look=wood turn=0,0,0.3");
     run("add sphere ball 0.03 mass=0.1 position=-0.4,0,0.2");
     run("add cylinder post 0.02 0.5 position=-0.6,0,0.25");
@@ -73,8 +73,8 @@ TEST_F(Building, SavedAndReadAgainItIsTheSame) {
   const std::string text = io::read_file(file);
   must(again.save());
   EXPECT_EQ(io::read_file(file), text);
-  const std::vector<std::string> keys = {"\nplants:", "\nrobot:", "\nbodies:", "\nground:",
-                                         "\ncameras:"};
+  const std::vector<std::string> keys = {
+      "\nplants:", "\nrobot:", "\nbodies:", "\nground:", "\ncameras:"};
   std::size_t last = 0;
   for (const std::string& key : keys) {
     EXPECT_GT(text.find(key), last) << key;
@@ -117,7 +117,7 @@ TEST_F(Building, AKilledProgramLeavesIt) {
   {
     Session lost(options);
     must(lost.run_text("add sphere ball 0.03"));
-    must(lost.run_text("add robot " + source(arm).string()));
+    must(lost.run_text("add robot " + source(stalk6).string()));
     built = lost.document().state_hash();
   }
   Session found(options);
@@ -177,7 +177,8 @@ TEST_F(Building, WhatCannotBeIsRefusedWithASentence) {
   EXPECT_THAT(refusal("set body ball mass -1"), HasSubstr("expected 0 or more"));
   EXPECT_THAT(refusal("move body none 0,0,0"), HasSubstr("expected one of: table, ball"));
   EXPECT_THAT(refusal("move camera front 0,0,0 0,0,0"), HasSubstr("expected them to be apart"));
-  EXPECT_THAT(refusal("add robot " + source(arm).string()), HasSubstr("\"arm\" is there already"));
+  EXPECT_THAT(refusal("add robot " + source(stalk6).string()),
+              HasSubstr("\"arm\" is there already"));
   EXPECT_THAT(refusal("rename plant q p"), HasSubstr("a plant \"p\" is there already"));
   EXPECT_THAT(refusal("set robot tool nowhere"), HasSubstr("no link \"nowhere\""));
   run("delete robot");
@@ -191,7 +192,7 @@ TEST_F(Building, AnAddedArmReachesTheFruit) {
     session.open_empty();
     for (const char* line : draw_lines) run(line);
     run("move plant p " + std::to_string(x) + ",1,0");
-    run("add robot " + source(arm).string());
+    run("add robot " + source(stalk6).string());
     const world::SceneRobot& robot = *scene().robot;
     EXPECT_EQ(robot.tool, "tool");
     EXPECT_EQ(robot.gripper, "finger_joint");
@@ -258,8 +259,7 @@ TEST(Turns, AreReadAsFilesReadThem) {
   const Quat yaw = read_turn({0, 0, 1.5707963267948966});
   EXPECT_TRUE((yaw * Vec3::UnitX()).isApprox(Vec3::UnitY(), 1e-12));
   const Quat rolled = read_turn({0.4, 0, 0.9});  // first about X
-  EXPECT_TRUE((rolled * Vec3::UnitX())
-                  .isApprox(Vec3(std::cos(0.9), std::sin(0.9), 0), 1e-12));
+  EXPECT_TRUE((rolled * Vec3::UnitX()).isApprox(Vec3(std::cos(0.9), std::sin(0.9), 0), 1e-12));
   for (int i = 1; i < 200; ++i) {
     const Quat turn = read_turn({0.01 * i, 0.02 * i, -0.03 * i});
     EXPECT_EQ(turn.normalized().coeffs(), turn.coeffs()) << i;

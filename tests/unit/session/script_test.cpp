@@ -251,6 +251,7 @@ TEST(SavedScript, OfASceneThatWasSavedOver) {
   must(session.run_text("new plant p"));
   must(session.run_text("draw stem p stem 0.3,0,0;0.3,0,0.2 0.003"));
   must(session.save(folder / "p.plant.yaml"));
+  must(session.save());
   must(session.run_text("unset dt"));
   must(session.run_text("run 0.1"));
   const double dt = session.snapshot()->assets->scene.dt;
