@@ -6,6 +6,7 @@
 #include "app/scene_assets.h"
 #include "app/start_overlaps.h"
 #include "core/check.h"
+#include "world/scene_writer.h"
 
 namespace pedicel::app {
 
@@ -16,6 +17,17 @@ world::WorldSettings world_settings(const world::Scene& scene) {
   settings.dt = scene.dt;
   settings.gravity = scene.gravity;
   return settings;
+}
+
+/// Robot with its program, bodies, ground and loads: what stands in a world beside its plants.
+std::string things_of(world::Scene scene) {
+  world::Scene things;
+  things.robot = std::move(scene.robot);
+  if (things.robot) things.robot->recorded.clear();
+  things.bodies = std::move(scene.bodies);
+  things.ground = scene.ground;
+  things.loads = std::move(scene.loads);
+  return world::scene_text_without_plants(things, {});
 }
 
 }  // namespace
@@ -145,10 +157,10 @@ bool Simulation::can_change_to(const SceneAssets& assets) const {
   const coupling::CouplingSettings &now = coupling_settings(), &then = assets.coupling;
   const bool same_contacts = now.margin == then.margin && now.two_way == then.two_way &&
                              now.self_contact == then.self_contact;
-  const bool same_world = scene_.dt == assets.scene.dt && scene_.gravity == assets.scene.gravity &&
-                          scene_.threads == assets.scene.threads &&
-                          scene_.file == assets.scene.file &&
-                          rod_settings().solver == assets.rods.solver;
+  const bool same_world =
+      scene_.dt == assets.scene.dt && scene_.gravity == assets.scene.gravity &&
+      scene_.threads == assets.scene.threads && scene_.file == assets.scene.file &&
+      things_of(scene_) == things_of(assets.scene) && rod_settings().solver == assets.rods.solver;
   if (!same_contacts || !same_world || rods_->size() != static_cast<int>(assets.models.size()))
     return false;
   for (int p = 0; p < rods_->size(); ++p)

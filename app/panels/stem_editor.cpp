@@ -53,7 +53,7 @@ void pick_button(Ui& ui, const std::string& organ) {
   if (wide_button("Take off with the robot") &&
       ui.run(Command("pick", {{"organ", organ}})))
     ui.session.control().play();
-  tip("Leads the tool to the fruit, shuts the gripper on it and pulls back and down");
+  tip("Leads the tool to the fruit, shuts the gripper on it and pulls it up");
 }
 
 void fruit_details(Ui& ui) {

@@ -12,11 +12,11 @@ namespace pedicel::app {
 
 namespace {
 
-constexpr double way_in = 0.1;      // m, before the fruit
-constexpr double way_back = 0.15;   // m, of the usual pull
-constexpr double way_down = 0.12;   // m
-constexpr double squeeze = 0.85;    // 1, of the radius at which the fingers are to stand
-constexpr double clearance = 0.006; // m, about the fruit with the gripper open
+constexpr double way_in = 0.1;       // m, before the fruit
+constexpr double way_up = 0.34;      // m, of the usual pull
+constexpr double way_back = 0.04;    // m
+constexpr double squeeze = 0.85;     // 1, of the radius at which the fingers are to stand
+constexpr double clearance = 0.006;  // m, about the fruit with the gripper open
 
 /// Level, from the robot's base to the fruit.
 Vec3 towards(const Snapshot& now, const Vec3& place_W) {
@@ -63,8 +63,8 @@ double finger_distance(const Snapshot& now, const robot::KinematicModel& model,
                        const Eigen::VectorXd& q, int gripper) {
   std::vector<Pose> links;
   model.link_poses(q, links);
-  const Vec3 middle = links[static_cast<std::size_t>(now.robot.tool_link)] *
-                      now.assets->scene.robot->tool_offset;
+  const Vec3 middle =
+      links[static_cast<std::size_t>(now.robot.tool_link)] * now.assets->scene.robot->tool_offset;
   double least = 1.0;
   const ShapeFields& fields = now.assets->robot_fields;
   for (std::size_t l = 0; l < fields.size(); ++l) {
@@ -125,7 +125,7 @@ GripperPlaces gripper_places(const Snapshot& now, const robot::KinematicModel& m
 }
 
 Vec3 usual_pull(const Snapshot& now, const FruitPlace& fruit) {
-  return -way_back * towards(now, fruit.middle_W) - way_down * Vec3::UnitZ();
+  return way_up * Vec3::UnitZ() - way_back * towards(now, fruit.middle_W);
 }
 
 robot::Trajectory pick_program(const Snapshot& now, const FruitPlace& fruit, const Vec3& pull_W) {
@@ -143,6 +143,9 @@ robot::Trajectory pick_program(const Snapshot& now, const FruitPlace& fruit, con
     one.joints[scene.gripper] = gripper;
     return one;
   };
+  robot::PathSettings settings;
+  settings.ik.position_tolerance = 1e-3;  // of no matter to a fruit
+  settings.ik.rotation_tolerance = 1e-2;
   std::string why;
   for (double slow = 1.0; slow < 8.0; slow *= 1.5) {
     const std::vector<robot::Waypoint> way = {
@@ -152,7 +155,7 @@ robot::Trajectory pick_program(const Snapshot& now, const FruitPlace& fruit, con
         waypoint(2.0 * slow + 0.4 + 1.5 * slow, fruit.middle_W + pull_W, places.shut)};
     Diagnostics diagnostics;
     robot::Trajectory program =
-        robot::plan_cartesian(model, way, start_of(now.robot), {}, diagnostics);
+        robot::plan_cartesian(model, way, start_of(now.robot), settings, diagnostics);
     if (!diagnostics.has_errors()) return program;
     why = diagnostics.all().front().what;
   }

@@ -27,7 +27,7 @@ GripperPlaces gripper_places(const Snapshot& now, const robot::KinematicModel& m
 /// `pull` (m, W), slowly enough for the joints. Throws UsageError with the reason where it cannot.
 robot::Trajectory pick_program(const Snapshot& now, const FruitPlace& fruit, const Vec3& pull_W);
 
-/// Back from the plant and down: what takes a fruit off its stalk (m, W).
+/// Up, and back a little: a plant gives way to the side, and is stiff along its stem (m, W).
 Vec3 usual_pull(const Snapshot& now, const FruitPlace& fruit);
 
 }  // namespace pedicel::app

@@ -90,7 +90,7 @@ std::vector<CommandDescription> robot_commands() {
       {"pick",
        r,
        {{"organ", Kind::word, true, "PLANT/FRUIT"},
-        {"pull", Kind::point, false, "m, where it is pulled to from there (back and down)"}},
+        {"pull", Kind::point, false, "m, where it is pulled to from there (up, as far as the arm comes)"}},
        "Leads the tool to a fruit, shuts the gripper on it and pulls.",
        nullptr},
       {"play trajectory",

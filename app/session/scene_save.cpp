@@ -17,6 +17,11 @@ namespace {
 using world::Scene;
 using world::ScenePlant;
 
+/// Whole: a path is seen from it.
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).parent_path();
+}
+
 bool has_plant(const Scene& scene, const std::string& name) {
   return std::ranges::any_of(scene.plants, [&](const ScenePlant& one) { return one.name == name; });
 }
@@ -96,13 +101,12 @@ std::string changed_scene_text(const Document& document, const std::string& text
   Scene now = with_head_of(drawn_scene(document, before), before);
   keep_unknown_plants(document, before, now);
   check_sources(before, now);
-  io::YamlText changed(io::merge_yaml(text, without_recorded(before, of.parent_path()),
-                                      without_recorded(now, to.parent_path())));
+  io::YamlText changed(io::merge_yaml(text, without_recorded(before, folder_of(of)),
+                                      without_recorded(now, folder_of(to))));
   write_recorded(changed, before, now);
   const std::string result = changed.text();
-  if (result != text &&
-      world::scene_text(with_head_of(parsed(result, to), now), to.parent_path()) !=
-          world::scene_text(now, to.parent_path()))
+  if (result != text && world::scene_text(with_head_of(parsed(result, to), now), folder_of(to)) !=
+                            world::scene_text(now, folder_of(to)))
     throw UsageError(to.string() +
                      ": the changes cannot be written into it, expected a scene in plain YAML");
   return result;
@@ -112,14 +116,14 @@ std::string new_scene_text(const Document& document, const std::filesystem::path
   Scene scene = drawn_scene(document, Scene{});
   std::string name = to.filename().string();
   scene.name = name.substr(0, name.find(".scene.yaml"));
-  return world::scene_text(scene, to.parent_path());
+  return world::scene_text(scene, folder_of(to));
 }
 
 bool is_same_scene(const std::string& a, const std::string& b, const std::filesystem::path& path) {
   if (a == b) return true;
   try {
-    return world::scene_text(parsed(a, path), path.parent_path()) ==
-           world::scene_text(parsed(b, path), path.parent_path());
+    return world::scene_text(parsed(a, path), folder_of(path)) ==
+           world::scene_text(parsed(b, path), folder_of(path));
   } catch (const InvalidFile&) {
     return false;
   }

@@ -61,6 +61,24 @@ TEST_F(Building, WhatIsBuiltIsSimulated) {
   EXPECT_TRUE(session.is_simulated());
 }
 
+// What is added while the simulation runs begins it anew: with the old one it would not be there.
+TEST_F(Building, WhatIsAddedToARunIsInIt) {
+  for (const char* line : draw_lines) run(line);
+  const auto bodies = [&] { return session.snapshot()->bodies.size(); };
+  run("run 0.1");
+  run("add sphere ball 0.03 mass=0.1 position=-0.4,0,0.2");
+  EXPECT_EQ(bodies(), 1u);
+  run("run 0.1");
+  run("move body ball -0.4,0,0.5");
+  EXPECT_EQ(session.snapshot()->time, 0.0);
+  run("run 0.1");
+  run("add robot stalk6");
+  EXPECT_TRUE(session.snapshot()->robot.present);
+  run("run 0.1");
+  run("add camera front 1,-1,0.7 0,0,0.3");
+  EXPECT_GT(session.snapshot()->time, 0.0) << "a camera changes nothing of it";
+}
+
 TEST_F(Building, SavedAndReadAgainItIsTheSame) {
   build();
   const auto file = folder / "built.scene.yaml";
