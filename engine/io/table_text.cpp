@@ -35,7 +35,8 @@ char stated_separator(std::string_view record) {
 bool is_row_of_units(const std::vector<TableCell>& cells) {
   bool any = false;
   for (const TableCell& cell : cells) {
-    if (cell.text.empty() || cell.text == "-") continue;
+    // "1" is how a number without a unit is written; alone it is a number.
+    if (cell.text.empty() || cell.text == "-" || cell.text == "1") continue;
     if (is_number(cell.text)) return false;
     if (within_brackets(cell.text).empty() && cell.text != "()" && cell.text != "[]" &&
         !unit_of(cell.text))

@@ -40,7 +40,7 @@ TEST_F(Program, AScriptDrawsPullsAndSaves) {
         "draw stem p branch 0,0,0.15;0.05,0,0.16;0.1,0,0.15 0.0015\n"
         "add fruit p berry branch 1 0.01 force=2\n"
         "pull p/berry 0.4,0,0.1\nrun 1\nexpect breaks is=1\n"
-        "undo\nexpect fruits is=0\nredo\nsave " +
+        "undo\nexpect breaks is=0\nundo\nexpect fruits is=0\nredo\nsave " +
             saved + "\nreload\nexpect fruits is=1\n");
   EXPECT_EQ(run("--script " + path("story.txt")), 0) << err_;
   EXPECT_THAT(out_, HasSubstr("breaks is 1"));
