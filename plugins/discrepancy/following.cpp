@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "discrepancy/first_places.h"
 
@@ -51,8 +52,15 @@ bool at_one_place(const std::vector<TimedLoad>& loads) {
 
 std::vector<Drive> drives_of(const TrialView& view) {
   std::vector<Drive> drives;
-  for (const Hold& hold : view.trial.holds)
-    if (!hold.path.time.empty()) drives.push_back(hold_drive(view, hold));
+  // What came off no longer leads the plant.
+  double broken = std::numeric_limits<double>::infinity();
+  for (const MeasuredEvent& event : view.trial.events)
+    if (event.is_detachment()) broken = std::min(broken, event.time);
+  for (const Hold& hold : view.trial.holds) {
+    if (hold.path.time.empty()) continue;
+    drives.push_back(hold_drive(view, hold));
+    drives.back().until = std::min(drives.back().until, broken);
+  }
   if (view.trial.base && !view.trial.base->time.empty()) drives.push_back(base_drive(view));
   if (!view.trial.loads.empty() && at_one_place(view.trial.loads))
     drives.push_back(load_drive(view));
