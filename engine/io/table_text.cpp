@@ -215,7 +215,7 @@ SourcePosition TableText::at(std::size_t column) const {
 
 void TableText::cell_error(std::size_t column, const std::string& what) {
   diagnostics_.repeated_error("column " + std::to_string(column), at(column),
-                              columns_[column].name + ": " + what);
+                              printable(columns_[column].name, 60) + ": " + what);
 }
 
 double TableText::number(std::size_t column, bool gaps) {

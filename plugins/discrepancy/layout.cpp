@@ -10,7 +10,9 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double small_way = 0.01;  // of the reach: there a plant is a spring
+constexpr double usual_force = 1.0e-3;  // N
+// Of the reach, of a place that it moves: there a plant is a spring.
+constexpr double largest_way = 0.01, smallest_way = 1.0e-4;
 
 }  // namespace
 
@@ -58,15 +60,20 @@ Mat3 Layout::compliance(const Spot& spot) const {
     const Vec3 there = cosserat::point_on(built_.model, state, element, back);
     return found ? Vec3(there - spot.settled) : Vec3(Vec3::Constant(std::nan("")));
   };
-  // A force by which the place moves a little along its softest axis.
-  double force = 1.0e-3, most = 0.0;  // N, m
-  for (int axis = 0; axis < 3; ++axis)
-    most = std::max(most, moved(force * Vec3::Unit(axis)).norm());
-  force *= small_way * reach_ / most;
-  Mat3 compliance;
-  for (int axis = 0; axis < 3; ++axis)
-    compliance.col(axis) = moved(force * Vec3::Unit(axis)) / force;
-  return 0.5 * (compliance + compliance.transpose());
+  // From both sides: a place that goes aside comes down a little, too, and along a rod that is
+  // hardly bent that would be more than all else.
+  const auto estimate = [&](double force) {
+    Mat3 compliance;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 one = force * Vec3::Unit(axis);
+      compliance.col(axis) = (moved(one) - moved(-one)) / (2.0 * force);
+    }
+    return Mat3(0.5 * (compliance + compliance.transpose()));
+  };
+  const Mat3 compliance = estimate(usual_force);
+  const double way = usual_force * compliance.diagonal().maxCoeff() / reach_;
+  if (!(way > largest_way || way < smallest_way)) return compliance;
+  return estimate(usual_force * largest_way / way);
 }
 
 double Layout::along(const Spot& a, const Spot& b) const {

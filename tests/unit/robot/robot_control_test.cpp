@@ -124,8 +124,6 @@ TEST(RobotControl, RefusesWhatCannotBe) {
   RobotSettings settings;
   settings.position_gain = 0.0;
   EXPECT_THROW(Robot(pendulum, settings, world.world), UsageError);
-  EXPECT_THROW(Robot(parse("<robot name='r'><link name='a'/></robot>"), {}, world.world),
-               UsageError);
   settings = {};
   settings.fixed_base = false;  // the base is a mere frame
   EXPECT_THROW(Robot(pendulum, settings, world.world), UsageError);
