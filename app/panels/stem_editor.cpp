@@ -50,8 +50,7 @@ void stem_numbers(Ui& ui, const std::string& plant, const plant::PlantCurve& cur
 /// The robot takes it off.
 void pick_button(Ui& ui, const std::string& organ) {
   if (!ui.snapshot->robot.present) return;
-  if (wide_button("Take off with the robot") &&
-      ui.run(Command("pick", {{"organ", organ}})))
+  if (wide_button("Take off with the robot") && ui.run(Command("pick", {{"organ", organ}})))
     ui.session.control().play();
   tip("Leads the tool to the fruit, shuts the gripper on it and pulls it up");
 }
@@ -61,6 +60,7 @@ void fruit_details(Ui& ui) {
   if (!plant || ui.selection.fruit >= static_cast<int>(plant->model->fruits.size())) return;
   const auto index = static_cast<std::size_t>(ui.selection.fruit);
   const cosserat::Fruit& fruit = plant->model->fruits[index];
+  pick_button(ui, fruit_name(*plant->model, ui.selection.fruit));
   if (index < plant->margin_used.size())
     row("Of its threshold", number_text(100.0 * plant->margin_used[index], 3) + " %");
   row("Mass", number_text(1e3 * fruit_mass(fruit), 3) + " g");
@@ -85,7 +85,6 @@ void fruit_details(Ui& ui) {
                                     {"stem", one.place.curve},
                                     {"at", at}}));
     tip("0 is the first point of " + one.place.curve + ", 1 its last; or drag it in the scene (D)");
-    pick_button(ui, plant->model->name + "/" + one.name);
     if (wide_button("Delete fruit")) {
       ui.remove(Command("delete organ", {{"plant", plant->model->name}, {"name", one.name}}));
       ui.selection = {};
@@ -232,7 +231,8 @@ void draw_details(Ui& ui) {
   if (ui.selection.to_tip) return;
   heading(ui, "Stem");
   if (wide_button("Delete stem")) {
-    if (ui.remove(Command("delete stem", {{"plant", plant}, {"stem", curve.name}}))) ui.selection = {};
+    if (ui.remove(Command("delete stem", {{"plant", plant}, {"stem", curve.name}})))
+      ui.selection = {};
   }
   tip("With its branches and all that is on them");
 }

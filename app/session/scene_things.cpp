@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "core/check.h"
 
@@ -88,10 +89,13 @@ Quat read_turn(const std::vector<double>& numbers) {
   }
   if (!(turn.norm() > 1e-6) || !turn.coeffs().allFinite())
     throw UsageError("a turn of length 0, expected x,y,z,w that are not all 0");
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 64; ++i) {
     const Quat again = turn.normalized();
     if (again.coeffs() == turn.coeffs()) break;
+    const bool swings = again.normalized().coeffs() == turn.coeffs();
     turn = again;
+    // Between two neighbours it would for ever: another number gives way by its last bit.
+    if (swings) turn.coeffs()[i % 4] = std::nextafter(turn.coeffs()[i % 4], 0.0);
   }
   return turn;
 }

@@ -87,22 +87,20 @@ class Merge {
     std::size_t head = 0, tail = 0;
     const std::size_t least = std::min(was.size(), is.size());
     while (head < least && same(was[head], is[head])) ++head;
-    while (tail < least - head &&
-           same(was[was.size() - 1 - tail], is[is.size() - 1 - tail]))
+    while (tail < least - head && same(was[was.size() - 1 - tail], is[is.size() - 1 - tail]))
       ++tail;
     const std::size_t both = least - head - tail;
     constexpr std::size_t many = 100;  // each change reads the whole text anew
-    if (std::max(was.size(), is.size()) - head - tail > many)
-      return text_.set(path, flow_text(is));
-    for (std::size_t i = head; i < head + both; ++i)
-      node(path / std::to_string(i), was[i], is[i]);
+    if (std::max(was.size(), is.size()) - head - tail > many) return text_.set(path, flow_text(is));
+    for (std::size_t i = head; i < head + both; ++i) node(path / std::to_string(i), was[i], is[i]);
     for (std::size_t i = was.size() - tail; i > head + both; --i)
       text_.erase(path, static_cast<int>(i) - 1);
     for (std::size_t i = head + both; i + tail < is.size(); ++i)
       text_.insert(path, static_cast<int>(i), item_text(is[i]));
   }
 
-  /// What is new has a new name, or one that was another entry's place and says the same otherwise.
+  /// An entry that is another one but for its name and where it stands has a new name; others are
+  /// new.
   void named_list(const Path& path, const YAML::Node& was, const YAML::Node& is,
                   std::vector<std::string> before, const std::vector<std::string>& now) {
     std::vector<std::size_t> old(before.size());  // where each that is left stood
@@ -128,6 +126,13 @@ class Merge {
     }
   }
 
+  /// What a thing is, wherever it stands and whatever it is called.
+  static YAML::Node without_place(const YAML::Node& item) {
+    YAML::Node other = YAML::Clone(item);
+    for (const char* key : {"name", "position", "orientation", "set"}) other.remove(key);
+    return other;
+  }
+
   static YAML::Node renamed(const YAML::Node& item, const std::string& name) {
     YAML::Node other = YAML::Clone(item);
     other["name"] = name;
@@ -138,8 +143,7 @@ class Merge {
               std::vector<std::string>& before, const std::vector<std::string>& now) {
     for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
       if (index_of(now, before[i]) >= 0 || index_of(before, now[i]) >= 0) continue;
-      if (before.size() != now.size() && !same(renamed(was[i], now[i]), renamed(is[i], now[i])))
-        continue;
+      if (!same(without_place(was[i]), without_place(is[i]))) continue;
       text_.set(path / std::to_string(i) / "name", flow_text(is[i]["name"]));
       before[i] = now[i];
     }
@@ -163,8 +167,7 @@ class Merge {
 
 }  // namespace
 
-std::string merge_yaml(const std::string& text, const std::string& before,
-                       const std::string& now) {
+std::string merge_yaml(const std::string& text, const std::string& before, const std::string& now) {
   Merge merge(text);
   merge.node({}, YAML::Load(before), YAML::Load(now));
   return merge.text();

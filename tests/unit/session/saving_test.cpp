@@ -226,9 +226,9 @@ TEST_F(Saving, CommentsOfAnotherProgramStay) {
 
 TEST_F(Saving, OnlyWhatChangedIsWritten) {
   open(plant);
-  run("move point herb stem 1 0.01,0,0.15");
+  run("move point herb twig 1 0.12,0,0.2");
   must(session.save());
-  EXPECT_EQ(text(plant), with(herb_text, "      - [0, 0, 0.15]\n", "      - [0.01, 0, 0.15]\n"));
+  EXPECT_EQ(text(plant), with(herb_text, "[0.1, 0, 0.2]", "[0.12, 0, 0.2]"));
   run("undo");
   must(session.save());
   EXPECT_EQ(text(plant), herb_text);

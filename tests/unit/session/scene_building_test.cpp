@@ -230,7 +230,7 @@ class Spoken : public Building {
 
 TEST_F(Spoken, AThingThatIsMeantIsDeletedAfterWhatMeansIt) {
   EXPECT_THAT(refusal("delete plant truss"),
-              HasSubstr("is meant by the robot's program, 3 expectations, expected \"clear "
+              HasSubstr("is meant by the robot's program, 4 expectations, expected \"clear "
                         "references truss\" before"));
   EXPECT_THAT(refusal("delete body tray"), HasSubstr("1 expectation"));
   run("clear references truss");

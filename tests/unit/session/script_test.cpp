@@ -28,7 +28,9 @@ run 1
 expect breaks is=1
 expect time_s is=1.5
 release
-# undo takes the fruit away, and the plant starts anew
+# undo takes the pull back, then the fruit away, and the plant starts anew
+undo
+expect fruits is=1
 undo
 expect fruits is=0
 expect time_s is=0
