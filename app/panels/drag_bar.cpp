@@ -17,7 +17,7 @@ namespace pedicel::app {
 
 namespace {
 
-constexpr double least_decade = 120.0;  // points of the layout
+constexpr double least_decade = 160.0;  // points of the layout
 constexpr double floor_share = 1.0e-6;  // of the upper end, where a logarithmic bar begins at 0
 
 /// The bar in hand; ImGui has one active item at a time, too.
@@ -80,9 +80,10 @@ void paint(const ImRect& box, ImGuiID id, double share, float scale) {
 }
 
 bool type_in(const ImRect& box, ImGuiID id, const char* label, double& value) {
-  ImGui::TempInputText(box, id, label, held.typed.data(), static_cast<int>(held.typed.size()),
-                       ImGuiInputTextFlags_AutoSelectAll);
-  if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+  const bool entered = ImGui::TempInputText(
+      box, id, label, held.typed.data(), static_cast<int>(held.typed.size()),
+      ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
+  if (!entered && !ImGui::IsItemDeactivatedAfterEdit()) return false;
   const auto typed = number_in(held.typed.data());
   if (!typed || *typed == value) return false;
   value = *typed;

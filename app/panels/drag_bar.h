@@ -11,7 +11,7 @@ struct BarRange {
 };
 
 /// A bar that a drag changes from the value it has: a press alone changes nothing, the bar's whole
-/// length is the whole range, and a logarithmic one takes at least 120 px a decade (2 px change it
+/// length is the whole range, and a logarithmic one takes at least 160 px a decade (2 px change it
 /// by less than 4 %). Shift makes it ten times finer. Ctrl+click or a double click types a value,
 /// which may lie beyond the ends. True when the value was changed.
 bool drag_bar(const Ui& ui, const char* id, double& value, const BarRange& range);

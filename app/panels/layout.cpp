@@ -121,8 +121,10 @@ LayoutAreas Layout::draw(Ui& ui) {
   const float top = ImGui::GetFrameHeight() + 12.0f * s;
   const float status = ImGui::GetTextLineHeight() + 10.0f * s;
   const ImVec2 padding(8.0f * s, 6.0f * s);
+  // A sidebar alone may be wider: in a small window its tabs need that.
+  const float most = p.show_left && p.show_right ? 0.4f : 0.46f;
   const auto part = [&](bool shown, Dock where, double points, float of) {
-    return shown && has(ui, where) ? std::min(static_cast<float>(points) * s, 0.4f * of) : 0.0f;
+    return shown && has(ui, where) ? std::min(static_cast<float>(points) * s, most * of) : 0.0f;
   };
   const float left = part(p.show_left, Dock::left, p.left_width, size.x);
   const float right = part(p.show_right, Dock::right, p.right_width, size.x);

@@ -17,7 +17,7 @@ bool is_narrow() {
 }
 
 void gap(const Ui& ui) {
-  ImGui::SameLine(0, (is_narrow() ? 8.0f : 14.0f) * ui.scale);
+  ImGui::SameLine(0, (is_narrow() ? 7.0f : 14.0f) * ui.scale);
 }
 
 void run_buttons(Ui& ui) {
@@ -38,7 +38,7 @@ void speed_choice(Ui& ui) {
   const auto text = [](double speed) -> std::string {
     return speed == 0.0 ? "as fast as it goes" : number_text(speed, 3) + " x";
   };
-  ImGui::SetNextItemWidth((is_narrow() ? 4.4f : 5.2f) * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth((is_narrow() ? 3.8f : 5.2f) * ImGui::GetFontSize());
   const std::string now = ui.snapshot->speed == 0.0 ? std::string("max") : text(ui.snapshot->speed);
   if (ImGui::BeginCombo("##speed", now.c_str())) {
     for (const double speed : speeds)
@@ -51,7 +51,7 @@ void speed_choice(Ui& ui) {
 }
 
 void add_button(Ui& ui) {
-  if (ImGui::Button("Add")) ImGui::OpenPopup("add to scene");
+  if (ImGui::Button(is_narrow() ? "+" : "Add")) ImGui::OpenPopup("add to scene");
   tip("Adds a robot, a body, a camera, a plant to the scene");
   if (!ImGui::BeginPopup("add to scene")) return;
   draw_add_menu(ui);

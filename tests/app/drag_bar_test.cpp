@@ -90,11 +90,11 @@ TEST_F(Bars, ATypedValueIsTakenOnceAndStartsFromTheOneThatIsThere) {
   desk_.hold(Key::left_control, false);
   desk_.frames(2);
   const double before = modulus();
-  desk_.type("7,5e7");
+  desk_.type("7,5e8");
   EXPECT_EQ(modulus(), before) << "not while it is typed";
   desk_.key(Key::enter);
   desk_.settle();
-  EXPECT_EQ(modulus(), 7.5e7);
+  EXPECT_EQ(modulus(), 7.5e8);
   EXPECT_EQ(desk_.session().history().size(), 1u);
 }
 

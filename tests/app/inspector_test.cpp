@@ -62,8 +62,8 @@ TEST_F(Inspector, TheWorldHasGravityAndASolver) {
   desk_.show("World");
   press("right", "Moon");
   EXPECT_EQ(desk_.snapshot()->assets->scene.gravity, Vec3(0, 0, -1.62));
-  press("right", "bdf2");
-  EXPECT_EQ(desk_.snapshot()->assets->rods.integrator, cosserat::Integrator::bdf2);
+  press("right", "backward euler");
+  EXPECT_EQ(desk_.snapshot()->assets->rods.integrator, cosserat::Integrator::backward_euler);
   EXPECT_EQ(desk_.session().history().size(), 2u);
 }
 

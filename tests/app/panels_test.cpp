@@ -109,7 +109,10 @@ TEST_P(Panels, DialogsAndLegends) {
                               Dialog::save_as, Dialog::overwrite, Dialog::add_robot}) {
     desk_->ui().dialog = dialog;
     desk_->frames(4);
-    check("dialog" + std::to_string(static_cast<int>(dialog)), panel_window("left", ""));
+    // In a narrow window one sidebar gives way to the other.
+    const ImGuiWindow* side = panel_window("left", "");
+    check("dialog" + std::to_string(static_cast<int>(dialog)),
+          side ? side : panel_window("right", ""));
   }
   desk_->ui().dialog = Dialog::none;
   for (const ColourMap map : {ColourMap::strain, ColourMap::margin, ColourMap::contact}) {

@@ -13,7 +13,7 @@ namespace {
 class ToolHandlesTest : public ::testing::Test {
  protected:
   explicit ToolHandlesTest(const std::string& platform = "null")
-      : desk_(1280, 900, 1.0, platform) {}
+      : desk_(1280, 1200, 1.0, platform) {}
   void SetUp() override {
     if (!desk_.available()) GTEST_SKIP() << desk_.why();
     desk_.draw_coarsely();
