@@ -55,7 +55,7 @@ class Surveyor {
 
  private:
   static constexpr int deepest = 100;
-  static constexpr int most_values = 4'000'000;  // some 1 GB as nodes
+  static constexpr int most_values = 4'000'000;
 
   void look_at_map(const YAML::Node& node, int depth) {
     std::set<std::string> seen;
