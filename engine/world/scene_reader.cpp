@@ -147,12 +147,22 @@ std::optional<Scene> read(const io::YamlNode& root, const std::filesystem::path&
 }  // namespace
 
 std::optional<Scene> read_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  return read(io::load_yaml(path, diagnostics), path, diagnostics);
+  try {
+    return read(io::load_yaml(path, diagnostics), path, diagnostics);
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+    return std::nullopt;
+  }
 }
 
 std::optional<Scene> parse_scene(const std::string& text, const std::filesystem::path& path,
                                  Diagnostics& diagnostics) {
-  return read(io::parse_yaml(text, path.string(), diagnostics), path, diagnostics);
+  try {
+    return read(io::parse_yaml(text, path.string(), diagnostics), path, diagnostics);
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+    return std::nullopt;
+  }
 }
 
 }  // namespace pedicel::world

@@ -205,8 +205,10 @@ TEST(SceneRefusals, AllFaultsAreShownAtOnce) {
 
 TEST(SceneRefusals, WhatIsNoYamlOrCannotBeRead) {
   Diagnostics diagnostics;
-  EXPECT_THROW(parse_scene("a: [1\n", "s.scene.yaml", diagnostics), InvalidFile);
-  EXPECT_THROW(read_scene("none.scene.yaml", diagnostics), InvalidFile);
+  EXPECT_FALSE(parse_scene("a: [1\n", "s.scene.yaml", diagnostics));
+  EXPECT_THAT(diagnostics.text(), HasSubstr("s.scene.yaml:"));
+  EXPECT_FALSE(read_scene("none.scene.yaml", diagnostics));
+  EXPECT_THAT(diagnostics.text(), HasSubstr("none.scene.yaml"));
 }
 
 }  // namespace
