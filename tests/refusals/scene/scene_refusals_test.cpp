@@ -203,6 +203,10 @@ TEST(SceneRefusals, AllFaultsAreShownAtOnce) {
   EXPECT_THAT(text, HasSubstr(":8:10:"));
 }
 
+TEST(SceneRefusals, AKeyTwice) {
+  EXPECT_THAT(refusal_of(head + "dt: 0.001\ndt: 0.002\n"), HasSubstr("\"dt\" appears twice"));
+}
+
 TEST(SceneRefusals, WhatIsNoYamlOrCannotBeRead) {
   Diagnostics diagnostics;
   EXPECT_FALSE(parse_scene("a: [1\n", "s.scene.yaml", diagnostics));
