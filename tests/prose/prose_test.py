@@ -80,6 +80,8 @@ class Keys(unittest.TestCase):
     def test_a_rule_that_finds_too_little_says_so(self):
         rule = keys.Rule("plant_file.md", ("plugins/plant/plant_size.cpp",), keys.READER, 5)
         self.assertIn("no longer fits", keys.check(rule, Page(MANUAL / rule.page), ROOT)[0][1])
+        moved = keys.Rule("plant_file.md", ("plugins/plant/moved.cpp",), keys.READER, 5)
+        self.assertIn("is not there", keys.check(moved, Page(MANUAL / rule.page), ROOT)[0][1])
 
 
 class Commands(unittest.TestCase):
