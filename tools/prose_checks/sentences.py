@@ -6,7 +6,7 @@ import statistics
 LONGEST, MEDIAN = 40, 20
 NOT_PROSE = {"Sources"}
 # A full stop ends a sentence where a blank and a capital, a quote or code follow it.
-END = re.compile(r"(?<=[.!?:])\s+(?=[A-Z0-9\"*`\[(])")
+END = re.compile(r"(?<=[.!?])\s+(?=[A-Z0-9\"*`\[(])")
 
 
 def plain(text):
