@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""The manual as HTML: it builds without a warning, its search finds words, and nothing in it needs the
+network, so that it works from disk. Exit code 77 where Sphinx is absent.
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+class Html(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.html = Path(cls.folder.name) / "manual"
+        built = subprocess.run([ROOT / "tools/manual", "--no-install", cls.html], capture_output=True, text=True)
+        if built.returncode == 77:
+            print(built.stderr.strip())
+            sys.exit(77)
+        cls.said = built.stderr
+        cls.code = built.returncode
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_builds_without_a_warning(self):
+        self.assertEqual((self.code, self.said), (0, ""))
+
+    def test_every_page_is_there_and_in_the_search(self):
+        index = (self.html / "searchindex.js").read_text(encoding="utf-8")
+        for page in (ROOT / "assets/manual").glob("*.md"):
+            self.assertTrue((self.html / (page.stem + ".html")).exists(), page)
+            self.assertIn(f'"{page.stem}"', index)
+        for word in ["youngs_modulu", "quaternion", "winsoris"]:  # as the search's stemmer leaves them
+            self.assertIn(word, index)
+
+    def test_nothing_comes_from_the_network(self):
+        for page in self.html.glob("*.html"):
+            text = page.read_text(encoding="utf-8")
+            self.assertEqual(re.findall(r'<(?:script|link|img)[^>]*(?:src|href)="https?:[^"]*"', text), [], page)
+
+    def test_formulas_are_drawn_by_what_lies_beside(self):
+        text = (self.html / "theory_rods.html").read_text(encoding="utf-8")
+        self.assertIn('class="math', text)
+        scripts = re.findall(r'<script[^>]*src="(_static/[^"?]*katex[^"?]*)', text)
+        self.assertTrue(scripts)
+        for script in scripts:
+            self.assertTrue((self.html / script).exists(), script)
+
+
+if __name__ == "__main__":
+    unittest.main()

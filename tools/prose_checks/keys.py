@@ -1,0 +1,99 @@
+"""Every key that a reader asks for stands in the manual.
+
+A rule says which sources ask for the keys of which page. Keys are found by how readers are written:
+map.required("radius"), optional_number(map, "bend", ...), {"margin", "m", &s.margin, ...}. What one
+function asks for must stand together in the tables of one section.
+"""
+
+import re
+from dataclasses import dataclass
+
+ASKED = re.compile(
+    r"(?:required|optional|has|number|integer|boolean|text|choice|vector|quaternion|numbers|list|"
+    r"named|whole)\(\s*(?:\w+,\s*)?\"([a-z_0-9]+)\"[,)]"
+)
+NAMED = re.compile(r"\{\"([a-z_]+)\",\s*(?:\w+::|&)")  # {"fruit", Anchor::Kind::fruit}
+EITHER = re.compile(r"const char\* key = [^;]*\"(\w+)\" : \"(\w+)\"")
+PARAMETER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*&s\.")
+WORD = re.compile(r"\{\"(\w+)\",\s*\{\"")
+NUMBER = re.compile(r"\{\"(\w+)\",\s*[-\d.e]+,\s*[-\d.e]+,\s*(?:true|false)\}")
+DOTTED = re.compile(r"\{\"((?:material|detach|sampling)\.\w+)\"")
+EFFECT = re.compile(r"\{\"(\w+)\",\s*(?:plant|experiment),")
+EFFECT_NUMBER = re.compile(r"\{\"([a-z_0-9]+)\",\s*(?:io::|gradient\b)")
+JSON = re.compile(r"(?:\{|json\[)\"([a-z_0-9]+)\"[,\]]")
+QUANTITY = re.compile(r"^\s+\{\"(\w+)\", \"", re.M)
+SCRIPT_QUANTITY = re.compile(r"if \(name == \"(\w+)\"\)")
+TABLE_COLUMN = re.compile(r"Name\{\"(\w+)\", Role::")
+COLUMN = re.compile(r"\"((?:time|stretch|bend|force|moment|torsion|angle|tool)_\w+|organ|cause)\"")
+
+
+@dataclass(frozen=True)
+class Rule:
+    page: str
+    sources: tuple
+    patterns: tuple
+    fewest: int  # keys that the rule finds at least: one that finds nothing checks nothing
+    prefix: str = ""  # of the key on the page
+    end: str = r"^}$"  # line that ends a function; "": all keys of the sources are one group
+    leave_out: tuple = ()
+
+
+READER = (ASKED, NAMED, EITHER)
+RULES = [
+    Rule("plant_file.md", ("plugins/plant/plant_reader.cpp",), READER, 35),
+    Rule("plant_file.md", ("plugins/plant/skeleton_columns.cpp",), (TABLE_COLUMN,), 47, end=""),
+    Rule("leaf_template.md", ("plugins/plant/leaf_template.cpp",), READER, 12),
+    Rule("scene_file.md", ("engine/world/scene_reader.cpp", "engine/world/scene_bodies.cpp",
+         "engine/world/scene_common.cpp", "engine/world/scene_plants.cpp",
+         "engine/world/scene_robot.cpp", "engine/world/scene_views.cpp",
+         "engine/world/scene_expect.cpp"), READER, 75),
+    Rule("experiment.md", ("plugins/discrepancy/experiment_reader.cpp",), READER, 23, end=r"^  }$"),
+    Rule("effects.md", ("plugins/plant/effects.cpp",), (EFFECT, EFFECT_NUMBER), 45, end=""),
+    Rule("settings.md", ("engine/world/settings.cpp",), (NUMBER,), 5),
+    Rule("settings.md", ("plugins/cosserat/rod_settings.cpp",), (PARAMETER,), 4),
+    Rule("settings.md", ("plugins/coupling/coupling_settings.cpp",), (PARAMETER,), 8),
+    Rule("settings.md", ("app/rod_options.cpp",), (WORD,), 3, end=""),
+    Rule("settings.md", ("plugins/plant/plant_numbers.cpp",), (DOTTED,), 11),
+    Rule("verdict.md", ("plugins/discrepancy/verdict.cpp",), (JSON,), 30, end=""),
+    Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
+    Rule("quantities.md", ("app/session/session_run.cpp",), (SCRIPT_QUANTITY,), 7),
+    Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
+    Rule("quantities.md", ("app/meta.cpp",), (JSON,), 25, end="", leave_out=("value", "unit")),
+]
+
+
+def groups(rule, root):
+    """The keys of each function of the rule's sources."""
+    found = []
+    for source in rule.sources:
+        text = (root / source).read_text(encoding="utf-8")
+        parts = re.split(rule.end, text, flags=re.M) if rule.end else [text]
+        for part in parts:
+            keys = set()
+            for pattern in rule.patterns:
+                for match in pattern.findall(part):
+                    keys.update([match] if isinstance(match, str) else match)
+            if keys := keys - set(rule.leave_out):
+                found.append((source, {rule.prefix + key for key in keys}))
+    return found
+
+
+def check(rule, page, root):
+    absent = [source for source in rule.sources if not (root / source).exists()]
+    if absent:
+        return [(1, f"{absent[0]} is not there: tools/prose_checks/keys.py no longer fits it")]
+    found = groups(rule, root)
+    count = len(set().union(*(keys for _, keys in found))) if found else 0
+    if count < rule.fewest:
+        return [(1, f"{rule.sources[0]}: {count} keys found, expected {rule.fewest} or more: "
+                    "tools/prose_checks/keys.py no longer fits it")]
+    sections, everything = page.keys(), set().union(*page.keys().values())
+    faults = []
+    for source, keys in found:
+        # Without an end of functions the keys may stand in tables of several sections.
+        if not rule.end:
+            missing = keys - everything
+        else:
+            missing = min((keys - section for section in sections.values()), key=len)
+        faults += [(1, f"`{key}` of {source} is missing") for key in sorted(missing)]
+    return faults
