@@ -16,8 +16,8 @@ namespace {
 
 constexpr double same_place = 1.0e-6;  // m: below it two samples are one node
 /// Nodes of a plant: at 1.45 kB an element a quarter of a million take some 0.4 GB in the solver.
-/// Measured while it is built: a dense random tree of 20,000 nodes takes 2 s of processor time, one
-/// of 100,000 takes 30 s and 0.11 GB.
+/// Measured while it is built: a dense random tree of 20,000 nodes takes 1 s of processor time, one
+/// of 100,000 takes 10 s and 0.11 GB.
 constexpr double most_nodes = 250'000;
 /// Samples of a plant, some 100 bytes each: eight for each node that it may have.
 constexpr double most_samples = 8.0 * most_nodes;
