@@ -27,8 +27,8 @@ std::optional<std::string> too_weak_to_hold(const RobotDescription& robot,
   const Joint& joint = robot.joints[robot.joint(model.joint_names()[worst])];
   const std::string unit = joint.type == JointType::prismatic ? " N" : " N m";
   std::string text = "joint '" + joint.name + "' sags: to hold the robot at its start takes " +
-                     io::format_number(std::abs(needed[worst]), 3) + unit + ", its effort is " +
-                     io::format_number(model.effort_limits()[worst], 3) + unit;
+                     io::format_number(std::abs(needed[worst]), 4) + unit + ", its effort is " +
+                     io::format_number(model.effort_limits()[worst], 4) + unit;
   if (count > 1)
     text += " (" + std::to_string(count - 1) + " more joint" + (count > 2 ? "s" : "") +
             " of this kind)";

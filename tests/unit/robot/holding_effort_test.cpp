@@ -48,7 +48,7 @@ TEST(HoldingEffort, NamesTheWeakestAndCountsTheOthers) {
       too_weak_to_hold(robot, KinematicModel(robot), Eigen::VectorXd::Zero(3), gravity)
           .value_or("");
   EXPECT_THAT(sentence, HasSubstr("joint 'j3' sags"));
-  EXPECT_THAT(sentence, HasSubstr("takes 3.92 N m, its effort is 0.1 N m (2 more joints of this "
+  EXPECT_THAT(sentence, HasSubstr("takes 3.924 N m, its effort is 0.1 N m (2 more joints of this "
                                   "kind)"));
 }
 
