@@ -127,6 +127,7 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
 }
 
 void set_verbosity(const RunArguments& a) {
+  if (a.quiet) set_verbosity(Verbosity::warnings);
   if (a.verbosity) set_verbosity(static_cast<Verbosity>(*a.verbosity));
 }
 
@@ -216,6 +217,10 @@ int sweep_verb(RunArguments a) {
   world::Scene scene = load_scene(a);
   if (scene.sweep && scene.sweep->key != sweep->key)
     std::erase_if(scene.expectations, [](const auto& e) { return e.over_sweep(); });
+  for (const double value : sweep->values) {
+    world::Scene one = scene;  // an impossible key or value is found before the first run
+    world::apply_override(one, sweep->key, io::exact_number(value), "--set ");
+  }
   scene.sweep = sweep;
   if (a.print_scene) {
     std::cout << effective_scene(scene) << std::flush;

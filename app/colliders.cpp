@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/exact_fields.h"
 #include "app/mesh_fields.h"
 #include "geometry/shapes.h"
 
@@ -41,10 +42,7 @@ Field field_of(const world::BodyPart& part) {
   return nullptr;
 }
 
-}  // namespace
-
-ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::string>& notes) {
-  const MeshDistances meshes = build_mesh_fields(robot, notes);
+ShapeFields fields_with(const robot::RobotDescription& robot, const MeshDistances& meshes) {
   ShapeFields fields;
   for (const robot::Link& link : robot.links) {
     fields.emplace_back();
@@ -52,6 +50,16 @@ ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::str
       fields.back().push_back(field_of(collision.geometry, meshes));
   }
   return fields;
+}
+
+}  // namespace
+
+ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::string>& notes) {
+  return fields_with(robot, build_mesh_fields(robot, notes));
+}
+
+ShapeFields exact_fields_of(const robot::RobotDescription& robot) {
+  return fields_with(robot, exact_mesh_fields(robot));
 }
 
 void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,

@@ -3,8 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
+#include "app/verbosity.h"
 #include "core/diagnostics.h"
+#include "core/thread_pool.h"
 #include "geometry/grid_cache.h"
 #include "geometry/near_exact_distance.h"
 #include "io/csv.h"
@@ -48,11 +51,32 @@ std::string millimetres(double length) {
 
 std::shared_ptr<const geometry::SignedDistance> build(const MeshField& field,
                                                       const std::filesystem::path& folder,
+                                                      ThreadPool& pool,
                                                       geometry::GridReport& report) {
-  GridDistance grid = geometry::cached_grid(*field.mesh, field.grid, folder, nullptr, &report);
+  GridDistance grid = geometry::cached_grid(*field.mesh, field.grid, folder, &pool, &report);
   if (!field.exact_near) return std::make_shared<GridDistance>(std::move(grid));
   return std::make_shared<geometry::NearExactDistance>(geometry::MeshDistance(*field.mesh),
                                                        std::move(grid), field.grid, near_band);
+}
+
+/// Grids of so many samples take seconds to build, and whoever waits should know what for.
+constexpr double long_wait = 0x1p22;
+
+void say_what_takes_long(const std::vector<MeshField>& fields,
+                         const std::filesystem::path& folder) {
+  double samples = 0.0;
+  int meshes = 0;
+  std::error_code ignored;
+  for (const MeshField& field : fields) {
+    if (!folder.empty() && std::filesystem::exists(
+                               geometry::grid_cache_file(*field.mesh, field.grid, folder), ignored))
+      continue;
+    samples += samples_of(field);
+    ++meshes;
+  }
+  if (samples > long_wait)
+    say(Verbosity::lines, "building the distance grids of %d collision meshes, %.0f million points",
+        meshes, 1e-6 * samples);
 }
 
 }  // namespace
@@ -92,14 +116,25 @@ std::vector<std::string> large_mesh_warnings(const robot::RobotDescription& robo
   return warnings;
 }
 
+MeshDistances exact_mesh_fields(const robot::RobotDescription& robot) {
+  MeshDistances distances;
+  for (const MeshField& field : plan_mesh_fields(robot))
+    distances[field.mesh] = std::make_shared<geometry::MeshDistance>(*field.mesh);
+  return distances;
+}
+
 MeshDistances build_mesh_fields(const robot::RobotDescription& robot,
                                 std::vector<std::string>& notes) {
   const std::filesystem::path folder = geometry::default_cache_folder();
   MeshDistances distances;
   int built = 0;
-  for (const MeshField& field : plan_mesh_fields(robot)) {
+  const std::vector<MeshField> fields = plan_mesh_fields(robot);
+  say_what_takes_long(fields, folder);
+  // Any number of threads gives the same samples.
+  ThreadPool pool(static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u)));
+  for (const MeshField& field : fields) {
     geometry::GridReport report;
-    distances[field.mesh] = build(field, folder, report);
+    distances[field.mesh] = build(field, folder, pool, report);
     if (!report.problem.empty()) notes.push_back(report.problem);
     built += !report.from_cache;
   }

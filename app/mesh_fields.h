@@ -37,6 +37,10 @@ std::vector<std::string> large_mesh_warnings(const robot::RobotDescription& robo
 using MeshDistances =
     std::map<const geometry::TriangleMesh*, std::shared_ptr<const geometry::SignedDistance>>;
 
+/// The exact field of each mesh, which needs no grid: for picking and drawing on a robot in a world
+/// without plants, where nobody asks for thousands of distances a step.
+MeshDistances exact_mesh_fields(const robot::RobotDescription& robot);
+
 /// Builds the field of each mesh, or reads it from the cache. Problems with that, large meshes and,
 /// where something was built, the place of the cache are added to `notes`, one sentence each.
 MeshDistances build_mesh_fields(const robot::RobotDescription& robot,

@@ -1,6 +1,7 @@
 #include "app/robot_control.h"
 #include "io/csv.h"
 #include "robot/cartesian_path.h"
+#include "robot/holding_effort.h"
 #include "robot/joint_range.h"
 #include "robot/urdf_reader.h"
 
@@ -123,6 +124,11 @@ std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
   auto control = std::make_unique<RobotControl>(scene, description, world);
   plan(scene, *control, find, diagnostics);
   if (diagnostics.error_count() > before) return nullptr;
+  if (scene.control != "torque")
+    if (const auto weakness =
+            robot::too_weak_to_hold(description, control->robot().model(),
+                                    control->robot().positions(), world.settings().gravity))
+      diagnostics.warning(scene.where, *weakness);
   return control;
 }
 

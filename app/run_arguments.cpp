@@ -112,6 +112,27 @@ void add_run_options(CLI::App& app, RunArguments& a) {
       ->check(CLI::Range(0, 4));
 }
 
+namespace {
+
+/// A value that is the next option was forgotten, and of two tables in one file one would be lost.
+void check_files(const RunArguments& a) {
+  const std::pair<const char*, const std::string*> named[] = {{"--out", &a.out},
+                                                              {"--log", &a.log},
+                                                              {"--events", &a.events},
+                                                              {"--save-state", &a.save_state}};
+  for (const auto& [option, name] : named)
+    if (name->starts_with("--"))
+      throw UsageError(std::string(option) + ": found the option " + *name +
+                       ", expected a name (./" + *name + " where it is meant)");
+  for (const auto& [option, name] : named)
+    for (const auto& [other, same] : named)
+      if (option != other && !name->empty() && *name == *same)
+        throw UsageError(std::string(option) + " and " + other + ": both are " + *name +
+                         ", expected two names");
+}
+
+}  // namespace
+
 void check_run_arguments(const RunArguments& a) {
   const auto set = [&](const std::string& key) {
     return !a.number(key).empty() || std::ranges::any_of(a.set, [&](const std::string& one) {
@@ -135,6 +156,7 @@ void check_run_arguments(const RunArguments& a) {
   if (a.fps && !io::within(*a.fps, world::video_rates))
     throw UsageError("--fps " + io::format_number(*a.fps) + ": expected " +
                      io::bounds_text(world::video_rates) + " Hz");
+  check_files(a);
   if (a.quiet && a.verbosity) throw UsageError("--quiet and -v: expected one of them");
   if (!a.param_sweep.empty())
     for (const auto& [option, given] : {std::pair{"--log", &a.log},

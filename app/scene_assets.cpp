@@ -1,5 +1,6 @@
 #include "app/scene_assets.h"
 
+#include "app/exact_fields.h"
 #include "app/rod_options.h"
 #include "app/scene_plants.h"
 
@@ -24,7 +25,7 @@ SceneAssets::SceneAssets(const world::Scene& given, const SimulationOptions& opt
   }
   if (scene.robot) robot = read_robot(*scene.robot, options.packages, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
-  if (robot) robot_fields = fields_of(*robot, notes);
+  if (robot) robot_fields = models.empty() ? exact_fields_of(*robot) : fields_of(*robot, notes);
   for (const Diagnostic& warning : diagnostics.all()) notes.push_back(to_string(warning));
 }
 

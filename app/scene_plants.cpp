@@ -1,5 +1,6 @@
 #include "app/scene_plants.h"
 
+#include "app/large_plant.h"
 #include "app/plant_overrides.h"
 #include "cosserat/standing.h"
 #include "io/csv.h"
@@ -55,6 +56,7 @@ class Builder {
     if (!file || (is_edited && file->curves.empty())) return;
     apply_plant_overrides(*file, wanted.set, diagnostics_);
     if (diagnostics_.has_errors()) return;
+    say_if_large(*file);
     const int count = wanted.repeat[0] * wanted.repeat[1];
     for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
       if (i == 1 && !is_affordable(wanted, count)) return;

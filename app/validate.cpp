@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/large_plant.h"
 #include "app/mesh_fields.h"
 #include "app/simulation.h"
 #include "app/validate_tables.h"
@@ -46,6 +47,7 @@ std::string check_built(const std::optional<plant::PlantFile>& file,
   options.leaf_folders = {path.parent_path(), path.parent_path() / "../assets/leaves"};
   for (const std::filesystem::path& folder : asset_leaf_folders())
     options.leaf_folders.push_back(folder);
+  say_if_large(*file);
   const auto built = plant::build_plant(*file, options, diagnostics);
   return built ? plant::residual_text(*built) : "";
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <string_view>
+#include <utility>
 
 namespace pedicel::geometry {
 
@@ -62,6 +64,21 @@ std::optional<std::string> binary_stl_fault(const std::string& start, std::uintm
   return {};
 }
 
+/// What is no mesh by its first bytes, though its name says so.
+std::optional<std::string> other_kind(const std::string& start) {
+  using namespace std::string_view_literals;
+  for (const auto& [bytes, kind] :
+       {std::pair{"PK\x03\x04"sv, "a zip archive"}, std::pair{"\x1F\x8B"sv, "compressed with gzip"},
+        std::pair{"7z\xBC\xAF"sv, "a 7z archive"}, std::pair{"Rar!\x1A"sv, "a RAR archive"}})
+    if (start.starts_with(bytes)) return std::string(kind) + ", expected a mesh: unpack it first";
+  for (const auto& [bytes, kind] :
+       {std::pair{"\x89PNG\r\n"sv, "a PNG image"}, std::pair{"\xFF\xD8\xFF"sv, "a JPEG image"},
+        std::pair{"%PDF-"sv, "a PDF document"}, std::pair{"ISO-10303-21"sv, "a STEP model"},
+        std::pair{"\xD0\xCF\x11\xE0"sv, "a document of a CAD or Office program"}})
+    if (start.starts_with(bytes)) return std::string(kind) + ", expected a mesh: export one as STL";
+  return {};
+}
+
 }  // namespace
 
 bool is_lfs_pointer(const std::string& text) {
@@ -79,6 +96,7 @@ std::optional<std::string> mesh_file_fault(const std::filesystem::path& path) {
   const std::string first = lower(start);
   if (first.starts_with("<!doctype html") || first.starts_with("<html"))
     return "a web page, expected a mesh: fetch the raw file";
+  if (const auto kind = other_kind(start)) return kind;
   if (lower(path.extension().string()) != ".stl") return {};
   if (is_text_stl(start)) return text_stl_fault(path);
   std::error_code error;

@@ -97,30 +97,34 @@ std::optional<Inertial> solid_of_geometry(const Link& link, double density) {
   return {};
 }
 
-std::optional<std::string> substitute_inertia(Link& link, bool may_be_frame) {
+std::string InertiaSubstitute::sentence(double heaviest) const {
+  const std::string low = io::format_number(mass, 4), high = io::format_number(heaviest, 4);
+  return why + low + (high == low ? "" : " to " + high) + how;
+}
+
+std::optional<InertiaSubstitute> substitute_inertia(Link& link, bool may_be_frame) {
   Inertial& own = link.inertial;
   const bool bare = link.collisions.empty() && link.visuals.empty();
   if (own.mass == 0.0 && bare && may_be_frame) return {};
   if (own.mass > 0.0 && positive_definite(own.inertia)) return {};
 
   const std::optional<Inertial> solid = solid_of_geometry(link, substitute_density);
-  const std::string geometry = link.collisions.empty() ? "visual" : "collision";
-  const std::string what = "link '" + link.name + "': ";
+  const std::string geometry =
+      std::string("its ") + (link.collisions.empty() ? "visual" : "collision") + " geometry";
   if (own.mass == 0.0) {
     own = solid ? *solid : sphere_solid(0.01, substitute_density);
-    return what + "no mass; substitute: " + io::format_number(own.mass, 4) + " kg, " +
-           (solid ? "its " + geometry + " geometry" : "a sphere of 10 mm radius") +
-           " at 1000 kg/m3";
+    return InertiaSubstitute{
+        "no mass; substitute: ", own.mass,
+        " kg, " + (solid ? geometry : "a sphere of 10 mm radius") + " at 1000 kg/m3"};
   }
+  const std::string why = "no usable inertia (it must be positive definite); substitute: ";
   if (solid) {
     own.inertia = solid->inertia * (own.mass / solid->mass);
-    return what + "no usable inertia (it must be positive definite); substitute: its " + geometry +
-           " geometry with " + io::format_number(own.mass, 4) + " kg spread evenly";
+    return InertiaSubstitute{why + geometry + " with ", own.mass, " kg spread evenly"};
   }
   const double radius = std::cbrt(own.mass / (substitute_density * 4.0 / 3.0 * pi));
   own.inertia = Mat3::Identity() * (0.4 * own.mass * radius * radius);
-  return what + "no usable inertia (it must be positive definite); substitute: a solid sphere of " +
-         io::format_number(own.mass, 4) + " kg at 1000 kg/m3";
+  return InertiaSubstitute{why + "a solid sphere of ", own.mass, " kg at 1000 kg/m3"};
 }
 
 }  // namespace pedicel::robot

@@ -1,5 +1,6 @@
 #include <map>
 
+#include "robot/description.h"
 #include "robot/urdf_xml.h"
 
 namespace pedicel::robot {
@@ -26,6 +27,7 @@ void check_largest(const UrdfXml& xml, const TiXmlElement& limit, const char* na
     remarks.add(xml.position(at), what, found + ", taken as unlimited");
   };
   if (limit.Attribute(name) == nullptr) return remark(std::string("no ") + name);
+  if (is_endless(limit, name) && *limit.Attribute(name) != '-') return;
   const auto value = xml.number(limit, name, what + ": limit");
   if (!value || *value > 0.0) return;
   if (*value == 0.0)
@@ -35,6 +37,15 @@ void check_largest(const UrdfXml& xml, const TiXmlElement& limit, const char* na
   else
     xml.error(at, what + ": limit: " + name + " \"" + limit.Attribute(name) +
                       "\", expected 0 or more, or -1 for no limit");
+}
+
+/// A lower or an upper limit; -inf and inf are none.
+std::optional<double> read_end(const UrdfXml& xml, const TiXmlElement& limit, const char* name,
+                               const std::string& what) {
+  const bool lower = std::string(name) == "lower";
+  if (is_endless(limit, name) && (*limit.Attribute(name) == '-') == lower)
+    return lower ? -Joint::unlimited : Joint::unlimited;
+  return xml.number(limit, name, what + ": limit", false);
 }
 
 void check_limit(const UrdfXml& xml, const TiXmlElement& joint, const std::string& type,
@@ -47,8 +58,8 @@ void check_limit(const UrdfXml& xml, const TiXmlElement& joint, const std::strin
                            " joint without <limit>, expected lower, upper, effort and velocity");
     return;
   }
-  const auto lower = xml.number(*limit, "lower", what + ": limit", false);
-  const auto upper = xml.number(*limit, "upper", what + ": limit", false);
+  const auto lower = read_end(xml, *limit, "lower", what);
+  const auto upper = read_end(xml, *limit, "upper", what);
   if (needed && lower.value_or(0.0) > upper.value_or(0.0))
     remarks.add(xml.position(*limit), what, "limit with lower above upper, taken as unlimited");
   for (const char* name : {"effort", "velocity"}) check_largest(xml, *limit, name, what, remarks);

@@ -97,7 +97,9 @@ std::optional<Geometry> UrdfShapes::read_mesh(const TiXmlElement& mesh, const st
                                               bool collision) {
   const std::string name = mesh.Attribute("filename");
   const TiXmlBase& at = attribute_or_element(mesh, "filename");
-  const PackagePaths::Found found = packages_.find(name, xml_.file());
+  const auto [known, added] = found_.try_emplace(name);
+  if (added) known->second = packages_.find(name, xml_.file());
+  const PackagePaths::Found& found = known->second;
   MissingMesh missing{xml_.position(at), link, name, found.package, "", "", "", collision};
   if (!found.file) {
     missing.reason = "not found";

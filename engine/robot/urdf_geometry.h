@@ -46,7 +46,8 @@ class UrdfShapes {
   const PackagePaths& packages_;
   UrdfRemarks& remarks_;
   std::vector<MissingMesh> missing_;
-  std::map<std::string, Loaded> loaded_;  ///< by file and scale
+  std::map<std::string, Loaded> loaded_;              ///< by file and scale
+  std::map<std::string, PackagePaths::Found> found_;  ///< by name: looking takes many system calls
 };
 
 }  // namespace pedicel::robot

@@ -49,7 +49,7 @@ bool check(const UrdfXml& xml, const TiXmlElement* robot, Diagnostics& diagnosti
                       found + " as the first element, expected <robot name=\"...\">");
     return false;
   }
-  if (check_xacro(xml, *robot)) return false;
+  if (check_xacro(xml, *robot, remarks)) return false;
   check_links(xml, *robot);
   check_joints(xml, *robot, remarks);
   check_tree(xml, *robot);
@@ -135,10 +135,12 @@ Joint read_joint(const UrdfXml& xml, const TiXmlElement& element, const urdf::Jo
   if (!joint.moves()) return joint;
   joint.axis = Vec3(source.axis.x, source.axis.y, source.axis.z).normalized();
   if (source.limits != nullptr) {
-    const bool crossed = source.limits->lower > source.limits->upper;  // remarked: no limits
-    if (joint.type != JointType::continuous && !crossed) {
-      joint.lower = source.limits->lower;
-      joint.upper = source.limits->upper;
+    const TiXmlElement& limit = *element.FirstChildElement("limit");
+    const double lower = is_endless(limit, "lower") ? -Joint::unlimited : source.limits->lower;
+    const double upper = is_endless(limit, "upper") ? Joint::unlimited : source.limits->upper;
+    if (joint.type != JointType::continuous && lower <= upper) {  // crossed ones are remarked
+      joint.lower = lower;
+      joint.upper = upper;
     }
     if (source.limits->effort > 0.0) joint.effort = source.limits->effort;
     if (source.limits->velocity > 0.0) joint.velocity = source.limits->velocity;
@@ -180,14 +182,40 @@ RobotDescription describe(const UrdfXml& xml, const Source& source, UrdfShapes& 
   return robot;
 }
 
+/// Links whose masses or inertias are substituted in one and the same way.
+struct Substituted {
+  const TiXmlElement* first = nullptr;
+  InertiaSubstitute lightest;
+  double heaviest = 0.0;  // kg
+  std::vector<std::string> links;
+};
+
+void add_to(std::vector<Substituted>& kinds, const InertiaSubstitute& one,
+            const TiXmlElement& element, const std::string& link) {
+  auto kind = std::ranges::find_if(kinds, [&](const Substituted& known) {
+    return known.lightest.why == one.why && known.lightest.how == one.how;
+  });
+  if (kind == kinds.end()) kind = kinds.insert(kinds.end(), {&element, one, one.mass, {}});
+  kind->lightest.mass = std::min(kind->lightest.mass, one.mass);
+  kind->heaviest = std::max(kind->heaviest, one.mass);
+  kind->links.push_back("link '" + link + "'");
+}
+
 void substitute_inertias(const UrdfXml& xml, const TiXmlElement& root, RobotDescription& robot) {
   const std::vector<const TiXmlElement*> elements = children(root, "link");
+  std::vector<Substituted> kinds;
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     bool fixed = true;
     for (const Joint& joint : robot.joints)
       if (joint.child == static_cast<int>(i)) fixed = !joint.moves();
-    if (const auto sentence = substitute_inertia(robot.links[i], fixed))
-      xml.warning(*elements[i], *sentence);
+    if (const auto one = substitute_inertia(robot.links[i], fixed))
+      add_to(kinds, *one, *elements[i], robot.links[i].name);
+  }
+  for (const Substituted& kind : kinds) {
+    const std::string times =
+        kind.links.size() > 1 ? " (" + std::to_string(kind.links.size()) + " links)" : "";
+    xml.warning(*kind.first,
+                first_names(kind.links) + ": " + kind.lightest.sentence(kind.heaviest) + times);
   }
 }
 

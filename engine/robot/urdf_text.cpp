@@ -4,6 +4,7 @@
 #include <map>
 
 #include "geometry/mesh_file.h"
+#include "io/file_magic.h"
 
 namespace pedicel::robot {
 
@@ -11,6 +12,7 @@ namespace {
 
 /// No robot needs more; entities of entities of entities could fill any memory.
 constexpr std::size_t largest_text = 64u << 20;  // bytes
+constexpr int most_levels = 200;                 // of elements within elements
 
 std::optional<std::string> fault_of(const std::string& bytes, const std::string& file) {
   if (bytes.find_first_not_of(" \t\r\n") == std::string::npos)
@@ -19,8 +21,48 @@ std::optional<std::string> fault_of(const std::string& bytes, const std::string&
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff") ||
       (bytes.size() > 1 && (bytes[0] == '\0' || bytes[1] == '\0')))
     return "UTF-16: save as UTF-8 (iconv -f UTF-16 -t UTF-8 " + file + ")";
+  if (const std::string kind = io::kind_of_bytes(bytes); !kind.empty()) return kind;
   if (bytes.find('\0') != std::string::npos) return "a binary file, expected a URDF";
   return {};
+}
+
+/// Behind the markup that begins at `start`: a comment, or a tag whose texts in quotes may hold a
+/// '>'. `closes`: it is an element without content.
+std::size_t end_of_markup(const std::string& text, std::size_t start, bool& closes) {
+  if (text.compare(start, 4, "<!--") == 0) {
+    const std::size_t end = text.find("-->", start + 4);
+    return end == std::string::npos ? text.size() : end + 3;
+  }
+  char quote = '\0';
+  for (std::size_t i = start; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      closes = text[i - 1] == '/';
+      return i + 1;
+    }
+  }
+  return text.size();
+}
+
+/// Whether elements lie within elements to a depth that no URDF has and that recursion would not
+/// bear.
+bool is_too_deep(const std::string& text) {
+  int depth = 0;
+  for (std::size_t at = text.find('<'); at < text.size();) {
+    const char next = at + 1 < text.size() ? text[at + 1] : '\0';
+    bool closes = false;
+    const std::size_t end = end_of_markup(text, at, closes);
+    if (next == '/')
+      --depth;
+    else if (next != '!' && next != '?' && !closes && ++depth > most_levels)
+      return true;
+    at = text.find('<', end);
+  }
+  return false;
 }
 
 /// The quoted text that begins at the first quote after `from`; moves `from` behind it.
@@ -85,21 +127,28 @@ std::size_t end_of_doctype(const std::string& text, std::size_t start) {
 
 std::optional<std::string> urdf_xml_text(const std::string& bytes, const std::string& file,
                                          Diagnostics& diagnostics) {
-  if (const auto fault = fault_of(bytes, file)) {
-    diagnostics.error({file}, *fault);
-    return {};
-  }
+  const auto refuse = [&](const std::string& fault) {
+    diagnostics.error({file}, fault);
+    return std::nullopt;
+  };
+  if (const auto fault = fault_of(bytes, file)) return refuse(*fault);
+  const std::string deep = "elements within elements, more than " + std::to_string(most_levels) +
+                           " levels deep, expected a URDF";
   const std::size_t start = bytes.find("<!DOCTYPE"), root = bytes.find("<robot");
-  if (start == std::string::npos || start > root) return bytes;
+  if (start == std::string::npos || start > root) {
+    if (is_too_deep(bytes)) return refuse(deep);
+    return bytes;
+  }
   const std::size_t end = end_of_doctype(bytes, start);
   const std::map<std::string, std::string> entities = entities_in(bytes, start, end);
   std::string text = bytes;
   for (std::size_t i = start; i < end; ++i)
     if (text[i] != '\n') text[i] = ' ';  // lines keep their numbers
   text = replaced(text, entities);
-  if (text.size() <= largest_text) return text;
-  diagnostics.error({file}, "its entities make more than 64 MB of text, expected a URDF");
-  return {};
+  if (text.size() > largest_text)
+    return refuse("its entities make more than 64 MB of text, expected a URDF");
+  if (is_too_deep(text)) return refuse(deep);
+  return text;
 }
 
 }  // namespace pedicel::robot

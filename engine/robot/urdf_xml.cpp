@@ -1,8 +1,8 @@
 #include "robot/urdf_xml.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 namespace pedicel::robot {
@@ -98,49 +98,20 @@ const TiXmlBase& attribute_or_element(const TiXmlElement& element, const char* a
   return element;
 }
 
+bool is_endless(const TiXmlElement& element, const char* attribute) {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) return false;
+  std::string word(text + (*text == '-' || *text == '+' ? 1 : 0));
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word == "inf" || word == "infinity";
+}
+
 std::vector<const TiXmlElement*> children(const TiXmlElement& parent, const char* name) {
   std::vector<const TiXmlElement*> found;
   for (const TiXmlElement* child = parent.FirstChildElement(name); child != nullptr;
        child = child->NextSiblingElement(name))
     found.push_back(child);
   return found;
-}
-
-namespace {
-
-struct XacroTrace {
-  const TiXmlBase* where;
-  std::string text;
-};
-
-std::optional<XacroTrace> find_xacro(const TiXmlElement& element) {
-  if (element.ValueStr().rfind("xacro:", 0) == 0) return XacroTrace{&element, element.ValueStr()};
-  for (const TiXmlAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
-    const std::string value = a->Value();
-    if (value.find("${") != std::string::npos || value.find("$(") != std::string::npos)
-      return XacroTrace{a, value};
-  }
-  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement())
-    if (auto trace = find_xacro(*child)) return trace;
-  return {};
-}
-
-}  // namespace
-
-bool check_xacro(const UrdfXml& xml, const TiXmlElement& robot) {
-  const std::optional<XacroTrace> trace = find_xacro(robot);
-  if (!trace) return false;
-  std::filesystem::path expanded = xml.file();
-  if (expanded.extension() == ".xacro")
-    expanded.replace_extension();
-  else
-    expanded.replace_extension(".expanded.urdf");
-  if (expanded.extension() != ".urdf") expanded += ".urdf";
-  xml.error(*trace->where, "\"" + trace->text +
-                               "\" is an unexpanded xacro, expected plain URDF: run " + "`xacro " +
-                               xml.file() + " -o " + expanded.string() + "` and load that file");
-  return true;
 }
 
 }  // namespace pedicel::robot

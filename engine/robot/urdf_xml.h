@@ -53,12 +53,16 @@ class UrdfXml {
 /// The position of an attribute, or of its element where the attribute is absent.
 const TiXmlBase& attribute_or_element(const TiXmlElement& element, const char* attribute);
 
+/// Whether an attribute is there and says "inf", with or without a sign: no limit.
+bool is_endless(const TiXmlElement& element, const char* attribute);
+
 /// All child elements of one name, in the order of the file.
 std::vector<const TiXmlElement*> children(const TiXmlElement& parent, const char* name);
 
 /// Reports the first trace of an unexpanded xacro, with the command that expands it. True where
-/// there is one: numbers cannot be checked then.
-bool check_xacro(const UrdfXml& xml, const TiXmlElement& robot);
+/// there is one: numbers cannot be checked then. A call that is left in a file which xacro wrote
+/// itself is remarked and passed over, as everything else passes over it.
+bool check_xacro(const UrdfXml& xml, const TiXmlElement& robot, UrdfRemarks& remarks);
 
 /// Names, inertials, visuals and collisions; not the files of meshes.
 void check_links(const UrdfXml& xml, const TiXmlElement& robot);

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "robot/urdf_xml.h"
+
 namespace pedicel::robot {
 
 namespace {
@@ -23,9 +25,12 @@ void prepare_joint(TiXmlElement& joint) {
   keep_only(joint, fixed
                        ? Names{"origin", "parent", "child"}
                        : Names{"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"});
-  if (TiXmlElement* limit = joint.FirstChildElement("limit"))
-    for (const char* name : {"effort", "velocity"})
-      if (limit->Attribute(name) == nullptr) limit->SetAttribute(name, "0");
+  TiXmlElement* limit = joint.FirstChildElement("limit");
+  if (limit == nullptr) return;
+  for (const char* name : {"effort", "velocity"})
+    if (limit->Attribute(name) == nullptr) limit->SetAttribute(name, "0");
+  for (const char* name : {"effort", "velocity", "lower", "upper"})
+    if (is_endless(*limit, name)) limit->SetAttribute(name, "0");
 }
 
 }  // namespace

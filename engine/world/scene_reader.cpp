@@ -40,11 +40,18 @@ void read_list(io::YamlMap& map, const char* key, std::vector<Item>& items, cons
   for (const io::YamlNode& node : map.list(key)) items.push_back(read(node));
 }
 
+/// Plants, bodies and the like of a scene. The world compares the names of bodies with each other:
+/// 10,000 of them take 1.3 s of processor time and 93 MB, 60,000 took above 15 s and 0.5 GB.
+constexpr std::size_t most_named = 10'000;
+
 /// As read_list(), and names must be unique.
 template <class Item, class Read>
 void read_named(io::YamlMap& map, const char* key, std::vector<Item>& items, const Read& read) {
   std::set<std::string> names;
   for (const io::YamlNode& node : map.list(key)) {
+    if (items.size() == most_named)
+      return node.error(std::string(key) + ": the list goes on, expected at most " +
+                        std::to_string(most_named));
     items.push_back(read(node));
     const std::string& name = items.back().name;
     if (!name.empty() && !names.insert(name).second)

@@ -39,6 +39,12 @@ std::string shaped(const std::string& shape) {
   return robot("<link name='a'>\n<collision><geometry>" + shape + "</geometry></collision></link>");
 }
 
+std::string repeated(const std::string& part, int times) {
+  std::string text;
+  for (int i = 0; i < times; ++i) text += part;
+  return text;
+}
+
 struct Case {
   std::string name, text, words;
 };
@@ -64,6 +70,9 @@ const Case file_cases[] = {
      "<!ENTITY g '&f;&f;&f;&f;&f;&f;&f;&f;&f;&f;'><!ENTITY h '&g;&g;&g;&g;&g;&g;&g;&g;&g;&g;'>]>"
      "<robot name='&h;'/>",
      "its entities make more than 64 MB of text"},
+    {"TooDeep", robot("<link name='a'><!-- <a> > --><b c='>'/>" + repeated("<a>", 300)),
+     "elements within elements, more than 200 levels deep, expected a URDF"},
+    {"Packed", "\x1F\x8B\x08 robot", "compressed with gzip, expected the text in it"},
     {"NotXml", "hello", "t.urdf:1:1: error: not XML: "},
     {"Unclosed", "<robot name='r'>\n<link name='a'>", "not XML: "},
     {"OtherXml", "<sdf/>", "t.urdf:1:1: error: <sdf> as the first element, expected <robot name="},

@@ -207,6 +207,14 @@ TEST(SceneRefusals, AKeyTwice) {
   EXPECT_THAT(refusal_of(head + "dt: 0.001\ndt: 0.002\n"), HasSubstr("\"dt\" appears twice"));
 }
 
+TEST(SceneRefusals, ListsHaveAnEnd) {
+  std::string text = head + "bodies:\n";
+  for (int i = 0; i < 10'001; ++i)
+    text += "  - {name: b" + std::to_string(i) + ", box: [1, 1, 1]}\n";
+  EXPECT_THAT(refusal_of(text),
+              HasSubstr(":10007:5: error: bodies: the list goes on, expected at most 10000"));
+}
+
 TEST(SceneRefusals, WhatIsNoYamlOrCannotBeRead) {
   Diagnostics diagnostics;
   EXPECT_FALSE(parse_scene("a: [1\n", "s.scene.yaml", diagnostics));

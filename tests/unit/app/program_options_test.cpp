@@ -56,6 +56,20 @@ expect:
   }
 };
 
+TEST_F(ProgramOptions, AForgottenNameAndOneNameForTwoFilesAreRefused) {
+  expect_refused("--log --json", "--log: found the option --json, expected a name");
+  expect_refused("--log " + path("t.csv") + " --events " + path("t.csv"),
+                 "--log and --events: both are ");
+}
+
+TEST_F(ProgramOptions, ASweepOverAnUnknownKeyIsRefusedBeforeTheFirstRun) {
+  EXPECT_EQ(run("sweep " + path("pull.scene.yaml") + " --set nokey=1,2 --no-pictures --out " +
+                path("swept")),
+            2);
+  EXPECT_THAT(err_, HasSubstr("--set nokey: expected "));
+  EXPECT_FALSE(std::filesystem::exists(path("swept")));
+}
+
 // Numbers are read once, as they are typed.
 TEST_F(ProgramOptions, AnOptionAndItsKeyAreTheSameRun) {
   const std::string dt = "0.0041666666666666667";

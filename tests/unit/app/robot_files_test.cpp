@@ -95,6 +95,48 @@ TEST_F(RobotFiles, StartValuesOutsideTheLimitsAreRefusedWithTheRange) {
   EXPECT_EQ(validate(scene(urdf, "  joints: {joint2: 1.5}\n")), 0) << text_;
 }
 
+// Distance grids are for plants: a robot alone does not wait for them.
+TEST_F(RobotFiles, WithoutPlantsNoDistanceGridIsBuilt) {
+  const std::string urdf = robot_with_box(Vec3::Constant(0.2));
+  Diagnostics diagnostics;
+  const auto alone = world::read_scene(
+      write(
+          "alone.scene.yaml",
+          "format: pedicel-scene\nversion: 1\npurpose: p\nsee: s\nduration: 0.1\nrobot:\n  file: " +
+              urdf + "\n"),
+      diagnostics);
+  ASSERT_TRUE(alone) << diagnostics.text();
+  const Simulation simulation(*alone, {});
+  EXPECT_THAT(simulation.notes(), ::testing::IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cache"));
+  ASSERT_EQ(simulation.colliders().size(), 1);
+  EXPECT_NEAR(simulation.colliders().collider(0).shape->distance(Vec3(0.3, 0.0, 0.0)), 0.2, 1e-6);
+
+  const auto together = world::read_scene(scene(urdf), diagnostics);
+  ASSERT_TRUE(together) << diagnostics.text();
+  const Simulation with_plant(*together, {});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cache"));
+}
+
+TEST_F(RobotFiles, ARobotThatCannotHoldItselfIsSaidToSag) {
+  const std::string mass =
+      "<inertial><origin xyz='1 0 0'/><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.1' "
+      "ixy='0' ixz='0' iyz='0'/></inertial>";
+  const std::string urdf =
+      write("weak.urdf",
+            "<robot name='r'><link name='base'/><link name='arm'>" + mass +
+                "</link><joint name='j' type='continuous'><parent link='base'/><child "
+                "link='arm'/><axis xyz='0 1 0'/><limit effort='5' velocity='1'/></joint></robot>");
+  EXPECT_EQ(validate(scene(urdf)), 0) << text_;
+  EXPECT_THAT(text_,
+              HasSubstr("s.scene.yaml:9:3: warning: joint 'j' sags: to hold the robot at its "
+                        "start takes 9.81 N m, its effort is 5 N m"));
+  EXPECT_EQ(validate(scene(urdf, "  control: torque\n")), 0);
+  EXPECT_THAT(text_, Not(HasSubstr("sags")));
+  EXPECT_EQ(validate(scene(urdf, "  joints: {j: 1.5707963}\n")), 0);
+  EXPECT_THAT(text_, Not(HasSubstr("sags"))) << "it hangs";
+}
+
 TEST_F(RobotFiles, StartValuesOfManyTurnsAreDoubted) {
   const std::string urdf = robot_with_box(Vec3::Constant(0.05));
   EXPECT_EQ(validate(scene(urdf, "  joints: {j: 90}\n")), 0) << text_;

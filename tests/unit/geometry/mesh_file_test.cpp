@@ -65,6 +65,10 @@ TEST(MeshFile, NamesWhatIsThereInPlaceOfAMesh) {
     EXPECT_EQ(fault(name, "version https://git-lfs.github.com/spec/v1\noid sha256:aa\nsize 9\n"),
               "a Git LFS pointer: run git lfs pull");
     EXPECT_EQ(fault(name, ""), "an empty file, expected a mesh");
+    EXPECT_EQ(fault(name, std::string("PK\x03\x04") + std::string(300, 'x')),
+              "a zip archive, expected a mesh: unpack it first");
+    EXPECT_EQ(fault(name, "\x89PNG\r\n" + std::string(300, 'x')),
+              "a PNG image, expected a mesh: export one as STL");
     EXPECT_THAT(fault(name, "<!DOCTYPE html>\n<html>"), HasSubstr("a web page, expected a mesh"));
   }
 }

@@ -151,11 +151,11 @@ TEST(YamlFile, RefusesWhatAliasesMakeEndless) {
   EXPECT_FALSE(diagnostics.has_errors());
 }
 
-TEST(YamlFile, IsAtMostEightMegabytes) {
+TEST(YamlFile, IsAtMostFourMegabytes) {
   Diagnostics diagnostics;
   EXPECT_THAT(
       [&] { parse_yaml(std::string(9 << 20, ' '), "f", diagnostics); },
-      ThrowsMessage<InvalidFile>(HasSubstr("f: error: has 9 MB of YAML, expected at most 8 MB")));
+      ThrowsMessage<InvalidFile>(HasSubstr("f: error: has 9 MB of YAML, expected at most 4 MB")));
 }
 
 TEST(YamlFile, SaysThatAKeyIsNoName) {

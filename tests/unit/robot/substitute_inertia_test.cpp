@@ -39,8 +39,8 @@ TEST(SubstituteInertia, AddsUpTheCollisionGeometryAsWater) {
   link.collisions = {box({0.1, 0.2, 0.3}, {0.05, 0, 1}), box({0.1, 0.2, 0.3}, {-0.05, 0, 1})};
   const auto sentence = substitute_inertia(link, true);
   ASSERT_TRUE(sentence);
-  EXPECT_EQ(*sentence,
-            "link 'arm': no mass; substitute: 12 kg, its collision geometry at 1000 kg/m3");
+  EXPECT_EQ(sentence->sentence(),
+            "no mass; substitute: 12 kg, its collision geometry at 1000 kg/m3");
   EXPECT_NEAR(link.inertial.mass, 12.0, 1e-12);
   EXPECT_NEAR((link.inertial.com_L - Vec3(0, 0, 1)).norm(), 0.0, 1e-12);
   const Mat3 expected = Vec3(0.13, 0.13, 0.08).asDiagonal();
@@ -53,7 +53,7 @@ TEST(SubstituteInertia, KeepsAStatedMassAndCentreAndSpreadsItOverTheGeometry) {
   link.inertial.mass = 3.0;
   link.inertial.com_L = Vec3(0, 0, 0.2);
   link.collisions = {box({0.2, 0.2, 0.2}, {0, 0, 0})};
-  EXPECT_THAT(substitute_inertia(link, false).value(),
+  EXPECT_THAT(substitute_inertia(link, false).value().sentence(),
               HasSubstr("substitute: its collision geometry with 3 kg spread evenly"));
   EXPECT_EQ(link.inertial.com_L, Vec3(0, 0, 0.2));
   EXPECT_NEAR((link.inertial.inertia - 0.02 * Mat3::Identity()).norm(), 0.0, 1e-12);
@@ -62,13 +62,13 @@ TEST(SubstituteInertia, KeepsAStatedMassAndCentreAndSpreadsItOverTheGeometry) {
 TEST(SubstituteInertia, WithoutGeometryTakesASphere) {
   Link massless;
   massless.name = "arm";
-  EXPECT_THAT(substitute_inertia(massless, false).value(),
+  EXPECT_THAT(substitute_inertia(massless, false).value().sentence(),
               HasSubstr("a sphere of 10 mm radius at 1000 kg/m3"));
   EXPECT_NEAR(massless.inertial.mass, 4.0 / 3.0 * pi * 1e-3, 1e-12);
   Link heavy;
   heavy.inertial.mass = 4.0 / 3.0 * pi;  // radius 0.1 m
   heavy.inertial.inertia = -Mat3::Identity();
-  EXPECT_THAT(substitute_inertia(heavy, false).value(), HasSubstr("a solid sphere of"));
+  EXPECT_THAT(substitute_inertia(heavy, false).value().sentence(), HasSubstr("a solid sphere of"));
   EXPECT_NEAR(heavy.inertial.inertia(1, 1), 0.4 * heavy.inertial.mass * 0.01, 1e-12);
 }
 
