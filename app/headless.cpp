@@ -9,6 +9,7 @@
 
 #include "app/channels.h"
 #include "app/meta.h"
+#include "app/rough_spell.h"
 #include "app/run_state.h"
 #include "app/scene_view.h"
 #include "app/verbosity.h"
@@ -137,6 +138,7 @@ class Run {
       picture_event();
     }
     picture_now();
+    rough_.look(simulation_, report);
     if (report.errors & world::fatal_errors) {
       result_.exit_code = exit_unstable;
       result_.error = unstable(report);
@@ -294,6 +296,8 @@ class Run {
   }
 
   void say_end() const {
+    if (const std::string text = rough_.warning(); !text.empty())
+      say(Verbosity::warnings, "%s", text.c_str());
     if (!result_.error.empty()) say(Verbosity::errors, "error: %s", result_.error.c_str());
     if (is_quiet()) return;
     std::fprintf(
@@ -330,6 +334,7 @@ class Run {
   Simulation& simulation_;  // of started_
   std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
+  RoughSpell rough_;
   SceneView view_;
   std::unique_ptr<PictureTaker> pictures_;
   FrameHistory history_;

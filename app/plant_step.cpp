@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cosserat/self_contact.h"
 #include "io/csv.h"
 
 namespace pedicel::app {
@@ -23,6 +24,17 @@ int fastest_of(const cosserat::RodState& state) {
         (found < 0 || state.velocity[e].squaredNorm() > state.velocity[found].squaredNorm()))
       found = e;
   return found;
+}
+
+// A link that leaves a stem no room, against its clamp or the ground, leaves it no smooth
+// equilibrium either: steps go to and fro about a kink of the potential, which keeps them in
+// bounds. Such a run is inexact there (RoughSpell says so) but has not lost its way.
+bool is_squeezed(const cosserat::StepReport& report,
+                 const std::vector<cosserat::ContactForce>& contacts) {
+  if (report.errors & cosserat::line_search_failed) return false;
+  return std::ranges::any_of(contacts, [](const cosserat::ContactForce& contact) {
+    return !cosserat::is_self_contact(contact.point.collider);
+  });
 }
 
 std::string cause_of(const cosserat::StepReport& report, double speed) {
@@ -66,7 +78,8 @@ void PlantStep::sum_up(const Vec3& gravity, world::StepReport& report) {
     judge(p, report);
     const cosserat::StepReport& own = rods_.report(p);
     const bool rough = own.errors & (cosserat::not_converged | cosserat::line_search_failed);
-    rough_steps_[p] = rough ? rough_steps_[p] + 1 : 0;
+    const bool counts = rough && !is_squeezed(own, rods_.contact_forces(p));
+    rough_steps_[p] = counts ? rough_steps_[p] + 1 : 0;
     report.contacts += own.contacts;
     report.plant_energy += cosserat::energy_of(rods_.model(p), rods_.state(p), gravity).total();
     report.deepest_overlap = std::max(report.deepest_overlap, own.deepest);

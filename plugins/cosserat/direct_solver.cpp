@@ -24,6 +24,11 @@ constexpr double largest_ratio = 2.0;        // of two steps' lengths for BDF2 (
 constexpr double smallest_share = 1.0 / 4096.0;
 constexpr int rough_contact_iterations = 4;  // times newton_iterations
 constexpr int parts = 2;                     // of a step that contact keeps from its solution
+// Of parts of steps in which Newton goes to and fro:
+constexpr int most_knocks = 10;  // steps in a row that are taken in parts before it is damped
+constexpr double cycling_gain = 0.95;
+constexpr double most_damped = 1.0 / 16.0;
+constexpr int damped_iterations = 2;  // times as many
 // Of a plant's contact with itself:
 constexpr double rough_self_contact = 10.0;  // times the tolerance
 constexpr double stalled_gain = 0.9;         // more iterations do not help
@@ -81,6 +86,7 @@ void DirectSolver::reset(int plant) {
   plants_[plant].has_history = false;
   plants_[plant].smooth = false;
   plants_[plant].gain = 1.0;
+  plants_[plant].stuck_for = 0;
 }
 
 StepReport DirectSolver::step(const RodModel& model, RodState& state, const StepInput& input) {
@@ -98,8 +104,12 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
     return (steps[p].report.errors & not_converged) && plant.presses &&
            !plant.contacts.only_with_itself();
   };
-  for (int p = 0; p < size() && !is_part_; ++p)
-    if (is_stuck(p)) take_in_parts(p, steps[p], dt, gravity);
+  for (int p = 0; p < size() && !is_part_; ++p) {
+    if (is_stuck(p))
+      take_in_parts(p, steps[p], dt, gravity);
+    else
+      plants_[p].stuck_for = 0;
+  }
   end(steps, dt, pool);
 }
 
@@ -154,6 +164,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.last_change = 0.0;
     plant.presses = false;
     plant.in_parts = false;
+    plant.damped = 1.0;
     plant.iterate_is_here = plant.contacts_are_here = false;
     plant.followed = std::numeric_limits<double>::infinity();
   }
@@ -346,7 +357,7 @@ void DirectSolver::start_search(int index, const RodModel& model, StepReport& re
     return;
   }
   plant.change = rows_.change(index);
-  plant.share = std::min(1.0, largest_turn / std::max(plant.change.turn, 1.0e-300));
+  plant.share = std::min(plant.damped, largest_turn / std::max(plant.change.turn, 1.0e-300));
   if (plant.share < 1.0) rows_.set_share(index, plant.share);
   searching_[index] = plant.is_searched();
   if (searching_[index] || !plant.touched) return;
@@ -441,7 +452,11 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   const bool rough_contact =
       plant.presses && (with_itself ? moved > rough_self_contact * settled && gain < stalled_gain
                                     : change > converged_change);
-  const int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
+  int most = (rough_contact ? rough_contact_iterations : 1) * settings_.newton_iterations;
+  if (is_part_ && plant.stuck_for > most_knocks && rough_contact && !with_itself) {
+    if (!first && gain > cycling_gain) damp(plant);
+    if (plant.damped < 1.0) most *= damped_iterations;
+  }
   const bool last = report.iterations >= most;
   // Self-contact leaves its coupling out of the Hessian: what the last iterations would do is below
   // what can be seen, and would cost most of the time.
@@ -464,6 +479,14 @@ bool DirectSolver::is_done(Plant& plant, StepReport& report) const {
   return last || small;
 }
 
+// A stem that lies flat between a link and the ground is touched in one place of each, and both
+// roll from end to end as it tilts: Newton's Hessian does not know, its changes go to and fro for
+// ever, and neither place is wrong enough for the line search. With the slope -s of what a change
+// leaves of the one before it, shares below 2 / (1 + s) converge.
+void DirectSolver::damp(Plant& plant) {
+  plant.damped = std::max(0.5 * plant.damped, most_damped);
+}
+
 // A stem that is dragged over an edge slides by many of its radii in one step, too far for Newton;
 // cut short, it may end on the other side of a thin link. In parts what drags it moves less.
 void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity) {
@@ -475,6 +498,7 @@ void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Ve
   solver.is_part_ = true;
   solver.reset();
   solver.forces_.clear();
+  alone.stuck_for = ++plant.stuck_for;
   std::swap(alone.contacts, plant.contacts);
   RodState& state = *step.state;
   plant.iterate = state;

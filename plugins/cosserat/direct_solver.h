@@ -85,6 +85,8 @@ class DirectSolver : public RodSolver {
     double energy = 0.0, extra_energy = 0.0;  // J, where the line search began; of `touched`
     double pressed = 0.0;                     // J, of the known contacts where a search ended
     double share = 0.0;                       // 1, of Newton's change that is tried
+    double damped = 1.0;                      // 1, the largest share in this step
+    int stuck_for = 0;                        // steps in a row that were taken in parts
     RodRows::Change change;
     double last_change = 0.0;  // of the iteration before; 0: there was none
     // What an iteration leaves of the change before it, and the change at which that was measured.
@@ -114,6 +116,7 @@ class DirectSolver : public RodSolver {
   void try_share(int index, const RodModel& model, StepReport& report);
   void look_again(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   bool is_done(Plant& plant, StepReport& report) const;
+  static void damp(Plant& plant);
   void take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity);
   void end(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   int size() const { return static_cast<int>(plants_.size()); }

@@ -260,9 +260,12 @@ void ColliderSource::add(const Touch& touch, const MovingCapsule& capsule,
   point.gap = nearest.gap;
   const Vec3 axis_C = (1.0 - nearest.fraction) * capsule.near_C + nearest.fraction * capsule.far_C;
   const Vec3 surface_C = axis_C - (nearest.gap + nearest.radius) * nearest.normal_C;
+  // What turns a stem about its own axis takes its surface along: a pad that stands off by the gap
+  // moves farther than that, by gap / radius.
+  const Vec3 rubbed_C = at.drive >= 0 ? axis_C - nearest.radius * nearest.normal_C : surface_C;
   if (at.is_moving)
-    point.surface_motion_W = at.R_WC * surface_C + at.X_WC.position -
-                             (at.R_WC_before * surface_C + at.X_WC_before.position);
+    point.surface_motion_W = at.R_WC * rubbed_C + at.X_WC.position -
+                             (at.R_WC_before * rubbed_C + at.X_WC_before.position);
   point.friction = touch.collider.friction.value_or(settings_.friction);
   point.stiffness = shape.fruit >= 0 ? settings_.fruit_stiffness : settings_.contact_stiffness;
   point.margin = settings_.margin;

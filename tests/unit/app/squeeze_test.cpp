@@ -48,6 +48,7 @@ std::string scene_text(const char* direction, double friction, const std::string
 /// What the fingers carry: normal and tangential force of each, N.
 struct Fingers {
   double normal[2] = {0.0, 0.0};
+  double opening = 0.0;              // N, on the joint: what lies along its way
   Vec3 tangential_W = Vec3::Zero();  // on the plant, both
   double sunk = 0.0;                 // m
 };
@@ -61,8 +62,11 @@ Fingers fingers_of(const Simulation& sim) {
     if (cosserat::is_self_contact(contact.point.collider)) continue;
     const coupling::Collider& collider = sim.colliders().collider(contact.point.collider);
     for (int f = 0; f < 2; ++f)
-      if (collider.body == robot_body && collider.link == links[f])
+      if (collider.body == robot_body && collider.link == links[f]) {
         fingers.normal[f] += contact.normal;
+        const Vec3 outward_W = robot.link_pose(links[f]).rotation * Vec3::UnitY();
+        fingers.opening -= contact.normal * contact.point.normal_W.dot(outward_W);
+      }
     fingers.tangential_W += contact.tangential_W;
     fingers.sunk = std::max(fingers.sunk, -contact.point.gap);
   }
@@ -98,7 +102,9 @@ TEST_P(Squeeze, AStalkIsHeldWithTheMotorsForce) {
 }
 
 // Pulled along a stem that stretches by E A = 3140 N, the pads stick until both carry mu N, and
-// slide with that.
+// slide with that: N of the step before (ContactTerms). It is the sum of the normal forces, which
+// is a little more than the joint has, since a place of the stem that slides over a pad's edge is
+// pushed askew, and the joint bears only what lies along its way.
 TEST_P(Squeeze, FrictionHoldsUpToMuTimesTheForce) {
   SceneCase files;
   files.write("stem.plant.yaml", stem_file("[0, 0, 0.4]", "[0, 0, 0.65]", 0.001, 1.0e9));
@@ -106,15 +112,16 @@ TEST_P(Squeeze, FrictionHoldsUpToMuTimesTheForce) {
   ways.push_back({0.7, {0, 0, height}, 0.0});
   ways.push_back({1.7, {0, 0, height + 0.02}, 0.0});
   const auto sim = files.simulation(scene_text(GetParam(), 0.6) + robot_text(ways));
-  double most = 0.0, last = 0.0;
+  double most = 0.0, last = 0.0, before = 0.0;
   for (int i = 0; i < 360; ++i) {
     const auto& report = sim->step();
     ASSERT_EQ(report.errors & world::fatal_errors, 0u) << report.culprit;
     const Fingers fingers = fingers_of(*sim);
     last = fingers.tangential_W.z();
     most = std::max(most, last);
-    // To a thousandth: it was seen over its bound by 0.03 % while the pads slide; why is not known.
-    EXPECT_LE(last, 1.001 * 0.6 * (40.0 + joint_friction));
+    EXPECT_LE(last, 0.6 * before + 1e-9) << i;
+    EXPECT_LE(fingers.opening, 40.0 + joint_friction + 1e-6) << i;
+    before = fingers.normal[0] + fingers.normal[1];
   }
   EXPECT_GT(most, 0.6 * (40.0 - joint_friction) - 0.05);
 }
@@ -136,9 +143,11 @@ TEST_P(Squeeze, FrictionHoldsAgainstTwist) {
   for (int e = 0; e < model.size(); ++e) {
     if (std::abs(drawn.position[e].z() - height) > 0.011) continue;
     const Quat turned = state.orientation[e] * drawn.orientation[e].conjugate();
-    // About the stem's own axis. A stem that slips does not turn at all; the last element between
-    // the pads is seen to turn 9 % farther than they do; why is not known.
-    EXPECT_NEAR(2.0 * std::atan2(std::abs(turned.z()), std::abs(turned.w())), 0.6, 0.06)
+    // About the stem's own axis. A stem that slips does not turn at all. The pads stand off by 0.18
+    // mm, where their force begins: taken from their own surface, it would turn by 9 % too far.
+    // What the friction springs stretch by is below 1e-4 rad (its torsion is 3e-4 N m, theirs 7 N
+    // m/rad).
+    EXPECT_NEAR(2.0 * std::atan2(std::abs(turned.z()), std::abs(turned.w())), 0.6, 1.0e-3)
         << "element " << e;
   }
 }
