@@ -104,9 +104,13 @@ SourcePosition cell_position(const CsvTable& table, int line, int column) {
     }
     CellSplitter splitter(table.separator);
     const auto& cells = splitter.split(scanner.record());
+    Diagnostics unused;
+    const TableText source(text, table.file, unused);
+    const int cell = column + (line == table.header_line ? source.cells_before_header()
+                                                         : source.cells_before_rows());
     const bool known =
-        scanner.line() == line && column >= 0 && static_cast<std::size_t>(column) < cells.size();
-    return {table.file, line, known ? cells[column].column : 1};
+        scanner.line() == line && column >= 0 && static_cast<std::size_t>(cell) < cells.size();
+    return {table.file, line, known ? cells[cell].column : 1};
   } catch (const InvalidFile&) {
     return {table.file, line, 1};
   }

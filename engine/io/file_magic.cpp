@@ -42,6 +42,29 @@ constexpr std::array others = {Magic{"%PDF-"sv, "a PDF document"},
                                Magic{"RIFF"sv, "a RIFF file (sound or film)"},
                                Magic{"{\\rtf"sv, "an RTF document"}};
 
+// Tables of motion capture, which have several lines of names in place of one. Told by how the
+// first of them begins; what comes behind the word.
+struct Export {
+  std::string_view begins;
+  std::string_view then;
+  const char* program;
+};
+constexpr std::array exports = {Export{"Trajectories", "\r\n,;", "Vicon Nexus"},
+                                Export{"Format Version", ",;\t", "OptiTrack Motive"},
+                                Export{"NO_OF_FRAMES", "\t,;", "Qualisys Track Manager"},
+                                Export{"PathFileType", "\t,; ", "OpenSim (.trc)"},
+                                Export{"scorer", ",;\t", "DeepLabCut"}};
+
+std::string export_kind(std::string_view text) {
+  for (const Export& known : exports)
+    if (text.size() > known.begins.size() && text.starts_with(known.begins) &&
+        known.then.find(text[known.begins.size()]) != std::string_view::npos)
+      return std::string("a table as ") + known.program +
+             " writes it, with several lines of names, expected one: time,m1.x,m1.y,m1.z,... in "
+             "seconds since the trial began and metres";
+  return {};
+}
+
 // A column may be called PAR1: then no byte is one that no text has.
 bool has_control(std::string_view bytes) {
   bytes = bytes.substr(0, 4096);
@@ -108,6 +131,7 @@ std::string kind_of_bytes(std::string_view bytes) {
   const std::string_view text = bytes.substr(first);
   if (begins_without_case(text, "<!doctype html") || begins_without_case(text, "<html"))
     return "a web page, expected the file itself: download it as raw text";
+  if (const std::string kind = export_kind(text); !kind.empty()) return kind;
   if (is_bare_utf16(bytes))
     return "UTF-16 without a byte order mark, expected UTF-8: save it as UTF-8";
   return {};

@@ -59,9 +59,20 @@ std::vector<char> that(const std::array<Fit, 4>& fits, bool (*holds)(const Fit&)
   return found;
 }
 
+// Names and cells that blanks part, tabs among them; R writes the numbers of the rows before them.
+bool fits_blanks(const TableLine& header, const std::vector<TableLine>& rows) {
+  const Fit blanks = fit_of(' ', header, rows);
+  return blanks.names > 1 && !rows.empty() &&
+         std::all_of(rows.begin(), rows.end(), [&](const TableLine& row) {
+           const std::size_t count = cells_of(row.text, ' ');
+           return count == blanks.names || (count == blanks.names + 1 && has_row_name(row.text));
+         });
+}
+
 // Header and rows parted by different things, or names that blanks part.
 SeparatorFound of_plain_header(const TableLine& header, const std::vector<TableLine>& rows) {
   if (rows.empty()) return {};
+  if (fits_blanks(header, rows)) return {' ', {}, 0};
   for (const char separator : separators) {
     const std::size_t count = cells_of(rows.front().text, separator);
     if (count < 2 || separator == ',') continue;
@@ -72,15 +83,17 @@ SeparatorFound of_plain_header(const TableLine& header, const std::vector<TableL
                 "the columns in the first line, parted alike",
             rows.front().line};
   }
-  const Fit blanks = fit_of(' ', header, rows);
-  const bool as_many = std::all_of(rows.begin(), rows.end(), [&](const TableLine& row) {
-    return cells_of(row.text, ' ') == blanks.names;
-  });
-  if (blanks.names > 1 && as_many) return {' ', {}, 0};
   return {};
 }
 
 }  // namespace
+
+bool has_row_name(std::string_view record) {
+  const std::size_t open = record.find_first_not_of(" \t");
+  if (open == std::string_view::npos || record[open] != '"') return false;
+  const std::size_t close = record.find('"', open + 1);
+  return close != std::string_view::npos && record.find('"', close + 1) == std::string_view::npos;
+}
 
 std::string name_of_separator(char separator) {
   switch (separator) {
@@ -106,12 +119,14 @@ SeparatorFound find_separator(const TableLine& header, const std::vector<TableLi
     const char mine = named.front();
     for (const char other : separators)
       if (!rows.empty() && other != mine && cells_of(rows.front().text, mine) == 1 &&
-          cells_of(rows.front().text, other) > 1)
+          cells_of(rows.front().text, other) > 1 && !fits_blanks(header, rows))
         return {mine,
                 "the row is parted by " + name_of_separator(other) + ", the header by " +
                     name_of_separator(mine) + ": expected both alike",
                 rows.front().line};
-    return {mine, {}, 0};
+    const bool by_blanks = mine == '\t' && fits_blanks(header, rows) &&
+                           cells_of(rows.front().text, mine) != cells_of(header.text, mine);
+    return {by_blanks ? ' ' : mine, {}, 0};
   }
   auto fitting = that(fits, [](const Fit& fit) { return fit.names > 1 && fit.rows_agree; });
   if (fitting.size() > 1)

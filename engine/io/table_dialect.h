@@ -24,6 +24,9 @@ struct TableLine {
   int line = 0;
 };
 
+/// Its first cell is in quotes and no other one is: how R writes the name of a row.
+bool has_row_name(std::string_view record);
+
 SeparatorFound find_separator(const TableLine& header, const std::vector<TableLine>& rows);
 
 /// The decimal mark of all numbers of `rows` (the text behind the header); `fault` where they

@@ -1,12 +1,18 @@
 #include "io/table_records.h"
 
 #include <algorithm>
+#include <array>
 
 namespace pedicel::io {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\f\v";
+constexpr std::string_view blanks = " \t\f\v\r\n";
+// What Unicode has for a blank: that does not break, thin, narrow, of a digit's width, wide; and
+// the mark that begins a file, wherever two files were put together.
+constexpr std::array<std::string_view, 7> wide_blanks = {
+    "\xC2\xA0",     "\xE2\x80\x89", "\xE2\x80\xAF", "\xE2\x80\x87",
+    "\xE2\x80\x8A", "\xE3\x80\x80", "\xEF\xBB\xBF"};
 
 // A quote opens a quoted cell only where a cell begins.
 bool opens_cell(std::string_view text, std::size_t at) {
@@ -24,23 +30,27 @@ std::size_t closing_quote(std::string_view text, std::size_t open) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  // A blank that does not break is one too.
   const auto strip_front = [&] {
-    if (!text.empty() && blanks.find(text.front()) != std::string_view::npos)
+    if (!text.empty() && blanks.find(text.front()) != std::string_view::npos) {
       text.remove_prefix(1);
-    else if (text.starts_with("\xC2\xA0"))
-      text.remove_prefix(2);
-    else
-      return false;
+      return true;
+    }
+    const auto* wide =
+        std::find_if(wide_blanks.begin(), wide_blanks.end(),
+                     [&](std::string_view blank) { return text.starts_with(blank); });
+    if (wide == wide_blanks.end()) return false;
+    text.remove_prefix(wide->size());
     return true;
   };
   const auto strip_back = [&] {
-    if (!text.empty() && blanks.find(text.back()) != std::string_view::npos)
+    if (!text.empty() && blanks.find(text.back()) != std::string_view::npos) {
       text.remove_suffix(1);
-    else if (text.ends_with("\xC2\xA0"))
-      text.remove_suffix(2);
-    else
-      return false;
+      return true;
+    }
+    const auto* wide = std::find_if(wide_blanks.begin(), wide_blanks.end(),
+                                    [&](std::string_view blank) { return text.ends_with(blank); });
+    if (wide == wide_blanks.end()) return false;
+    text.remove_suffix(wide->size());
     return true;
   };
   while (strip_front()) {
@@ -59,8 +69,22 @@ bool is_blank(std::string_view record) {
 bool is_comment(std::string_view record) {
   std::string_view text = trimmed(record);
   if (text.starts_with('"')) text.remove_prefix(1);
+  if (text.starts_with("//")) return true;
   if (text.empty() || (text.front() != '#' && text.front() != '%')) return false;
   return !text.starts_with("#N/A") && !text.starts_with("#n/a");
+}
+
+bool is_comment_above_header(std::string_view record) {
+  const std::string_view text = trimmed(record);
+  return text.size() > 2 && text[0] == ';' && text[1] == ' ' &&
+         text.find(';', 1) == std::string_view::npos;
+}
+
+bool is_rule(std::string_view record) {
+  const std::string_view text = trimmed(record);
+  return text.find("---") != std::string_view::npos &&
+         text.find_first_not_of("-|+: \t") == std::string_view::npos &&
+         text.find_first_of("|+") != std::string_view::npos;
 }
 
 bool RecordScanner::next() {

@@ -56,7 +56,11 @@ class CellSplitter {
 
 /// Nothing in it but blanks.
 bool is_blank(std::string_view record);
-/// Begins with '#' or '%', but is no missing value (#N/A).
+/// Begins with '#', '%' or "//", but is no missing value (#N/A).
 bool is_comment(std::string_view record);
+/// "; words": where names are still to come, that is no row of two cells.
+bool is_comment_above_header(std::string_view record);
+/// What parts the header of a table drawn with | from its rows: |---|:--:|
+bool is_rule(std::string_view record);
 
 }  // namespace pedicel::io

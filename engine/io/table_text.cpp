@@ -69,6 +69,7 @@ TableText::TableText(std::string_view text, std::string file, Diagnostics& diagn
     : file_(std::move(file)), diagnostics_(diagnostics), scanner_(without_mark(text)) {
   find_header();
   if (!good_) return;
+  find_row_numbers();
   take_units();
   find_decimal_mark();
 }
@@ -78,7 +79,7 @@ void TableText::error(int line, int column, std::string what) {
 }
 
 bool TableText::pass_over(std::string_view record) const {
-  return is_blank(record) || is_comment(record);
+  return is_blank(record) || is_comment(record) || is_rule(record);
 }
 
 void TableText::find_header() {
@@ -94,7 +95,7 @@ void TableText::find_header() {
       if (const std::string unit = unit_in_comment(comment); !unit.empty())
         stated_unit_ = {unit, comment_line};
     }
-    found = !pass_over(scanner_.record());
+    found = !pass_over(scanner_.record()) && !is_comment_above_header(scanner_.record());
   }
   if (!found) return error(1, 1, "no header line, expected column names");
   const TableLine header{scanner_.record(), scanner_.line()};
@@ -144,12 +145,55 @@ void TableText::take_header(const std::vector<TableCell>& cells, int line) {
     columns_.push_back({std::string(cells[i].text), {}, cells[i].column});
 }
 
+// Numbers of the rows, which say nothing: below no name (pandas, R's write.csv), or before as many
+// cells as there are names, in quotes as no other cell is (R's write.table). A column without a
+// name and without a cell is no column either.
+void TableText::find_row_numbers() {
+  const std::string_view first = columns_.empty() ? std::string_view() : columns_.front().name;
+  const bool unnamed = columns_.size() > 1 && (first.empty() || first == "Unnamed: 0");
+  std::size_t rows = 0;
+  bool count = true, empty = true, before = true;
+  double next = 0.0;
+  for (RecordScanner ahead = scanner_; rows < first_rows && ahead.next();) {
+    if (pass_over(ahead.record())) continue;
+    const auto& cells = splitter_.split(ahead.record());
+    const NumberText number = number_of(cells.front().text);
+    count = count && number.kind == NumberText::Kind::number &&
+            (rows == 0 ? number.value == 0.0 || number.value == 1.0 : number.value == next);
+    next = number.value + 1.0;
+    empty = empty && cells.front().text.empty();
+    before = before && said(cells) == columns_.size() + 1 && has_row_name(ahead.record());
+    ++rows;
+  }
+  if (rows == 0) return;
+  names_are_fewer_ = before;
+  row_numbers_ = before || (unnamed && (count || empty));
+  if (!row_numbers_ || before) return;
+  if (count)
+    diagnostics_.notice({file_, header_line_, columns_.front().column},
+                        "the first column has no name and counts the rows: it is not read");
+  columns_.erase(columns_.begin());
+}
+
+const std::vector<TableCell>& TableText::split(std::string_view record) {
+  const auto& cells = splitter_.split(record);
+  if (!row_numbers_) return cells;
+  own_cells_.assign(cells.begin() + 1, cells.end());
+  return own_cells_;
+}
+
+bool TableText::is_header_again() const {
+  return std::equal(
+      columns_.begin(), columns_.end(), cells_->begin(),
+      [](const TableColumn& column, const TableCell& cell) { return column.name == cell.text; });
+}
+
 void TableText::take_units() {
   RecordScanner ahead = scanner_;
   while (ahead.next() && pass_over(ahead.record())) {
   }
   if (ahead.line() == 0 || pass_over(ahead.record())) return;
-  const auto& cells = splitter_.split(ahead.record());
+  const auto& cells = split(ahead.record());
   if (cells.size() < columns_.size() || !is_row_of_units(cells)) return;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const std::string_view within = within_brackets(cells[i].text);
@@ -178,11 +222,16 @@ bool TableText::next() {
                                   "a quote opens and is never closed, expected one more \"");
       continue;
     }
-    cells_ = &splitter_.split(scanner_.record());
+    cells_ = &split(scanner_.record());
     const std::size_t there = said(*cells_);
     if (there == 0) continue;
     if (cells_->size() < columns_.size() || there > columns_.size()) {
       wrong_number_of_cells(cells_->size());
+      continue;
+    }
+    if (is_header_again()) {
+      diagnostics_.repeated_error("header", at(0),
+                                  "the names of the columns again, expected one table in a file");
       continue;
     }
     if (++rows_ > most_rows || rows_ * columns_.size() > most_cells) {
@@ -199,8 +248,9 @@ bool TableText::next() {
 }
 
 void TableText::wrong_number_of_cells(std::size_t found) {
-  std::string what = std::to_string(found) + " cells, expected " + std::to_string(columns_.size()) +
-                     " as in the header";
+  const std::size_t before = row_numbers_ ? 1 : 0;
+  std::string what = std::to_string(found + before) + " cells, expected " +
+                     std::to_string(columns_.size() + before) + " as in the header";
   // Decimal commas leave digits alone in every cell.
   const bool digits = std::all_of(cells_->begin(), cells_->end(), [](const TableCell& cell) {
     return cell.text.find_first_not_of("+-0123456789") == std::string_view::npos;
@@ -214,17 +264,21 @@ SourcePosition TableText::at(std::size_t column) const {
   return {file_, line_, (*cells_)[column].column};
 }
 
-void TableText::cell_error(std::size_t column, const std::string& what) {
-  diagnostics_.repeated_error("column " + std::to_string(column), at(column),
-                              printable(columns_[column].name, 60) + ": " + what);
+void TableText::cell_error(std::size_t column, std::string_view kind, const std::string& what) {
+  const std::string& name = columns_[column].name;
+  diagnostics_.repeated_error(
+      kind, at(column),
+      (name.empty() ? "column " + std::to_string(column + 1) : printable(name, 60)) + ": " + what);
 }
 
 double TableText::number(std::size_t column, bool gaps) {
   const std::string_view text = (*cells_)[column].text;
   const NumberText found = number_of(text, dialect_.numbers);
   if (found.kind == NumberText::Kind::number) return found.value;
-  if (found.kind != NumberText::Kind::missing || !gaps)
-    cell_error(column, in_quotes(text) + " " + why_no_number(text, dialect_.numbers));
+  if (found.kind != NumberText::Kind::missing || !gaps) {
+    const std::string why = why_no_number(text, dialect_.numbers);
+    cell_error(column, why, in_quotes(text) + " " + why);
+  }
   return std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -44,9 +44,11 @@ struct TableColumn {
 
 /// A table with a header line, read row by row. Separators , ; tab | or blanks, found from the
 /// header and the first rows; decimal commas where no comma parts the cells; quotes; comment lines
-/// (# and %); blank lines; rows of empty cells; separators behind the last cell; "sep=;" in the
+/// (#, % and
+/// //); blank lines; rows of empty cells; separators behind the last cell; "sep=;" in the
 /// first line; names in a comment line above rows that have no header; a row of units below the
-/// header. Line and column of every fault go to the diagnostics.
+/// header; numbers of rows without a name before them, as R and pandas write them, which are passed
+/// over. Line and column of every fault go to the diagnostics.
 class TableText {
  public:
   /// `text` as read_text_file() gives it; both outlive the table.
@@ -57,6 +59,9 @@ class TableText {
   const std::string& file() const { return file_; }
   const std::vector<TableColumn>& columns() const { return columns_; }
   int header_line() const { return header_line_; }
+  /// Cells of the header's line and of the rows before those of the first column.
+  int cells_before_header() const { return row_numbers_ && !names_are_fewer_ ? 1 : 0; }
+  int cells_before_rows() const { return row_numbers_ ? 1 : 0; }
   const TableDialect& dialect() const { return dialect_; }
   /// The unit that a comment line above the header states for the whole table ("# unit: cm").
   const StatedUnit& stated_unit() const { return stated_unit_; }
@@ -68,8 +73,9 @@ class TableText {
   int line() const { return line_; }
   SourcePosition at(std::size_t column) const;
 
-  /// Reports a fault of a column's cell in this row; the same fault further down is counted.
-  void cell_error(std::size_t column, const std::string& what);
+  /// Reports a fault of a column's cell in this row; the same `kind` of fault further on, in this
+  /// column or another, is counted.
+  void cell_error(std::size_t column, std::string_view kind, const std::string& what);
   /// The number in a cell, reported where there is none; missing ones are reported as well unless
   /// `gaps` allows them, and then are NaN.
   double number(std::size_t column, bool gaps);
@@ -80,7 +86,11 @@ class TableText {
   void take_header(const std::vector<TableCell>& cells, int line);
   void take_units();
   void find_decimal_mark();
+  void find_row_numbers();
   bool pass_over(std::string_view record) const;
+  /// The cells of a record, without the row's number where rows have one.
+  const std::vector<TableCell>& split(std::string_view record);
+  bool is_header_again() const;
   void wrong_number_of_cells(std::size_t found);
   void error(int line, int column, std::string what);
 
@@ -92,6 +102,9 @@ class TableText {
   std::vector<TableColumn> columns_;
   StatedUnit stated_unit_;
   const std::vector<TableCell>* cells_ = nullptr;
+  std::vector<TableCell> own_cells_;  ///< of a record without its number
+  bool row_numbers_ = false;          ///< rows begin with a number of their own
+  bool names_are_fewer_ = false;      ///< which the header has no cell for
   std::size_t rows_ = 0;
   int header_line_ = 0, line_ = 0;
   bool good_ = false;

@@ -114,9 +114,23 @@ char lower(char c) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+// "x / mm" (as ISO 80000 has it), "x in mm", "x, mm": only where a unit that is known comes behind.
+NamedUnit unit_after_mark(std::string_view heading) {
+  for (const std::string_view mark : {"/", " in ", ","}) {
+    const std::size_t at = heading.rfind(mark);
+    if (at == std::string_view::npos) continue;
+    const std::string_view name = trimmed(heading.substr(0, at));
+    const std::string_view unit = trimmed(heading.substr(at + mark.size()));
+    if (!name.empty() && !unit.empty() && unit_of(unit))
+      return {std::string(name), std::string(unit)};
+  }
+  return {std::string(heading), {}};
 }
 
 }  // namespace
@@ -195,7 +209,7 @@ NamedUnit split_unit(std::string_view heading) {
     const std::string_view unit = trimmed(heading.substr(at + 1, heading.size() - at - 2));
     return {std::string(trimmed(heading.substr(0, at))), std::string(unit)};
   }
-  return {std::string(heading), {}};
+  return unit_after_mark(heading);
 }
 
 std::optional<Unit> unit_behind(std::string_view heading, std::string_view name) {

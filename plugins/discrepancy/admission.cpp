@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "discrepancy/following.h"
 #include "discrepancy/labels.h"
 #include "discrepancy/trial_run.h"
 
@@ -131,6 +132,32 @@ int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {
   return count;
 }
 
+// Gaps that a program filled: in all three axes nearer to the cubic through their neighbours than
+// measured ones ever are. Straight lines and splines are such cubics.
+constexpr int filled_samples = 12;
+constexpr double filled = 0.02;       // of the noise
+constexpr double least_noise = 1e-6;  // m: of less the data are of a simulation
+
+// What stands still is for take_out_stuck(): where numbers are cut short, many do.
+int take_out_filled(Eigen::Ref<Eigen::MatrixXd> xyz, double noise) {
+  int count = 0, begin = 0;
+  std::vector<char> is_filled(xyz.rows(), 0);
+  for (int i = 0; i < static_cast<int>(xyz.rows()); ++i) {
+    is_filled[i] = i > 0 && xyz.row(i) != xyz.row(i - 1);
+    for (int c = 0; c < 3 && is_filled[i]; ++c)
+      is_filled[i] = from_neighbours(xyz.col(c), i) < filled * noise;
+  }
+  for (int i = 0; i <= static_cast<int>(xyz.rows()); ++i) {
+    if (i < static_cast<int>(xyz.rows()) && is_filled[i]) continue;
+    if (i - begin >= filled_samples) {
+      count += i - begin;
+      xyz.middleRows(begin, i - begin).setConstant(nothing);
+    }
+    begin = i + 1;
+  }
+  return count;
+}
+
 int count_finite(const Eigen::MatrixXd& value) {
   return static_cast<int>(value.array().isFinite().count());
 }
@@ -169,6 +196,11 @@ Admission admit(const Experiment& experiment) {
     if (leave_out_after_break(trial))
       admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
     admission.swaps += put_back(exchanges_in(trial.markers.value), trial.markers.value);
+    const double scatter = scatter_of_markers(trial);
+    const double noise = std::min(scatter, experiment.noise.position_std.value_or(scatter));
+    if (noise > least_noise)
+      for (Eigen::Index c = 0; c + 3 <= trial.markers.value.cols(); c += 3)
+        admission.filled += take_out_filled(trial.markers.value.middleCols(c, 3), noise);
     for (Samples* samples : {&trial.markers, &trial.force}) {
       const std::vector<char> spared = beside_jumps(trial, samples->time);
       for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
@@ -190,6 +222,9 @@ Admission admit(const Experiment& experiment) {
   remark(admission.missing, "cells are empty");
   remark(admission.outliers, "samples are far from their neighbours and were left out");
   remark(admission.stuck, "samples repeat one value and were left out");
+  remark(admission.filled,
+         "samples lie on smooth lines without noise, as a program fills gaps, and "
+         "were left out");
   remark(admission.swaps, "samples had two markers' labels exchanged, which was put back");
   if (admission.samples == 0) admission.refusal = "there is no sample at all";
   if (admission.outlier_fraction() > 0.2)

@@ -11,9 +11,10 @@ namespace pedicel::discrepancy {
 namespace {
 
 // In this order: a wrong clock or unit makes all that comes later look wrong, too.
-constexpr std::array checks = {check_copies, check_clock, check_units, check_frame,
-                               check_labels, check_holds, check_drive, check_releases,
-                               check_paths,  check_jumps, check_force};
+constexpr std::array checks = {check_copies,      check_clock,       check_units, check_frame,
+                               check_frame_steps, check_labels,      check_holds, check_drive,
+                               check_rate,        check_releases,    check_paths, check_loads,
+                               check_jumps,       check_force_clock, check_force};
 
 }  // namespace
 

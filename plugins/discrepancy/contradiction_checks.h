@@ -35,16 +35,20 @@ struct Fault {
 };
 using Check = std::optional<Fault>(const TrialView&);
 
-Check check_copies;    ///< tables that are another trial's
-Check check_clock;     ///< tables that begin, end or tick on a clock of their own
-Check check_units;     ///< markers that are not in metres
-Check check_frame;     ///< axes or an origin that are not the plant's
-Check check_labels;    ///< markers that are not where their names belong
-Check check_holds;     ///< paths that are not those of the held points
-Check check_drive;     ///< motion on another clock than what is done
-Check check_releases;  ///< what is held too long or not long enough
-Check check_paths;     ///< motion that is not what is done
-Check check_jumps;     ///< free motion with a gap that the clock hides
-Check check_force;     ///< forces that are not newtons, or not the holder's
+Check check_copies;       ///< tables that are another trial's
+Check check_clock;        ///< tables that begin, end or tick on a clock of their own
+Check check_units;        ///< markers that are not in metres
+Check check_frame;        ///< axes or an origin that are not the plant's
+Check check_labels;       ///< markers that are not where their names belong
+Check check_holds;        ///< paths that are not those of the held points
+Check check_drive;        ///< motion on another clock than what is done
+Check check_releases;     ///< what is held too long or not long enough
+Check check_rate;         ///< clocks that run a little fast beside what is led stiffly
+Check check_paths;        ///< motion that is not what is done
+Check check_jumps;        ///< free motion with a gap that the clock hides
+Check check_frame_steps;  ///< all markers aside by the same, at once
+Check check_loads;        ///< motion that is not the loads', in time, way or size
+Check check_force_clock;  ///< forces on a clock of their own
+Check check_force;        ///< forces that are not newtons, or not the holder's
 
 }  // namespace pedicel::discrepancy

@@ -121,11 +121,11 @@ std::optional<Fault> shifted(const Beside& beside) {
 
 // A rate of frames that is not the stated one: by the end the clocks are apart.
 std::optional<Fault> other_rate(const Beside& beside) {
-  if (!beside.drive().path) return std::nullopt;
+  if (!beside.drive().path) return std::nullopt;  // loads: load_check
   const double end = std::min(beside.track().time.back(), beside.drive().until);
   std::vector<Candidate> all;
-  for (double scale = slowest; scale <= fastest; scale += rate_grid)
-    consider(beside, {0.0, scale}, all);
+  const int rates = static_cast<int>(std::lround((fastest - slowest) / rate_grid));
+  for (int i = 0; i <= rates; ++i) consider(beside, {0.0, slowest + rate_grid * i}, all);
   const Candidate best =
       nearest_of_best(all, [](const ClockReading& r) { return std::abs(std::log(r.scale)); });
   const double apart = std::abs(1.0 - 1.0 / best.reading.scale) * end;

@@ -1,8 +1,8 @@
 #include "discrepancy/experiment_tables.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "discrepancy/sample_table.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/table_text.h"
@@ -14,111 +14,6 @@ namespace {
 
 constexpr double smallest_quaternion = 1.0e-6;
 constexpr const char* axes[] = {"x", "y", "z"};
-
-/// A table of samples: time first and not negative, then the columns that are expected. Everything
-/// comes in SI units, whatever unit the header says.
-class SampleTable {
- public:
-  SampleTable(const std::filesystem::path& file, bool gaps, Diagnostics& diagnostics)
-      : diagnostics_(diagnostics), before_(diagnostics.error_count()) {
-    io::CsvRules rules;
-    rules.empty_cells = gaps;
-    table_ = io::read_csv(file, rules, diagnostics);
-    if (!good()) return;
-    const std::string& first = table_.columns.front();
-    const std::string name = io::match_column(first, "t").matches ? "t" : "time";
-    if (!io::match_column(first, name).matches)
-      error(table_.header_line, 0, "the first column is " + in_quotes(first) + ", expected time");
-    else if (!io::to_si(table_, 0, name, io::Quantity::time, diagnostics_))
-      return;
-    else if (table_.rows.front().front() < 0.0)
-      error(table_.lines.front(), 0,
-            "time " + io::exact_number(table_.rows.front().front()) +
-                " is before the trial begins, expected >= 0");
-  }
-
-  bool good() const { return diagnostics_.error_count() == before_; }
-  const io::CsvTable& table() const { return table_; }
-  void error(int line, int column, const std::string& what) {
-    diagnostics_.error(io::cell_position(table_, line, column), what);
-  }
-  /// The same in row after row is said once.
-  void row_error(const char* kind, std::size_t row, int column, const std::string& what) {
-    const int line = table_.lines[row];
-    if (!diagnostics_.again(kind, {table_.file, line, 1}))
-      diagnostics_.repeated_error(kind, io::cell_position(table_, line, column), what);
-  }
-
-  /// Each of `expected` once and nothing else, in any order: their indices.
-  std::vector<int> find(const std::vector<std::string>& expected, io::Quantity quantity,
-                        const std::string& all) {
-    std::vector<int> found(expected.size(), -1);
-    for (int c = 1; c < static_cast<int>(table_.columns.size()); ++c) {
-      const std::string& name = table_.columns[c];
-      const int index = index_of(expected, name);
-      if (index < 0)
-        error(table_.header_line, c, "column " + in_quotes(name) + " is unknown, expected " + all);
-      else if (found[index] >= 0)
-        error(table_.header_line, c,
-              "column " + printable(name, 60) + " appears twice, expected it once");
-      else
-        found[index] = c;
-    }
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      if (found[i] < 0)
-        error(table_.header_line, 0, "no column " + expected[i] + ", expected " + all);
-      else
-        io::to_si(table_, found[i], expected[i],
-                  is_quaternion(expected[i]) ? io::Quantity::none : quantity, diagnostics_);
-    return found;
-  }
-
-  Samples samples(const std::vector<int>& columns) const {
-    Samples samples;
-    if (!good()) return samples;
-    samples.value.resize(table_.rows.size(), columns.size());
-    for (std::size_t r = 0; r < table_.rows.size(); ++r) {
-      samples.time.push_back(table_.rows[r].front());
-      for (std::size_t c = 0; c < columns.size(); ++c)
-        samples.value(r, c) = table_.rows[r][columns[c]];
-    }
-    return samples;
-  }
-
-  /// The three cells of a point are all there or none is.
-  void check_points(const std::vector<int>& columns) {
-    for (std::size_t r = 0; r < table_.rows.size(); ++r)
-      for (std::size_t c = 0; c + 2 < columns.size(); c += 3) {
-        int there = 0, missing = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-          const bool empty = std::isnan(table_.rows[r][columns[c + axis]]);
-          there += empty ? 0 : 1;
-          if (empty) missing = columns[c + axis];
-        }
-        if (there != 0 && there != 3)
-          row_error("half a point", r, missing,
-                    table_.columns[missing] +
-                        " is empty where the other axes are not, expected all three or none");
-      }
-  }
-
- private:
-  static bool is_quaternion(const std::string& name) {
-    return name.size() == 2 && name[0] == 'q' && name[1] >= 'w' && name[1] <= 'z';
-  }
-  // As it is written, else whatever its capitals and its unit.
-  static int index_of(const std::vector<std::string>& expected, const std::string& name) {
-    const auto exact = std::find(expected.begin(), expected.end(), name);
-    if (exact != expected.end()) return static_cast<int>(exact - expected.begin());
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      if (io::match_column(name, expected[i]).matches) return static_cast<int>(i);
-    return -1;
-  }
-
-  io::CsvTable table_;
-  Diagnostics& diagnostics_;
-  int before_;
-};
 
 std::string row_text(double time, const std::vector<double>& values) {
   std::string text = io::exact_number(time);
@@ -142,7 +37,7 @@ Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
   SampleTable source(file, false, diagnostics);
   if (!source.good()) return {};
   const io::CsvTable& table = source.table();
-  const bool turns = table.columns.size() > 4;
+  const bool turns = source.columns() > 4;
   std::vector<std::string> expected = {"x", "y", "z"};
   if (turns) expected.insert(expected.end(), {"qx", "qy", "qz", "qw"});
   const std::vector<int> at =
@@ -151,7 +46,7 @@ Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
   Path path;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const std::vector<double>& row = table.rows[r];
-    path.time.push_back(row.front());
+    path.time.push_back(source.time(r));
     path.position.emplace_back(row[at[0]], row[at[1]], row[at[2]]);
     if (!turns) continue;
     const Quat q(row[at[6]], row[at[3]], row[at[4]], row[at[5]]);

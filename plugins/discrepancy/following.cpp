@@ -11,6 +11,9 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Of the square of the plant's first frequency, as if all its mass moved with the held point; a
+// quarter of it does.
+constexpr double slow = 0.4;
 constexpr double least_share = 1.0e-3;  // of the drive's main square: below, it has no direction
 
 Drive hold_drive(const TrialView& view, const Hold& hold) {
@@ -40,6 +43,20 @@ Drive load_drive(const TrialView& view) {
   };
   return {Drive::Kind::load, nullptr, view.layout->spot(loads->front().place), force,
           std::numeric_limits<double>::infinity()};
+}
+
+// 1/s2, of the mean speed of a path over its mean way.
+double frequency_square(const Path& path, double until) {
+  Vec3 mean = Vec3::Zero();
+  double speed = 0.0, way = 0.0, time = 0.0;
+  for (const Vec3& x : path.position) mean += x / static_cast<double>(path.position.size());
+  for (std::size_t i = 1; i < path.time.size() && path.time[i] <= until; ++i) {
+    const double dt = path.time[i] - path.time[i - 1];
+    speed += (path.position[i] - path.position[i - 1]).squaredNorm() / dt;
+    way += dt * (path.position[i] - mean).squaredNorm();
+    time += dt;
+  }
+  return way > 0.0 ? speed / way : 0.0;
 }
 
 bool at_one_place(const std::vector<TimedLoad>& loads) {
@@ -74,6 +91,17 @@ Track track_of(const Trial& trial, int marker) {
     if (!x.allFinite()) continue;
     track.time.push_back(trial.markers.time[row]);
     track.place.push_back(x);
+  }
+  return track;
+}
+
+Track force_track(const Trial& trial) {
+  Track track;
+  for (int row = 0; row < trial.force.size(); ++row) {
+    const Vec3 f = trial.force.value.row(row).head<3>().transpose();
+    if (!f.allFinite()) continue;
+    track.time.push_back(trial.force.time[row]);
+    track.place.push_back(f);
   }
   return track;
 }
@@ -129,11 +157,19 @@ Following following(const Track& track, const Drive& drive, const ClockReading& 
   return found;
 }
 
+bool is_led_slowly(const TrialView& view, const Drive& drive) {
+  const double compliance = view.layout->compliance(drive.spot).trace();
+  return frequency_square(*drive.path, drive.until) * compliance * view.layout->mass() <= slow;
+}
+
 double noise_of_markers(const TrialView& view) {
-  if (view.experiment.noise.position_std) return *view.experiment.noise.position_std;
+  return view.experiment.noise.position_std.value_or(scatter_of_markers(view.trial));
+}
+
+double scatter_of_markers(const Trial& trial) {
   // From the cubic through two neighbours on either side, whose square is 70/36 of the noise's.
   std::vector<double> distances;
-  const Eigen::MatrixXd& value = view.trial.markers.value;
+  const Eigen::MatrixXd& value = trial.markers.value;
   for (Eigen::Index c = 0; c < value.cols(); ++c)
     for (Eigen::Index i = 2; i + 2 < value.rows(); ++i) {
       const double d =

@@ -26,6 +26,8 @@ struct Track {
   std::vector<Vec3> place;   ///< m, W
 };
 Track track_of(const Trial& trial, int marker);
+/// The same of the measured force, N in place of m.
+Track force_track(const Trial& trial);
 
 /// The marker that is nearest to a place along the plant, up to a share of its way from the root;
 /// -1: there is none.
@@ -52,7 +54,13 @@ struct Following {
 };
 Following following(const Track& track, const Drive& drive, const ClockReading& reading = {});
 
+/// Whether a path leads the plant so slowly that it pulls back like a spring. False where nothing
+/// is known of its stiffness.
+bool is_led_slowly(const TrialView& view, const Drive& drive);
+
 /// m: the noise of the markers, as stated or as neighbouring samples scatter.
 double noise_of_markers(const TrialView& view);
+/// m: how neighbouring samples scatter.
+double scatter_of_markers(const Trial& trial);
 
 }  // namespace pedicel::discrepancy

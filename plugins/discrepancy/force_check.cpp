@@ -12,39 +12,13 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double agrees = 0.5;  // of the force's motion
+constexpr double mostly = 0.8;  // a cosine
 // A modulus ten times off, and a gain of the sensor beside.
 constexpr double most_off = 30.0;
-// Of the square of the plant's first frequency, as if all its mass moved with the held point; a
-// quarter of it does.
-constexpr double slow = 0.4;
 constexpr double sure = 4.0;  // deviations
 constexpr int least_rows = 10;
 constexpr double least_compliance =
     1.0e-3;  // of the softest axis: a rod, its joints and the grip give
-
-Track force_track(const Trial& trial) {
-  Track track;
-  for (int row = 0; row < trial.force.size(); ++row) {
-    const Vec3 f = trial.force.value.row(row).head<3>().transpose();
-    if (!f.allFinite()) continue;
-    track.time.push_back(trial.force.time[row]);
-    track.place.push_back(f);
-  }
-  return track;
-}
-
-// 1/s2, of the mean speed of a path over its mean way.
-double frequency_square(const Path& path, double until) {
-  Vec3 mean = Vec3::Zero();
-  double speed = 0.0, way = 0.0;
-  for (const Vec3& x : path.position) mean += x / static_cast<double>(path.position.size());
-  for (std::size_t i = 1; i < path.time.size() && path.time[i] <= until; ++i) {
-    const double dt = path.time[i] - path.time[i - 1];
-    speed += (path.position[i] - path.position[i - 1]).squaredNorm() / dt;
-    way += dt * (path.position[i] - mean).squaredNorm();
-  }
-  return way > 0.0 ? speed / way : 0.0;
-}
 
 std::string likely_unit(double ratio) {
   if (ratio > 50.0 && ratio < 320.0) return "; in grams?";
@@ -68,6 +42,16 @@ Range stiffness(const Mat3& compliance, double grip, const Vec3& along) {
   return range;
 }
 
+// A plant that is led pulls back within the plane of the path and of its own stiffest axis, fast or
+// slowly: not across both.
+bool is_across(const Following& f, const Mat3& compliance) {
+  if (f.explained() < agrees) return false;
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(compliance);
+  const Vec3 normal = f.along.cross(axes.eigenvectors().col(0));
+  if (normal.norm() < 0.5) return false;  // led along that axis
+  return std::abs(f.gain.dot(normal.normalized())) > mostly * f.gain.norm();
+}
+
 }  // namespace
 
 std::optional<Fault> check_force(const TrialView& view) {
@@ -80,8 +64,11 @@ std::optional<Fault> check_force(const TrialView& view) {
   if (f.rows < least_rows || f.driven <= 0.0) return std::nullopt;
   const Mat3 plant = view.layout->compliance(drive.spot);
   if (!plant.allFinite()) return std::nullopt;
-  if (frequency_square(*drive.path, drive.until) * plant.trace() * view.layout->mass() > slow)
-    return std::nullopt;
+  if (is_across(f, plant))
+    return Fault{"force.csv", "goes across the way that " + drive.path->file.string() +
+                                  " leads the held point: expected the plant's pull against it; "
+                                  "another axis, or another trial's table?"};
+  if (!is_led_slowly(view, drive)) return std::nullopt;
   const double grip = trial.holds.front().stiffness ? 1.0 / *trial.holds.front().stiffness : 0.0;
   const Range expected = stiffness(plant, grip, f.along);
   const double measured = f.gain.dot(f.along);

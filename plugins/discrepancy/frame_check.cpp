@@ -16,6 +16,11 @@ namespace {
 // does not fit other axes four times as well by chance: three numbers of every marker would have
 // to.
 constexpr double least_misfit = 0.1, by_chance = 0.25;
+// Turned about the vertical, beyond what a frame may be: nothing turns a plant that way. At least
+// four markers, whose places are not on the vertical through what the frame turns about.
+constexpr double least_turn = 0.45;  // rad
+constexpr int turned_markers = 4;
+constexpr double off_axis = 0.1;  // of the reach, rms
 // All markers are aside by nearly the same. A clamped rod's are not, whatever bends it: those near
 // the root stay.
 constexpr double uniform = 0.3, near_root = 0.5;
@@ -76,6 +81,40 @@ std::optional<Fault> other_axes_fit(const FirstPlaces& places, double left) {
                                   "?"};
 }
 
+// The turn about the vertical through `axis` that brings `seen` nearest to `places`.
+double turn_to(const std::vector<Vec3>& places, const std::vector<Vec3>& seen, const Vec3& axis) {
+  double cosine = 0.0, sine = 0.0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Vec3 a = seen[i] - axis, b = places[i] - axis;
+    cosine += a.x() * b.x() + a.y() * b.y();
+    sine += a.x() * b.y() - a.y() * b.x();
+  }
+  return std::atan2(sine, cosine);
+}
+
+std::optional<Fault> turned_about_vertical(const FirstPlaces& places, double left,
+                                           const TrialView& view) {
+  if (places.size() < turned_markers || left < least_misfit * places.spread()) return std::nullopt;
+  for (const Vec3& axis : {Vec3(Vec3::Zero()), places.root}) {
+    double square = 0.0;
+    for (const Vec3& x : places.drawn) square += (x - axis).head<2>().squaredNorm();
+    if (std::sqrt(square / places.size()) < off_axis * view.layout->reach()) continue;
+    const double angle = turn_to(places.settled, places.seen, axis);
+    const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+    std::vector<Vec3> back;
+    for (const Vec3& x : places.seen) back.push_back(axis + turn * (x - axis));
+    const double there = misfit(places, back);
+    if (std::abs(angle) < least_turn || there > by_chance * left) continue;
+    return Fault{"markers.csv",
+                 "begins " + millimetres(misfit(places, places.seen)) +
+                     " from the plant's drawing, and " + millimetres(there) +
+                     text(" from it where it is turned by %.3g degrees about z: expected the "
+                          "plant's own frame; a frame turned on the floor?",
+                          angle * 180.0 / M_PI)};
+  }
+  return std::nullopt;
+}
+
 // A turn and a scale about an origin that is far away move all markers alike, too.
 std::optional<Fault> shifted(const FirstPlaces& places, const TrialView& view) {
   double nearest = view.layout->reach(), farthest = 0.0;
@@ -109,6 +148,7 @@ std::optional<Fault> check_frame(const TrialView& view) {
   const double left =
       std::min(unexplained(places.drawn, places.seen), unexplained(places.settled, places.seen));
   if (auto fault = other_axes_fit(places, left)) return fault;
+  if (auto fault = turned_about_vertical(places, left, view)) return fault;
   if (auto fault = shifted(places, view)) return fault;
   if (left < elsewhere * view.layout->reach()) return std::nullopt;
   return Fault{"markers.csv",

@@ -3,6 +3,7 @@
 // Rods do not stretch: no marker is farther from another than the way along the plant.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "discrepancy/first_places.h"
 #include "discrepancy/labels.h"
@@ -48,17 +49,38 @@ std::optional<Fault> same_columns(const TrialView& view) {
   return std::nullopt;
 }
 
-// No place is exactly 0, 0, 0: that is how some trackers say that they did not see a marker.
-std::optional<Fault> zeros(const TrialView& view) {
+std::optional<Fault> never_seen(const TrialView& view) {
+  const Samples& samples = view.trial.markers;
+  if (samples.size() == 0 || samples.value.array().isFinite().any()) return std::nullopt;
+  return Fault{"markers.csv", "has no marker in any of its " + std::to_string(samples.size()) +
+                                  " rows: expected where they were; an export that failed?"};
+}
+
+std::string number(double x) {
+  return text("%.6g", x);
+}
+
+// No place is exactly 0, 0, 0, or has one number three times where the plant cannot be: that is how
+// some trackers say that they did not see a marker.
+std::optional<Fault> words_for_not_seen(const TrialView& view) {
+  const Samples& samples = view.trial.markers;
+  const double farthest = 2.0 * view.layout->reach() + view.layout->root().norm();
   for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
-    if (view.layout->markers()[m].drawn.norm() < largest_known::offset) continue;
-    int rows = 0;
-    for (int row = 0; row < view.trial.markers.size(); ++row)
-      rows += place(view.trial.markers, row, m) == Vec3::Zero() ? 1 : 0;
-    if (rows > 0)
-      return Fault{"markers.csv", "has " + view.experiment.markers[m].name +
-                                      " at exactly 0, 0, 0 in " + std::to_string(rows) +
-                                      " rows: expected empty cells where a marker was not seen"};
+    const bool zero_is_no_place = view.layout->markers()[m].drawn.norm() >= largest_known::offset;
+    std::map<double, int> rows;
+    for (int row = 0; row < samples.size(); ++row) {
+      const Vec3 x = place(samples, row, m);
+      if (x.x() == x.y() && x.y() == x.z()) ++rows[x.x()];
+    }
+    for (const auto& [said, count] : rows) {
+      const bool impossible =
+          said == 0.0 ? zero_is_no_place : count >= 2 && std::abs(said) > farthest;
+      if (impossible)
+        return Fault{"markers.csv", "has " + view.experiment.markers[m].name + " at exactly " +
+                                        number(said) + ", " + number(said) + ", " + number(said) +
+                                        " in " + std::to_string(count) +
+                                        " rows: expected empty cells where a marker was not seen"};
+    }
   }
   return std::nullopt;
 }
@@ -161,9 +183,10 @@ std::optional<Fault> stretched(const TrialView& view) {
 }  // namespace
 
 std::optional<Fault> check_labels(const TrialView& view) {
+  if (auto fault = never_seen(view)) return fault;
   if (!view.layout) return std::nullopt;
   for (const auto check :
-       {zeros, same_columns, exchanged_for_good, exchanged_from_the_start, stretched})
+       {words_for_not_seen, same_columns, exchanged_for_good, exchanged_from_the_start, stretched})
     if (auto fault = check(view)) return fault;
   return std::nullopt;
 }

@@ -51,7 +51,14 @@ Spot Layout::spot(const plant::CurvePlace& place) const {
   return spot;
 }
 
-Mat3 Layout::compliance(const Spot& spot) const {
+const Mat3& Layout::compliance(const Spot& spot) const {
+  const auto [known, is_new] =
+      compliances_.try_emplace({spot.point.element, spot.point.back}, Mat3::Zero());
+  if (is_new) known->second = find_compliance(spot);
+  return known->second;
+}
+
+Mat3 Layout::find_compliance(const Spot& spot) const {
   const int element = spot.point.element;
   const double back = spot.point.back;
   const auto moved = [&](const Vec3& force) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "discrepancy/experiment.h"
@@ -27,14 +29,17 @@ class Layout {
   Spot spot(const plant::CurvePlace& place) const;
   /// m along the plant, from one to the other.
   double along(const Spot& a, const Spot& b) const;
-  /// m/N, of a small force at a place of the settled plant; NaN where none is found.
-  Mat3 compliance(const Spot& spot) const;
+  /// m/N, of a small force at a place of the settled plant; NaN where none is found. Found once for
+  /// each place; not for several threads at a time.
+  const Mat3& compliance(const Spot& spot) const;
   double mass() const { return mass_; }       ///< kg, of the plant
   const Vec3& root() const { return root_; }  ///< m, W
   double reach() const { return reach_; }     ///< m, to the end that is farthest from the root
 
  private:
   explicit Layout(const Experiment& experiment);
+
+  Mat3 find_compliance(const Spot& spot) const;
 
   plant::PlantFile file_;
   plant::BuiltPlant built_;
@@ -44,6 +49,7 @@ class Layout {
   Vec3 root_ = Vec3::Zero();
   Vec3 gravity_ = Vec3::Zero();  // m/s2
   double reach_ = 0.0, mass_ = 0.0;
+  mutable std::map<std::pair<int, double>, Mat3> compliances_;  // by element and place on it
 };
 
 }  // namespace pedicel::discrepancy

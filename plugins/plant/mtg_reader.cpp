@@ -271,10 +271,11 @@ class MtgParser {
     const TextCell& cell = cells[column];
     const io::NumberText found = io::number_of(cell.text, style_);
     if (found.kind == io::NumberText::Kind::missing) return std::nullopt;
-    if (found.kind != io::NumberText::Kind::number)
-      diagnostics_.repeated_error("column " + std::to_string(column), {file_, line_, cell.column},
-                                  names_[column] + ": " + in_quotes(cell.text) + " " +
-                                      io::why_no_number(cell.text, style_));
+    if (found.kind != io::NumberText::Kind::number) {
+      const std::string why = io::why_no_number(cell.text, style_);
+      diagnostics_.repeated_error(why, {file_, line_, cell.column},
+                                  names_[column] + ": " + in_quotes(cell.text) + " " + why);
+    }
     return found.value;
   }
 

@@ -4,6 +4,7 @@
 
 #include "io/table_text.h"
 #include "io/text_file.h"
+#include "io/unit_text.h"
 #include "plant/mtg_reader.h"
 #include "plant/skeleton_columns.h"
 #include "plant/skeleton_tree.h"
@@ -114,7 +115,7 @@ class TableParser {
     const double value = table_.number(column, true);
     if (std::isnan(value)) return;
     if (value < 0.0)
-      table_.cell_error(column,
+      table_.cell_error(column, "negative diameter",
                         in_quotes(table_.cells()[column].text) + ", expected a number >= 0");
     row.diameter = value * columns_.factor(role) * (role == Role::radius ? 2.0 : 1.0);
   }
@@ -141,7 +142,7 @@ class TableParser {
     if (std::isnan(number)) return std::nullopt;
     if (number == std::floor(number) && std::abs(number) < largest_whole)
       return static_cast<std::int64_t>(number);
-    table_.cell_error(column, in_quotes(text) + ", expected a whole number");
+    table_.cell_error(column, "no whole number", in_quotes(text) + ", expected a whole number");
     return 0;
   }
 
@@ -193,9 +194,15 @@ class TableParser {
                                         " is empty, expected the number of the node");
   }
 
+  static bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](std::string_view word) { return io::same_but_case(text, word); });
+  }
+  static bool branches(const Row& row) { return is_one_of(row.edge, {"+", "1", "1.0", "true"}); }
+
   bool begins_axis(const Row& row) {
-    if (row.edge == "+" || row.edge == "1") return true;
-    if (row.edge != "<" && row.edge != "0")
+    if (branches(row)) return true;
+    if (!is_one_of(row.edge, {"<", "0", "0.0", "false"}))
       diagnostics_.repeated_error("edge", {table_.file(), row.link.where.line, row.edge_column},
                                   table_.columns()[columns_.column(Role::edge)].name + ": " +
                                       in_quotes(row.edge) +
@@ -210,9 +217,8 @@ class TableParser {
       const Row& row = rows_[r];
       const bool is_root = tree.parent[r] < 0;
       place[r] = static_cast<int>(nodes.size());
-      const bool branches = row.edge == "+" || row.edge == "1";
       nodes.push_back({is_root ? -1 : place[tree.parent[r]], row.position, row.diameter,
-                       is_root ? branches : begins_axis(row), row.code, row.link.where});
+                       is_root ? branches(row) : begins_axis(row), row.code, row.link.where});
     }
     if (!good()) nodes.clear();
     return nodes;

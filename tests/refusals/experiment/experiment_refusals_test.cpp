@@ -163,8 +163,13 @@ INSTANTIATE_TEST_SUITE_P(Yaml, ExperimentRefusal, ::testing::ValuesIn(yaml_cases
 const Case table_cases[] = {
     {"plant", "plant.yaml", "format: pedicel-plant\nversion: 1\n",
      "plant.yaml:1:1: error: missing"},
-    {"time_first", "t/markers.csv", "m.x,m.y,m.z,time\n0,0,0,1\n",
-     "t/markers.csv:1:1: error: the first column is \"m.x\", expected time"},
+    {"no_time", "t/markers.csv", "m.x,m.y,m.z\n0,0,1\n",
+     "t/markers.csv:1:1: error: the first column is \"m.x\", expected time, and no other column"},
+    {"time_empty", "t/markers.csv", "time,m.x,m.y,m.z\n,0,0,1\n",
+     "t/markers.csv:2:1: error: time is empty, expected a time"},
+    {"other_names", "t/markers.csv", "time,a,b,c\n1,0,0,1\n",
+     "t/markers.csv:1:6: error: columns \"a\", \"b\", \"c\" are unknown and there is no m.x, m.y, "
+     "m.z, expected time and x, y, z of each marker: m"},
     {"time_negative", "t/markers.csv", "time,m.x,m.y,m.z\n-1,0,0,1\n",
      "t/markers.csv:2:1: error: time -1 is before the trial begins"},
     {"time_order", "t/markers.csv", "time,m.x,m.y,m.z\n1,0,0,1\n1,0,0,1\n",
@@ -188,7 +193,8 @@ const Case table_cases[] = {
     {"hold_quaternion", "t/hold.csv", "time,x,y,z,qx,qy,qz,qw\n0,0,0,1,0,0,0,0\n",
      "t/hold.csv:2:9: error: the quaternion has length 0"},
     {"force_columns", "t/force.csv", "time,x,y,z\n0,0,0,1\n",
-     "t/force.csv:1:6: error: column \"x\" is unknown, expected time,fx,fy,fz"},
+     "t/force.csv:1:6: error: columns \"x\", \"y\", \"z\" are unknown and there is no fx, fy, fz, "
+     "expected time,fx,fy,fz"},
     {"events_header", "t/events.csv", "time,what\n", "t/events.csv:1:1: error: the header is"},
     {"events_cells", "t/events.csv", "time,event,what\n1,detached\n",
      "t/events.csv:2:1: error: 2 cells, expected 3 as in the header"},

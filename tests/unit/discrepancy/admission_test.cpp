@@ -101,6 +101,37 @@ TEST(Admission, TakesOutAChannelThatIsStuck) {
   EXPECT_EQ(kept.array().isNaN().count(), 60);
 }
 
+// A tracker's program fills gaps by straight lines or splines, which have no noise.
+TEST(Admission, TakesOutGapsThatWereFilled) {
+  MadeData made = noisy();
+  Eigen::MatrixXd& value = made.experiment.trials[2].markers.value;
+  const auto fill = [&](int from, int rows, int column, bool straight) {
+    const Eigen::RowVector3d a = value.block<1, 3>(from, column);
+    const Eigen::RowVector3d b = value.block<1, 3>(from + rows, column);
+    for (int i = 1; i < rows; ++i) {
+      const double u = static_cast<double>(i) / rows;
+      value.block<1, 3>(from + i, column) = a + (straight ? u : u * u * (3.0 - 2.0 * u)) * (b - a);
+    }
+  };
+  fill(100, 31, 6, true);
+  fill(200, 41, 9, false);
+  fill(250, 8, 0, true);  // too short to tell
+  const Admission admission = admit(made.experiment);
+  EXPECT_EQ(admission.refusal, "");
+  EXPECT_EQ(admission.filled, 26 + 36);  // but for two at either end, whose neighbours are measured
+  const Eigen::MatrixXd& kept = admission.experiment.trials[2].markers.value;
+  EXPECT_TRUE(kept.block(103, 6, 26, 3).array().isNaN().all());
+  EXPECT_TRUE(kept.block(203, 9, 36, 3).array().isNaN().all());
+  EXPECT_THAT(admission.remarks, ::testing::Contains(HasSubstr("62 samples lie on smooth lines")));
+}
+
+// A simulation without noise, of which more is said than is in it, is no gap.
+TEST(Admission, KeepsDataWithoutNoise) {
+  MadeData made;
+  made.experiment.noise.position_std = MadeData::position_std;
+  EXPECT_EQ(admit(made.experiment).filled, 0);
+}
+
 // A pull of 50 deviations is let go, and the force is exactly zero from then on: nothing there is
 // wild, neither the jump nor the noise beside what does not scatter.
 TEST(Admission, KeepsAForceThatIsLetGo) {

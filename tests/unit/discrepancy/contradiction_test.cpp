@@ -54,6 +54,22 @@ using laboratory::release_x;
 using laboratory::release_y;
 using laboratory::weights;
 
+std::function<void(Trial&)> force_times(const std::function<double(double)>& change) {
+  return [=](Trial& trial) {
+    for (double& t : trial.force.time) t = change(t);
+  };
+}
+// The clock counts the frames that are left.
+std::function<void(Trial&)> drop_frames(int at, int lost) {
+  return [=](Trial& trial) {
+    Samples& all = trial.markers;
+    const int rows = all.size() - lost;
+    all.value.middleRows(at, rows - at) = all.value.bottomRows(rows - at).eval();
+    all.value.conservativeResize(rows, Eigen::NoChange);
+    all.time.resize(rows);
+  };
+}
+
 const Mistake clocks[] = {
     {"SinceNineteenSeventy",
      in(release_x, times([](double t) { return t + 1.7e9; })),
@@ -84,6 +100,33 @@ const Mistake clocks[] = {
     {"WeightsTwoSecondsLate",
      in(weights, times([](double t) { return t + 2.0; })),
      {"weights/markers.csv", "s late: m5 follows the load"}},
+    {"WeightsAtTwiceTheRate",
+     in(weights, times([](double t) { return 2.0 * t; })),
+     {"weights/markers.csv", "times as fast", "rate of frames?"}},
+    {"WeightsAtHalfTheRate",
+     in(weights, times([](double t) { return 0.5 * t; })),
+     {"weights/markers.csv", "times as fast", "rate of frames?"}},
+    {"WeightsThreePerCentFast",
+     in(weights, times([](double t) { return 1.03 * t; })),
+     {"weights/markers.csv", "m5 answer the load at 3 s after", "and that at 9 s after",
+      "a clock that runs 1.03 times as fast"}},
+    {"FramesDroppedUnderWeights",
+     in(weights, drop_frames(350, 50)),
+     {"weights/markers.csv", "m5 answer the load at 3 s", "frames dropped"}},
+    {"OnePerCentFast",
+     in(push, times([](double t) { return 1.01 * t; })),
+     {"push/markers.csv",
+      "has a clock that runs 1.01 times as fast as that of hold.csv: m4 is left "
+      "behind by 0.08"}},
+    {"ForcesInMilliseconds",
+     in(push, force_times([](double t) { return 1e3 * t; })),
+     {"push/force.csv", "milliseconds: the force follows hold.csv when they are divided by 1000"}},
+    {"ForcesASecondLate",
+     in(push, force_times([](double t) { return t + 1.0; })),
+     {"push/force.csv", "is 1 s late: the force follows hold.csv"}},
+    {"AForceAfterTheRelease",
+     in(release_x, force_times([](double t) { return t + 0.9; })),
+     {"release_x/force.csv", "N after the release at 1 s: expected no pull any more"}},
 };
 
 const Mistake units_and_frames[] = {
@@ -113,6 +156,18 @@ const Mistake units_and_frames[] = {
     {"AnOriginElsewhere",
      in(push, points([](const Vec3& x) { return Vec3(x + Vec3(0.1, 0, 0)); })),
      {"push/markers.csv", "aside of the plant's drawing by about (0.1,", "origin elsewhere?"}},
+    {"TurnedByFortyFiveDegrees",
+     in_all(points(
+         [](const Vec3& x) { return Vec3(Eigen::AngleAxisd(-M_PI / 4.0, Vec3::UnitZ()) * x); })),
+     {"release_x/markers.csv", "turned by 45 degrees about z", "turned on the floor?"}},
+    {"CamerasPushed",
+     in(push,
+        [](Trial& trial) {
+          for (Eigen::Index c = 0; c < trial.markers.value.cols(); c += 3)
+            trial.markers.value.col(c).tail(200).array() += 0.03;
+        }),
+     {"push/markers.csv", "all markers go aside by the same 30", "between 4 and 4.02 s",
+      "cameras that were pushed"}},
 };
 
 Vec3 point(const Trial& trial, int row, int marker) {
@@ -140,14 +195,20 @@ void copy_column(Trial& trial) {
 void ghost(Trial& trial) {
   for (int row = 60; row < trial.markers.size(); ++row) put(trial, row, 6, Vec3(0.9, 0.4, 0.1));
 }
-// 40 frames are lost, and the clock goes on from the last.
-void drop_frames(Trial& trial) {
-  constexpr int at = 60, lost = 33;
+// The table goes on with another record.
+void append(Trial& trial, const Samples& more) {
   Samples& all = trial.markers;
-  const int rows = all.size() - lost;
-  all.value.middleRows(at, rows - at) = all.value.bottomRows(rows - at).eval();
-  all.value.conservativeResize(rows, Eigen::NoChange);
-  all.time.resize(rows);
+  const double next = all.time.back() + laboratory::step;
+  const Eigen::Index rows = all.value.rows();
+  all.value.conservativeResize(rows + more.value.rows(), Eigen::NoChange);
+  all.value.bottomRows(more.value.rows()) = more.value;
+  for (const double t : more.time) all.time.push_back(next + t);
+}
+std::function<void(Experiment&)> loads(const std::function<Vec3(const Vec3&, int)>& change) {
+  return in(weights, [=](Trial& trial) {
+    for (int i = 0; i < static_cast<int>(trial.loads.size()); ++i)
+      trial.loads[i].force = change(trial.loads[i].force, i);
+  });
 }
 std::function<void(Trial&)> path(const std::function<Vec3(const Vec3&)>& change) {
   return [=](Trial& trial) {
@@ -174,6 +235,16 @@ const Mistake labels[] = {
     {"ZerosForNotSeen",
      in(release_x, every_seventh_is_zero),
      {"release_x/markers.csv", "m9 at exactly 0, 0, 0 in 28 rows", "expected empty cells"}},
+    {"AWordForNotSeen",
+     in(release_x,
+        [](Trial& trial) {
+          for (int row = 60; row < 63; ++row) put(trial, row, 8, Vec3::Constant(-9999.0));
+        }),
+     {"release_x/markers.csv", "m9 at exactly -9999, -9999, -9999 in 3 rows",
+      "expected empty cells"}},
+    {"NeverSeen",
+     in(release_x, [](Trial& trial) { trial.markers.value.setConstant(std::nan("")); }),
+     {"release_x/markers.csv", "has no marker in any of its 201 rows"}},
     {"AGhost", in(release_x, ghost), {"release_x/markers.csv", "m7", "a ghost"}},
     {"AMarkerAtAnotherPlace",
      [](Experiment& experiment) { experiment.markers[2].place.at = 0.75; },
@@ -195,6 +266,37 @@ const Mistake drives[] = {
        std::swap(one.holds[0].path, other.holds[0].path);
      },
      {"release_x/markers.csv", "follow hold.csv until 8 s, where it is let go at 1 s"}},
+    {"TwoRecordsInOneTable",
+     [](Experiment& e) { append(e.trials[release_x], e.trials[release_y].markers); },
+     {"release_x/markers.csv",
+      "holds from 4.02 to 8.02 s the same numbers as release_y/markers.csv",
+      "two records in one table?"}},
+    {"ARowCopiedDown",
+     in(release_x,
+        [](Trial& trial) {
+          for (int row = 40; row < trial.markers.size(); ++row)
+            trial.markers.value.row(row) = trial.markers.value.row(40);
+        }),
+     {"release_x/markers.csv", "stand still to the last digit from 0.8 s on, in 161 rows"}},
+    {"ForcesOfAnotherTrial",
+     [](Experiment& e) { e.trials[release_x].force = e.trials[release_y].force; },
+     {"release_x/force.csv", "goes across the way that hold.csv leads the held point"}},
+    {"ATableThatBeginsAgain",
+     in(push, [](Trial& trial) { append(trial, Samples(trial.markers)); }),
+     {"push/markers.csv",
+      "holds from 8.02 to 16.02 s the same numbers as earlier rows of its own"}},
+    {"LoadsInGrams",
+     loads([](const Vec3& f, int) { return Vec3(f / 9.80665e-3); }),
+     {"weights/markers.csv", "m for a newton of the load", "expected loads in newtons; in grams"}},
+    {"LoadsAlongAnotherAxis",
+     loads([](const Vec3& f, int) { return Vec3(f.y(), f.x(), f.z()); }),
+     {"weights/markers.csv", "m5 go across the load beside it"}},
+    {"LoadsOfTheOtherSign",
+     loads([](const Vec3& f, int) { return Vec3(-f); }),
+     {"weights/markers.csv", "against the change of the load at 3 s", "of the other sign?"}},
+    {"LoadsInAnotherOrder",
+     loads([](const Vec3& f, int i) { return Vec3(i == 0 ? 2.0 * f : 0.5 * f); }),
+     {"weights/markers.csv", "against the change of the load at 6 s", "in another order?"}},
     {"APathInMillimetres",
      in(release_x, path([](const Vec3& x) { return Vec3(1e3 * x); })),
      {"release_x/hold.csv", "in millimetres?"}},
@@ -221,7 +323,7 @@ const Mistake drives[] = {
      in(push, times([](double t) { return 1.2 * t; })),
      {"push/markers.csv", "times as fast as that of hold.csv", "rate of frames?"}},
     {"FramesDroppedUncounted",
-     in(release_x, drop_frames),
+     in(release_x, drop_frames(60, 33)),
      {"release_x/markers.csv", "markers jump between 1.18 and 1.2 s", "frames dropped"}},
     {"ForcesOnTheSensor", in(push, force(-1.0)), {"push/force.csv", "of the opposite sign?"}},
     {"ForcesInGrams", in(push, force(101.97)), {"push/force.csv", "expected newtons", "in grams?"}},

@@ -49,6 +49,34 @@ TEST_F(ExperimentTables, MarkersInEveryWayOfWriting) {
   expect_marker("# Vicon\n% 100 Hz\ntime,m.z,m.y,m.x,\n0.5,3,2,1,\n,,,\n");
 }
 
+TEST_F(ExperimentTables, NamesAndOrdersOfOtherPrograms) {
+  expect_marker("time,m_x,m_y,m_z\n0.5,1,2,3\n");
+  expect_marker("time,M X,M Y,M Z\n0.5,1,2,3\n");
+  expect_marker("time,m:x,m:y,m:z\n0.5,1,2,3\n");
+  expect_marker("m.x,m.y,m.z,Time\n1,2,3,0.5\n");
+  expect_marker("timestamp,m.x,m.y,m.z\n0.5,1,2,3\n");
+  expect_marker("time / ms,m.x / mm,m.y / mm,m.z / mm\n500,1000,2000,3000\n");
+  expect_marker("time in s;m_x, mm;m_y, mm;m_z, mm\n0,5;1000;2000;3000\n");
+}
+
+TEST_F(ExperimentTables, ColumnsThatCountAreToldAndNotRead) {
+  const Samples samples = markers("Frame,time,m.x,m.y,m.z\n7,0,1,2,3\n8,0.5,1,2,3\n");
+  EXPECT_THAT(diagnostics_.text(), HasSubstr("table.csv:1:1: notice: column \"Frame\" counts"));
+  EXPECT_EQ(diagnostics_.error_count(), 0);
+  ASSERT_EQ(samples.size(), 2);
+  EXPECT_EQ(samples.time[1], 0.5);
+  EXPECT_EQ(samples.value(1, 2), 3.0);
+  markers("frame,time,m.x,m.y,m.z\n7,0,1,2,3\n6,0.5,1,2,3\n");
+  EXPECT_THAT(diagnostics_.text(), HasSubstr("table.csv:1:1: error: column \"frame\" is unknown"));
+}
+
+TEST_F(ExperimentTables, NamesThatFitTwoMarkersAreNotGuessed) {
+  markers("time,A_1.x,A_1.y,A_1.z,a1 x,a1 y,a1 z\n0,1,1,1,2,2,2\n", {"A_1", "a-1"});
+  EXPECT_THAT(diagnostics_.text(), HasSubstr("columns \"a1 x\", \"a1 y\", \"a1 z\" are unknown and "
+                                             "there is no a-1.x, a-1.y, a-1.z, expected"));
+  EXPECT_EQ(diagnostics_.error_count(), 1);
+}
+
 TEST_F(ExperimentTables, UnitsChangeTheNumbers) {
   expect_marker("time,m.x,m.y,m.z\n(s),(mm),(mm),(mm)\n0.5,1000,2000,3000\n");
   expect_marker("time (ms),m.x (cm),m.y (cm),m.z (cm)\n500,100,200,300\n");

@@ -58,6 +58,7 @@ TEST(TableText, ReadsEverySeparator) {
   expect_plain("t|x\n0|0.5\n1|-2\n");
   expect_plain("t x\n0 0.5\n1 -2\n");
   expect_plain("  t    x\n  0  0.5\n  1   -2\n");
+  expect_plain("t x\n0\t0.5\n1 \t-2\n");
   expect_plain("sep=;\r\nt;x\r\n0;0,5\r\n1;-2\r\n");
 }
 
@@ -81,6 +82,12 @@ TEST(TableText, PassesOverWhatSaysNothing) {
   expect_plain("t,x\n0,0.5\n1,-2\n,\n,\n");
   expect_plain("\"# a, comment that Excel quoted\",\nt,x\n0,0.5\n1,-2\n");
   expect_plain(" t , x \n 0 , 0.5 \n 1 , -2 \n");
+  expect_plain("// made by hand, in May; and after\nt,x\n0,0.5\n1,-2\n");
+  expect_plain("; made by hand\nt;x\n0;0.5\n1;-2\n");
+  expect_plain(
+      "t,x\n0,\xE2\x80\x89"
+      "0.5\xE2\x80\xAF\n1,-2\xC2\xA0\n");
+  expect_plain("t,\"x\n\"\n0,0.5\n1,-2\n");
 }
 
 TEST(TableText, ReadsQuotes) {
@@ -100,6 +107,42 @@ TEST(TableText, ReadsNamesFromACommentAboveBareNumbers) {
   EXPECT_EQ(read("0,0.5\n1,-2\n").faults,
             "f:1:1: error: no header line, expected column names before the first numbers");
   EXPECT_THAT(read("# three names here\n0,1\n").faults, HasSubstr("no header line"));
+}
+
+TEST(TableText, PassesOverNumbersOfRows) {
+  expect_plain(",t,x\n0,0,0.5\n1,1,-2\n");                      // pandas
+  expect_plain("\"\",\"t\",\"x\"\n\"1\",0,0.5\n\"2\",1,-2\n");  // R: write.csv
+  expect_plain("\"t\" \"x\"\n\"1\" 0 0.5\n\"2\" 1 -2\n");       // R: write.table
+  expect_plain("Unnamed: 0;t;x\n1;0;0,5\n2;1;-2\n");
+  expect_plain("| t | x |\n|---|--:|\n| 0 | 0.5 |\n| 1 | -2 |\n");  // drawn with |
+  // What does not count is no number of a row, and a name is a column's.
+  EXPECT_THAT(read(",t,x\n0,0,0.5\n2,1,-2\n").columns, ElementsAre("", "t", "x"));
+  EXPECT_THAT(read("n,t,x\n0,0,0.5\n1,1,-2\n").columns, ElementsAre("n", "t", "x"));
+  EXPECT_THAT(read("t,x\n0,0,5\n1,5,2\n").faults, HasSubstr("3 cells, expected 2"));
+  EXPECT_EQ(read(",t,x\n0,0\n1,1\n").faults,
+            "f:1:1: notice: the first column has no name and counts the rows: it is not read\n"
+            "f:2:1: error: 2 cells, expected 3 as in the header (and 1 more like it, the last in "
+            "line 3)");
+  EXPECT_THAT(read(",t,x\n0,0,1\n1,1,a\n").faults, HasSubstr("f:3:5: error: x: \"a\" is not"));
+}
+
+TEST(TableText, SaysOneFaultOnceInHoweverManyColumns) {
+  EXPECT_EQ(read("t,x,y\n0,1 m,2 m\n1,3 m,4 m\n").faults,
+            "f:2:3: error: x: \"1 m\" is not a finite number, expected the number alone (a unit "
+            "stands in the header: \"x (mm)\") (and 3 more like it, the last in line 3)");
+  EXPECT_EQ(read("t,x\n0,1\nt,x\n1,2\n").faults,
+            "f:3:1: error: the names of the columns again, expected one table in a file");
+  EXPECT_THAT(read("t,,x\n0,a,2\n").faults, HasSubstr("f:2:3: error: column 2: \"a\""));
+}
+
+TEST(TableText, NamesThePrograms) {
+  EXPECT_THAT(read("Trajectories\n100\n,,P:m1,,\nFrame,Sub Frame,X,Y,Z\n").faults,
+              HasSubstr("f: error: is a table as Vicon Nexus writes it"));
+  EXPECT_THAT(read("Format Version,1.23,Take Name,a\n").faults, HasSubstr("OptiTrack Motive"));
+  EXPECT_THAT(read("NO_OF_FRAMES\t20\nNO_OF_MARKERS\t9\n").faults, HasSubstr("Qualisys"));
+  EXPECT_THAT(read("PathFileType\t4\t(X/Y/Z)\n").faults, HasSubstr("OpenSim"));
+  EXPECT_THAT(read("scorer,a,a\nbodyparts,m,m\n").faults, HasSubstr("DeepLabCut"));
+  EXPECT_EQ(read("scorers,x\n0,1\n").faults, "");
 }
 
 TEST(TableText, ReadsARowOfUnits) {

@@ -52,6 +52,14 @@ TEST(SkeletonWays, ReadsEveryWayOfWritingTheTable) {
   expect_three(
       "vid\tparent_id\tx\ty\tz\tis_branch\n1\t-1\t0\t0\t0\t0\n2\t1\t0\t0\t0.1\t0\n"
       "3\t2\t0.05\t0\t0.15\t1\n");
+  expect_three(
+      "vid,parent_id,x,y,z,is_branch\n1,-1,0,0,0,FALSE\n2,1,0,0,0.1,False\n"
+      "3,2,0.05,0,0.15,True\n");
+  expect_three(
+      "vid,parent_id,x,y,z,is_branch\n1,-1,0,0,0,0.0\n2,1,0,0,0.1,0.0\n3,2,0.05,0,0.15,1.0\n");
+  expect_three(
+      "x / mm,y / mm,z / mm,parentid,vid,edgetype\n0,0,0,,1,\n0,0,100,1,2,<\n"
+      "50,0,150,2,3,+\n");
   expect_three("# a tomato\r\n" + header +
                "0,0,0,nan,1.0,\r\n0,0,0.1,1.0,2.0,<\r\n"
                "0.05,0,0.15,2.0,3.0,+\r\n");
