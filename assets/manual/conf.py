@@ -17,6 +17,7 @@ html_theme_options = {
     "description": "A sandbox where robots handle plants",
     "page_width": "1200px",
     "sidebar_width": "250px",
+    "body_max_width": "100%",
 }
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_show_sphinx = False
