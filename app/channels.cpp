@@ -19,14 +19,14 @@ void add_robot(Channels& all, const Simulation& simulation) {
     const std::string& joint = model.joint_names()[i];
     const bool slides = robot->description().joints[robot->description().joint(joint)].type ==
                         robot::JointType::prismatic;
-    all.emplace_back("joint_" + joint + (slides ? "_m" : "_rad"),
-                     [robot, i] { return robot->robot().positions()[i]; });
-    all.emplace_back("torque_" + joint + (slides ? "_N" : "_Nm"),
-                     [robot, i] { return robot->robot().motor_torques()[i]; });
+    all.push_back({"joint_" + joint + (slides ? "_m" : "_rad"),
+                   [robot, i] { return robot->robot().positions()[i]; }});
+    all.push_back({"torque_" + joint + (slides ? "_N" : "_Nm"),
+                   [robot, i] { return robot->robot().motor_torques()[i]; }});
   }
   const char* names[] = {"tool_x_m", "tool_y_m", "tool_z_m"};
   for (int i = 0; i < 3; ++i)
-    all.emplace_back(names[i], [robot, i] { return robot->tool_pose().position[i]; });
+    all.push_back({names[i], [robot, i] { return robot->tool_pose().position[i]; }});
 }
 
 // One column a link or body, over all its colliders.
@@ -44,10 +44,10 @@ void add_colliders(Channels& all, const Simulation& simulation) {
           total += simulation.plant_step().contacts().colliders()[i].*value;
       return total;
     };
-    all.emplace_back("contact_" + name + "_normal_N",
-                     [sum] { return sum(&coupling::ContactSum::normal); });
-    all.emplace_back("contact_" + name + "_tangential_N",
-                     [sum] { return sum(&coupling::ContactSum::tangential); });
+    all.push_back(
+        {"contact_" + name + "_normal_N", [sum] { return sum(&coupling::ContactSum::normal); }});
+    all.push_back({"contact_" + name + "_tangential_N",
+                   [sum] { return sum(&coupling::ContactSum::tangential); }});
   }
 }
 
@@ -58,12 +58,12 @@ void add_organs(Channels& all, const Simulation& simulation) {
   for (int p = 0; p < simulation.rods().size() && organs <= most_organs; ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
     for (std::size_t o = 0; o < model.organs.size(); ++o) {
-      all.emplace_back("contact_" + model.organs[o] + "_normal_N", [&simulation, p, o] {
-        return simulation.plant_step().contacts().organs(p)[o].normal;
-      });
-      all.emplace_back("contact_" + model.organs[o] + "_tangential_N", [&simulation, p, o] {
-        return simulation.plant_step().contacts().organs(p)[o].tangential;
-      });
+      all.push_back({"contact_" + model.organs[o] + "_normal_N", [&simulation, p, o] {
+                       return simulation.plant_step().contacts().organs(p)[o].normal;
+                     }});
+      all.push_back({"contact_" + model.organs[o] + "_tangential_N", [&simulation, p, o] {
+                       return simulation.plant_step().contacts().organs(p)[o].tangential;
+                     }});
     }
   }
 }
@@ -78,18 +78,19 @@ void add_fruit(Channels& all, const Simulation& simulation, int p, int f) {
                                                    simulation.rods().model(p).fruits[f].element);
     return bend ? s.bend.norm() : s.stretch.norm();
   };
-  all.emplace_back(name + "_stretch_1", [strain] { return strain(false); });
-  all.emplace_back(name + "_bend_rad", [strain] { return strain(true); });
-  all.emplace_back(name + "_margin_used_1", [&simulation, p, f] {
-    return cosserat::margin_used(simulation.rods().model(p), simulation.rods().state(p), f);
-  });
-  all.emplace_back(name + "_contact_N", [&simulation, p, f] {
-    return simulation.plant_step().contacts().fruits(p)[f].normal;
-  });
+  all.push_back({name + "_stretch_1", [strain] { return strain(false); }});
+  all.push_back({name + "_bend_rad", [strain] { return strain(true); }});
+  all.push_back({name + "_margin_used_1", [&simulation, p, f] {
+                   return cosserat::margin_used(simulation.rods().model(p),
+                                                simulation.rods().state(p), f);
+                 }});
+  all.push_back({name + "_contact_N", [&simulation, p, f] {
+                   return simulation.plant_step().contacts().fruits(p)[f].normal;
+                 }});
   world::Anchor anchor;
   anchor.kind = world::Anchor::Kind::fruit;
   anchor.name = name;
-  all.emplace_back(name + "_z_m", [&simulation, anchor] { return simulation.find(anchor)->z(); });
+  all.push_back({name + "_z_m", [&simulation, anchor] { return simulation.find(anchor)->z(); }});
 }
 
 void add_plants(Channels& all, const Simulation& simulation) {
@@ -101,25 +102,26 @@ void add_plants(Channels& all, const Simulation& simulation) {
              part;
     return sum;
   };
-  all.emplace_back("energy_kinetic_J", [energy] { return energy(&cosserat::Energy::kinetic); });
-  all.emplace_back("energy_elastic_J", [energy] { return energy(&cosserat::Energy::elastic); });
-  all.emplace_back("energy_gravity_J", [energy] { return energy(&cosserat::Energy::gravity); });
-  all.emplace_back("stretch_max_1", [&simulation] {
-    double largest = 0.0;
-    for (int p = 0; p < simulation.rods().size(); ++p)
-      for (int e = 0; e < simulation.rods().model(p).size(); ++e)
-        if (simulation.rods().state(p).alive[e])
-          largest = std::max(largest, cosserat::strain_of(simulation.rods().model(p),
-                                                          simulation.rods().state(p), e)
-                                          .stretch.norm());
-    return largest;
-  });
-  all.emplace_back("contacts_1", [&simulation] {
-    return static_cast<double>(simulation.world().report().contacts);
-  });
-  all.emplace_back("detached_1", [&simulation] {
-    return static_cast<double>(simulation.plant_step().detached().size());
-  });
+  all.push_back({"energy_kinetic_J", [energy] { return energy(&cosserat::Energy::kinetic); }});
+  all.push_back({"energy_elastic_J", [energy] { return energy(&cosserat::Energy::elastic); }});
+  all.push_back({"energy_gravity_J", [energy] { return energy(&cosserat::Energy::gravity); }});
+  all.push_back({"stretch_max_1", [&simulation] {
+                   double largest = 0.0;
+                   for (int p = 0; p < simulation.rods().size(); ++p)
+                     for (int e = 0; e < simulation.rods().model(p).size(); ++e)
+                       if (simulation.rods().state(p).alive[e])
+                         largest =
+                             std::max(largest, cosserat::strain_of(simulation.rods().model(p),
+                                                                   simulation.rods().state(p), e)
+                                                   .stretch.norm());
+                   return largest;
+                 }});
+  all.push_back({"contacts_1", [&simulation] {
+                   return static_cast<double>(simulation.world().report().contacts);
+                 }});
+  all.push_back({"detached_1", [&simulation] {
+                   return static_cast<double>(simulation.plant_step().detached().size());
+                 }});
 }
 
 }  // namespace

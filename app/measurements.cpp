@@ -132,13 +132,14 @@ double Measurements::of_plants(const world::Expectation& e, double PlantRecord::
 double Measurements::fruits_in(const world::Expectation& e, const world::SimWorld& world) const {
   const int index = world.body_index(e.body);
   if (index < 0) return not_measured;
-  const auto [low, high] = world::bounds_of(world.body(index));
+  const auto bounds = world::bounds_of(world.body(index));
   const Pose into = world.body_pose(index).inverse();
   return static_cast<double>(
       std::count_if(plants_.detached().begin(), plants_.detached().end(), [&](const Detached& d) {
         if (!e.fruit.empty() && e.fruit != d.fruit) return false;
         const Vec3 p = into * world.body_pose(d.body).position;
-        return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+        return (p.array() >= bounds.first.array()).all() &&
+               (p.array() <= bounds.second.array()).all();
       }));
 }
 

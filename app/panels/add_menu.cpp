@@ -7,6 +7,7 @@
 
 #include "app/panels/thing_editor.h"
 #include "app/panels/widgets.h"
+#include "io/asset_folder.h"
 #include "session/scene_things.h"
 
 namespace pedicel::app {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 std::vector<fs::path> shipped_robots() {
   std::vector<fs::path> files;
   std::error_code none;
-  for (const auto& folder : fs::directory_iterator(asset_folder() / "robots", none))
+  for (const auto& folder : fs::directory_iterator(io::asset_folder() / "robots", none))
     for (const auto& file : fs::directory_iterator(folder.path(), none))
       if (file.path().extension() == ".urdf") files.push_back(file.path());
   std::ranges::sort(files);

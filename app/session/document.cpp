@@ -6,6 +6,7 @@
 #include "app/scene_plants.h"
 #include "core/check.h"
 #include "core/state_hash.h"
+#include "io/asset_folder.h"
 #include "plant/plant_source.h"
 #include "session/plant_import.h"
 #include "world/scene_reader.h"
@@ -203,17 +204,9 @@ SimulationOptions options_of(const Document& document, const std::vector<std::st
 }
 
 std::vector<std::filesystem::path> asset_leaf_folders() {
-  const std::filesystem::path assets = asset_folder();
+  const std::filesystem::path assets = io::asset_folder();
   if (assets.empty()) return {};
   return {assets / "leaves"};
-}
-
-std::filesystem::path asset_folder() {
-  std::error_code none;
-  for (auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-       folder.has_relative_path(); folder = folder.parent_path())
-    if (std::filesystem::is_directory(folder / "assets" / "leaves", none)) return folder / "assets";
-  return {};
 }
 
 }  // namespace pedicel::app

@@ -72,11 +72,8 @@ Document open_document(const std::filesystem::path& path, double unit = 0.0,
 world::Scene scene_of(const Document& document);
 SimulationOptions options_of(const Document& document, const std::vector<std::string>& packages);
 
-/// The program's own assets (leaf templates, scenes): the folder `assets` beside the program or
-/// above it; empty where there is none.
-std::filesystem::path asset_folder();
-/// Where leaf templates are looked for beside a plant's own folders: that folder's; empty without
-/// it.
+/// Where leaf templates are looked for after a plant's own folders: the shipped ones; empty without
+/// assets.
 std::vector<std::filesystem::path> asset_leaf_folders();
 
 }  // namespace pedicel::app

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "io/asset_folder.h"
 #include "plant/plant_edit.h"
 #include "robot/inverse_kinematics.h"
 #include "robot/urdf_reader.h"
@@ -71,7 +72,7 @@ int reached(robot::KinematicModel& model, int tool, const Pose& base,
 /// A path, or the name of a robot that comes with the program.
 std::filesystem::path robot_file(const std::string& name) {
   std::error_code none;
-  const auto shipped = asset_folder() / "robots" / name / (name + ".urdf");
+  const auto shipped = io::asset_folder() / "robots" / name / (name + ".urdf");
   if (name.find('/') == std::string::npos && !std::filesystem::exists(name, none) &&
       std::filesystem::exists(shipped, none))
     return shipped;

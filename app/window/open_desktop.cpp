@@ -13,6 +13,7 @@
 #include "app/window/film.h"
 #include "core/check.h"
 #include "core/stop.h"
+#include "io/asset_folder.h"
 #include "session/measured_data.h"
 #include "session/script.h"
 #include "world/settings.h"
@@ -25,7 +26,7 @@ constexpr int no_opengl = 77, invalid_file = 3, unstable = 4;
 
 /// False, with the faults on standard error, where it cannot be opened.
 bool open_file(Session& session, const DesktopRequest& request) {
-  const auto first = asset_folder() / "scenes" / "cherry_tomato_pull_aside.scene.yaml";
+  const auto first = io::asset_folder() / "scenes" / "cherry_tomato_pull_aside.scene.yaml";
   const bool opened = session.open(
       request.file.empty() ? first : std::filesystem::path(request.file), request.unit);
   for (const Message& message : session.messages())

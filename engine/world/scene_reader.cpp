@@ -128,7 +128,6 @@ void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnos
 
 std::optional<Scene> read(const io::YamlNode& root, const std::filesystem::path& path,
                           Diagnostics& diagnostics) {
-  const int errors_before = diagnostics.error_count();
   Scene scene;
   scene.file = path;
   io::YamlMap map(root, "a scene");
@@ -140,19 +139,33 @@ std::optional<Scene> read(const io::YamlNode& root, const std::filesystem::path&
   read_list(map, "expect", scene.expectations, sections::read_expectation);
   map.finish();
   check_references(map, scene, diagnostics);
-  if (diagnostics.error_count() > errors_before) return std::nullopt;
   return scene;
+}
+
+// A scene, or an error: what the text is as YAML (a key twice) counts, too.
+template <class Parse>
+std::optional<Scene> read_from(Parse parse, const std::filesystem::path& path,
+                               Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  try {
+    auto scene = read(parse(), path, diagnostics);
+    if (diagnostics.error_count() == errors_before) return scene;
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<Scene> read_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  return read(io::load_yaml(path, diagnostics), path, diagnostics);
+  return read_from([&] { return io::load_yaml(path, diagnostics); }, path, diagnostics);
 }
 
 std::optional<Scene> parse_scene(const std::string& text, const std::filesystem::path& path,
                                  Diagnostics& diagnostics) {
-  return read(io::parse_yaml(text, path.string(), diagnostics), path, diagnostics);
+  return read_from([&] { return io::parse_yaml(text, path.string(), diagnostics); }, path,
+                   diagnostics);
 }
 
 }  // namespace pedicel::world

@@ -4,6 +4,8 @@
 #include "discrepancy/experiment_tables.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
+#include "io/text_file.h"
+#include "plant/leaf_template.h"
 
 namespace pedicel::discrepancy {
 
@@ -94,12 +96,21 @@ void write_tables(const std::filesystem::path& folder, const Trial& trial,
   if (!trial.events.empty()) write("events.csv", events_text(trial.events));
 }
 
+// Beside the plant, so that the folder can be carried elsewhere.
+void copy_leaf_templates(const std::filesystem::path& folder, const plant::PlantFile& plant) {
+  for (const plant::PlantLeaf& leaf : plant.leaves)
+    if (const auto file = plant::find_leaf_template(leaf.leaf_template, plant.leaf_folders))
+      if (const auto copy = folder / file->filename(); !std::filesystem::exists(copy))
+        io::write_file_atomically(copy, io::read_text_file(*file));
+}
+
 }  // namespace
 
 void write_experiment(const std::filesystem::path& folder, const Experiment& experiment) {
   for (const Trial& trial : experiment.trials)
     write_tables(folder / trial.name, trial, experiment.markers);
   plant::write_plant_file(folder / "plant.yaml", experiment.plant);
+  copy_leaf_templates(folder, experiment.plant);
   // Last, so that a folder with an experiment.yaml is whole.
   io::write_file_atomically(folder / "experiment.yaml", experiment_text(experiment));
 }

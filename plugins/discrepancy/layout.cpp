@@ -52,7 +52,8 @@ Spot Layout::spot(const plant::CurvePlace& place) const {
 }
 
 Mat3 Layout::compliance(const Spot& spot) const {
-  const auto [element, back] = spot.point;
+  const int element = spot.point.element;
+  const double back = spot.point.back;
   const auto moved = [&](const Vec3& force) {
     cosserat::RodState state = settled_;
     const cosserat::Load load{element, back, force};

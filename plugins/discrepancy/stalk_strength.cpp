@@ -17,7 +17,7 @@ constexpr double unexplained = 1.0e-6;   // probability of what a law forbids
 constexpr double least_scatter = 0.03;   // of strengths: what our own loads err by
 constexpr double common_error = 0.1;     // of thresholds and loads, a factor's logarithm
 constexpr int least_broken = 4;          // for a law
-constexpr double enough_evidence = 8.0;  // nats, as any named cause must be worth
+constexpr double enough_evidence = 8.0;  // nats; other stalks must bear it out, too
 constexpr std::array exponents{1.0, 2.0, 3.0};
 constexpr double rounding = 1.0e-9;  // s
 

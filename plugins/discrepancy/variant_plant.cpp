@@ -23,8 +23,6 @@ PlantMaker::PlantMaker(const Experiment& experiment, double distance, double jun
   file_.effects.clear();
   file_.distance = distance;
   plant::BuildOptions options;
-  const std::filesystem::path folder = experiment.plant_path.parent_path();
-  options.leaf_folders = {folder, folder / "../assets/leaves"};
   options.junction = junction;
   Diagnostics diagnostics;
   auto built = plant::build_plant(file_, options, diagnostics);

@@ -147,7 +147,8 @@ class Builder {
     int number = 0;
     for (const PlantLeaf& leaf : plant_.leaves) {
       throw_if_stopped();
-      const auto file = find_leaf_template(leaf.leaf_template, options_.leaf_folders);
+      auto file = find_leaf_template(leaf.leaf_template, plant_.leaf_folders);
+      if (!file) file = find_leaf_template(leaf.leaf_template, options_.leaf_folders);
       if (!file) {
         diagnostics_.error(leaf.where,
                            "leaf \"" + leaf.name + "\": no file " + leaf.leaf_template +

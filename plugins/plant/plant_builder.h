@@ -41,7 +41,7 @@ struct BuiltPlant {
 struct BuildOptions {
   Pose pose;                                        ///< X_WP
   Vec3 gravity = Vec3(0, 0, -9.81);                 ///< m/s2
-  std::vector<std::filesystem::path> leaf_folders;  ///< where NAME.leaf.yaml is looked for
+  std::vector<std::filesystem::path> leaf_folders;  ///< of NAME.leaf.yaml, after the plant's own
   /// m, of a short segment below every junction; 0: none. A branch turns with the segment that it
   /// is joined to, whose half below the junction bends under what the other branch carries, too.
   /// Without a short one that is left out, and the branch's place converges with the first power of

@@ -19,6 +19,13 @@ struct Where : SourcePosition {
   friend bool operator==(const Where&, const Where&) { return true; }
 };
 
+/// Folders in which the files that a plant names are looked for, first come first. Takes no part in
+/// comparisons, as Where.
+struct SearchPath : std::vector<std::filesystem::path> {
+  using std::vector<std::filesystem::path>::vector;
+  friend bool operator==(const SearchPath&, const SearchPath&) { return true; }
+};
+
 enum class Shape { drawn, rest };
 enum class Interpolation { linear, smooth };
 enum class SectionKind { circle, ellipse, rectangle };
@@ -126,12 +133,16 @@ struct PlantFile {
   std::vector<PlantLeaf> leaves;
   std::vector<PlantMass> masses;
   std::vector<Effect> effects;
+  SearchPath leaf_folders;  ///< of NAME.leaf.yaml: beside its file, then what is shipped
   Where where;
   bool operator==(const PlantFile&) const = default;
 
   /// Index of a curve by name, -1 where there is none.
   int curve_index(const std::string& curve) const;
 };
+
+/// Where the leaf templates of a plant in `folder` are looked for.
+SearchPath leaf_folders_of(const std::filesystem::path& folder);
 
 /// Reads a plant file. Every fault goes to `diagnostics` with its line and column; nothing comes
 /// back where there is one. A file that cannot be read or is no YAML is such a fault, too.

@@ -1,3 +1,4 @@
+#include "io/asset_folder.h"
 #include "io/yaml.h"
 #include "plant/effects.h"
 #include "plant/plant_file.h"
@@ -191,14 +192,21 @@ std::optional<PlantFile> parse_plant(const std::string& text, const std::string&
   }
 }
 
+SearchPath leaf_folders_of(const std::filesystem::path& folder) {
+  SearchPath folders{folder, folder / "../assets/leaves"};
+  if (const auto assets = io::asset_folder(); !assets.empty()) folders.push_back(assets / "leaves");
+  return folders;
+}
+
 std::optional<PlantFile> read_plant_file(const std::filesystem::path& path,
                                          Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();
   try {
     const YamlNode node = io::load_yaml(path, diagnostics);
     auto plant = read(node);
-    if (diagnostics.error_count() > before) return std::nullopt;
-    if (plant) warn_of_size(*plant, diagnostics);
+    if (!plant || diagnostics.error_count() > before) return std::nullopt;
+    plant->leaf_folders = leaf_folders_of(path.parent_path());
+    warn_of_size(*plant, diagnostics);
     return plant;
   } catch (const InvalidFile& fault) {
     diagnostics.add(fault);

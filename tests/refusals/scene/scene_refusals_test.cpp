@@ -203,10 +203,16 @@ TEST(SceneRefusals, AllFaultsAreShownAtOnce) {
   EXPECT_THAT(text, HasSubstr(":8:10:"));
 }
 
+TEST(SceneRefusals, AKeyTwice) {
+  EXPECT_THAT(refusal_of(head + "dt: 0.001\ndt: 0.002\n"), HasSubstr("\"dt\" appears twice"));
+}
+
 TEST(SceneRefusals, WhatIsNoYamlOrCannotBeRead) {
   Diagnostics diagnostics;
-  EXPECT_THROW(parse_scene("a: [1\n", "s.scene.yaml", diagnostics), InvalidFile);
-  EXPECT_THROW(read_scene("none.scene.yaml", diagnostics), InvalidFile);
+  EXPECT_FALSE(parse_scene("a: [1\n", "s.scene.yaml", diagnostics));
+  EXPECT_THAT(diagnostics.text(), HasSubstr("s.scene.yaml:"));
+  EXPECT_FALSE(read_scene("none.scene.yaml", diagnostics));
+  EXPECT_THAT(diagnostics.text(), HasSubstr("none.scene.yaml"));
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "discrepancy/causes.h"
+#include "discrepancy/scales.h"
+#include "discrepancy/variant_plant.h"
+#include "io/asset_folder.h"
 #include "support/temporary_folder.h"
 #include "unit/discrepancy/beam_experiment.h"
 
@@ -138,6 +142,32 @@ TEST(Experiment, AHoldWithoutReleaseEndsWithItsPath) {
   ASSERT_TRUE(read) << diagnostics.text();
   EXPECT_EQ(read->trials[0].holds[0].release, 0.1);
   EXPECT_EQ(read->trials[0].holds[1].release, INFINITY);  // one row: a place, no path
+}
+
+// Everything that builds its plant finds them: scales, starts and variants.
+TEST(Experiment, FindsTheLeavesOfItsPlantAndTakesThemAlong) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "leaves");
+  std::filesystem::copy_file(io::asset_folder() / "leaves/tomato.leaf.yaml",
+                             folder / "leaves/own.leaf.yaml");
+  Experiment experiment = full_experiment();
+  plant::PlantLeaf leaf;
+  leaf.name = "leaf_1";
+  leaf.place = on_stem(0.8);
+  leaf.leaf_template = "own";
+  leaf.size = 0.05;
+  experiment.plant.leaves = {leaf};
+  experiment.plant.leaf_folders = {folder / "leaves"};
+  write_experiment(folder / "x", experiment);
+  std::filesystem::remove_all(folder / "leaves");
+
+  Diagnostics diagnostics;
+  const auto read = read_experiment(folder / "x", diagnostics);
+  ASSERT_TRUE(read) << diagnostics.text();
+  ASSERT_EQ(read->plant.leaves.size(), 1u);
+  EXPECT_GT(scales_of(*read).mass, scales_of(full_experiment()).mass);
+  EXPECT_NO_THROW(junction_freedom(*read));
+  EXPECT_NO_THROW(PlantMaker(*read, read->plant.distance, 0.0));
 }
 
 TEST(Path, IsLinearBetweenItsRowsAndKeptBeyond) {
