@@ -17,6 +17,7 @@ html_theme_options = {
     "description": "A sandbox where robots handle plants",
     "page_width": "1200px",
     "sidebar_width": "250px",
+    "body_max_width": "100%",
 }
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_show_sphinx = False
@@ -28,11 +29,12 @@ KATEX = Path("/usr/share/javascript/katex")
 if (KATEX / "katex.min.js").exists():
     html_static_path = [str(KATEX)]
     html_css_files = ["katex.min.css"]
-    html_js_files = [
-        "katex.min.js",
-        "contrib/auto-render.min.js",
-        (None, {"body": "addEventListener('load', () => renderMathInElement(document.body));"}),
-    ]
+    draw = (
+        "addEventListener('load', () => { for (const e of document.querySelectorAll('.math'))"
+        " katex.render(e.textContent.trim().slice(2, -2), e,"
+        " {displayMode: e.tagName == 'DIV', throwOnError: false}); });"
+    )
+    html_js_files = ["katex.min.js", (None, {"body": draw})]
 
 
 def visit_math(self, node):

@@ -23,6 +23,8 @@ EFFECT_NUMBER = re.compile(r"\{\"([a-z_0-9]+)\",\s*(?:io::|gradient\b)")
 JSON = re.compile(r"(?:\{|json\[)\"([a-z_0-9]+)\"[,\]]")
 QUANTITY = re.compile(r"^\s+\{\"(\w+)\", \"", re.M)
 SCRIPT_QUANTITY = re.compile(r"if \(name == \"(\w+)\"\)")
+CHANNEL = re.compile(r"(?:emplace_back\(|push_back\(\{)\"(\w+)\",")
+FRUIT_CHANNEL = re.compile(r"(?:emplace_back\(|push_back\(\{)name \+ \"(_\w+)\",")
 TABLE_COLUMN = re.compile(r"Name\{\"(\w+)\", Role::")
 COLUMN = re.compile(r"\"((?:time|stretch|bend|force|moment|torsion|angle|tool)_\w+|organ|cause)\"")
 
@@ -58,6 +60,8 @@ RULES = [
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
     Rule("quantities.md", ("app/session/session_run.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
+    Rule("quantities.md", ("app/channels.cpp",), (CHANNEL,), 6, end=""),
+    Rule("quantities.md", ("app/channels.cpp",), (FRUIT_CHANNEL,), 5, prefix="PLANT/FRUIT", end=""),
     Rule("quantities.md", ("app/meta.cpp",), (JSON,), 25, end="", leave_out=("value", "unit")),
 ]
 
