@@ -48,13 +48,12 @@ Drive load_drive(const TrialView& view) {
 // 1/s2, of the mean speed of a path over its mean way.
 double frequency_square(const Path& path, double until) {
   Vec3 mean = Vec3::Zero();
-  double speed = 0.0, way = 0.0, time = 0.0;
+  double speed = 0.0, way = 0.0;
   for (const Vec3& x : path.position) mean += x / static_cast<double>(path.position.size());
   for (std::size_t i = 1; i < path.time.size() && path.time[i] <= until; ++i) {
     const double dt = path.time[i] - path.time[i - 1];
     speed += (path.position[i] - path.position[i - 1]).squaredNorm() / dt;
     way += dt * (path.position[i] - mean).squaredNorm();
-    time += dt;
   }
   return way > 0.0 ? speed / way : 0.0;
 }
