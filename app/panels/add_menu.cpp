@@ -32,10 +32,27 @@ double ground_of(const Ui& ui) {
   return ground ? ground->height : 0.0;
 }
 
-/// On the ground under what is looked at.
+/// Whether something else of the scene stands there.
+bool is_taken(const Ui& ui, const Vec3& place) {
+  constexpr double apart = 0.15;  // m
+  const Document& document = ui.session.document();
+  const auto near = [&](const Vec3& other) { return (other - place).head<2>().norm() < apart; };
+  const auto& robot = document.scene->robot;
+  return std::ranges::any_of(document.scene->bodies,
+                             [&](const auto& body) { return near(body.pose.position); }) ||
+         std::ranges::any_of(document.plants,
+                             [&](const auto& plant) { return near(plant.entry.pose.position); }) ||
+         (robot && near(robot->base.position));
+}
+
+/// On the ground under what is looked at, or beside it to the right where something stands there.
 Vec3 place_for(const Ui& ui, double half_height) {
-  Vec3 place = 1e-3 * (1e3 * ui.view_target).array().round();
+  Vec3 place = (1e3 * ui.view_target).array().round() / 1e3;
   place.z() = ground_of(ui) + half_height;
+  Vec3 right = (ui.view_target - ui.view_eye).cross(Vec3::UnitZ());
+  right = right.norm() > 1e-6 ? Vec3(right.normalized()) : Vec3(Vec3::UnitX());
+  for (int i = 0; i < 40 && is_taken(ui, place); ++i)
+    place = (1e3 * (place + 0.05 * right)).array().round() / 1e3;
   return place;
 }
 
@@ -106,6 +123,7 @@ void add_robot(Ui& ui, const fs::path& file) {
     ui.dialog = Dialog::problem;
   } else if (ui.report(result)) {
     ui.show_panel = "Robot";
+    ui.frame_robot = true;
   }
 }
 

@@ -47,7 +47,7 @@ void repeat(Ui& ui, const std::string& plant, const std::string& stem) {
   DrawMode& d = ui.draw;
   double count = d.copies, spacing = 1e3 * d.copy_spacing, angle = d.copy_angle / degree;
   if (labelled_number(ui, "Copies", "", count)) d.copies = static_cast<int>(std::lround(count));
-  if (labelled_number(ui, "Spacing", "mm", spacing)) d.copy_spacing = 1e-3 * spacing;
+  if (labelled_number(ui, "Spacing", "mm", spacing)) d.copy_spacing = spacing / 1e3;
   tip("Along the parent, from one to the next; below 0: towards its first point");
   if (labelled_number(ui, "Angle", "deg", angle)) d.copy_angle = degree * angle;
   tip("About the parent, from one to the next");

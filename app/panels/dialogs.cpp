@@ -121,9 +121,11 @@ void info(Ui& ui) {
 
 void files(Ui& ui) {
   static FileList list;
-  const bool saves = ui.dialog == Dialog::save_as;
+  const bool exports = ui.dialog == Dialog::export_plant;
+  const bool saves = ui.dialog == Dialog::save_as || exports;
   const bool imports = ui.dialog == Dialog::import_plant, robots = ui.dialog == Dialog::add_robot;
-  const char* title = saves     ? "Save as"
+  const char* title = exports   ? "Export a plant"
+                      : saves   ? "Save as"
                       : imports ? "Import a plant"
                       : robots  ? "Add a robot (URDF)"
                                 : "Open";
@@ -135,6 +137,8 @@ void files(Ui& ui) {
         ui.import_plant(*chosen);
       } else if (robots) {
         add_robot(ui, *chosen);
+      } else if (exports) {
+        ui.export_to(*chosen);
       } else if (saves) {
         ui.dialog = Dialog::save_as;  // until it is saved
         ui.save_to(*chosen);
@@ -210,14 +214,16 @@ void overwrite(Ui& ui) {
     const std::string& text = ui.overwrite_text;
     const bool changed = text.find("another program") != std::string::npos;
     note(text.substr(0, text.find(", expected")) + ".");
-    note("What it says now stays beside it, as NAME~.");
+    const bool exports = !ui.export_plant.empty();
+    note(exports ? "What it says now is lost." : "What it says now stays beside it, as NAME~.");
     ImGui::Spacing();
-    if (ImGui::Button("Write over it")) ui.save_to(ui.overwrite_path, true);
+    if (ImGui::Button("Write over it"))
+      exports ? ui.export_to(ui.overwrite_path, true) : ui.save_to(ui.overwrite_path, true);
     ImGui::SameLine();
     if (changed) {
       if (ImGui::Button("Read it anew")) ui.dialog = Dialog::none, ui.ask(Action::reload);
     } else if (ImGui::Button("Another name")) {
-      ui.dialog = Dialog::save_as;
+      ui.dialog = exports ? Dialog::export_plant : Dialog::save_as;
     }
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) ui.dialog = Dialog::none;
@@ -231,6 +237,7 @@ void draw_dialogs(Ui& ui) {
   switch (ui.dialog) {
     case Dialog::none:
       ui.after_leaving = nullptr;  // the question was closed without an answer
+      ui.export_plant.clear();
       return;
     case Dialog::overwrite:
       return overwrite(ui);
@@ -238,6 +245,7 @@ void draw_dialogs(Ui& ui) {
     case Dialog::save_as:
     case Dialog::import_plant:
     case Dialog::add_robot:
+    case Dialog::export_plant:
       return files(ui);
     case Dialog::help:
       return help(ui);

@@ -27,7 +27,7 @@ void millimetres(const Ui& ui, const char* name, double& metres, double low, dou
                  const char* what, const char* format = "%.1f mm") {
   double shown = 1e3 * metres;
   if (slider(ui, name, shown, low, high, format, ImGuiSliderFlags_Logarithmic, what))
-    metres = 1e-3 * shown;
+    metres = shown / 1e3;
 }
 
 void share(const Ui& ui, const char* name, double& value, const char* what) {

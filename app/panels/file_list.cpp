@@ -24,6 +24,9 @@ bool can_be_opened(const fs::path& path, bool robots) {
 }
 
 std::string what_is_saved(const Ui& ui) {
+  if (!ui.export_plant.empty())
+    return "The plant \"" + ui.export_plant +
+           "\": *.plant.yaml, *.csv (skeleton), *.obj or *.ply (surface).";
   const std::string plant = ui.chosen_plant();
   return "NAME.scene.yaml: the scene with everything. NAME.plant.yaml: " +
          (plant.empty() ? std::string("a plant") : "the plant \"" + plant + "\"") + " alone.";
@@ -39,7 +42,8 @@ void FileList::read() {
     std::error_code ignored;
     const bool is_folder = entry.is_directory(ignored);
     if (entry.path().filename().string().starts_with('.')) continue;
-    if (is_folder || can_be_opened(entry.path(), robots_)) entries_.push_back({entry.path(), is_folder});
+    if (is_folder || can_be_opened(entry.path(), robots_))
+      entries_.push_back({entry.path(), is_folder});
   }
   if (error) problem_ = folder_.string() + ": " + error.message();
   std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
@@ -54,7 +58,10 @@ std::optional<fs::path> FileList::draw(Ui& ui, bool saves, bool robots) {
     std::error_code ignored;
     folder_ = fs::absolute(open.empty() ? fs::path(".") : open, ignored);
     folder_ = open.empty() ? fs::current_path(ignored) : folder_.parent_path();
-    typed_ = saves ? ui.session.suggested_name().string() : "";
+    const bool exports = !ui.export_plant.empty();
+    if (exports) folder_ = ui.export_path.parent_path();
+    const fs::path suggested = exports ? ui.export_path : ui.session.suggested_name();
+    typed_ = saves ? suggested.string() : "";
     read();
   }
   std::optional<fs::path> chosen;
@@ -72,16 +79,24 @@ std::optional<fs::path> FileList::draw(Ui& ui, bool saves, bool robots) {
     std::error_code ignored;
     const bool is_folder = fs::is_directory(path, ignored);
     if (saves && !is_folder && !path.has_extension())
-      path += ui.session.suggested_name().string().ends_with(".plant.yaml") ? ".plant.yaml"
-                                                                            : ".scene.yaml";
-    if (!is_folder)
+      path += !ui.export_plant.empty()                                        ? ui.export_ending
+              : ui.session.suggested_name().string().ends_with(".plant.yaml") ? ".plant.yaml"
+                                                                              : ".scene.yaml";
+    problem_.clear();
+    if (is_folder)
+      folder_ = path, typed_.clear(), read();
+    else if (saves || fs::exists(path, ignored))
       chosen = path;
     else
-      folder_ = path, typed_.clear(), read();
+      problem_ = path.string() + ": no such file";
   }
   if (saves) note(what_is_saved(ui));
   note(folder_.string());
-  if (!problem_.empty()) ImGui::TextColored(palette().error, "%s", problem_.c_str());
+  if (!problem_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
+    ImGui::TextWrapped("%s", problem_.c_str());
+    ImGui::PopStyleColor();
+  }
   if (ImGui::BeginChild("files", ImVec2(0, 0), true)) {
     if (folder_.has_parent_path() && folder_ != folder_.root_path() &&
         ImGui::Selectable(".. (up)")) {

@@ -1,6 +1,7 @@
 #include "app/panels/layout.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/panels/theme.h"
 #include "app/panels/time_line.h"
@@ -93,25 +94,31 @@ void Layout::dock(Ui& ui, Dock where, const char* id, const ImVec2& low, const I
   ImGui::End();
 }
 
-/// In a window for one sidebar only the last one that was asked for stays.
+/// In a window for one sidebar only the last one that was asked for stays, until it is wider.
 void Layout::give_way(Ui& ui, float width) {
   Preferences& p = ui.preferences;
   for (const auto& panel : panels_)
     if (panel->name() == asked_ && panel->dock() != Dock::bottom) last_side_ = panel->dock();
   if (p.show_left && !had_left_) last_side_ = Dock::left;
   if (p.show_right && !had_right_) last_side_ = Dock::right;
-  if (width < two_sidebars * ImGui::GetFontSize() && p.show_left && p.show_right)
-    (last_side_ == Dock::left ? p.show_right : p.show_left) = false;
+  const bool narrow = width < two_sidebars * ImGui::GetFontSize();
+  if (narrow && p.show_left && p.show_right) {
+    gave_way_ = last_side_ == Dock::left ? Dock::right : Dock::left;
+    (gave_way_ == Dock::left ? p.show_left : p.show_right) = false;
+  }
+  if (!narrow && gave_way_) (*gave_way_ == Dock::left ? p.show_left : p.show_right) = true;
+  if (!narrow) gave_way_.reset();
   had_left_ = p.show_left, had_right_ = p.show_right;
 }
 
 LayoutAreas Layout::draw(Ui& ui) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   Preferences& p = ui.preferences;
-  asked_ = ui.show_panel;
-  ui.show_panel.clear();
+  asked_ = std::exchange(ui.show_panel, {});
   for (const auto& panel : panels_) {
     if (panel->name() != asked_) continue;
+    // What it is about may be on its way: a robot is built.
+    if (!panel->useful(ui)) ui.show_panel = asked_;
     if (panel->dock() == Dock::left) p.show_left = true;
     if (panel->dock() == Dock::right) p.show_right = true;
     if (panel->dock() == Dock::bottom) p.show_bottom = true;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ class Layout {
   std::vector<std::unique_ptr<Panel>> panels_;
   std::string asked_;                          // tab that was asked for in the last picture
   Dock last_side_ = Dock::left;                // that was asked for last
+  std::optional<Dock> gave_way_;               // to come back in a wider window
   bool had_left_ = false, had_right_ = false;  // in the last picture
 };
 

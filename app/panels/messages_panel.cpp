@@ -23,6 +23,7 @@ class MessagesPanel : public Panel {
 
   void draw(Ui& ui) override {
     idle(ui);
+    ui.unread = false;
     const float line = ImGui::GetFrameHeightWithSpacing();
     if (ImGui::BeginChild("messages", ImVec2(0, -line))) {
       const auto& messages = ui.session.messages();
@@ -33,7 +34,7 @@ class MessagesPanel : public Panel {
         ImGui::PopID();
       }
       if (!answer_.empty()) ImGui::TextWrapped("%s", answer_.c_str());
-      if (scrolled_ != messages.size()) ImGui::SetScrollHereY(1.0f), scrolled_ = messages.size();
+      if (scrolled_ != shown_) ImGui::SetScrollHereY(1.0f), scrolled_ = shown_;
     }
     ImGui::EndChild();
     command_line(ui);
@@ -45,7 +46,7 @@ class MessagesPanel : public Panel {
     const std::size_t said = ui.session.messages_said();
     const std::size_t news = std::min(said - shown_, messages.size());
     for (std::size_t i = messages.size() - news; i < messages.size(); ++i) {
-      if (messages[i].severity != Severity::notice) ui.show_panel = "Messages";
+      bring_up(ui, messages[i]);
       when_[messages[i].text] = clock_text();
       if (messages[i].can_retry) ui.problem = messages[i].text, ui.dialog = Dialog::problem;
     }
@@ -56,6 +57,17 @@ class MessagesPanel : public Panel {
   }
 
  private:
+  /// The drawer opens for errors only: it moves the scene away under the hand. What was said before
+  /// is no news.
+  static void bring_up(Ui& ui, const Message& one) {
+    if (one.severity == Severity::notice || (one.severity == Severity::warning && one.times > 1))
+      return;
+    if (one.severity == Severity::error || ui.preferences.show_bottom)
+      ui.show_panel = "Messages";
+    else
+      ui.say(one.text), ui.unread = true;
+  }
+
   /// "14:03:05", local.
   static std::string clock_text() {
     const std::time_t now = std::time(nullptr);
@@ -74,7 +86,8 @@ class MessagesPanel : public Panel {
     }
     const bool fault = one.severity == Severity::error;
     if (!notice) ImGui::PushStyleColor(ImGuiCol_Text, fault ? palette().error : palette().warning);
-    ImGui::TextWrapped("%s", one.text.c_str());
+    const std::string again = one.times > 1 ? "  (" + std::to_string(one.times) + " times)" : "";
+    ImGui::TextWrapped("%s%s", one.text.c_str(), again.c_str());
     if (!notice) ImGui::PopStyleColor();
     if (one.can_retry && ImGui::SmallButton("Read it again")) ui.ask(Action::reload);
     tip(keys_of(Action::reload));

@@ -24,7 +24,7 @@ struct Threshold {
   std::optional<double> DetachLimits::*limit;
 };
 constexpr std::array<Threshold, 5> thresholds = {
-    {{"stretch", "Comes off at strain", "", &DetachLimits::stretch},
+    {{"stretch", "Off at strain of", "", &DetachLimits::stretch},
      {"bend", "or bent by", "rad", &DetachLimits::bend},
      {"force", "or at a force of", "N", &DetachLimits::force},
      {"moment", "or a moment of", "N m", &DetachLimits::moment},

@@ -58,11 +58,7 @@ class PlantsPanel : public Panel {
     if (ui.session.document().plant_index(name) < 0 && !plants.empty())
       name = plants.front().entry.name;
     for (const char* ending : {".plant.yaml", ".csv", ".obj", ".ply"})
-      if (!plants.empty() && ImGui::MenuItem((name + ending).c_str())) {
-        const Result result = ui.session.export_plant(name, name + ending);
-        ui.say(result.ok ? "written: " + std::filesystem::absolute(name + ending).string()
-                         : result.text);
-      }
+      if (!plants.empty() && ImGui::MenuItem((name + ending).c_str())) ui.ask_export(name, ending);
     ImGui::EndPopup();
   }
 
@@ -76,8 +72,13 @@ class PlantsPanel : public Panel {
   static void plant_node(Ui& ui, const DocumentPlant& plant) {
     const std::string& name = plant.entry.name;
     const bool open = ImGui::TreeNodeEx(
-        name.c_str(), ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanFullWidth |
-                          (ui.draw.plant == name ? ImGuiTreeNodeFlags_Framed : 0));
+        name.c_str(),
+        ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanFullWidth |
+            ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_OpenOnDoubleClick |
+            (ui.selection.kind == Selection::Kind::plant && ui.selection.plant_name == name
+                 ? ImGuiTreeNodeFlags_Selected
+                 : 0) |
+            (ui.draw.plant == name ? ImGuiTreeNodeFlags_Framed : 0));
     if (ImGui::IsItemClicked()) choose_plant(ui, name);
     tip("Strokes go to the plant that is framed");
     if (!open) return;
@@ -130,9 +131,9 @@ class PlantsPanel : public Panel {
   static void robot_node(Ui& ui) {
     if (!ui.snapshot->assets || !ui.snapshot->assets->robot) return;
     const auto& links = ui.snapshot->assets->robot->links;
-    const bool open = ImGui::TreeNodeEx(
-        ui.snapshot->assets->scene.robot->name.c_str(),
-        ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow);
+    const bool open =
+        ImGui::TreeNodeEx(ui.snapshot->assets->scene.robot->name.c_str(),
+                          ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow);
     if (ImGui::IsItemClicked() && !links.empty()) {
       ui.selection = {};
       ui.selection.kind = Selection::Kind::link;

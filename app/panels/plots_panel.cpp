@@ -112,7 +112,7 @@ class PlotsPanel : public Panel {
     ImGui::InputTextWithHint("##search", "search", search_, sizeof search_);
     ImGui::SameLine();
     if (ImGui::Button("CSV")) export_csv(ui);
-    tip("Writes the lines that are shown to plot_001.csv, plot_002.csv, ... in the working folder");
+    tip("Writes the lines that are shown to a table beside the scene: NAME_plot_001.csv, ...");
     if (ImGui::BeginChild("names", ImVec2(0, 0), true)) {
       if (has_force(ui))
         for (const char* part : forces) toggle(std::string(trial_prefix) + part);
@@ -206,7 +206,7 @@ class PlotsPanel : public Panel {
       text += "\n";
     }
     try {
-      const std::filesystem::path file = free_name("plot", ".csv");
+      const std::filesystem::path file = free_name(ui.output_stem().string() + "_plot", ".csv");
       io::write_file_atomically(file, text);
       ui.say("written: " + std::filesystem::absolute(file).string());
     } catch (const std::exception& error) {

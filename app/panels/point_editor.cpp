@@ -134,7 +134,7 @@ void point_row(Ui& ui, const std::string& plant, const plant::PlantCurve& curve,
     if (number_field("##p", point[axis], "%.1f"))
       ui.run(Command(
           "move point",
-          {{"plant", plant}, {"stem", curve.name}, {"point", index}, {"to", Vec3(1e-3 * point)}}));
+          {{"plant", plant}, {"stem", curve.name}, {"point", index}, {"to", Vec3(point / 1e3)}}));
     ImGui::PopID();
   }
   ImGui::TableNextColumn();
@@ -144,7 +144,7 @@ void point_row(Ui& ui, const std::string& plant, const plant::PlantCurve& curve,
     if (number_field("##r", radius, "%.2f") && radius > 0)
       ui.run(Command(
           "set radius",
-          {{"plant", plant}, {"stem", curve.name}, {"radius", 1e-3 * radius}, {"point", index}}));
+          {{"plant", plant}, {"stem", curve.name}, {"radius", radius / 1e3}, {"point", index}}));
   }
   ImGui::PopID();
 }

@@ -139,7 +139,7 @@ class RobotPanel : public Panel {
       double value = std::round(1e4 * goal->asked_W.position[axis]) / 10.0 + 0.0;  // no -0.0
       if (number_field("##goal", value, "%.1f")) {
         Vec3 to = goal->asked_W.position;
-        to[axis] = 1e-3 * value;
+        to[axis] = value / 1e3;
         const Result result = ui.session.run(Command("tool", {{"to", to}, {"near", 1}}));
         if (!result.ok) ui.report(result);
       }

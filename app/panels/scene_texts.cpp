@@ -120,6 +120,16 @@ void notice(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
         lines_in(ui.notice, room), ui.scale, dark_ground, white);
 }
 
+/// Long builds are those of a robot's distance grids.
+std::string building_text(const Ui& ui) {
+  constexpr double soon = 0.7, long_since = 5.0;  // s
+  const double since = ui.session.control().building_for();
+  if (since < soon) return ui.snapshot->mode == RunMode::building ? "Building the scene ..." : "";
+  std::string text = "Building the scene: " + std::to_string(static_cast<int>(since)) + " s";
+  if (since > long_since) text += " (distance grids of meshes are made once and kept)";
+  return text;
+}
+
 /// What the arrows' lengths are.
 void contact_scale(Ui& ui, ImDrawList& list, const LayoutAreas& areas) {
   if (!ui.view.contacts) return;
@@ -150,8 +160,8 @@ void draw_scene_texts(Ui& ui, const LayoutAreas& areas) {
   else if (ui.draw.on)
     banner(ui, over, areas, "Drawing: left draws, Alt+left turns the view, Esc leaves",
            IM_COL32(62, 120, 34, 235));
-  else if (s.mode == RunMode::building)
-    banner(ui, over, areas, "Building the plants ...", dark_ground);
+  else if (const std::string building = building_text(ui); !building.empty())
+    banner(ui, over, areas, building, dark_ground);
   if (ui.recording)
     over.AddCircleFilled(
         ImVec2(areas.scene_max.x - 20.0f * ui.scale, areas.scene_min.y + 20.0f * ui.scale),

@@ -46,6 +46,8 @@ void draw_status_bar(Ui& ui) {
   const Snapshot& s = *ui.snapshot;
   const ImVec4 plain = palette().text;
   std::string mode = to_string(s.mode);
+  constexpr double soon = 0.7;  // s
+  if (ui.session.control().building_for() > soon) mode = to_string(RunMode::building);
   // A film is made of steps, between which the run is held.
   if (ui.filmed && s.mode == RunMode::paused && s.step > 0) mode = to_string(RunMode::playing);
   if (s.mode == RunMode::replaying) mode += fixed(" %.0f %%", 100.0 * s.replay_share);

@@ -36,15 +36,15 @@ void stem_numbers(Ui& ui, const std::string& plant, const plant::PlantCurve& cur
   double length = 1e3 * length_of(curve);
   if (labelled_number(ui, "Length", "mm", length) && length > 0)
     ui.run(
-        Command("set length", {{"plant", plant}, {"stem", curve.name}, {"length", 1e-3 * length}}));
+        Command("set length", {{"plant", plant}, {"stem", curve.name}, {"length", length / 1e3}}));
   if (curve.radius.empty()) return;
   double foot = 1e3 * curve.radius.front(), top = 1e3 * curve.radius.back();
   const bool foot_typed = labelled_number(ui, "Radius at foot", "mm", foot);
   const bool top_typed = labelled_number(ui, "Radius at tip", "mm", top);
   if (foot_typed || top_typed)
-    ui.run(Command(
-        "taper",
-        {{"plant", plant}, {"stem", curve.name}, {"from", 1e-3 * foot}, {"to", 1e-3 * top}}));
+    ui.run(
+        Command("taper",
+                {{"plant", plant}, {"stem", curve.name}, {"from", foot / 1e3}, {"to", top / 1e3}}));
 }
 
 /// The robot takes it off.
@@ -76,7 +76,7 @@ void fruit_details(Ui& ui) {
           {{"plant", plant->model->name}, {"name", one.name}, {"key", key}, {"value", value}}));
     };
     double radius = 1e3 * one.radius, density = one.density, at = one.place.at;
-    if (labelled_number(ui, "Radius", "mm", radius)) set("radius", 1e-3 * radius);
+    if (labelled_number(ui, "Radius", "mm", radius)) set("radius", radius / 1e3);
     if (labelled_number(ui, "Density", "kg/m3", density)) set("density", density);
     draw_thresholds(ui, plant->model->name, one);
     if (labelled_number(ui, "Place on stem", "", at))
@@ -114,7 +114,7 @@ void leaf_details(Ui& ui, const std::string& plant, const plant::PlantLeaf& leaf
   if (labelled_number(ui, "Size", "mm", size))
     ui.run(
         Command("set organ",
-                {{"plant", plant}, {"name", leaf.name}, {"key", "size"}, {"value", 1e-3 * size}}));
+                {{"plant", plant}, {"name", leaf.name}, {"key", "size"}, {"value", size / 1e3}}));
   if (labelled_number(ui, "Place on stem", "", at))
     ui.run(
         Command("move organ",

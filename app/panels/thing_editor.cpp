@@ -56,7 +56,7 @@ void pose_numbers(Ui& ui, const char* word, const std::string& name, const Pose&
     ui.run(Command(std::string(verb) + " " + word, std::move(arguments)));
   };
   Vec3 place = 1e3 * pose.position;
-  if (three_numbers(ui, "Place x, y, z, mm", place, "%.6g")) run("move", Vec3(1e-3 * place));
+  if (three_numbers(ui, "Place x, y, z, mm", place, "%.6g")) run("move", Vec3(place / 1e3));
   Vec3 turn = angles_of(pose.rotation) / degree;
   for (double& angle : turn) angle = std::round(1e9 * angle) / 1e9 + 0.0;
   if (three_numbers(ui, "Turn about x, y, z, degrees", turn, "%.6g")) {
@@ -145,9 +145,9 @@ void camera_details(Ui& ui, const world::SceneCamera& camera) {
   };
   Vec3 eye = 1e3 * camera.eye, target = 1e3 * camera.target;
   if (three_numbers(ui, "Place x, y, z, mm", eye, "%.6g"))
-    move(1e-3 * eye, camera.target, camera.field_of_view);
+    move(eye / 1e3, camera.target, camera.field_of_view);
   if (three_numbers(ui, "Looks at x, y, z, mm", target, "%.6g"))
-    move(camera.eye, 1e-3 * target, camera.field_of_view);
+    move(camera.eye, target / 1e3, camera.field_of_view);
   double fov = camera.field_of_view / degree;
   if (labelled_number(ui, "Field of view", "deg", fov))
     move(camera.eye, camera.target, degree * fov);
@@ -158,7 +158,7 @@ void camera_details(Ui& ui, const world::SceneCamera& camera) {
 void ground_details(Ui& ui, const world::GroundPlane& ground) {
   double height = 1e3 * ground.height, friction = ground.friction;
   if (labelled_number(ui, "Height", "mm", height))
-    ui.run(Command("set ground", {{"height", 1e-3 * height}}));
+    ui.run(Command("set ground", {{"height", height / 1e3}}));
   if (labelled_number(ui, "Friction", "", friction))
     ui.run(Command("set ground", {{"friction", friction}}));
   if (wide_button("Delete")) ui.ask(Action::remove);
@@ -238,9 +238,9 @@ void duplicate_thing(Ui& ui) {
              index >= 0 && ui.selection) {
     const DocumentPlant plant = document.plants[static_cast<std::size_t>(index)];
     const std::string name = free_name(document, ThingKind::plant, plant.entry.name);
-    if (ui.run(Command("copy plant", {{"plant", plant.entry.name},
-                                      {"as", name},
-                                      {"position", beside(plant.entry.pose)}})))
+    if (ui.run(Command(
+            "copy plant",
+            {{"plant", plant.entry.name}, {"as", name}, {"position", beside(plant.entry.pose)}})))
       choose_plant(ui, name);
   } else {
     ui.say("nothing is chosen to be duplicated: choose a plant, a body or a camera");
@@ -277,7 +277,8 @@ bool draw_thing(Ui& ui) {
     plant_details(ui, plant);
   } else if (const world::BodyDescription* found = chosen_body(ui)) {
     const world::BodyDescription body = *found;
-    if (!ui.selection.thing.empty()) choose_body(ui, body.name);  // it may stand elsewhere in the list
+    if (!ui.selection.thing.empty())
+      choose_body(ui, body.name);  // it may stand elsewhere in the list
     body_details(ui, body);
   } else if (const world::SceneCamera* seen = chosen_camera(ui)) {
     const world::SceneCamera camera = *seen;

@@ -81,6 +81,14 @@ std::string document_name(const Ui& ui) {
   return ui.session.dirty() ? name + " *" : name;
 }
 
+/// A dot on the last button: something was said behind it.
+void unread_mark(const Ui& ui) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float radius = 4.0f * ui.scale;
+  ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(high.x - radius, low.y + radius), radius,
+                                              colour_u32(palette().warning));
+}
+
 }  // namespace
 
 void draw_toolbar(Ui& ui) {
@@ -127,6 +135,7 @@ void draw_toolbar(Ui& ui) {
   part_toggle(labels[0], ui.preferences.show_left, "Plants and drawing");
   ImGui::SameLine();
   part_toggle(labels[1], ui.preferences.show_bottom, "Plots, events, messages, profiler");
+  if (ui.unread && !ui.preferences.show_bottom) unread_mark(ui);
   ImGui::SameLine();
   part_toggle(labels[2], ui.preferences.show_right, "Tuning, robot, view, measured data");
 }

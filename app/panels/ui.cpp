@@ -15,7 +15,7 @@ bool Ui::run(const Command& command) {
 }
 
 bool Ui::report(const Result& result) {
-  if (!result.ok) say(result.text);
+  if (!result.ok) say(result.text), session.tell(result.text);
   return result.ok;
 }
 
@@ -23,6 +23,21 @@ void Ui::leave_document(std::function<void()> next) {
   if (!session.dirty()) return next();
   after_leaving = std::move(next);
   dialog = Dialog::unsaved;
+}
+
+std::filesystem::path Ui::output_stem() const {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path open = session.path();
+  if (open.empty()) return fs::current_path(none) / "pedicel";
+  std::string name = open.filename().string();
+  for (const char* ending : {".yaml", ".scene", ".plant", ".csv", ".mtg"})
+    if (name.ends_with(ending)) name.resize(name.size() - std::string(ending).size());
+  const fs::path folder = fs::weakly_canonical(fs::absolute(open), none).parent_path();
+  const fs::path shipped = fs::weakly_canonical(asset_folder(), none);
+  const std::string from_shipped = fs::relative(folder, shipped, none).string();
+  const bool is_shipped = !from_shipped.empty() && !from_shipped.starts_with("..");
+  return (is_shipped ? fs::current_path(none) : folder) / (name.empty() ? "pedicel" : name);
 }
 
 void Ui::leave_now() {
@@ -52,6 +67,28 @@ void Ui::save_to(const std::filesystem::path& path, bool overwrite) {
     dialog = Dialog::none;
     if (!session.dirty()) leave_now();
   }
+}
+
+void Ui::ask_export(const std::string& plant, const std::string& ending) {
+  export_plant = plant, export_ending = ending;
+  export_path = output_stem().parent_path() / (plant + ending);
+  dialog = Dialog::export_plant;
+}
+
+void Ui::export_to(const std::filesystem::path& path, bool overwrite) {
+  std::error_code none;
+  export_path = path;
+  if (!overwrite && std::filesystem::exists(path, none)) {
+    overwrite_path = path;
+    overwrite_text = path.string() + " is there already";
+    dialog = Dialog::overwrite;
+    return;
+  }
+  dialog = Dialog::none;
+  const Result result =
+      session.run(Command("export", {{"plant", export_plant}, {"file", path.string()}}));
+  export_plant.clear();
+  if (report(result)) say(result.text);
 }
 
 bool Ui::remove(const Command& command) {

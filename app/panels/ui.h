@@ -31,6 +31,7 @@ enum class Dialog {
   import_plant,
   overwrite,
   add_robot,
+  export_plant,
 };
 
 /// How fast things go, for the profiler.
@@ -68,10 +69,12 @@ struct Ui {
   std::string show_panel;  ///< tab to be brought to the front; emptied by the layout
   std::optional<Eigen::AlignedBox3d> frame_box;  ///< what the camera is to show next
   std::string frame_plant;                       ///< the same, once that plant is simulated
-  std::string notice;                            ///< one line over the scene that fades
-  double notice_time = 0.0;                      ///< s, of the platform's clock
-  double now = 0.0;                              ///< s
-  bool recording = false;                        ///< a film is being made, by hand
+  bool frame_robot = false;  ///< the same of an added robot, where it is not in view
+  std::string notice;        ///< one line over the scene that fades
+  double notice_time = 0.0;  ///< s, of the platform's clock
+  bool unread = false;       ///< a warning that the hidden drawer holds
+  double now = 0.0;          ///< s
+  bool recording = false;    ///< a film is being made, by hand
   bool filmed = false;       ///< what goes by the wall clock is left out, so that films are alike
   std::string command_line;  ///< typed in the messages panel
   std::string problem;       ///< of a file that could not be read, for the dialog
@@ -88,12 +91,21 @@ struct Ui {
   /// Opens a file, so. An experiment's data go beside the document, which stays.
   void open(const std::filesystem::path& path);
   std::function<void()> after_leaving;  ///< waits for that answer
+  /// Where pictures, films, tables and exports go, without an ending: beside what is open, with its
+  /// name; in the working folder where that has no file or came with the program.
+  std::filesystem::path output_stem() const;
   /// Does what waited, once.
   void leave_now();
 
   /// Saves, or asks for what is missing: a name, or whether a file may be written over.
   void save();
   void save_to(const std::filesystem::path& path, bool overwrite = false);
+  /// Asks where that plant is to be written in that form (".csv").
+  void ask_export(const std::string& plant, const std::string& ending);
+  /// Writes it, or asks before it is written over a file.
+  void export_to(const std::filesystem::path& path, bool overwrite = false);
+  std::string export_plant, export_ending;  ///< that the dialog asks about
+  std::filesystem::path export_path;        ///< that the dialog suggests
   std::filesystem::path overwrite_path;  ///< that the dialog asks about; empty: where it came from
   std::string overwrite_text;
   /// Runs a command that takes something away; what the scene says of it (a robot's program that

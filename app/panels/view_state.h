@@ -53,6 +53,7 @@ struct ViewState {
   bool tool_axes = false;          ///< the handles turn with the tool; else they are the world's
   bool robot_panel = false;        ///< the Robot panel is in front
   bool goal_missed = false;        ///< the tool was asked to go where it cannot
+  std::string goal_hits;           ///< what the robot runs into there: "link_5 into tray"
   bool panels_in_pictures = true;  ///< pictures and films are of the whole window
   bool automatic_quality = true;
   int quality = 1;

@@ -1,12 +1,14 @@
 #include "app/panels/widgets.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "app/panels/drag_bar.h"
 #include "app/panels/theme.h"
@@ -168,19 +170,46 @@ bool slider(const Ui& ui, const std::string& name, double& value, double low, do
   return moved;
 }
 
+namespace {
+
+/// Whether the last item was left after it was edited; then what was typed is in `typed`. By Tab it
+/// is left a picture before ImGui says so, and by then it shows the old value again.
+template <typename T>
+bool was_left(T& typed, bool edited) {
+  static ImGuiID field = 0;
+  static T last{};
+  const ImGuiID id = ImGui::GetItemID();
+  if (edited) field = id, last = typed;
+  if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+  if (field == id) typed = last;
+  field = 0;
+  return true;
+}
+
+/// The number that a field shows for a value.
+double as_shown(double value, const char* format) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return std::strtod(text.data(), nullptr);
+}
+
+}  // namespace
+
+// What was typed back as it was is no edit: the value may have more digits than are shown.
 bool number_field(const char* id, double& value, const char* format) {
   double shown = value;
-  ImGui::InputDouble(id, &shown, 0.0, 0.0, format);
-  if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+  const bool edited = ImGui::InputDouble(id, &shown, 0.0, 0.0, format);
+  if (!was_left(shown, edited) || shown == as_shown(value, format)) return false;
   value = shown;
   return true;
 }
 
 bool labelled_number(const Ui& ui, const char* label, const char* unit, double& value) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(palette().dim, "%s", label);
+  const float column = 0.42f * ImGui::GetContentRegionMax().x;
+  elided(label, column - ImGui::GetCursorPosX() - 4.0f * ui.scale, &palette().dim);
   const float unit_width = ImGui::CalcTextSize(unit).x + 6.0f * ui.scale;
-  ImGui::SameLine(0.42f * ImGui::GetContentRegionMax().x);
+  ImGui::SameLine(column);
   ImGui::SetNextItemWidth(rest_width(*unit ? unit_width : 0.0f));
   ImGui::PushID(label);
   const bool typed = number_field("##number", value);
@@ -193,8 +222,8 @@ bool labelled_number(const Ui& ui, const char* label, const char* unit, double& 
 }
 
 bool text_field(const char* id, std::string& text, const char* hint) {
-  ImGui::InputTextWithHint(id, hint, &text);
-  return ImGui::IsItemDeactivatedAfterEdit();
+  const bool edited = ImGui::InputTextWithHint(id, hint, &text);
+  return was_left(text, edited);
 }
 
 }  // namespace pedicel::app

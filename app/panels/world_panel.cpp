@@ -56,7 +56,7 @@ class WorldPanel : public Panel {
   static void time(Ui& ui, const world::Scene& scene) {
     heading(ui, "Time");
     double dt = 1e3 * scene.dt, duration = scene.duration;
-    if (labelled_number(ui, "Step", "ms", dt)) set(ui, "dt", io::exact_number(1e-3 * dt));
+    if (labelled_number(ui, "Step", "ms", dt)) set(ui, "dt", io::exact_number(dt / 1e3));
     tip("Of the simulation; 1/240 s is 4.167 ms. Another one starts the run anew");
     if (labelled_number(ui, "Duration", "s", duration))
       set(ui, "duration", io::exact_number(duration));
@@ -162,7 +162,7 @@ class WorldPanel : public Panel {
     double distance = 1e3 * file.distance, connect = 1e3 * file.connect;
     const auto write = [&](const char* key, double millimetres) {
       ui.run(
-          Command("set sampling", {{"plant", plant}, {"key", key}, {"value", 1e-3 * millimetres}}));
+          Command("set sampling", {{"plant", plant}, {"key", key}, {"value", millimetres / 1e3}}));
     };
     if (labelled_number(ui, "Nodes every", "mm", distance)) write("distance", distance);
     tip("Finer is more exact and slower");

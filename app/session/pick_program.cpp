@@ -124,10 +124,6 @@ GripperPlaces gripper_places(const Snapshot& now, const robot::KinematicModel& m
   return {place(radius + clearance), place(squeeze * radius)};
 }
 
-Vec3 usual_pull(const Snapshot& now, const FruitPlace& fruit) {
-  return way_up * Vec3::UnitZ() - way_back * towards(now, fruit.middle_W);
-}
-
 robot::Trajectory pick_program(const Snapshot& now, const FruitPlace& fruit, const Vec3& pull_W) {
   const robot::KinematicModel model = kinematics_of(now);
   const world::SceneRobot& scene = *now.assets->scene.robot;
@@ -160,6 +156,21 @@ robot::Trajectory pick_program(const Snapshot& now, const FruitPlace& fruit, con
     why = diagnostics.all().front().what;
   }
   throw UsageError("the robot cannot take it off: " + why);
+}
+
+robot::Trajectory usual_pick(const Snapshot& now, const FruitPlace& fruit) {
+  const Vec3 up = Vec3::UnitZ(), back = -towards(now, fruit.middle_W);
+  const Vec3 steep = way_up * up + way_back * back, slanting = way_up * (up + back).normalized();
+  std::string why;
+  for (const double share : {1.0, 0.75, 0.5})
+    for (const Vec3& pull_W : {steep, slanting}) {
+      try {
+        return pick_program(now, fruit, share * pull_W);
+      } catch (const UsageError& fault) {
+        why = fault.what();
+      }
+    }
+  throw UsageError(why);
 }
 
 }  // namespace pedicel::app

@@ -27,7 +27,8 @@ GripperPlaces gripper_places(const Snapshot& now, const robot::KinematicModel& m
 /// `pull` (m, W), slowly enough for the joints. Throws UsageError with the reason where it cannot.
 robot::Trajectory pick_program(const Snapshot& now, const FruitPlace& fruit, const Vec3& pull_W);
 
-/// Up, and back a little: a plant gives way to the side, and is stiff along its stem (m, W).
-Vec3 usual_pull(const Snapshot& now, const FruitPlace& fruit);
+/// The same, pulling up and back a little (a plant gives way to the side, and is stiff along its
+/// stem) or, where the arm does not come that far, up and back as much, by 34 cm or less.
+robot::Trajectory usual_pick(const Snapshot& now, const FruitPlace& fruit);
 
 }  // namespace pedicel::app

@@ -103,6 +103,9 @@ void RunControl::stop_robot() {
 std::shared_ptr<const Snapshot> RunControl::snapshot() const {
   return impl_->thread.snapshot();
 }
+double RunControl::building_for() const {
+  return impl_->thread.building_for();
+}
 std::vector<BuildNews> RunControl::take_news() {
   return impl_->thread.take_news();
 }

@@ -78,6 +78,8 @@ class RunControl {
   /// The robot stays where it is.
   void stop_robot();
 
+  /// How long (s) what was asked for last is being built; 0: nothing is.
+  double building_for() const;
   /// The newest complete step; never null.
   std::shared_ptr<const Snapshot> snapshot() const;
   std::vector<BuildNews> take_news();

@@ -156,7 +156,14 @@ void RunThread::start_clock() {
   clock_time_ = run_ ? run_->simulation().world().time() : 0.0;
 }
 
+double RunThread::building_for() const {
+  const steady_clock::duration since(building_since_.load());
+  if (since.count() == 0) return 0.0;
+  return std::chrono::duration<double>(steady_clock::now().time_since_epoch() - since).count();
+}
+
 void RunThread::do_build(Build build) {
+  building_since_ = steady_clock::now().time_since_epoch().count();
   BuildNews news;
   news.document_hash = build.document_hash;
   const RunMode before = mode_;
@@ -179,6 +186,7 @@ void RunThread::do_build(Build build) {
     mode_ = before;
     news.problems.push_back({Severity::error, {}, fault.what()});
   }
+  building_since_ = 0;
   publish(true);
   const std::lock_guard lock(mutex_);
   news_.push_back(std::move(news));

@@ -33,6 +33,7 @@ class RunThread {
   void wait();
   std::shared_ptr<const Snapshot> snapshot();
   std::vector<BuildNews> take_news();
+  double building_for() const;
   RunLog log;
 
   // On the thread itself.
@@ -88,6 +89,7 @@ class RunThread {
   std::shared_ptr<const Snapshot> snapshot_;
   std::atomic<bool> taken_{true};
   std::atomic<bool> stopping_{false};
+  std::atomic<std::chrono::steady_clock::rep> building_since_{0};  // 0: nothing is built
 
   // The thread's own.
   std::unique_ptr<LiveRun> run_;

@@ -28,13 +28,14 @@ struct Message {
   std::string text;  ///< one or more lines, "file:line:column: error: ..." where a file is meant
   std::string sentence;    ///< the same without the word, for what says by itself that it failed
   bool can_retry = false;  ///< reload() reads the file again
+  int times = 1;           ///< that it was said
 };
 
 /// What became of a command.
 struct Result {
   bool ok = true;
-  std::string text;       ///< the fault, or what a query answers; may be empty
-  bool bad_file = false;  ///< the fault is one of a file that was to be read
+  std::string text;         ///< the fault, or what a query answers; may be empty
+  bool bad_file = false;    ///< the fault is one of a file that was to be read
   bool overwrites = false;  ///< refused, since a file would be lost: SaveWishes::overwrite does it
   explicit operator bool() const { return ok; }
 };
@@ -146,11 +147,13 @@ class Session {
   /// Takes what the simulation's thread has to tell into messages(); once a frame.
   void update();
 
-  /// The newest last. Faults of files go once the files can be read.
+  /// The newest last, each text once. Faults of files go once the files can be read.
   const std::vector<Message>& messages() const { return messages_; }
   /// How many there were since the start, those that have gone too.
   std::size_t messages_said() const { return said_; }
   void clear_messages() { messages_.clear(); }
+  /// Something that may be read again there.
+  void tell(const std::string& text) { say(Severity::notice, text); }
 
   // Parameters.
   std::vector<SessionParameter> parameters() const;
@@ -241,6 +244,13 @@ class Session {
     std::size_t history = 0;  // steps of the document then
     bool by_command = false;  // it is in the log
   };
+  /// A fruit that the robot is taking off.
+  struct Picked {
+    std::string organ;
+    std::uint64_t stage = 0;  // of the simulation
+    long step = 0;
+    double end = 0.0;  // s, of the pull
+  };
   /// The last pose asked for.
   struct Aim {
     ToolGoal goal;
@@ -273,6 +283,7 @@ class Session {
   Result home_robot();
   Result program_command(const Command& command);
   Result pick(const Command& command);
+  void tell_pick();
   Result play(robot::Trajectory trajectory, bool loops);
   robot::Trajectory waypoint_trajectory(const robot::KinematicModel& model) const;
   Result pull_command(const Command& command);
@@ -316,6 +327,7 @@ class Session {
   std::filesystem::path failed_path_;  // what could not be opened, for reload()
   std::unique_ptr<MeasuredData> measured_;
   std::optional<Aim> aim_;
+  std::optional<Picked> picked_;
   std::vector<Pulled> pulls_;  // the last one at the end
   FilmMaker* film_ = nullptr;
   double film_fps_ = 30.0, film_start_ = 0.0;  // Hz, s

@@ -45,6 +45,7 @@ void Session::update() {
   std::erase_if(dropped_, [](const auto& one) { return one->has_ended(); });
   if (reading_ && reading_->has_ended()) finish_reading();
   tell_faults(measured_->update());
+  tell_pick();
 }
 
 void Session::take_news(const BuildNews& news) {
@@ -58,7 +59,10 @@ void Session::take_news(const BuildNews& news) {
     if (!gesture_ && !take_back_unbuilt()) say(news.problems, true);
   }
   if (!news.restarted) return;
-  for (const std::string& one : news.notes) say(Severity::warning, one);
+  for (const std::string& one : news.notes) {
+    const bool warns = one.find("warning:") != std::string::npos;
+    say(warns ? Severity::warning : Severity::notice, one);
+  }
 }
 
 // What cannot be simulated would leave the document and the run apart. A document that could not be
@@ -110,7 +114,19 @@ void Session::say(const std::vector<Diagnostic>& problems, bool can_retry) {
 }
 
 void Session::add_message(Message message) {
-  if (!messages_.empty() && messages_.back().text == message.text) return;
+  const auto same = std::ranges::find(messages_, message.text, &Message::text);
+  if (same != messages_.end()) {
+    message.times = same->times + 1;
+    const bool last = same + 1 == messages_.end();
+    if (last && !message.can_retry) {
+      same->times = message.times;
+      return;
+    }
+    messages_.erase(same);
+  }
+  // Only the file that was tried last is read again.
+  if (message.can_retry)
+    for (Message& one : messages_) one.can_retry = false;
   ++said_;
   messages_.push_back(std::move(message));
 }

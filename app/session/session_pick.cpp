@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/plant_step.h"
 #include "core/check.h"
 #include "session/pick_program.h"
 #include "session/robot_goal.h"
@@ -8,17 +12,36 @@ namespace pedicel::app {
 Result Session::pick(const Command& c) {
   const auto now = snapshot();
   kinematics_of(*now);  // says where there is no robot
-  const FruitPlace fruit = find_fruit(*now, c.word("organ"));
-  if (c.has("pull")) return play(pick_program(*now, fruit, c.point("pull")), false);
-  // As far as the arm comes.
-  for (const double share : {1.0, 0.75, 0.5}) {
-    try {
-      return play(pick_program(*now, fruit, share * usual_pull(*now, fruit)), false);
-    } catch (const UsageError&) {
-      if (share == 0.5) throw;
+  const std::string& organ = c.word("organ");
+  const FruitPlace fruit = find_fruit(*now, organ);
+  const robot::Trajectory program =
+      c.has("pull") ? pick_program(*now, fruit, c.point("pull")) : usual_pick(*now, fruit);
+  note_pull(true);  // undo takes it back
+  const Result result = play(program, false);
+  picked_ = Picked{organ, now->stage, now->step, now->time + program.times().back()};
+  return result;
+}
+
+// A plant that gives way to the end of the pull keeps its fruit: that is said.
+void Session::tell_pick() {
+  constexpr double later = 0.3;  // s, after the pull
+  if (!picked_) return;
+  const auto now = snapshot();
+  if (now->stage != picked_->stage || now->step < picked_->step) return picked_.reset();
+  if (now->time < picked_->end + later) return;
+  const Picked picked = *std::exchange(picked_, std::nullopt);
+  for (const PlantSnapshot& plant : now->plants)
+    for (int f = 0; f < static_cast<int>(plant.model->fruits.size()); ++f) {
+      const auto index = static_cast<std::size_t>(f);
+      const auto element = static_cast<std::size_t>(plant.model->fruits[index].element);
+      if (fruit_name(*plant.model, f) != picked.organ || !plant.state.alive[element]) continue;
+      const long used = std::lround(100.0 * plant.margin_used[index]);
+      say(Severity::warning, "warning: " + picked.organ +
+                                 " was not taken off: at the end its stalk bears " +
+                                 std::to_string(used) +
+                                 " % of what breaks it (a stiffer plant, a weaker stalk or "
+                                 "\"pick ... pull=X,Y,Z\" another way helps)");
     }
-  }
-  return {};
 }
 
 }  // namespace pedicel::app

@@ -10,6 +10,7 @@
 #include "app/panels/time_line.h"
 #include "app/window/draw_tool.h"
 #include "app/window/selection_follow.h"
+#include "session/robot_goal.h"
 
 namespace pedicel::app {
 
@@ -149,6 +150,7 @@ void Desktop::follow_document() {
   }
   if (others && ui_.session.history().size() == 0) framed_ = false;
   frame_new_plant();
+  frame_new_robot();
   std::string title = "Pedicel";
   if (!shown_path_.empty()) title = shown_path_.filename().string() + " - " + title;
   platform_.set_title(title);
@@ -173,12 +175,24 @@ void Desktop::frame_new_plant() {
   }
 }
 
+/// All is shown where a part of it is out of the picture.
+void Desktop::frame_new_robot() {
+  if (!ui_.frame_robot || !ui_.snapshot->robot.present || !ui_.session.is_simulated()) return;
+  ui_.frame_robot = false;
+  const ImVec2 low = scene_.low, high(low.x + scene_.size.x, low.y + scene_.size.y);
+  const bool seen = std::ranges::all_of(ui_.snapshot->robot.links, [&](const Pose& link) {
+    const auto at = scene_.project(link.position);
+    return at && at->x > low.x && at->x < high.x && at->y > low.y && at->y < high.y;
+  });
+  if (!seen) ui_.ask(Action::frame_all);
+}
+
 void Desktop::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   for (const Binding& binding : bindings()) {
     if (ui_.dialog != Dialog::none && !acts_over_dialogs(binding.action)) continue;
     // While a text is typed, only what cannot be part of it.
-    if (io.WantTextInput && (edits_text(binding) || (!binding.control && binding.key < Key::f1)))
+    if (types_text() && (edits_text(binding) || (!binding.control && binding.key < Key::f1)))
       continue;
     if (binding.control != io.KeyCtrl || binding.shift != io.KeyShift) continue;
     const bool repeats = binding.action == Action::step || binding.action == Action::step_back;
@@ -261,6 +275,9 @@ void Desktop::draw_scene(const LayoutAreas& areas) {
 
   const auto start = std::chrono::steady_clock::now();
   list_.clear();
+  ui_.view.goal_hits.clear();
+  if (const auto ghost = robot_ghost(*ui_.snapshot))
+    ui_.view.goal_hits = robot_contacts_.at_goal(*ui_.snapshot, ghost->links);
   measured_.update(ui_.view, ui_.session, *ui_.snapshot);
   view_.fill(list_, *ui_.snapshot, ui_.view, ui_.selection, ui_.hover);
   measured_.add_to(list_);

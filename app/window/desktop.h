@@ -19,6 +19,7 @@
 #include "app/window/tool_handles.h"
 #include "render/video.h"
 #include "session/film.h"
+#include "session/robot_contacts.h"
 
 struct ImGuiContext;
 
@@ -73,6 +74,7 @@ class Desktop : private FilmMaker {
   void follow_snapshot();
   void follow_document();
   void frame_new_plant();
+  void frame_new_robot();
   void follow_camera();
   void keys();
   void draw_scene(const LayoutAreas& areas);
@@ -110,6 +112,7 @@ class Desktop : private FilmMaker {
   Layout layout_;
   SnapshotView view_;
   MeasuredMarks measured_;
+  RobotContacts robot_contacts_;
   render::DrawList list_;
   ViewCamera camera_;
   SceneMouse mouse_;

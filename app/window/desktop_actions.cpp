@@ -109,7 +109,7 @@ void Desktop::perform_file(Action action) {
 void Desktop::take_screenshot() {
   const auto picture = ui_.view.panels_in_pictures ? window_picture() : scene_picture(1280, 720);
   if (!picture) return;
-  const std::filesystem::path path = free_name("pedicel", ".png");
+  const std::filesystem::path path = free_name(ui_.output_stem().string(), ".png");
   try {
     render::write_png(path, *picture);
     ui_.say("picture in " + std::filesystem::absolute(path).string());

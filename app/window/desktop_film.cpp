@@ -21,8 +21,9 @@ std::filesystem::path free_name(const std::string& stem, const std::string& endi
 
 void Desktop::toggle_video() {
   if (!running())
-    ui_.report(ui_.session.run(Command("record", {{"file", free_name("pedicel", ".mp4").string()},
-                                                  {"ui", ui_.view.panels_in_pictures ? 1 : 0}})));
+    ui_.report(ui_.session.run(
+        Command("record", {{"file", free_name(ui_.output_stem().string(), ".mp4").string()},
+                           {"ui", ui_.view.panels_in_pictures ? 1 : 0}})));
   else if (const Result ended = ui_.session.run(Command("stop recording", {})); ui_.report(ended))
     ui_.say(ended.text);
 }

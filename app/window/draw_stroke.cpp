@@ -67,7 +67,7 @@ ProjectorOptions projector_options(const DrawMode& d, double height) {
 
 /// What a hand draws is no finer, and files are read by people: "0.0123", not 17 digits.
 double to_micrometre(double value) {
-  return std::round(1e6 * value) / 1e6;
+  return std::round(1e6 * value) / 1e6 + 0.0;  // not -0
 }
 Vec3 to_micrometres(const Vec3& point) {
   return {to_micrometre(point.x()), to_micrometre(point.y()), to_micrometre(point.z())};

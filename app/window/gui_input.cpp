@@ -1,6 +1,7 @@
 #include "app/window/gui_input.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <limits>
@@ -39,11 +40,22 @@ bool is_modifier(Key key) {
   return key >= Key::left_shift && key <= Key::right_super;
 }
 
+/// A key that stands for a letter, and is down for no more than that.
+bool is_letter(Key key) {
+  return key < Key::escape;
+}
+
 bool down(const ImGuiIO& io, Key a, Key b) {
   return io.KeysDown[static_cast<int>(a)] || io.KeysDown[static_cast<int>(b)];
 }
 
 }  // namespace
+
+// io.WantTextInput comes a picture late: the key after Enter would be lost.
+bool types_text() {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  return context.ActiveId != 0 && context.ActiveId == context.InputTextState.ID;
+}
 
 GuiInput::GuiInput(Platform& platform) : platform_(platform) {
   ImGuiIO& io = ImGui::GetIO();
@@ -93,6 +105,12 @@ bool GuiInput::has_to_wait(Key key) const {
   return button_changed_ || again || (is_modifier(key) && (others || wheel_moved_));
 }
 
+bool GuiInput::types(Key key) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  return types_text() && is_letter(key) && !down(io, Key::left_control, Key::right_control) &&
+         !down(io, Key::left_super, Key::right_super) && !down(io, Key::left_alt, Key::right_alt);
+}
+
 /// False where the event has to wait for the next picture.
 bool GuiInput::hand_on(const InputEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
@@ -116,6 +134,13 @@ bool GuiInput::hand_on(const InputEvent& event) {
       wheel_moved_ = true;
       return true;
     case InputEvent::Kind::key:
+      // While a text is typed, letters come as text: their keys need no picture each. After Enter
+      // or a click the text may have ended.
+      if (types(event.key)) {
+        if (button_changed_ || !std::ranges::all_of(keys_changed_, is_modifier)) return false;
+        io.KeysDown[static_cast<int>(event.key)] = event.down;
+        return true;
+      }
       if (has_to_wait(event.key)) return false;
       io.KeysDown[static_cast<int>(event.key)] = event.down;
       keys_changed_.push_back(event.key);

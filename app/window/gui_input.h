@@ -7,6 +7,9 @@
 
 namespace pedicel::app {
 
+/// Whether a text is being typed.
+bool types_text();
+
 /// Hands input to Dear ImGui, which looks once a picture: what would be lost by that (a click that
 /// is shorter than a picture, a move between press and release, a Ctrl that is let go right after
 /// the key it was meant for) waits for the next one, in the order in which it happened.
@@ -24,6 +27,8 @@ class GuiInput {
  private:
   bool hand_on(const InputEvent& event);
   bool has_to_wait(Key key) const;
+  /// Whether a key only says a letter of a text.
+  bool types(Key key) const;
 
   Platform& platform_;
   std::deque<InputEvent> waiting_;

@@ -116,7 +116,9 @@ void SnapshotView::add_ghost(render::DrawList& list, const Snapshot& snapshot,
   auto shape = std::make_shared<render::DrawList>();
   for (std::size_t l = 0; l < shapes_.links().size() && l < ghost->links.size(); ++l)
     add_at(*shape, shapes_.links()[l].list, ghost->links[l]);
-  const Colour colour = view.goal_missed ? Colour::hex(0xe8622d) : Colour::hex(0x3d9be9);
+  const Colour colour = !view.goal_hits.empty() ? Colour::hex(0xd92b2b)
+                        : view.goal_missed      ? Colour::hex(0xe8622d)
+                                                : Colour::hex(0x3d9be9);
   const auto tint = [&](auto& things) {
     for (auto& thing : things) thing.material.colour = colour;
   };

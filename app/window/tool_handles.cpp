@@ -210,7 +210,9 @@ std::optional<ImVec2> ToolHandles::grip(const std::string& part, const SceneFram
 }
 
 std::string ToolHandles::words(const Ui& ui) const {
-  if (!goal_.reached) return goal_.sentence;
+  const std::string& hits = ui.view.goal_hits;
+  if (!goal_.reached) return goal_.sentence + (hits.empty() ? "" : "; hits: " + hits);
+  if (!hits.empty()) return "hits: " + hits;
   if (!dragging()) return {};
   std::string text = dragged_ == Part::knob ? quantity_text(amount_, "m")
                      : shifts(dragged_)

@@ -113,7 +113,7 @@ void ToolHandles::draw(ImDrawList& list, const Ui& ui, const SceneFrame& frame) 
   const std::string text = words(ui);
   if (text.empty()) return;
   plate(list, frame, ImVec2(centre->x, centre->y + (static_cast<float>(1.3 * 84.0)) * scale_), text,
-        goal_.reached ? dark_ground : missed_ground, scale_);
+        goal_.reached && ui.view.goal_hits.empty() ? dark_ground : missed_ground, scale_);
 }
 
 }  // namespace pedicel::app

@@ -289,8 +289,9 @@ TEST_F(Gui, AFilmOfTheWindowIsBegunAndEndedByItsButton) {
   desk_.click(end->x, end->y);
   std::filesystem::current_path(before);
   EXPECT_FALSE(desk_.ui().recording);
-  const bool film = std::filesystem::exists(folder / "pedicel_001.mp4") ||
-                    std::filesystem::exists(folder / "pedicel_001_frames/frame_00000.png");
+  const std::string name = desk_.ui().output_stem().filename().string() + "_001";
+  const bool film = std::filesystem::exists(folder / (name + ".mp4")) ||
+                    std::filesystem::exists(folder / (name + "_frames/frame_00000.png"));
   EXPECT_TRUE(film) << desk_.ui().notice;
 }
 

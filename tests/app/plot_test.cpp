@@ -106,7 +106,8 @@ TEST_F(Plots, WriteWhatTheyShow) {
   std::filesystem::current_path(folder);
   desk_.click(button->x, button->y);
   std::filesystem::current_path(before);
-  std::ifstream file(folder / "plot_001.csv");
+  const std::string name = desk_.ui().output_stem().filename().string();
+  std::ifstream file(folder / (name + "_plot_001.csv"));
   ASSERT_TRUE(file);
   std::string header, line;
   std::getline(file, header);

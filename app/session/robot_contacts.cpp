@@ -1,0 +1,123 @@
+#include "session/robot_contacts.h"
+
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <btBulletCollisionCommon.h>
+
+#include <algorithm>
+#include <set>
+
+#include "robot/bullet_types.h"
+#include "robot/collision_shapes.h"
+#include "session/robot_goal.h"
+#include "world/rigid_shape.h"
+
+namespace pedicel::app {
+
+namespace {
+
+constexpr double deep = 0.002;  // m: less is a touch
+
+/// Whether two things overlap deeply.
+struct Deepest : btCollisionWorld::ContactResultCallback {
+  double depth = 0.0;  // m
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                           const btCollisionObjectWrapper*, int, int) override {
+    depth = std::max(depth, -static_cast<double>(point.getDistance()));
+    return 0;
+  }
+};
+
+}  // namespace
+
+struct RobotContacts::Shapes {
+  explicit Shapes(const Snapshot& now) : assets(now.assets) {
+    const robot::KinematicModel model = kinematics_of(now);
+    groups = robot::rigid_groups(*assets->robot, model);
+    for (const robot::RigidGroup& group : groups) {
+      shapes.push_back(robot::group_shape(*assets->robot, group, Pose{}));
+      objects.push_back(std::make_unique<btCollisionObject>());
+      objects.back()->setCollisionShape(shapes.back().compound.get());
+    }
+    const auto& ground = now.assets->scene.ground;
+    plane = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), ground ? ground->height : 0.0);
+    floor.setCollisionShape(plane.get());
+    has_floor = ground.has_value();
+  }
+
+  void place(const std::vector<Pose>& links) {
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      objects[g]->setWorldTransform(
+          robot::to_bullet(links[static_cast<std::size_t>(groups[g].link)]));
+  }
+
+  bool overlap(btCollisionObject& a, btCollisionObject& b) {
+    Deepest found;
+    world.contactPairTest(&a, &b, found);
+    return found.depth > deep;
+  }
+
+  std::string name(std::size_t group) const {
+    return assets->robot->links[static_cast<std::size_t>(groups[group].link)].name;
+  }
+
+  /// Every "LINK into THING" at the links' poses.
+  std::set<std::string> hits(const Snapshot& now, const std::vector<Pose>& links) {
+    place(links);
+    std::set<std::string> found;
+    const auto add = [&](std::size_t group, const std::string& thing) {
+      found.insert(name(group) + " into " + thing);
+    };
+    for (std::size_t g = 1; g < groups.size(); ++g) {
+      if (groups[g].members.empty() || shapes[g].parts.empty()) continue;
+      if (has_floor && overlap(*objects[g], floor)) add(g, "the ground");
+      for (std::size_t other = 0; other < g; ++other)
+        if (groups[g].parent != static_cast<int>(other) && !shapes[other].parts.empty() &&
+            overlap(*objects[g], *objects[other]))
+          add(g, name(other));
+    }
+    for (const BodySnapshot& body : now.bodies) {
+      if (body.info->fruit >= 0) continue;  // lies in the gripper, or rolls away
+      const world::RigidShape shape = world::make_rigid_shape(body.info->description);
+      btCollisionObject object;
+      object.setCollisionShape(shape.compound.get());
+      object.setWorldTransform(robot::to_bullet(body.pose * shape.X_BC));
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (!shapes[g].parts.empty() && overlap(*objects[g], object))
+          add(g, body.info->description.name);
+    }
+    return found;
+  }
+
+  std::shared_ptr<const SceneAssets> assets;
+  std::vector<robot::RigidGroup> groups;
+  std::vector<robot::GroupShape> shapes;
+  std::vector<std::unique_ptr<btCollisionObject>> objects;
+  std::unique_ptr<btStaticPlaneShape> plane;
+  btCollisionObject floor;
+  bool has_floor = false;
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btCollisionWorld world{&dispatcher, &broadphase, &configuration};
+};
+
+RobotContacts::RobotContacts() = default;
+RobotContacts::~RobotContacts() = default;
+
+const std::string& RobotContacts::at_goal(const Snapshot& now, const std::vector<Pose>& links) {
+  if (!now.robot.present || !now.assets || !now.assets->robot) {
+    answer_.clear();
+    return answer_;
+  }
+  const bool same = shapes_ && stage_ == now.stage;
+  if (same && goal_ == now.robot.goal) return answer_;
+  if (!same) shapes_ = std::make_unique<Shapes>(now);
+  stage_ = now.stage, goal_ = now.robot.goal;
+  const std::set<std::string> here = shapes_->hits(now, now.robot.links);
+  answer_.clear();
+  for (const std::string& hit : shapes_->hits(now, links))
+    if (!here.contains(hit)) answer_ += (answer_.empty() ? "" : ", ") + hit;
+  return answer_;
+}
+
+}  // namespace pedicel::app
