@@ -18,7 +18,7 @@ constexpr double force_tolerance = 1.1;  // 1
 constexpr double most_sunk = 0.8;        // 1
 constexpr double holds_for = 0.9;        // 1, of friction
 constexpr double along_way = 0.7;        // 1
-constexpr double at_stop = 1.0e-4;       // m
+constexpr double at_stop = 1.0e-3;       // m: a step in parts may meet it and come off again
 constexpr double felt = 0.05;            // N
 constexpr double lost_for = 0.1;         // s
 
