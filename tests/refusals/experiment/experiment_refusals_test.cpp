@@ -189,7 +189,7 @@ const Case table_cases[] = {
      "t/markers.csv:2:1: error: 3 cells, expected 4"},
     {"hold_gap", "t/hold.csv", "time,x,y,z\n0,0,,1\n", "t/hold.csv:2:5: error: y: \"\""},
     {"hold_columns", "t/hold.csv", "time,x,y,z,qx\n0,0,0,1,0\n",
-     "t/hold.csv:1:1: error: no column qy, expected time,x,y,z or time,x,y,z,qx,qy,qz,qw"},
+     "t/hold.csv:1:1: error: no column qy, qz, qw, expected time,x,y,z or time,x,y,z,qx,qy,qz,qw"},
     {"hold_quaternion", "t/hold.csv", "time,x,y,z,qx,qy,qz,qw\n0,0,0,1,0,0,0,0\n",
      "t/hold.csv:2:9: error: the quaternion has length 0"},
     {"force_columns", "t/force.csv", "time,x,y,z\n0,0,0,1\n",

@@ -118,11 +118,11 @@ TEST(Admission, TakesOutGapsThatWereFilled) {
   fill(250, 8, 0, true);  // too short to tell
   const Admission admission = admit(made.experiment);
   EXPECT_EQ(admission.refusal, "");
-  EXPECT_EQ(admission.filled, 26 + 36);  // but for two at either end, whose neighbours are measured
+  EXPECT_EQ(admission.filled, 28 + 38);  // but for one at either end, whose neighbours are measured
   const Eigen::MatrixXd& kept = admission.experiment.trials[2].markers.value;
-  EXPECT_TRUE(kept.block(103, 6, 26, 3).array().isNaN().all());
-  EXPECT_TRUE(kept.block(203, 9, 36, 3).array().isNaN().all());
-  EXPECT_THAT(admission.remarks, ::testing::Contains(HasSubstr("62 samples lie on smooth lines")));
+  EXPECT_TRUE(kept.block(102, 6, 28, 3).array().isNaN().all());
+  EXPECT_TRUE(kept.block(202, 9, 38, 3).array().isNaN().all());
+  EXPECT_THAT(admission.remarks, ::testing::Contains(HasSubstr("66 samples lie on smooth lines")));
 }
 
 // A simulation without noise, of which more is said than is in it, is no gap.
@@ -156,11 +156,14 @@ TEST(Admission, RefusesMillimetres) {
 TEST(Admission, RefusesWhatHoldsNothing) {
   MadeData made = noisy();
   made.experiment.trials[1].markers.value.setConstant(std::nan(""));
-  EXPECT_EQ(admit(made.experiment).refusal, "trial weights holds no usable sample");
+  EXPECT_THAT(admit(made.experiment).refusal,
+              HasSubstr("markers.csv has no marker in any of its 401 rows: expected where they"));
   for (Trial& trial : made.experiment.trials) {
     trial.markers.value.setConstant(std::nan(""));
     trial.force.value.setConstant(std::nan(""));
   }
+  EXPECT_THAT(admit(made.experiment).refusal, HasSubstr("in any of its 301 rows"));
+  for (Trial& trial : made.experiment.trials) trial.markers = {};
   EXPECT_EQ(admit(made.experiment).refusal, "there is no sample at all");
 }
 
