@@ -4,6 +4,7 @@
 
 #include "app/plant_step.h"
 #include "core/check.h"
+#include "io/asset_folder.h"
 #include "session/command_table.h"
 #include "session/measured_commands.h"
 #include "session/scene_references.h"
@@ -34,7 +35,7 @@ std::filesystem::path Ui::output_stem() const {
   for (const char* ending : {".yaml", ".scene", ".plant", ".csv", ".mtg"})
     if (name.ends_with(ending)) name.resize(name.size() - std::string(ending).size());
   const fs::path folder = fs::weakly_canonical(fs::absolute(open), none).parent_path();
-  const fs::path shipped = fs::weakly_canonical(asset_folder(), none);
+  const fs::path shipped = fs::weakly_canonical(io::asset_folder(), none);
   const std::string from_shipped = fs::relative(folder, shipped, none).string();
   const bool is_shipped = !from_shipped.empty() && !from_shipped.starts_with("..");
   return (is_shipped ? fs::current_path(none) : folder) / (name.empty() ? "pedicel" : name);
