@@ -16,6 +16,17 @@
 
 namespace pedicel::app {
 
+namespace {
+
+/// The number that a field shows for a value.
+double as_shown(double value, const char* format) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return std::strtod(text.data(), nullptr);
+}
+
+}  // namespace
+
 void heading(const Ui& ui, const char* text) {
   ImGui::Spacing();
   ImGui::PushFont(ui.bold);
@@ -156,7 +167,8 @@ void caption(const Ui& ui, const std::string& name, const std::string& value, co
 bool slider(const Ui& ui, const std::string& name, double& value, double low, double high,
             const char* format, ImGuiSliderFlags flags, const std::string& what) {
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
+  const double zero = 0.0;  // not -0.0
+  std::snprintf(text.data(), text.size(), format, as_shown(value, format) == 0.0 ? zero : value);
   caption(ui, name, text.data(), palette().text, what);
   ImGui::PushID(name.c_str());
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6.0f * ui.scale, 0.0f));
@@ -184,13 +196,6 @@ bool was_left(T& typed, bool edited) {
   if (field == id) typed = last;
   field = 0;
   return true;
-}
-
-/// The number that a field shows for a value.
-double as_shown(double value, const char* format) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return std::strtod(text.data(), nullptr);
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <btBulletCollisionCommon.h>
 
-#include <algorithm>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "robot/bullet_types.h"
 #include "robot/collision_shapes.h"
@@ -17,12 +18,19 @@ namespace {
 
 constexpr double deep = 0.002;  // m: less is a touch
 
-/// Whether two things overlap deeply.
+/// Where two things overlap most.
 struct Deepest : btCollisionWorld::ContactResultCallback {
-  double depth = 0.0;  // m
-  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
-                           const btCollisionObjectWrapper*, int, int) override {
-    depth = std::max(depth, -static_cast<double>(point.getDistance()));
+  const btCollisionObject* first = nullptr;
+  double depth = 0.0;              // m
+  int link = -1, other_link = -1;  // of the first and of the other thing, where those are a robot's
+
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int,
+                           const btCollisionObjectWrapper* b, int, int) override {
+    if (-point.getDistance() <= depth) return 0;
+    depth = -point.getDistance();
+    if (a->getCollisionObject() != first) std::swap(a, b);
+    link = a->getCollisionShape()->getUserIndex();
+    other_link = b->getCollisionShape()->getUserIndex();
     return 0;
   }
 };
@@ -50,42 +58,44 @@ struct RobotContacts::Shapes {
           robot::to_bullet(links[static_cast<std::size_t>(groups[g].link)]));
   }
 
-  bool overlap(btCollisionObject& a, btCollisionObject& b) {
+  /// The links that overlap deeply; nothing where none do.
+  std::optional<Deepest> overlap(std::size_t group, btCollisionObject& other) {
     Deepest found;
-    world.contactPairTest(&a, &b, found);
-    return found.depth > deep;
+    found.first = objects[group].get();
+    if (!shapes[group].parts.empty()) world.contactPairTest(objects[group].get(), &other, found);
+    return found.depth > deep ? std::optional(found) : std::nullopt;
   }
 
-  std::string name(std::size_t group) const {
-    return assets->robot->links[static_cast<std::size_t>(groups[group].link)].name;
+  std::string name(int link) const {
+    return assets->robot->links[static_cast<std::size_t>(link)].name;
   }
 
   /// Every "LINK into THING" at the links' poses.
   std::set<std::string> hits(const Snapshot& now, const std::vector<Pose>& links) {
     place(links);
     std::set<std::string> found;
-    const auto add = [&](std::size_t group, const std::string& thing) {
-      found.insert(name(group) + " into " + thing);
-    };
     for (std::size_t g = 1; g < groups.size(); ++g) {
-      if (groups[g].members.empty() || shapes[g].parts.empty()) continue;
-      if (has_floor && overlap(*objects[g], floor)) add(g, "the ground");
-      for (std::size_t other = 0; other < g; ++other)
-        if (groups[g].parent != static_cast<int>(other) && !shapes[other].parts.empty() &&
-            overlap(*objects[g], *objects[other]))
-          add(g, name(other));
+      if (const auto hit = has_floor ? overlap(g, floor) : std::nullopt)
+        found.insert(name(hit->link) + " into the ground");
+      for (std::size_t other = 0; other < g; ++other) {
+        if (groups[g].parent == static_cast<int>(other) || shapes[other].parts.empty()) continue;
+        if (const auto hit = overlap(g, *objects[other]))
+          found.insert(name(hit->link) + " into " + name(hit->other_link));
+      }
     }
-    for (const BodySnapshot& body : now.bodies) {
-      if (body.info->fruit >= 0) continue;  // lies in the gripper, or rolls away
-      const world::RigidShape shape = world::make_rigid_shape(body.info->description);
-      btCollisionObject object;
-      object.setCollisionShape(shape.compound.get());
-      object.setWorldTransform(robot::to_bullet(body.pose * shape.X_BC));
-      for (std::size_t g = 0; g < groups.size(); ++g)
-        if (!shapes[g].parts.empty() && overlap(*objects[g], object))
-          add(g, body.info->description.name);
-    }
+    for (const BodySnapshot& body : now.bodies)
+      if (body.info->fruit < 0) add_body_hits(body, found);  // fruits lie in the gripper, or roll
     return found;
+  }
+
+  void add_body_hits(const BodySnapshot& body, std::set<std::string>& found) {
+    const world::RigidShape shape = world::make_rigid_shape(body.info->description);
+    btCollisionObject object;
+    object.setCollisionShape(shape.compound.get());
+    object.setWorldTransform(robot::to_bullet(body.pose * shape.X_BC));
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (const auto hit = overlap(g, object))
+        found.insert(name(hit->link) + " into " + body.info->description.name);
   }
 
   std::shared_ptr<const SceneAssets> assets;

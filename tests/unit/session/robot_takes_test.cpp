@@ -2,10 +2,12 @@
 // takes off, and what is said where it does not.
 #include <gmock/gmock.h>
 
+#include "io/atomic_file.h"
 #include "session/pick_program.h"
 #include "session/robot_contacts.h"
 #include "session/robot_goal.h"
 #include "session_cases.h"
+#include "support/temporary_folder.h"
 
 namespace pedicel::app {
 namespace {
@@ -67,6 +69,29 @@ TEST_F(RobotTakes, TheGroundAtTheGoalIsNamed) {
   const Vec3 tool = session.snapshot()->robot.tool.position;
   EXPECT_THAT(hits(std::to_string(tool.x()) + "," + std::to_string(tool.y()) + ",-0.05"),
               HasSubstr("the ground"));
+}
+
+// A root frame without a shape stands for what is bolted to it.
+TEST_F(RobotTakes, TheLinkThatHasTheShapeIsNamed) {
+  TemporaryFolder folder;
+  io::write_file_atomically(folder / "arm.urdf", R"(<robot name="arm">
+  <link name="frame"/>
+  <link name="base"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+  <link name="rod"/>
+  <link name="hand"><inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0"
+    ixz="0" iyz="0"/></inertial><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+  <joint name="bolt" type="fixed"><parent link="frame"/><child link="base"/></joint>
+  <joint name="lift" type="prismatic"><parent link="frame"/><child link="rod"/>
+    <origin xyz="0 0 0.3"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="100" velocity="1"/></joint>
+  <joint name="turn" type="revolute"><parent link="rod"/><child link="hand"/><origin xyz="0.1 0 0"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="100" velocity="1"/></joint>
+</robot>)");
+  run("add robot " + (folder / "arm.urdf").string() + " position=0,0,1 tool=hand");
+  run("joint lift -0.25");
+  const auto now = session.snapshot();
+  const auto ghost = robot_ghost(*now);
+  ASSERT_TRUE(ghost);
+  EXPECT_EQ(contacts.at_goal(*now, ghost->links), "hand into base");
 }
 
 TEST_F(RobotTakes, AFruitOfASoftTrussComesOff) {
