@@ -3,34 +3,13 @@
 #include <cstdint>
 
 #include "core/diagnostics.h"
+#include "core/utf8.h"
 
 namespace pedicel {
 
 namespace {
 
 constexpr std::size_t short_text = 60;  ///< bytes of a cell or a name within a sentence
-
-// Bytes of the UTF-8 character that begins `text`, 0 where none does; its code in `code`.
-std::size_t utf8_length(std::string_view text, std::uint32_t& code) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xC2 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  if (length == 0 || length > text.size()) return 0;
-  constexpr std::array<unsigned char, 5> lead = {0, 0x7F, 0x1F, 0x0F, 0x07};
-  code = first & lead[length];
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-    code = (code << 6) | (byte(i) & 0x3F);
-  }
-  constexpr std::array<std::uint32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xD800 && code < 0xE000;
-  return code >= least[length] && code < 0x110000 && !surrogate ? length : 0;
-}
 
 // Controls of both kinds, what turns the direction of writing, line separators, a BOM.
 bool is_hidden(std::uint32_t code) {
@@ -56,6 +35,27 @@ void escape(unsigned char byte, std::string& out) {
 }
 
 }  // namespace
+
+std::size_t utf8_length(std::string_view text, std::uint32_t& code) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (length == 0 || length > text.size()) return 0;
+  constexpr std::array<unsigned char, 5> lead = {0, 0x7F, 0x1F, 0x0F, 0x07};
+  code = first & lead[length];
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+    code = (code << 6) | (byte(i) & 0x3F);
+  }
+  constexpr std::array<std::uint32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  return code >= least[length] && code < 0x110000 && !surrogate ? length : 0;
+}
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::string out;

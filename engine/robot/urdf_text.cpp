@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
+#include "core/utf8.h"
 #include "geometry/mesh_file.h"
 #include "io/file_magic.h"
 
@@ -24,6 +26,29 @@ std::optional<std::string> fault_of(const std::string& bytes, const std::string&
   if (const std::string kind = io::kind_of_bytes(bytes); !kind.empty()) return kind;
   if (bytes.find('\0') != std::string::npos) return "a binary file, expected a URDF";
   return {};
+}
+
+/// With every byte that is no UTF-8 as '?': TinyXML takes what follows a byte such as Latin-1's for
+/// a part of the same character, a closing quote or the end of the text, too.
+std::string in_utf8(std::string text, const std::string& file, Diagnostics& diagnostics) {
+  SourcePosition here{file, 1, 1}, first;
+  int replaced = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    std::uint32_t code = 0;
+    const std::size_t length = utf8_length(std::string_view(text).substr(i), code);
+    if (length == 0) {
+      if (replaced++ == 0) first = here;
+      text[i] = '?';
+    }
+    here = text[i] == '\n' ? SourcePosition{file, here.line + 1, 1}
+                           : SourcePosition{file, here.line, here.column + 1};
+    i += std::max<std::size_t>(length, 1);
+  }
+  if (replaced > 0)
+    diagnostics.warning(first, std::to_string(replaced) +
+                                   (replaced == 1 ? " byte that is" : " bytes that are") +
+                                   " no UTF-8, read as '?'");
+  return text;
 }
 
 /// Behind the markup that begins at `start`: a comment, or a tag whose texts in quotes may hold a
@@ -137,7 +162,7 @@ std::optional<std::string> urdf_xml_text(const std::string& bytes, const std::st
   const std::size_t start = bytes.find("<!DOCTYPE"), root = bytes.find("<robot");
   if (start == std::string::npos || start > root) {
     if (is_too_deep(bytes)) return refuse(deep);
-    return bytes;
+    return in_utf8(bytes, file, diagnostics);
   }
   const std::size_t end = end_of_doctype(bytes, start);
   const std::map<std::string, std::string> entities = entities_in(bytes, start, end);
@@ -148,7 +173,7 @@ std::optional<std::string> urdf_xml_text(const std::string& bytes, const std::st
   if (text.size() > largest_text)
     return refuse("its entities make more than 64 MB of text, expected a URDF");
   if (is_too_deep(text)) return refuse(deep);
-  return text;
+  return in_utf8(std::move(text), file, diagnostics);
 }
 
 }  // namespace pedicel::robot

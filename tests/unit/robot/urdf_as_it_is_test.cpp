@@ -269,6 +269,19 @@ TEST(UrdfAsItIs, AByteOrderMarkIsNoFault) {
   EXPECT_TRUE(read("\xef\xbb\xbf" + shaped("")).robot);
 }
 
+// A byte of Latin-1 before a closing quote does not take the quote with it, nor the text's end.
+TEST(UrdfAsItIs, BytesThatAreNoUtf8AreReadAsQuestionMarks) {
+  const Read found =
+      read("<robot name='caf\xe9'>\n<link name='\xe4\xf6'>" + mass + "</link></robot>");
+  ASSERT_TRUE(found.robot) << found.text;
+  EXPECT_EQ(found.robot->name, "caf?");
+  EXPECT_EQ(found.robot->links.front().name, "??");
+  EXPECT_THAT(found.text, HasSubstr("t.urdf:1:17: warning: 3 bytes that are no UTF-8"));
+  EXPECT_EQ(read("<robot name='\xc3\xa9'><link name='a'>" + mass + "</link></robot>").text, "");
+  EXPECT_FALSE(read("<robot name=\"r\xee").robot);
+  EXPECT_FALSE(read("<robot name=\"r\">\xf0").robot);
+}
+
 TEST(UrdfAsItIs, ColoursThatAreNoneAreGrey) {
   const auto visual = [](const std::string& material) {
     return shaped("<visual><geometry><sphere radius='1'/></geometry>" + material + "</visual>");
