@@ -1,33 +1,17 @@
 // Scenes are built, changed, saved and left in the window as a person does it.
 #include "app/panels/thing_editor.h"
-#include "desk.h"
-#include "support/temporary_folder.h"
-#include "words.h"
+#include "empty_desk.h"
 
 namespace pedicel::app {
 namespace {
 
 using ::testing::HasSubstr;
 
-class BuildingInWindow : public ::testing::Test {
+class BuildingInWindow : public EmptyDesk {
  protected:
-  void SetUp() override {
-    if (!desk_.available()) GTEST_SKIP() << desk_.why();
-    desk_.open_empty();
-  }
-  void run(const std::string& line) {
-    const Result result = desk_.session().run_text(line);
-    ASSERT_TRUE(result.ok) << result.text;
-  }
   void draw() {
     run("new plant herb");
     run("draw stem herb stem 0,0,0;0,0,0.3 0.004");
-    desk_.settle();
-  }
-  void press(const std::string& window, const std::string& words) {
-    const auto place = place_of(window, words);
-    ASSERT_TRUE(place) << words;
-    desk_.click(place->x, place->y);
     desk_.settle();
   }
   void type_name(const std::filesystem::path& file) {
@@ -37,12 +21,6 @@ class BuildingInWindow : public ::testing::Test {
     desk_.key(Key::enter);
     desk_.settle();
   }
-  const world::Scene& scene() { return *desk_.session().document().scene; }
-  Ui& ui() { return desk_.ui(); }
-  static bool there(const std::filesystem::path& file) { return std::filesystem::exists(file); }
-
-  TemporaryFolder folder_;
-  Desk desk_;
 };
 
 TEST_F(BuildingInWindow, ANewSceneIsSavedAsOne) {

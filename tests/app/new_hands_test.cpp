@@ -2,33 +2,16 @@
 // one thing after the other, asks for pictures and exports.
 #include "app/panels/add_menu.h"
 #include "app/panels/thing_editor.h"
-#include "desk.h"
+#include "empty_desk.h"
 #include "io/atomic_file.h"
-#include "support/temporary_folder.h"
-#include "words.h"
 
 namespace pedicel::app {
 namespace {
 
 using ::testing::HasSubstr;
 
-class NewHands : public ::testing::Test {
+class NewHands : public EmptyDesk {
  protected:
-  void SetUp() override {
-    if (!desk_.available()) GTEST_SKIP() << desk_.why();
-    desk_.open_empty();
-  }
-  void run(const std::string& line) {
-    const Result result = desk_.session().run_text(line);
-    ASSERT_TRUE(result.ok) << result.text;
-    desk_.settle();
-  }
-  void press(const std::string& window, const std::string& words) {
-    const auto place = place_of(window, words);
-    ASSERT_TRUE(place) << words;
-    desk_.click(place->x, place->y);
-    desk_.settle();
-  }
   /// A letter as keyboards send it: press, text, release.
   void send_letter(Key key, const std::string& text) {
     desk_.send(InputEvent::press(key, true));
@@ -46,13 +29,7 @@ class NewHands : public ::testing::Test {
     choose_body(ui(), "crate");
     desk_.show("Plants");
   }
-  const world::Scene& scene() { return *desk_.session().document().scene; }
   std::size_t edits() { return desk_.session().history().size(); }
-  Ui& ui() { return desk_.ui(); }
-  static bool there(const std::filesystem::path& file) { return std::filesystem::exists(file); }
-
-  TemporaryFolder folder_;
-  Desk desk_;
 };
 
 TEST_F(NewHands, ANumberThatIsLeftByTabCounts) {

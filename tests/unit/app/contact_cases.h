@@ -34,15 +34,16 @@ class SceneCase {
   TemporaryFolder folder_;
 };
 
-/// One straight stem as a plant file: from `from` to `to`, clamped at `from`.
+/// One straight stem as a plant file: from `from` to `to`, clamped at `from`; density in kg/m3,
+/// distance of its nodes in m.
 inline std::string stem_file(const std::string& from, const std::string& to, double radius,
-                             double modulus, const std::string& more = "") {
+                             double modulus, const std::string& more = "", int density = 700,
+                             const std::string& distance = "0.02") {
   return "format: pedicel-plant\nversion: 1\nname: stem\nshape: drawn\nmaterial: "
          "{youngs_modulus: " +
-         std::to_string(modulus) +
-         ", poisson_ratio: 0.35, density: 700, damping_time: 0.01}\n"
-         "sampling: {connect: 0.006, distance: 0.02}\nroot: " +
-         from + "\ncurves:\n  - {name: stem, points: [" + from + ", " + to +
+         std::to_string(modulus) + ", poisson_ratio: 0.35, density: " + std::to_string(density) +
+         ", damping_time: 0.01}\nsampling: {connect: 0.006, distance: " + distance +
+         "}\nroot: " + from + "\ncurves:\n  - {name: stem, points: [" + from + ", " + to +
          "], radius: " + std::to_string(radius) + "}\n" + more;
 }
 

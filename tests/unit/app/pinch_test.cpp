@@ -41,13 +41,7 @@ std::string scene_text(const std::string& direction, double friction) {
 
 std::string stem_text(const std::string& from, const std::string& to, double radius, double modulus,
                       const std::string& more = "") {
-  return "format: pedicel-plant\nversion: 1\nname: stem\nshape: drawn\nmaterial: "
-         "{youngs_modulus: " +
-         std::to_string(modulus) +
-         ", poisson_ratio: 0.35, density: 900, damping_time: 0.01}\n"
-         "sampling: {connect: 0.002, distance: 0.015}\nroot: " +
-         from + "\ncurves:\n  - {name: stem, points: [" + from + ", " + to +
-         "], radius: " + std::to_string(radius) + "}\n" + more;
+  return stem_file(from, to, radius, modulus, more, 900, "0.015");
 }
 
 /// How many of `steps` found no equilibrium; -1 where the run ended as unstable.
