@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/exact_fields.h"
 #include "app/mesh_fields.h"
 #include "geometry/shapes.h"
 

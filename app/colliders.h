@@ -22,6 +22,10 @@ using ShapeFields = std::vector<std::vector<std::shared_ptr<const geometry::Sign
 /// problem with the cache and meshes that are large are added to `notes`, one sentence each.
 ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::string>& notes);
 
+/// The same, exact for meshes, too, without grids: where there are no plants, nobody asks for
+/// thousands of distances a step, but the window picks and draws on robots.
+ShapeFields exact_fields_of(const robot::RobotDescription& robot);
+
 /// Adds one collider a collision shape of every link, named "robot/LINK". `fields` is fields_of()
 /// the robot; `link_poses` (X_WL) is where the links are now.
 void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,

@@ -1,6 +1,5 @@
 #include "app/scene_assets.h"
 
-#include "app/exact_fields.h"
 #include "app/rod_options.h"
 #include "app/scene_plants.h"
 

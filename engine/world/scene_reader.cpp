@@ -9,8 +9,6 @@ namespace pedicel::world {
 
 namespace {
 
-constexpr double most_gravity = 100.0;  // m/s2, as of WorldSettings
-
 void read_head(io::YamlMap& map, Scene& scene) {
   std::string stem = scene.file.stem().string();  // without .yaml
   if (stem.ends_with(".scene")) stem.resize(stem.size() - 6);

@@ -104,9 +104,9 @@ Vec3 vector_of(const std::string& key, const std::string& text) {
     const std::size_t end = axis < 2 ? plain.find(',', start) : plain.size();
     const auto number =
         end == std::string::npos ? std::nullopt : to_number(plain.substr(start, end - start));
-    if (!number || !(std::abs(*number) <= 1e3))
+    if (!number || !(std::abs(*number) <= most_gravity))
       throw UsageError(key + " = \"" + text +
-                       "\": must be x,y,z, numbers between -1000 and 1000 m/s2");
+                       "\": must be x,y,z, numbers between -100 and 100 m/s2");
     value[axis] = *number;
     start = end + 1;
   }

@@ -31,6 +31,9 @@ std::optional<double> to_number(const std::string& text);
 /// Hz, that a video may have, wherever that is said.
 inline constexpr io::Bounds video_rates{1.0, 240.0};
 
+/// m/s2, that a component of gravity may have, wherever that is said.
+inline constexpr double most_gravity = 100.0;
+
 /// What the scene's own numbers may be, wherever they come from: duration, dt, log_rate, seed,
 /// threads. Asserts that there is such a key.
 io::Bounds scene_bounds(std::string_view key);
