@@ -1,5 +1,5 @@
-#include "app/cli.h"
-#include "app/window/open_desktop.h"
+#include "pedicel/app/verbs/cli.h"
+#include "pedicel/app/window/open_desktop.h"
 
 int main(int argc, char** argv) {
   using namespace pedicel::app;

@@ -4,15 +4,15 @@
 #include <array>
 #include <cmath>
 
-#include "app/panels/diagnosis_part.h"
-#include "app/panels/panel.h"
-#include "app/panels/plot.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
-#include "app/window/measured_marks.h"
-#include "session/experiment_reading.h"
-#include "session/measured_moment.h"
+#include "pedicel/app/editors/diagnosis_part.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/session/measured/experiment_reading.h"
+#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/ui/plot.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
+#include "pedicel/app/view/measured_marks.h"
 
 namespace pedicel::app {
 

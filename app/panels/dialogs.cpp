@@ -5,12 +5,12 @@
 #include <array>
 #include <string>
 
-#include "app/panels/add_menu.h"
-#include "app/panels/file_list.h"
-#include "app/panels/layout.h"
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
-#include "app/version.h"
+#include "pedicel/app/editors/add_menu.h"
+#include "pedicel/app/panels/layout.h"
+#include "pedicel/app/report/version.h"
+#include "pedicel/app/ui/file_list.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "app/panels/panel.h"
-#include "app/panels/stem_editor.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
-#include "app/window/selection_follow.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/ui/selection_follow.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -1,10 +1,10 @@
-#include "app/panels/layout.h"
+#include "pedicel/app/panels/layout.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "app/panels/theme.h"
-#include "app/panels/time_line.h"
+#include "pedicel/app/panels/time_line.h"
+#include "pedicel/app/ui/theme.h"
 
 namespace pedicel::app {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/panels/panel.h"
-#include "app/panels/ui.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/ui/ui.h"
 
 namespace pedicel::app {
 

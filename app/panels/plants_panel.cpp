@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "app/panels/add_menu.h"
-#include "app/panels/panel.h"
-#include "app/panels/stem_editor.h"
-#include "app/panels/theme.h"
-#include "app/panels/thing_editor.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
+#include "pedicel/app/editors/add_menu.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/editors/thing_editor.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -5,16 +5,16 @@
 #include <filesystem>
 #include <map>
 
-#include "app/panels/panel.h"
-#include "app/panels/plot.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
-#include "app/window/desktop.h"
-#include "app/window/measured_marks.h"
-#include "io/atomic_file.h"
-#include "io/csv.h"
-#include "session/measured_moment.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/ui/free_file_name.h"
+#include "pedicel/app/ui/plot.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
+#include "pedicel/app/view/measured_marks.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::app {
 
@@ -206,7 +206,8 @@ class PlotsPanel : public Panel {
       text += "\n";
     }
     try {
-      const std::filesystem::path file = free_name(ui.output_stem().string() + "_plot", ".csv");
+      const std::filesystem::path file =
+          free_file_name(ui.output_stem().string() + "_plot", ".csv");
       io::write_file_atomically(file, text);
       ui.say("written: " + std::filesystem::absolute(file).string());
     } catch (const std::exception& error) {

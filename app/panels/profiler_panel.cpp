@@ -4,10 +4,10 @@
 #include <array>
 #include <numeric>
 
-#include "app/panels/panel.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

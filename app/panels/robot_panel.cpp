@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/panels/organ_numbers.h"
-#include "app/panels/panel.h"
-#include "app/panels/robot_program_part.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
+#include "pedicel/app/editors/organ_numbers.h"
+#include "pedicel/app/editors/robot_program_part.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/panels/layout.h"
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
-#include "render/colormap.h"
+#include "pedicel/app/panels/layout.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/widgets.h"
+#include "pedicel/render/colormap.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
 #include <array>
 #include <cstdio>
 
-#include "app/panels/layout.h"
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
+#include "pedicel/app/panels/layout.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 
@@ -19,7 +19,7 @@ void field(const Ui& ui, const char* name, const std::string& value, const std::
   ImGui::SameLine(0, 16.0f * ui.scale);
 }
 
-std::string fixed(const char* format, double value) {
+std::string rounded(const char* format, double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
@@ -34,9 +34,9 @@ ImVec4 mode_colour(RunMode mode) {
 
 void speeds(const Ui& ui) {
   const Snapshot& s = *ui.snapshot;
-  field(ui, "RTF", fixed("%.2f", s.real_time_factor),
+  field(ui, "RTF", rounded("%.2f", s.real_time_factor),
         "Real-time factor: simulated over wall time, last half second", palette().text);
-  field(ui, "step", fixed("%.2f ms", s.ms_per_step),
+  field(ui, "step", rounded("%.2f ms", s.ms_per_step),
         "Wall time a step, mean of the last half second", palette().text);
 }
 
@@ -50,18 +50,18 @@ void draw_status_bar(Ui& ui) {
   if (ui.session.control().building_for() > soon) mode = to_string(RunMode::building);
   // A film is made of steps, between which the run is held.
   if (ui.filmed && s.mode == RunMode::paused && s.step > 0) mode = to_string(RunMode::playing);
-  if (s.mode == RunMode::replaying) mode += fixed(" %.0f %%", 100.0 * s.replay_share);
+  if (s.mode == RunMode::replaying) mode += rounded(" %.0f %%", 100.0 * s.replay_share);
   if (s.pull.active) mode += ", pulling";
   if (ui.draw.on) mode += ", drawing";
   field(ui, "", mode, "What the simulation does", mode_colour(s.mode));
-  field(ui, "t", fixed("%.3f s", s.time), "Simulated time", plain);
+  field(ui, "t", rounded("%.3f s", s.time), "Simulated time", plain);
   if (!ui.filmed) speeds(ui);
   field(ui, "contacts", std::to_string(s.report.contacts), "Between plants and other things",
         plain);
-  field(ui, "strain", fixed("%.3f", s.largest_strain),
+  field(ui, "strain", rounded("%.3f", s.largest_strain),
         "Largest strain at a surface: " + s.largest_strain_organ, plain);
   if (!ui.filmed && ui.times.platform == "window")  // off screen nobody waits for a picture
-    field(ui, "picture", fixed("%.0f/s", ui.times.picture > 0 ? 1.0 / ui.times.picture : 0.0),
+    field(ui, "picture", rounded("%.0f/s", ui.times.picture > 0 ? 1.0 / ui.times.picture : 0.0),
           "Pictures a second; the simulation does not wait for them", plain);
   std::string right;
   if (ui.selection)

@@ -1,10 +1,10 @@
-#include "app/panels/time_line.h"
+#include "pedicel/app/panels/time_line.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/panels/ui.h"
+#include "pedicel/app/ui/ui.h"
 
 namespace pedicel::app {
 

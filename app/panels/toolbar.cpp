@@ -2,10 +2,10 @@
 #include <array>
 #include <cstdio>
 
-#include "app/panels/add_menu.h"
-#include "app/panels/layout.h"
-#include "app/panels/theme.h"
-#include "app/panels/widgets.h"
+#include "pedicel/app/editors/add_menu.h"
+#include "pedicel/app/panels/layout.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

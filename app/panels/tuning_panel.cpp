@@ -4,12 +4,12 @@
 #include <cctype>
 #include <map>
 
-#include "app/panels/drag_bar.h"
-#include "app/panels/panel.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
-#include "io/yaml.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/ui/drag_bar.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
+#include "pedicel/io/yaml.h"
 
 namespace pedicel::app {
 

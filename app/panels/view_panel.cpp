@@ -1,9 +1,9 @@
 #include <array>
 
-#include "app/panels/panel.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
 
 namespace pedicel::app {
 

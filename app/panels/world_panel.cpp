@@ -2,15 +2,15 @@
 
 #include <array>
 
-#include "app/panels/effects_part.h"
-#include "app/panels/panel.h"
-#include "app/panels/theme.h"
-#include "app/panels/ui.h"
-#include "app/panels/widgets.h"
-#include "app/rod_options.h"
-#include "io/csv.h"
-#include "session/effective_plant.h"
-#include "session/measured_data.h"
+#include "pedicel/app/editors/effects_part.h"
+#include "pedicel/app/panels/panel.h"
+#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/session/document/effective_plant.h"
+#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/ui/theme.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/ui/widgets.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::app {
 

@@ -1,7 +1,7 @@
-#include "app/platform/platform.h"
+#include "pedicel/app/platform/platform.h"
 
-#include "core/check.h"
-#include "render/offscreen.h"
+#include "pedicel/core/check.h"
+#include "pedicel/render/offscreen.h"
 
 namespace pedicel::app {
 

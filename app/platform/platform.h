@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/platform/input.h"
-#include "render/gl_functions.h"
-#include "render/render_target.h"
+#include "pedicel/app/platform/input.h"
+#include "pedicel/render/gl_functions.h"
+#include "pedicel/render/render_target.h"
 
 namespace pedicel::app {
 

@@ -1,6 +1,6 @@
-#include "session/history.h"
+#include "pedicel/app/session/history.h"
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::app {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "session/command.h"
-#include "session/document.h"
+#include "pedicel/app/session/commands/command.h"
+#include "pedicel/app/session/document/document.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "session/journal.h"
+#include "pedicel/app/session/journal.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,10 +11,10 @@
 #include <cstdio>
 #include <cstring>
 
-#include "io/atomic_file.h"
-#include "session/command.h"
-#include "session/scene_things.h"
-#include "world/scene_writer.h"
+#include "pedicel/app/session/commands/command.h"
+#include "pedicel/app/session/commands/scene_things.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/world/scene_writer.h"
 
 namespace pedicel::app {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "session/document.h"
+#include "pedicel/app/session/document/document.h"
 
 namespace pedicel::app {
 

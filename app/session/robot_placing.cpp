@@ -1,17 +1,17 @@
-#include "session/robot_placing.h"
+#include "pedicel/app/session/robot_placing.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 
-#include "core/check.h"
-#include "io/asset_folder.h"
-#include "plant/plant_edit.h"
-#include "robot/inverse_kinematics.h"
-#include "robot/urdf_reader.h"
-#include "session/scene_things.h"
-#include "session/session.h"
+#include "pedicel/app/session/commands/scene_things.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/asset_folder.h"
+#include "pedicel/plant/plant_edit.h"
+#include "pedicel/robot/inverse_kinematics.h"
+#include "pedicel/urdf/urdf_reader.h"
 
 namespace pedicel::app {
 
@@ -156,7 +156,8 @@ Pose base_near(const robot::RobotDescription& robot, const std::string& tool,
 // What a script says is all that counts there: paths are whole, and nothing is chosen again.
 Command Session::placed_robot(const Command& c) const {
   const auto file = robot_file(c.word("file"));
-  std::map<std::string, Value> arguments{{"file", file.string()}, {"name", c.word_or("name", "robot")}};
+  std::map<std::string, Value> arguments{{"file", file.string()},
+                                         {"name", c.word_or("name", "robot")}};
   if (document_.scene->robot) return Command(c.verb(), std::move(arguments));  // it is refused
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
   for (const std::string& package : options_.packages) paths.add(package);

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "robot/description.h"
-#include "session/document.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/robot/description.h"
 
 /// What a robot gets by itself when it is added to a scene.
 namespace pedicel::app {
 
-/// The link that is led: one that is named as such (tool, tcp, tool0, ...), else the last one of the
-/// longest chain, as far from the base as it goes.
+/// The link that is led: one that is named as such (tool, tcp, tool0, ...), else the last one of
+/// the longest chain, as far from the base as it goes.
 std::string likely_tool(const robot::RobotDescription& robot);
 /// The joint of a gripper by its name (finger, grip, jaw); empty: none is named so.
 std::string likely_gripper(const robot::RobotDescription& robot);
@@ -23,9 +23,9 @@ struct ReachPlace {
 std::vector<ReachPlace> places_to_reach(const Document& document);
 
 /// Where a base stands so that the tool comes to most of the places, from 10 cm before them on and
-/// 10 cm back with what it holds, with its Z axis level and towards the plant; as low as can be, and
-/// not in the plant. Half a metre from the first place where nothing reaches; the origin without
-/// places.
+/// 10 cm back with what it holds, with its Z axis level and towards the plant; as low as can be,
+/// and not in the plant. Half a metre from the first place where nothing reaches; the origin
+/// without places.
 Pose base_near(const robot::RobotDescription& robot, const std::string& tool,
                const std::vector<ReachPlace>& places, double ground);
 

@@ -1,9 +1,9 @@
-#include "session/script.h"
+#include "pedicel/app/session/script.h"
 
 #include <sstream>
 
-#include "core/stop.h"
-#include "io/atomic_file.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
 

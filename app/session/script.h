@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "session/session.h"
+#include "pedicel/app/session/session.h"
 
 namespace pedicel::app {
 

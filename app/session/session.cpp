@@ -1,14 +1,14 @@
-#include "session/session.h"
+#include "pedicel/app/session/session.h"
 
 #include <cstdlib>
 #include <map>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "session/command_table.h"
-#include "session/experiment_reading.h"
-#include "session/journal.h"
-#include "session/measured_data.h"
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/journal.h"
+#include "pedicel/app/session/measured/experiment_reading.h"
+#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -6,15 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter.h"
-#include "robot/inverse_kinematics.h"
-#include "session/command.h"
-#include "session/document.h"
-#include "session/file_texts.h"
-#include "session/film.h"
-#include "session/history.h"
-#include "session/robot_goal.h"
-#include "session/run_control.h"
+#include "pedicel/app/session/commands/command.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/app/session/document/document_parameters.h"
+#include "pedicel/app/session/document/file_texts.h"
+#include "pedicel/app/session/film.h"
+#include "pedicel/app/session/history.h"
+#include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/app/session/live/run_control.h"
+#include "pedicel/core/parameter.h"
+#include "pedicel/robot/inverse_kinematics.h"
 
 namespace pedicel::app {
 
@@ -38,20 +39,6 @@ struct Result {
   bool bad_file = false;    ///< the fault is one of a file that was to be read
   bool overwrites = false;  ///< refused, since a file would be lost: SaveWishes::overwrite does it
   explicit operator bool() const { return ok; }
-};
-
-/// A described number of the document that may be changed while it runs.
-struct SessionParameter {
-  std::string key;    ///< as in `set`: "rods.newton_iterations", "plants.tomato.material.density"
-  std::string group;  ///< "rods", "coupling", "tomato"
-  std::string unit, sentence;
-  double value = 0.0, initial = 0.0;  ///< now; as the files say
-  double minimum = 0.0, maximum = 0.0;
-  bool flag = false;         ///< 0 or 1
-  bool whole = false;        ///< only whole numbers
-  bool logarithmic = false;  ///< spans orders of magnitude
-  bool restarts = false;     ///< a change starts the run anew
-  bool changed = false;      ///< over what the files say
 };
 
 /// Where journals lie by default: $XDG_STATE_HOME/pedicel, else ~/.local/state/pedicel; empty where

@@ -1,12 +1,12 @@
 #include <algorithm>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "session/measured_commands.h"
-#include "session/plant_export.h"
-#include "session/plant_import.h"
-#include "session/scene_things.h"
-#include "session/session.h"
+#include "pedicel/app/session/commands/measured_commands.h"
+#include "pedicel/app/session/commands/scene_things.h"
+#include "pedicel/app/session/document/plant_export.h"
+#include "pedicel/app/session/document/plant_import.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
 
 /// What a session does with files.
 namespace pedicel::app {

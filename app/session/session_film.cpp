@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/check.h"
-#include "session/session.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
 
 /// Films of a session.
 namespace pedicel::app {

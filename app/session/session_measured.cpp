@@ -1,15 +1,15 @@
 #include <chrono>
 #include <thread>
 
-#include "core/check.h"
-#include "discrepancy/report.h"
-#include "io/atomic_file.h"
-#include "session/diagnosis_card.h"
-#include "session/experiment_reading.h"
-#include "session/journal.h"
-#include "session/measured_commands.h"
-#include "session/measured_data.h"
-#include "session/session.h"
+#include "pedicel/app/session/commands/measured_commands.h"
+#include "pedicel/app/session/journal.h"
+#include "pedicel/app/session/measured/diagnosis_card.h"
+#include "pedicel/app/session/measured/experiment_reading.h"
+#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/discrepancy/report/report.h"
+#include "pedicel/io/atomic_file.h"
 
 /// A session and the data that were measured on its plant.
 namespace pedicel::app {

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "session/experiment_reading.h"
-#include "session/measured_data.h"
-#include "session/scene_references.h"
-#include "session/session.h"
+#include "pedicel/app/session/document/scene_references.h"
+#include "pedicel/app/session/measured/experiment_reading.h"
+#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/session.h"
 
 /// What the simulation's thread has to tell, and what becomes of edits that cannot be simulated.
 namespace pedicel::app {

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/plant_step.h"
-#include "core/check.h"
-#include "session/pick_program.h"
-#include "session/robot_goal.h"
-#include "session/session.h"
+#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/session/live/pick_program.h"
+#include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "session/session.h"
+#include "pedicel/app/session/session.h"
 
 /// Pulls, which undo takes back as it takes back edits: whichever came last.
 namespace pedicel::app {

@@ -2,10 +2,10 @@
 #include <ctime>
 #include <utility>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "session/journal.h"
-#include "session/session.h"
+#include "pedicel/app/session/journal.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
 
 /// What a killed program left.
 namespace pedicel::app {

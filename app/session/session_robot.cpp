@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "robot/joint_range.h"
-#include "session/robot_goal.h"
-#include "session/session.h"
+#include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/robot/joint_range.h"
 
 /// The robot by hand.
 namespace pedicel::app {

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "io/csv.h"
-#include "session/command_table.h"
-#include "session/measured_commands.h"
-#include "session/organ_place.h"
-#include "session/plant_import.h"
-#include "session/session.h"
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/commands/measured_commands.h"
+#include "pedicel/app/session/document/plant_import.h"
+#include "pedicel/app/session/live/organ_place.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
 
 /// Commands of the run and the session.
 namespace pedicel::app {

@@ -1,14 +1,14 @@
 #include <algorithm>
 
-#include "app/scene_plants.h"
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "session/plant_import.h"
-#include "session/plant_save.h"
-#include "session/scene_save.h"
-#include "session/session.h"
-#include "world/scene_reader.h"
-#include "world/scene_writer.h"
+#include "pedicel/app/run/scene_plants.h"
+#include "pedicel/app/session/document/plant_import.h"
+#include "pedicel/app/session/document/plant_save.h"
+#include "pedicel/app/session/document/scene_save.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/world/scene_reader.h"
+#include "pedicel/world/scene_writer.h"
 
 /// Saving: what goes into which file, and what is asked before.
 namespace pedicel::app {

@@ -1,7 +1,7 @@
-#include "io/csv.h"
-#include "session/journal.h"
-#include "session/plant_parameters.h"
-#include "session/session.h"
+#include "pedicel/app/session/document/document_parameters.h"
+#include "pedicel/app/session/journal.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/io/csv.h"
 
 /// What was done since the document was opened, as a script.
 namespace pedicel::app {

@@ -1,9 +1,9 @@
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "io/csv.h"
-#include "robot/joint_range.h"
-#include "session/robot_goal.h"
-#include "session/session.h"
+#include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/robot/joint_range.h"
 
 /// Programs of the robot: recorded waypoints, trajectory tables.
 namespace pedicel::app {

@@ -1,4 +1,4 @@
-#include "app/window/desktop.h"
+#include "pedicel/app/window/desktop.h"
 
 #include <imgui.h>
 
@@ -6,11 +6,11 @@
 #include <array>
 #include <chrono>
 
-#include "app/panels/theme.h"
-#include "app/panels/time_line.h"
-#include "app/window/draw_tool.h"
-#include "app/window/selection_follow.h"
-#include "session/robot_goal.h"
+#include "pedicel/app/panels/time_line.h"
+#include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/app/tools/draw_tool.h"
+#include "pedicel/app/ui/selection_follow.h"
+#include "pedicel/app/ui/theme.h"
 
 namespace pedicel::app {
 

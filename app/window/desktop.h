@@ -7,19 +7,19 @@
 #include <set>
 #include <string>
 
-#include "app/panels/layout.h"
-#include "app/platform/platform.h"
-#include "app/window/fonts.h"
-#include "app/window/gui_input.h"
-#include "app/window/gui_painter.h"
-#include "app/window/measured_marks.h"
-#include "app/window/scene_canvas.h"
-#include "app/window/scene_mouse.h"
-#include "app/window/snapshot_view.h"
-#include "app/window/tool_handles.h"
-#include "render/video.h"
-#include "session/film.h"
-#include "session/robot_contacts.h"
+#include "pedicel/app/panels/layout.h"
+#include "pedicel/app/platform/platform.h"
+#include "pedicel/app/session/film.h"
+#include "pedicel/app/session/live/robot_contacts.h"
+#include "pedicel/app/tools/tool_handles.h"
+#include "pedicel/app/view/measured_marks.h"
+#include "pedicel/app/view/scene_canvas.h"
+#include "pedicel/app/view/scene_mouse.h"
+#include "pedicel/app/view/snapshot_view.h"
+#include "pedicel/app/window/fonts.h"
+#include "pedicel/app/window/gui_input.h"
+#include "pedicel/app/window/gui_painter.h"
+#include "pedicel/render/video.h"
 
 struct ImGuiContext;
 
@@ -32,9 +32,6 @@ struct DesktopOptions {
   Theme theme = Theme::dark;          ///< without a file of preferences
   bool theme_given = false;           ///< `theme` goes before what the file says
 };
-
-/// STEM_001ENDING, or the first number that is free.
-std::filesystem::path free_name(const std::string& stem, const std::string& ending);
 
 /// The desktop: a session seen and led by hand. The same on every platform; on the null platform
 /// everything but the pictures.

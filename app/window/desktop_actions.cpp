@@ -2,8 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "app/pictures.h"
-#include "app/window/desktop.h"
+#include "pedicel/app/draw/pictures.h"
+#include "pedicel/app/ui/free_file_name.h"
+#include "pedicel/app/window/desktop.h"
 
 namespace pedicel::app {
 
@@ -109,7 +110,7 @@ void Desktop::perform_file(Action action) {
 void Desktop::take_screenshot() {
   const auto picture = ui_.view.panels_in_pictures ? window_picture() : scene_picture(1280, 720);
   if (!picture) return;
-  const std::filesystem::path path = free_name(ui_.output_stem().string(), ".png");
+  const std::filesystem::path path = free_file_name(ui_.output_stem().string(), ".png");
   try {
     render::write_png(path, *picture);
     ui_.say("picture in " + std::filesystem::absolute(path).string());

@@ -1,10 +1,10 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "app/panels/point_editor.h"
-#include "app/panels/thing_editor.h"
-#include "app/window/desktop.h"
-#include "app/window/draw_tool.h"
+#include "pedicel/app/editors/point_editor.h"
+#include "pedicel/app/editors/thing_editor.h"
+#include "pedicel/app/tools/draw_tool.h"
+#include "pedicel/app/window/desktop.h"
 
 /// Actions that change the plants, or what is chosen of them.
 namespace pedicel::app {

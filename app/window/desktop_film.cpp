@@ -3,26 +3,17 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/window/desktop.h"
-#include "app/window/film.h"
+#include "pedicel/app/ui/free_file_name.h"
+#include "pedicel/app/window/desktop.h"
+#include "pedicel/app/window/film.h"
 
 /// Films of the window: what runs goes by simulated time, hands by the clock.
 namespace pedicel::app {
 
-std::filesystem::path free_name(const std::string& stem, const std::string& ending) {
-  for (int number = 1; number < 10000; ++number) {
-    std::array<char, 16> digits{};
-    std::snprintf(digits.data(), digits.size(), "%03d", number);
-    std::filesystem::path path = stem + "_" + digits.data() + ending;
-    if (!std::filesystem::exists(path)) return path;
-  }
-  return stem + ending;
-}
-
 void Desktop::toggle_video() {
   if (!running())
     ui_.report(ui_.session.run(
-        Command("record", {{"file", free_name(ui_.output_stem().string(), ".mp4").string()},
+        Command("record", {{"file", free_file_name(ui_.output_stem().string(), ".mp4").string()},
                            {"ui", ui_.view.panels_in_pictures ? 1 : 0}})));
   else if (const Result ended = ui_.session.run(Command("stop recording", {})); ui_.report(ended))
     ui_.say(ended.text);

@@ -1,10 +1,10 @@
 #include <imgui.h>
 
-#include "app/panels/widgets.h"
-#include "app/window/desktop.h"
-#include "app/window/draw_tool.h"
-#include "app/window/scene_marks.h"
-#include "session/organ_place.h"
+#include "pedicel/app/session/live/organ_place.h"
+#include "pedicel/app/tools/draw_tool.h"
+#include "pedicel/app/ui/widgets.h"
+#include "pedicel/app/view/scene_marks.h"
+#include "pedicel/app/window/desktop.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "app/pictures.h"
-#include "app/window/desktop.h"
-#include "app/window/framing.h"
-#include "session/organ_place.h"
+#include "pedicel/app/draw/pictures.h"
+#include "pedicel/app/session/live/organ_place.h"
+#include "pedicel/app/window/desktop.h"
+#include "pedicel/app/window/framing.h"
 
 /// Actions that change how the scene is seen.
 namespace pedicel::app {

@@ -1,8 +1,8 @@
-#include "app/window/film.h"
+#include "pedicel/app/window/film.h"
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "render/offscreen.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/render/offscreen.h"
 
 namespace pedicel::app {
 

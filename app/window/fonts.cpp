@@ -1,4 +1,4 @@
-#include "app/window/fonts.h"
+#include "pedicel/app/window/fonts.h"
 
 #include <imgui.h>
 

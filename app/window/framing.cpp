@@ -1,11 +1,11 @@
-#include "app/window/framing.h"
+#include "pedicel/app/window/framing.h"
 
 #include <algorithm>
 
-#include "app/panels/stem_editor.h"
-#include "app/window/drawn_shape.h"
-#include "app/window/snapshot_view.h"
-#include "plant/point_kind.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/tools/drawn_shape.h"
+#include "pedicel/app/view/snapshot_view.h"
+#include "pedicel/plant/point_kind.h"
 
 namespace pedicel::app {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "app/panels/ui.h"
-#include "app/window/rigid_shapes.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/view/rigid_shapes.h"
 
 namespace pedicel::app {
 

@@ -3,7 +3,7 @@
 #include <deque>
 #include <vector>
 
-#include "app/platform/platform.h"
+#include "pedicel/app/platform/platform.h"
 
 namespace pedicel::app {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/gl_functions.h"
+#include "pedicel/render/gl_functions.h"
 
 struct ImDrawData;
 struct ImDrawCmd;

@@ -1,4 +1,4 @@
-#include "app/window/open_desktop.h"
+#include "pedicel/app/window/open_desktop.h"
 
 #include <unistd.h>
 
@@ -7,16 +7,16 @@
 #include <cstdio>
 #include <iostream>
 
-#include "app/headless.h"
-#include "app/version.h"
-#include "app/window/desktop.h"
-#include "app/window/film.h"
-#include "core/check.h"
-#include "core/stop.h"
-#include "io/asset_folder.h"
-#include "session/measured_data.h"
-#include "session/script.h"
-#include "world/settings.h"
+#include "pedicel/app/report/headless.h"
+#include "pedicel/app/report/version.h"
+#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/script.h"
+#include "pedicel/app/window/desktop.h"
+#include "pedicel/app/window/film.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/io/asset_folder.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "app/cli.h"
+#include "pedicel/app/verbs/cli.h"
 
 namespace pedicel::app {
 

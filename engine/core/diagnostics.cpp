@@ -1,4 +1,4 @@
-#include "core/diagnostics.h"
+#include "pedicel/core/diagnostics.h"
 
 #include <utility>
 

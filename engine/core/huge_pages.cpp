@@ -1,4 +1,4 @@
-#include "core/huge_pages.h"
+#include "pedicel/core/huge_pages.h"
 
 #include <algorithm>
 #include <cstdlib>

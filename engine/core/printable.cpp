@@ -2,8 +2,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/diagnostics.h"
-#include "core/utf8.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/core/utf8.h"
 
 namespace pedicel {
 

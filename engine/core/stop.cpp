@@ -1,4 +1,4 @@
-#include "core/stop.h"
+#include "pedicel/core/stop.h"
 
 #include <signal.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "core/task_graph.h"
+#include "pedicel/core/task_graph.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel {
 

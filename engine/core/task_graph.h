@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/thread_pool.h"
+#include "pedicel/core/thread_pool.h"
 
 namespace pedicel {
 

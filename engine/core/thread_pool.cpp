@@ -1,8 +1,8 @@
-#include "core/thread_pool.h"
+#include "pedicel/core/thread_pool.h"
 
 #include <algorithm>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel {
 

@@ -1,4 +1,4 @@
-#include "geometry/cache_folder.h"
+#include "pedicel/geometry/cache_folder.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,11 +1,11 @@
-#include "geometry/curve.h"
+#include "pedicel/geometry/curve.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "core/check.h"
-#include "core/stop.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/stop.h"
 
 namespace pedicel::geometry {
 

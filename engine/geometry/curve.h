@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::geometry {
 

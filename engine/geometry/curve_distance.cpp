@@ -1,10 +1,10 @@
-#include "geometry/curve_distance.h"
+#include "pedicel/geometry/curve_distance.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "geometry/aabb.h"
-#include "geometry/closest_point.h"
+#include "pedicel/geometry/aabb.h"
+#include "pedicel/geometry/closest_point.h"
 
 namespace pedicel::geometry {
 

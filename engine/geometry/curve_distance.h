@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/curve.h"
+#include "pedicel/geometry/curve.h"
 
 namespace pedicel::geometry {
 

@@ -1,9 +1,9 @@
-#include "geometry/grid_cache.h"
+#include "pedicel/geometry/grid_cache.h"
 
 #include <cstdio>
 
-#include "core/state_hash.h"
-#include "geometry/grid_file.h"
+#include "pedicel/core/state_hash.h"
+#include "pedicel/geometry/grid_file.h"
 
 namespace pedicel::geometry {
 

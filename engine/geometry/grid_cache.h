@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "geometry/cache_folder.h"
-#include "geometry/grid_distance.h"
+#include "pedicel/geometry/cache_folder.h"
+#include "pedicel/geometry/grid_distance.h"
 
 namespace pedicel::geometry {
 

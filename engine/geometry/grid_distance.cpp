@@ -1,13 +1,13 @@
-#include "geometry/grid_distance.h"
+#include "pedicel/geometry/grid_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "core/check.h"
-#include "core/stop.h"
-#include "core/thread_pool.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/core/thread_pool.h"
 
 namespace pedicel::geometry {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/mesh_distance.h"
+#include "pedicel/geometry/mesh_distance.h"
 
 namespace pedicel {
 class ThreadPool;

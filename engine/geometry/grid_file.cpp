@@ -1,4 +1,4 @@
-#include "geometry/grid_file.h"
+#include "pedicel/geometry/grid_file.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/state_hash.h"
+#include "pedicel/core/state_hash.h"
 
 namespace pedicel::geometry {
 

@@ -1,11 +1,11 @@
-#include "geometry/mass_properties.h"
+#include "pedicel/geometry/mass_properties.h"
 
 #include <cmath>
 #include <string>
 
-#include "core/check.h"
-#include "geometry/aabb.h"
-#include "geometry/mesh_topology.h"
+#include "pedicel/core/check.h"
+#include "pedicel/geometry/aabb.h"
+#include "pedicel/geometry/mesh_topology.h"
 
 namespace pedicel::geometry {
 

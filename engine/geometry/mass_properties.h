@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "geometry/mesh.h"
+#include "pedicel/geometry/mesh.h"
 
 namespace pedicel::geometry {
 

@@ -1,4 +1,4 @@
-#include "geometry/mesh.h"
+#include "pedicel/geometry/mesh.h"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -10,10 +10,10 @@
 #include <map>
 #include <string>
 
-#include "core/check.h"
-#include "core/diagnostics.h"
-#include "core/stop.h"
-#include "geometry/mesh_file.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/geometry/mesh_file.h"
 
 namespace pedicel::geometry {
 

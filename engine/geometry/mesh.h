@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::geometry {
 

@@ -1,4 +1,4 @@
-#include "geometry/mesh_distance.h"
+#include "pedicel/geometry/mesh_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "core/stop.h"
+#include "pedicel/core/stop.h"
 
 namespace pedicel::geometry {
 

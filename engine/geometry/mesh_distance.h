@@ -1,8 +1,8 @@
 #pragma once
 
-#include "geometry/mesh_topology.h"
-#include "geometry/signed_distance.h"
-#include "geometry/triangle_bvh.h"
+#include "pedicel/geometry/mesh_topology.h"
+#include "pedicel/geometry/signed_distance.h"
+#include "pedicel/geometry/triangle_bvh.h"
 
 namespace pedicel::geometry {
 

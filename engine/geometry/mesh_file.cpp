@@ -1,4 +1,4 @@
-#include "geometry/mesh_file.h"
+#include "pedicel/geometry/mesh_file.h"
 
 #include <algorithm>
 #include <cctype>

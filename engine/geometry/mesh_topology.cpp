@@ -1,4 +1,4 @@
-#include "geometry/mesh_topology.h"
+#include "pedicel/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/mesh.h"
+#include "pedicel/geometry/mesh.h"
 
 namespace pedicel::geometry {
 

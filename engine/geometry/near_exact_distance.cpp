@@ -1,4 +1,4 @@
-#include "geometry/near_exact_distance.h"
+#include "pedicel/geometry/near_exact_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/grid_distance.h"
+#include "pedicel/geometry/grid_distance.h"
 
 namespace pedicel::geometry {
 

@@ -1,10 +1,10 @@
-#include "geometry/primitives_mesh.h"
+#include "pedicel/geometry/primitives_mesh.h"
 
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::geometry {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/mesh.h"
+#include "pedicel/geometry/mesh.h"
 
 /// Closed meshes of simple shapes, centred at the origin, axis along z, triangles counter-clockwise
 /// seen from outside. Vertices of round parts lie on the true surface, so the mesh lies inside it

@@ -1,11 +1,11 @@
-#include "geometry/shapes.h"
+#include "pedicel/geometry/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::geometry {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/aabb.h"
+#include "pedicel/geometry/aabb.h"
 
 namespace pedicel::geometry {
 

@@ -1,12 +1,12 @@
-#include "geometry/triangle_bvh.h"
+#include "pedicel/geometry/triangle_bvh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "core/check.h"
-#include "core/stop.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/stop.h"
 
 namespace pedicel::geometry {
 

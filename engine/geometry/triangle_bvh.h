@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/aabb.h"
-#include "geometry/closest_point.h"
+#include "pedicel/geometry/aabb.h"
+#include "pedicel/geometry/closest_point.h"
 
 namespace pedicel::geometry {
 

@@ -1,4 +1,4 @@
-#include "io/asset_folder.h"
+#include "pedicel/io/asset_folder.h"
 
 namespace pedicel::io {
 

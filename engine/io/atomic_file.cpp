@@ -1,4 +1,4 @@
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/diagnostics.h"
+#include "pedicel/core/diagnostics.h"
 
 namespace pedicel::io {
 

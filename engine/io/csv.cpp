@@ -1,4 +1,4 @@
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 
 #include <charconv>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <limits>
 #include <string_view>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "io/table_text.h"
-#include "io/text_file.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/table_text.h"
+#include "pedicel/io/text_file.h"
 
 namespace pedicel::io {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "io/unit_text.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/io/unit_text.h"
 
 namespace pedicel::io {
 

@@ -1,9 +1,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "io/csv.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::io {
 

@@ -1,4 +1,4 @@
-#include "io/file_magic.h"
+#include "pedicel/io/file_magic.h"
 
 #include <algorithm>
 #include <array>

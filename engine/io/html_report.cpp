@@ -1,10 +1,10 @@
-#include "io/html_report.h"
+#include "pedicel/io/html_report.h"
 
 #include <charconv>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "io/markup.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/markup.h"
 
 namespace pedicel::io {
 

@@ -1,4 +1,4 @@
-#include "io/markup.h"
+#include "pedicel/io/markup.h"
 
 namespace pedicel::io {
 

@@ -1,4 +1,4 @@
-#include "io/number_text.h"
+#include "pedicel/io/number_text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "io/output_folder.h"
+#include "pedicel/io/output_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -13,7 +13,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace pedicel::io {
 

@@ -1,11 +1,11 @@
-#include "io/plot_scale.h"
+#include "pedicel/io/plot_scale.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "core/check.h"
-#include "io/csv.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::io {
 

@@ -1,9 +1,9 @@
-#include "io/svg_canvas.h"
+#include "pedicel/io/svg_canvas.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "io/markup.h"
+#include "pedicel/io/markup.h"
 
 namespace pedicel::io {
 

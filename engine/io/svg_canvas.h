@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/plot_scale.h"
+#include "pedicel/io/plot_scale.h"
 
 namespace pedicel::io {
 

@@ -1,14 +1,14 @@
-#include "io/svg_heat_map.h"
+#include "pedicel/io/svg_heat_map.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
-#include "core/check.h"
-#include "io/csv.h"
-#include "io/markup.h"
-#include "io/svg_canvas.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/markup.h"
+#include "pedicel/io/svg_canvas.h"
 
 namespace pedicel::io {
 

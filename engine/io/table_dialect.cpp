@@ -1,10 +1,10 @@
-#include "io/table_dialect.h"
+#include "pedicel/io/table_dialect.h"
 
 #include <algorithm>
 #include <array>
 
-#include "io/table_records.h"
-#include "io/table_text.h"
+#include "pedicel/io/table_records.h"
+#include "pedicel/io/table_text.h"
 
 namespace pedicel::io {
 

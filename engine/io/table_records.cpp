@@ -1,4 +1,4 @@
-#include "io/table_records.h"
+#include "pedicel/io/table_records.h"
 
 #include <algorithm>
 #include <array>

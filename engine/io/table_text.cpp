@@ -1,12 +1,12 @@
-#include "io/table_text.h"
+#include "pedicel/io/table_text.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "io/table_dialect.h"
-#include "io/text_file.h"
-#include "io/unit_text.h"
+#include "pedicel/io/table_dialect.h"
+#include "pedicel/io/text_file.h"
+#include "pedicel/io/unit_text.h"
 
 namespace pedicel::io {
 

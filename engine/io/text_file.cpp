@@ -1,4 +1,4 @@
-#include "io/text_file.h"
+#include "pedicel/io/text_file.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string_view>
 
-#include "core/diagnostics.h"
-#include "io/file_magic.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/io/file_magic.h"
 
 namespace pedicel::io {
 

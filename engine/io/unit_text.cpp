@@ -1,11 +1,11 @@
-#include "io/unit_text.h"
+#include "pedicel/io/unit_text.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "io/csv.h"
-#include "io/number_text.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/number_text.h"
 
 namespace pedicel::io {
 
@@ -21,7 +21,7 @@ constexpr double gravity = 9.80665;   ///< m/s2, of the units of force that are 
 constexpr double pound = 0.45359237;  ///< kg
 constexpr double inch = 0.0254;       ///< m
 
-constexpr auto t = Quantity::time, l = Quantity::length, a = Quantity::angle, f = Quantity::force,
+constexpr auto t = Quantity::time, l = Quantity::length, an = Quantity::angle, f = Quantity::force,
                m = Quantity::moment, k = Quantity::mass;
 
 // Capitals tell these apart.
@@ -75,15 +75,15 @@ constexpr std::array any_case = {Known{"s", {t, 1.0}},
                                  Known{"inches", {l, inch}},
                                  Known{"ft", {l, 12.0 * inch}},
                                  Known{"feet", {l, 12.0 * inch}},
-                                 Known{"rad", {a, 1.0}},
-                                 Known{"radian", {a, 1.0}},
-                                 Known{"radians", {a, 1.0}},
-                                 Known{"mrad", {a, 1.0e-3}},
-                                 Known{"deg", {a, degree}},
-                                 Known{"degree", {a, degree}},
-                                 Known{"degrees", {a, degree}},
-                                 Known{"\xC2\xB0", {a, degree}},
-                                 Known{"\xB0", {a, degree}},
+                                 Known{"rad", {an, 1.0}},
+                                 Known{"radian", {an, 1.0}},
+                                 Known{"radians", {an, 1.0}},
+                                 Known{"mrad", {an, 1.0e-3}},
+                                 Known{"deg", {an, degree}},
+                                 Known{"degree", {an, degree}},
+                                 Known{"degrees", {an, degree}},
+                                 Known{"\xC2\xB0", {an, degree}},
+                                 Known{"\xB0", {an, degree}},
                                  Known{"n", {f, 1.0}},
                                  Known{"newton", {f, 1.0}},
                                  Known{"newtons", {f, 1.0}},

@@ -1,11 +1,11 @@
-#include "io/yaml.h"
+#include "pedicel/io/yaml.h"
 
 #include <charconv>
 #include <cmath>
 
-#include "io/atomic_file.h"
-#include "io/bounds.h"
-#include "io/csv.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/bounds.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::io {
 

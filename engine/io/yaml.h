@@ -9,21 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "core/frames.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/io/bounds.h"
 
 namespace pedicel::io {
-
-/// What a number read from a file must satisfy.
-struct Bounds {
-  double minimum = -std::numeric_limits<double>::infinity();
-  double maximum = std::numeric_limits<double>::infinity();
-  bool open_minimum = false;  ///< the minimum itself is refused
-};
-inline constexpr Bounds any_number{};
-inline constexpr Bounds positive{0.0, std::numeric_limits<double>::infinity(), true};
-inline constexpr Bounds not_negative{0.0};
-inline constexpr Bounds fraction{0.0, 1.0};
 
 /// A node of a YAML file that knows where it stands. Everything that reads it adds to the
 /// diagnostics it was made with and goes on, so that one pass shows every fault of a file. A read

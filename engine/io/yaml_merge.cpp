@@ -1,13 +1,13 @@
-#include "io/yaml_merge.h"
+#include "pedicel/io/yaml_merge.h"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "core/check.h"
-#include "io/yaml_places.h"
-#include "io/yaml_text.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/yaml_places.h"
+#include "pedicel/io/yaml_text.h"
 
 namespace pedicel::io {
 

@@ -1,10 +1,10 @@
-#include "io/yaml_places.h"
+#include "pedicel/io/yaml_places.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "core/check.h"
-#include "io/yaml_words.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/yaml_words.h"
 
 namespace pedicel::io {
 

@@ -1,10 +1,10 @@
-#include "io/yaml_text.h"
+#include "pedicel/io/yaml_text.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "core/check.h"
-#include "io/yaml_places.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/yaml_places.h"
 
 namespace pedicel::io {
 
@@ -232,8 +232,7 @@ void YamlText::remove(const Path& path) {
     if (map.size() == 1 && from > 0) changed.insert(changed.rfind(':', from) + 1, " {}");
   }
   const YAML::Node now = follow(changed, above, left, in_flow);
-  if (!left.empty() || !same(now, wanted))
-    refuse(path, "cannot be taken out where it stands");
+  if (!left.empty() || !same(now, wanted)) refuse(path, "cannot be taken out where it stands");
   text_ = std::move(changed);
 }
 

@@ -1,4 +1,4 @@
-#include "io/yaml_words.h"
+#include "pedicel/io/yaml_words.h"
 
 #include <charconv>
 #include <cmath>

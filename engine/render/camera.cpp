@@ -1,9 +1,9 @@
-#include "render/camera.h"
+#include "pedicel/render/camera.h"
 
 #include <cmath>
 #include <string>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::render {
 

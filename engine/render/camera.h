@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::render {
 

@@ -1,4 +1,4 @@
-#include "render/child_process.h"
+#include "pedicel/render/child_process.h"
 
 #include <fcntl.h>
 #include <signal.h>

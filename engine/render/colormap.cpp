@@ -1,11 +1,11 @@
-#include "render/colormap.h"
+#include "pedicel/render/colormap.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "render/colour_space.h"
+#include "pedicel/render/colour_space.h"
 
 namespace pedicel::render {
 

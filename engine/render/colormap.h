@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/draw_list.h"
+#include "pedicel/render/draw_list.h"
 
 namespace pedicel::render {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/draw_list.h"
+#include "pedicel/render/draw_list.h"
 
 namespace pedicel::render {
 

@@ -1,8 +1,8 @@
-#include "render/contact_map.h"
+#include "pedicel/render/contact_map.h"
 
 #include <cmath>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::render {
 

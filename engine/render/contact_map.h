@@ -1,9 +1,9 @@
 #pragma once
 
-#include "render/camera.h"
-#include "render/gl_functions.h"
-#include "render/programs.h"
-#include "render/shadow_map.h"
+#include "pedicel/render/camera.h"
+#include "pedicel/render/gl_functions.h"
+#include "pedicel/render/programs.h"
+#include "pedicel/render/shadow_map.h"
 
 namespace pedicel::render {
 

@@ -1,4 +1,4 @@
-#include "render/draw_list.h"
+#include "pedicel/render/draw_list.h"
 
 #include <cmath>
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/frames.h"
-#include "geometry/mesh.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/geometry/mesh.h"
 
 namespace pedicel::render {
 

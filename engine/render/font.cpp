@@ -1,4 +1,4 @@
-#include "render/font.h"
+#include "pedicel/render/font.h"
 
 #include <algorithm>
 #include <map>

@@ -1,10 +1,10 @@
-#include "render/frame_geometry.h"
+#include "pedicel/render/frame_geometry.h"
 
 #include <cmath>
 #include <initializer_list>
 
-#include "render/colour_space.h"
-#include "render/mesh_normals.h"
+#include "pedicel/render/colour_space.h"
+#include "pedicel/render/mesh_normals.h"
 
 namespace pedicel::render {
 

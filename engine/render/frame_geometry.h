@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "render/camera.h"
-#include "render/draw_list.h"
-#include "render/programs.h"
-#include "render/unit_meshes.h"
+#include "pedicel/render/camera.h"
+#include "pedicel/render/draw_list.h"
+#include "pedicel/render/programs.h"
+#include "pedicel/render/unit_meshes.h"
 
 namespace pedicel::render {
 

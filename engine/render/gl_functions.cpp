@@ -1,4 +1,4 @@
-#include "render/gl_functions.h"
+#include "pedicel/render/gl_functions.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,4 +1,4 @@
-#include "render/image.h"
+#include "pedicel/render/image.h"
 
 #include <png.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/check.h"
-#include "core/diagnostics.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/diagnostics.h"
 
 namespace pedicel::render {
 

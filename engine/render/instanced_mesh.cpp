@@ -1,4 +1,4 @@
-#include "render/instanced_mesh.h"
+#include "pedicel/render/instanced_mesh.h"
 
 #include <numeric>
 

@@ -1,4 +1,4 @@
-#include "render/mesh_normals.h"
+#include "pedicel/render/mesh_normals.h"
 
 #include <cmath>
 #include <map>

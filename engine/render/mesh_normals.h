@@ -1,7 +1,7 @@
 #pragma once
 
-#include "geometry/mesh.h"
-#include "render/instanced_mesh.h"
+#include "pedicel/geometry/mesh.h"
+#include "pedicel/render/instanced_mesh.h"
 
 namespace pedicel::render {
 

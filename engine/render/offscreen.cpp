@@ -1,4 +1,4 @@
-#include "render/offscreen.h"
+#include "pedicel/render/offscreen.h"
 
 #include <stdexcept>
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "render/gl_functions.h"
-#include "render/osmesa_context.h"
+#include "pedicel/render/gl_functions.h"
+#include "pedicel/render/osmesa_context.h"
 
 namespace pedicel::render {
 

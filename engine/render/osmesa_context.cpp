@@ -1,4 +1,4 @@
-#include "render/osmesa_context.h"
+#include "pedicel/render/osmesa_context.h"
 
 #ifdef PEDICEL_HAS_OSMESA
 

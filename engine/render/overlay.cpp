@@ -1,10 +1,10 @@
-#include "render/overlay.h"
+#include "pedicel/render/overlay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "render/colormap.h"
+#include "pedicel/render/colormap.h"
 
 namespace pedicel::render {
 

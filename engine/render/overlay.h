@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "render/camera.h"
-#include "render/image.h"
-#include "render/text.h"
+#include "pedicel/render/camera.h"
+#include "pedicel/render/image.h"
+#include "pedicel/render/text.h"
 
 namespace pedicel::render {
 

@@ -1,9 +1,9 @@
-#include "render/programs.h"
+#include "pedicel/render/programs.h"
 
 #include <stdexcept>
 #include <string>
 
-#include "render/shaders.h"
+#include "pedicel/render/shaders.h"
 
 namespace pedicel::render {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "render/gl_functions.h"
+#include "pedicel/render/gl_functions.h"
 
 namespace pedicel::render {
 

@@ -1,6 +1,6 @@
-#include "render/render_target.h"
+#include "pedicel/render/render_target.h"
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::render {
 

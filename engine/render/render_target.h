@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/gl_functions.h"
-#include "render/image.h"
+#include "pedicel/render/gl_functions.h"
+#include "pedicel/render/image.h"
 
 namespace pedicel::render {
 

@@ -1,14 +1,14 @@
-#include "render/renderer.h"
+#include "pedicel/render/renderer.h"
 
 #include <string>
 
-#include "core/check.h"
-#include "render/colour_space.h"
-#include "render/contact_map.h"
-#include "render/frame_geometry.h"
-#include "render/programs.h"
-#include "render/render_target.h"
-#include "render/shadow_map.h"
+#include "pedicel/core/check.h"
+#include "pedicel/render/colour_space.h"
+#include "pedicel/render/contact_map.h"
+#include "pedicel/render/frame_geometry.h"
+#include "pedicel/render/programs.h"
+#include "pedicel/render/render_target.h"
+#include "pedicel/render/shadow_map.h"
 
 namespace pedicel::render {
 

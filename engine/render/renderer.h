@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "render/camera.h"
-#include "render/draw_list.h"
-#include "render/gl_functions.h"
-#include "render/image.h"
+#include "pedicel/render/camera.h"
+#include "pedicel/render/draw_list.h"
+#include "pedicel/render/gl_functions.h"
+#include "pedicel/render/image.h"
 
 namespace pedicel::render {
 

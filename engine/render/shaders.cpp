@@ -1,4 +1,4 @@
-#include "render/shaders.h"
+#include "pedicel/render/shaders.h"
 
 namespace pedicel::render::shaders {
 

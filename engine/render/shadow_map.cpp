@@ -1,8 +1,8 @@
-#include "render/shadow_map.h"
+#include "pedicel/render/shadow_map.h"
 
 #include <cmath>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::render {
 

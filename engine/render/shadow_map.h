@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/camera.h"
-#include "render/gl_functions.h"
+#include "pedicel/render/camera.h"
+#include "pedicel/render/gl_functions.h"
 
 namespace pedicel::render {
 

@@ -1,10 +1,10 @@
-#include "render/text.h"
+#include "pedicel/render/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "render/font.h"
+#include "pedicel/render/font.h"
 
 namespace pedicel::render {
 

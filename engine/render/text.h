@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "render/draw_list.h"
-#include "render/image.h"
+#include "pedicel/render/draw_list.h"
+#include "pedicel/render/image.h"
 
 namespace pedicel::render {
 

@@ -1,12 +1,12 @@
-#include "render/unit_meshes.h"
+#include "pedicel/render/unit_meshes.h"
 
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
 
-#include "core/frames.h"
-#include "render/mesh_normals.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/render/mesh_normals.h"
 
 namespace pedicel::render {
 

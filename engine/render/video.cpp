@@ -1,4 +1,4 @@
-#include "render/video.h"
+#include "pedicel/render/video.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/check.h"
-#include "render/child_process.h"
+#include "pedicel/core/check.h"
+#include "pedicel/render/child_process.h"
 
 namespace pedicel::render {
 

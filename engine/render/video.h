@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "render/image.h"
+#include "pedicel/render/image.h"
 
 namespace pedicel::render {
 

@@ -2,7 +2,7 @@
 
 #include <LinearMath/btTransform.h>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::robot {
 

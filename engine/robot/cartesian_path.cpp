@@ -1,12 +1,12 @@
-#include "robot/cartesian_path.h"
+#include "pedicel/robot/cartesian_path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
-#include "io/csv.h"
-#include "robot/joint_range.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/robot/joint_range.h"
 
 namespace pedicel::robot {
 

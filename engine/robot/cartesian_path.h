@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "io/yaml.h"
-#include "robot/inverse_kinematics.h"
-#include "robot/trajectory.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/robot/inverse_kinematics.h"
+#include "pedicel/robot/trajectory.h"
 
 namespace pedicel::robot {
 

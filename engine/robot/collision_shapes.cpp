@@ -1,4 +1,4 @@
-#include "robot/collision_shapes.h"
+#include "pedicel/robot/collision_shapes.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
@@ -7,7 +7,7 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <LinearMath/btConvexHullComputer.h>
 
-#include "robot/bullet_types.h"
+#include "pedicel/robot/bullet_types.h"
 
 namespace pedicel::robot {
 

@@ -1,4 +1,4 @@
-#include "robot/description.h"
+#include "pedicel/robot/description.h"
 
 namespace pedicel::robot {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
-#include "geometry/mesh.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/geometry/mesh.h"
 
 namespace pedicel::robot {
 

@@ -1,4 +1,4 @@
-#include "robot/dynamics.h"
+#include "pedicel/robot/dynamics.h"
 
 namespace pedicel::robot {
 

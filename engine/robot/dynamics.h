@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "robot/kinematics.h"
+#include "pedicel/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
-#include "robot/holding_effort.h"
+#include "pedicel/robot/holding_effort.h"
 
 #include <cmath>
 
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::robot {
 

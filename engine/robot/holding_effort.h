@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "robot/dynamics.h"
+#include "pedicel/robot/dynamics.h"
 
 namespace pedicel::robot {
 

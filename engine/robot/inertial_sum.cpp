@@ -1,4 +1,4 @@
-#include "robot/inertial_sum.h"
+#include "pedicel/robot/inertial_sum.h"
 
 namespace pedicel::robot {
 

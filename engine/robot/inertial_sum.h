@@ -1,6 +1,6 @@
 #pragma once
 
-#include "robot/description.h"
+#include "pedicel/robot/description.h"
 
 namespace pedicel::robot {
 

@@ -1,12 +1,12 @@
-#include "robot/inverse_kinematics.h"
+#include "pedicel/robot/inverse_kinematics.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/random.h"
-#include "io/csv.h"
+#include "pedicel/core/random.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::robot {
 

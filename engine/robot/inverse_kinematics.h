@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "robot/kinematics.h"
+#include "pedicel/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,10 +1,10 @@
-#include "robot/joint_drive.h"
+#include "pedicel/robot/joint_drive.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "robot/bullet_types.h"
+#include "pedicel/robot/bullet_types.h"
 
 namespace pedicel::robot {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "robot/dynamics.h"
-#include "robot/joint_rows.h"
-#include "robot/multibody.h"
+#include "pedicel/robot/dynamics.h"
+#include "pedicel/robot/joint_rows.h"
+#include "pedicel/robot/multibody.h"
 
 namespace pedicel::robot {
 

@@ -1,9 +1,9 @@
-#include "robot/joint_range.h"
+#include "pedicel/robot/joint_range.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::robot {
 

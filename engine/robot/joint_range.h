@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "robot/kinematics.h"
+#include "pedicel/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,9 +1,9 @@
-#include "robot/joint_rows.h"
+#include "pedicel/robot/joint_rows.h"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
-#include "robot/kinematics.h"
+#include "pedicel/robot/kinematics.h"
 
 #include <algorithm>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::robot {
 

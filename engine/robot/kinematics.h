@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "robot/description.h"
+#include "pedicel/robot/description.h"
 
 namespace pedicel::robot {
 

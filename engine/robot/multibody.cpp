@@ -1,7 +1,7 @@
-#include "robot/multibody.h"
+#include "pedicel/robot/multibody.h"
 
-#include "core/check.h"
-#include "robot/bullet_types.h"
+#include "pedicel/core/check.h"
+#include "pedicel/robot/bullet_types.h"
 
 namespace pedicel::robot {
 

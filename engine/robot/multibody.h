@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "robot/collision_shapes.h"
-#include "robot/robot.h"
+#include "pedicel/robot/collision_shapes.h"
+#include "pedicel/robot/robot.h"
 
 namespace pedicel::robot {
 

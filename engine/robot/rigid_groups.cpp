@@ -1,8 +1,8 @@
-#include "robot/rigid_groups.h"
+#include "pedicel/robot/rigid_groups.h"
 
 #include <Eigen/Eigenvalues>
 
-#include "robot/inertial_sum.h"
+#include "pedicel/robot/inertial_sum.h"
 
 namespace pedicel::robot {
 

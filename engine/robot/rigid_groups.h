@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "robot/kinematics.h"
+#include "pedicel/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,13 +1,13 @@
-#include "robot/robot.h"
+#include "pedicel/robot/robot.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "core/check.h"
-#include "robot/bullet_types.h"
-#include "robot/joint_drive.h"
-#include "robot/multibody.h"
+#include "pedicel/core/check.h"
+#include "pedicel/robot/bullet_types.h"
+#include "pedicel/robot/joint_drive.h"
+#include "pedicel/robot/multibody.h"
 
 namespace pedicel::robot {
 

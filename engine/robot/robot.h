@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter.h"
-#include "core/state_hash.h"
-#include "robot/kinematics.h"
+#include "pedicel/core/parameter.h"
+#include "pedicel/core/state_hash.h"
+#include "pedicel/robot/kinematics.h"
 
 class btMultiBody;
 class btMultiBodyDynamicsWorld;

@@ -1,8 +1,8 @@
-#include "robot/trajectory.h"
+#include "pedicel/robot/trajectory.h"
 
 #include <algorithm>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::robot {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "robot/kinematics.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "io/csv.h"
-#include "robot/joint_range.h"
-#include "robot/trajectory.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/robot/joint_range.h"
+#include "pedicel/robot/trajectory.h"
 
 namespace pedicel::robot {
 

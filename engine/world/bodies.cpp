@@ -1,4 +1,4 @@
-#include "world/bodies.h"
+#include "pedicel/world/bodies.h"
 
 namespace pedicel::world {
 

@@ -1,12 +1,12 @@
-#include "world/expectation.h"
+#include "pedicel/world/expectation.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "core/check.h"
-#include "io/csv.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::world {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/diagnostics.h"
+#include "pedicel/core/diagnostics.h"
 
 namespace pedicel::world {
 

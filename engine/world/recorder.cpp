@@ -1,9 +1,9 @@
-#include "world/recorder.h"
+#include "pedicel/world/recorder.h"
 
 #include <cmath>
 
-#include "core/check.h"
-#include "world/sim_world.h"
+#include "pedicel/core/check.h"
+#include "pedicel/world/sim_world.h"
 
 namespace pedicel::world {
 

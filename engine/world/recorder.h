@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
-#include "io/csv.h"
-#include "world/step.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/world/step.h"
 
 namespace pedicel::world {
 

@@ -1,9 +1,9 @@
-#include "world/rigid_shape.h"
+#include "pedicel/world/rigid_shape.h"
 
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "robot/bullet_types.h"
+#include "pedicel/robot/bullet_types.h"
 
 namespace pedicel::world {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "world/bodies.h"
+#include "pedicel/world/bodies.h"
 
 namespace pedicel::world {
 

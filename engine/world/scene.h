@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "core/frames.h"
-#include "world/bodies.h"
-#include "world/expectation.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/world/bodies.h"
+#include "pedicel/world/expectation.h"
 
 namespace pedicel::world {
 

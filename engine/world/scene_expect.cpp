@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "world/scene_sections.h"
+#include "pedicel/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 

@@ -1,14 +1,14 @@
-#include "world/scene_fields.h"
+#include "pedicel/world/scene_fields.h"
 
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <string_view>
 
-#include "core/check.h"
-#include "io/yaml_words.h"
-#include "world/scene_writer.h"
-#include "world/settings.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/yaml_words.h"
+#include "pedicel/world/scene_writer.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::world::fields {
 
@@ -79,8 +79,7 @@ FlowMap& FlowMap::add_pose(const Pose& pose) {
 
 std::string number_list(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values)
-    text += (text.empty() ? "" : ", ") + io::yaml_number(value);
+  for (const double value : values) text += (text.empty() ? "" : ", ") + io::yaml_number(value);
   return "[" + text + "]";
 }
 

@@ -1,5 +1,5 @@
-#include "io/unit_text.h"
-#include "world/scene_sections.h"
+#include "pedicel/io/unit_text.h"
+#include "pedicel/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 

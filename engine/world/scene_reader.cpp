@@ -1,9 +1,9 @@
-#include "world/scene_reader.h"
+#include "pedicel/world/scene_reader.h"
 
 #include <set>
 
-#include "world/scene_sections.h"
-#include "world/settings.h"
+#include "pedicel/world/scene_sections.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::world {
 

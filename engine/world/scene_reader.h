@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "world/scene.h"
+#include "pedicel/world/scene.h"
 
 namespace pedicel::world {
 

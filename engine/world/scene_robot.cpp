@@ -1,4 +1,4 @@
-#include "world/scene_sections.h"
+#include "pedicel/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/yaml.h"
-#include "world/scene.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/world/scene.h"
 
 /// The parts of the scene reader, one a section of the file (scene_reader.cpp calls them).
 namespace pedicel::world::sections {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "world/scene_sections.h"
-#include "world/settings.h"
+#include "pedicel/world/scene_sections.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::world::sections {
 

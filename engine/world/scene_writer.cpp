@@ -1,9 +1,9 @@
-#include "world/scene_writer.h"
+#include "pedicel/world/scene_writer.h"
 
 #include <cmath>
 
-#include "io/yaml_words.h"
-#include "world/scene_fields.h"
+#include "pedicel/io/yaml_words.h"
+#include "pedicel/world/scene_fields.h"
 
 namespace pedicel::world {
 
@@ -26,7 +26,8 @@ std::string list(const std::string& key, const std::vector<Item>& items, const T
 
 std::string head(const Scene& scene) {
   const Scene plain;
-  std::string text = "format: pedicel-scene\nversion: 1\n" + line("name", io::yaml_word(scene.name));
+  std::string text =
+      "format: pedicel-scene\nversion: 1\n" + line("name", io::yaml_word(scene.name));
   text += line("purpose", io::yaml_word(scene.purpose)) + line("see", io::yaml_word(scene.see));
   text += line("duration", io::yaml_number(scene.duration));
   const auto number = [&](const char* key, double value, double otherwise) {

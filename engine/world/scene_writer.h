@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "world/scene.h"
+#include "pedicel/world/scene.h"
 
 namespace pedicel::world {
 

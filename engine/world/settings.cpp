@@ -1,11 +1,11 @@
-#include "world/settings.h"
+#include "pedicel/world/settings.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "core/check.h"
-#include "io/csv.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::world {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/parameter.h"
-#include "io/yaml.h"
-#include "world/scene.h"
+#include "pedicel/core/parameter.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/world/scene.h"
 
 namespace pedicel::world {
 
@@ -38,11 +38,11 @@ inline constexpr double most_gravity = 100.0;
 /// threads. Asserts that there is such a key.
 io::Bounds scene_bounds(std::string_view key);
 
-/// Changes a scene as `--set key=value` does: dt, duration, gravity (x,y,z), seed, threads, log_rate, rods.KEY,
-/// coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant) and any other KEY that is an
-/// override of every plant (detach.stretch). Of equal keys the last one counts. `asked` comes before
-/// the key in the place that a fault names ("--set "). Throws UsageError where the key or the value
-/// is impossible.
+/// Changes a scene as `--set key=value` does: dt, duration, gravity (x,y,z), seed, threads,
+/// log_rate, rods.KEY, coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant) and any other
+/// KEY that is an override of every plant (detach.stretch). Of equal keys the last one counts.
+/// `asked` comes before the key in the place that a fault names ("--set "). Throws UsageError where
+/// the key or the value is impossible.
 void apply_override(Scene& scene, const std::string& key, const std::string& value,
                     const std::string& asked = "");
 

@@ -1,4 +1,4 @@
-#include "world/sim_world.h"
+#include "pedicel/world/sim_world.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -7,10 +7,10 @@
 
 #include <cmath>
 
-#include "core/check.h"
-#include "core/timer.h"
-#include "robot/bullet_types.h"
-#include "world/rigid_shape.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/timer.h"
+#include "pedicel/robot/bullet_types.h"
+#include "pedicel/world/rigid_shape.h"
 
 namespace pedicel::world {
 

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/parameter.h"
-#include "core/state_hash.h"
-#include "world/bodies.h"
-#include "world/step.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/core/parameter.h"
+#include "pedicel/core/state_hash.h"
+#include "pedicel/world/bodies.h"
+#include "pedicel/world/step.h"
 
 class btMultiBodyDynamicsWorld;
 

@@ -1,4 +1,4 @@
-#include "world/step.h"
+#include "pedicel/world/step.h"
 
 #include <numeric>
 

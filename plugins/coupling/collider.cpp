@@ -1,8 +1,8 @@
-#include "coupling/collider.h"
+#include "pedicel/coupling/collider.h"
 
 #include <cmath>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::coupling {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cosserat/contact_drive.h"
-#include "geometry/aabb.h"
-#include "geometry/signed_distance.h"
+#include "pedicel/cosserat/contact/contact_drive.h"
+#include "pedicel/geometry/aabb.h"
+#include "pedicel/geometry/signed_distance.h"
 
 namespace pedicel::coupling {
 

@@ -1,11 +1,11 @@
-#include "coupling/collider_source.h"
+#include "pedicel/coupling/collider_source.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "core/check.h"
-#include "cosserat/rotation.h"
+#include "pedicel/core/check.h"
+#include "pedicel/cosserat/model/rotation.h"
 
 namespace pedicel::coupling {
 

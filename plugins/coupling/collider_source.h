@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "cosserat/contact.h"
-#include "coupling/collider.h"
-#include "coupling/coupling_settings.h"
-#include "coupling/element_chunks.h"
-#include "coupling/nearest_place.h"
+#include "pedicel/cosserat/contact/contact.h"
+#include "pedicel/coupling/collider.h"
+#include "pedicel/coupling/coupling_settings.h"
+#include "pedicel/coupling/element_chunks.h"
+#include "pedicel/coupling/nearest_place.h"
 
 namespace pedicel::coupling {
 

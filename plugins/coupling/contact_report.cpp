@@ -1,8 +1,8 @@
-#include "coupling/contact_report.h"
+#include "pedicel/coupling/contact_report.h"
 
 #include <algorithm>
 
-#include "cosserat/self_contact.h"
+#include "pedicel/cosserat/contact/self_contact.h"
 
 namespace pedicel::coupling {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "cosserat/contact.h"
-#include "coupling/collider.h"
+#include "pedicel/cosserat/contact/contact.h"
+#include "pedicel/coupling/collider.h"
 
 namespace pedicel::coupling {
 

@@ -1,4 +1,4 @@
-#include "coupling/coupling_settings.h"
+#include "pedicel/coupling/coupling_settings.h"
 
 namespace pedicel::coupling {
 

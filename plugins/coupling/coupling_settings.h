@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter.h"
-#include "cosserat/self_contact.h"
+#include "pedicel/core/parameter.h"
+#include "pedicel/cosserat/contact/self_contact.h"
 
 namespace pedicel::coupling {
 

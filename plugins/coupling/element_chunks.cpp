@@ -1,4 +1,4 @@
-#include "coupling/element_chunks.h"
+#include "pedicel/coupling/element_chunks.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "cosserat/rod_state.h"
-#include "geometry/aabb.h"
+#include "pedicel/cosserat/model/rod_state.h"
+#include "pedicel/geometry/aabb.h"
 
 namespace pedicel::coupling {
 

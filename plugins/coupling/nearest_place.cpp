@@ -1,4 +1,4 @@
-#include "coupling/nearest_place.h"
+#include "pedicel/coupling/nearest_place.h"
 
 #include <algorithm>
 #include <cmath>

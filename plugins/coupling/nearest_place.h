@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "geometry/signed_distance.h"
+#include "pedicel/geometry/signed_distance.h"
 
 namespace pedicel::coupling {
 

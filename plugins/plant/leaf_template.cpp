@@ -1,11 +1,11 @@
-#include "plant/leaf_template.h"
+#include "pedicel/plant/leaf_template.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "core/check.h"
-#include "io/yaml.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/yaml.h"
 
 namespace pedicel::plant {
 

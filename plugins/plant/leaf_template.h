@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "core/frames.h"
-#include "cosserat/rod_model.h"
-#include "plant/placed_point.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/cosserat/model/rod_model.h"
+#include "pedicel/plant/model/placed_point.h"
 
 namespace pedicel::plant {
 

@@ -1,13 +1,13 @@
-#include "plant/plant_builder.h"
+#include "pedicel/plant/plant_builder.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/stop.h"
-#include "cosserat/rotation.h"
-#include "io/csv.h"
-#include "plant/apply_effects.h"
-#include "plant/plant_size.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/effects/registry/model_change.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/plant_size.h"
 
 namespace pedicel::plant {
 
@@ -58,7 +58,8 @@ class Builder {
     if (diagnostics_.has_errors()) return std::nullopt;
     cosserat::finish(built_.model);
     stand();
-    if (!diagnostics_.has_errors()) apply_effects(plant_, built_, diagnostics_);
+    if (!diagnostics_.has_errors())
+      effects::apply_effects(plant_, plant_.effects, built_.model, built_, diagnostics_);
     if (diagnostics_.has_errors()) return std::nullopt;
     return std::move(built_);
   }
@@ -229,21 +230,6 @@ class Builder {
 };
 
 }  // namespace
-
-PlacedPoint BuiltPlant::locate(int curve, double at) const {
-  const double arc = at * curve_lengths[curve];
-  PlacedPoint best;
-  double missed = std::numeric_limits<double>::infinity();
-  for (const Span& span : spans) {
-    if (span.curve != curve) continue;
-    const double t = std::clamp((arc - span.arc_near) / (span.arc_far - span.arc_near), 0.0, 1.0);
-    const double off = std::abs(span.arc_near + t * (span.arc_far - span.arc_near) - arc);
-    if (off >= missed) continue;
-    missed = off;
-    best = {span.element, (1.0 - t) * span.length};
-  }
-  return best;
-}
 
 std::string residual_text(const BuiltPlant& plant) {
   if (!plant.residual) return {};

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "cosserat/rod_model.h"
-#include "cosserat/standing.h"
-#include "plant/leaf_template.h"
-#include "plant/placed_point.h"
-#include "plant/plant_file.h"
-#include "plant/plant_graph.h"
+#include "pedicel/cosserat/model/rod_model.h"
+#include "pedicel/cosserat/solver/standing.h"
+#include "pedicel/plant/leaf_template.h"
+#include "pedicel/plant/model/rod_places.h"
+#include "pedicel/plant/plant_file.h"
+#include "pedicel/plant/plant_graph.h"
 
 namespace pedicel::plant {
 
 /// A plant ready for the solver, with what is needed to find places on it again.
-struct BuiltPlant {
+struct BuiltPlant : RodPlaces {
   cosserat::RodModel model;
   std::vector<BladeTriangle> blades;  ///< leaves, for drawing
   int nodes_sampled = 0;              ///< before simplification
@@ -24,18 +24,6 @@ struct BuiltPlant {
   double length_kept = 0.0;   ///< m, of the stems' elements
   /// How far it settles from the drawn shape, where that is how it hangs (without effects).
   std::optional<cosserat::Residual> residual;
-
-  /// Where a fraction `at` of a curve's drawn arc length lies, by the curve's index in the file.
-  PlacedPoint locate(int curve, double at) const;
-
-  /// The stretch of a curve that an element covers, in the direction of growth.
-  struct Span {
-    int element = 0, curve = 0;
-    double arc_near = 0.0, arc_far = 0.0;  ///< m along the drawn curve
-    double length = 0.0;                   ///< m, of the element
-  };
-  std::vector<Span> spans;
-  std::vector<double> curve_lengths;  ///< m
 };
 
 struct BuildOptions {

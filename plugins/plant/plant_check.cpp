@@ -2,8 +2,8 @@
 #include <limits>
 #include <set>
 
-#include "io/csv.h"
-#include "plant/plant_file.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::plant {
 
@@ -170,12 +170,6 @@ class Checker {
 };
 
 }  // namespace
-
-int PlantFile::curve_index(const std::string& curve) const {
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    if (curves[i].name == curve) return static_cast<int>(i);
-  return -1;
-}
 
 bool check_plant(const PlantFile& plant, Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();

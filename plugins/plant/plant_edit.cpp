@@ -1,13 +1,13 @@
-#include "plant/plant_edit.h"
+#include "pedicel/plant/plant_edit.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "io/csv.h"
-#include "plant/plant_edit_parts.h"
-#include "plant/plant_graph.h"
-#include "plant/point_kind.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/plant_edit_parts.h"
+#include "pedicel/plant/plant_graph.h"
+#include "pedicel/plant/point_kind.h"
 
 namespace pedicel::plant {
 

@@ -1,11 +1,11 @@
-#include "plant/plant_export.h"
+#include "pedicel/plant/plant_export.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/csv.h"
-#include "plant/plant_graph.h"
-#include "plant/stem_tree.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/plant_graph.h"
+#include "pedicel/plant/stem_tree.h"
 
 namespace pedicel::plant {
 

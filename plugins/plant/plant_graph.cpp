@@ -1,14 +1,14 @@
-#include "plant/plant_graph.h"
+#include "pedicel/plant/plant_graph.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "core/stop.h"
-#include "geometry/curve_distance.h"
-#include "io/csv.h"
-#include "plant/point_grid.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/geometry/curve_distance.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/point_grid.h"
 
 namespace pedicel::plant {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "geometry/curve.h"
-#include "plant/plant_file.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/geometry/curve.h"
+#include "pedicel/plant/plant_file.h"
 
 /// The paper's authoring pipeline, stage by stage: curves -> samples -> one tree -> kept nodes.
 /// Everything is in the plant's own frame P, in metres.

@@ -1,9 +1,9 @@
-#include "plant/plant_numbers.h"
+#include "pedicel/plant/plant_numbers.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::plant {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "io/yaml.h"
+#include "pedicel/io/yaml.h"
 
 namespace pedicel::plant {
 

@@ -1,10 +1,10 @@
-#include "plant/plant_pick.h"
+#include "pedicel/plant/plant_pick.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "geometry/closest_point.h"
-#include "plant/plant_graph.h"
+#include "pedicel/geometry/closest_point.h"
+#include "pedicel/plant/plant_graph.h"
 
 namespace pedicel::plant {
 

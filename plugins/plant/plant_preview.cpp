@@ -1,8 +1,8 @@
-#include "plant/plant_preview.h"
+#include "pedicel/plant/plant_preview.h"
 
-#include "core/check.h"
-#include "plant/plant_graph.h"
-#include "plant/stem_tree.h"
+#include "pedicel/core/check.h"
+#include "pedicel/plant/plant_graph.h"
+#include "pedicel/plant/stem_tree.h"
 
 namespace pedicel::plant {
 

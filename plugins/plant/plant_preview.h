@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "plant/plant_file.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::plant {
 

@@ -1,9 +1,9 @@
-#include "io/asset_folder.h"
-#include "io/yaml.h"
-#include "plant/effects.h"
-#include "plant/plant_file.h"
-#include "plant/plant_numbers.h"
-#include "plant/plant_size.h"
+#include "pedicel/io/asset_folder.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/plant/effect_reader.h"
+#include "pedicel/plant/plant_file.h"
+#include "pedicel/plant/plant_numbers.h"
+#include "pedicel/plant/plant_size.h"
 
 namespace pedicel::plant {
 
@@ -160,7 +160,7 @@ PlantFile read_plant(YamlMap& map) {
   for (const YamlNode& item : map.list("leaves")) plant.leaves.push_back(read_leaf(item));
   for (const YamlNode& item : map.list("masses")) plant.masses.push_back(read_mass(item));
   for (const YamlNode& item : map.list("effects"))
-    plant.effects.push_back(read_effect(item, EffectHome::plant));
+    plant.effects.push_back(read_effect(item, effects::EffectFile::plant));
   map.finish();
   return plant;
 }

@@ -1,9 +1,9 @@
-#include "plant/plant_size.h"
+#include "pedicel/plant/plant_size.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::plant {
 

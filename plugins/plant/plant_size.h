@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/diagnostics.h"
-#include "plant/plant_file.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::plant {
 

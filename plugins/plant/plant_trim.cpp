@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "core/check.h"
-#include "io/csv.h"
-#include "plant/plant_edit.h"
-#include "plant/plant_edit_parts.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/plant_edit.h"
+#include "pedicel/plant/plant_edit_parts.h"
 
 namespace pedicel::plant {
 

@@ -1,6 +1,6 @@
-#include "io/atomic_file.h"
-#include "io/yaml_words.h"
-#include "plant/plant_file.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/yaml_words.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::plant {
 

@@ -1,10 +1,10 @@
-#include "plant/point_grid.h"
+#include "pedicel/plant/point_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::plant {
 

@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::plant {
 

@@ -1,11 +1,11 @@
-#include "plant/point_kind.h"
+#include "pedicel/plant/point_kind.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "plant/plant_edit.h"
-#include "plant/plant_edit_parts.h"
+#include "pedicel/core/check.h"
+#include "pedicel/plant/plant_edit.h"
+#include "pedicel/plant/plant_edit_parts.h"
 
 namespace pedicel::plant {
 

@@ -1,4 +1,4 @@
-#include "plant/reference_plants.h"
+#include "pedicel/plant/reference_plants.h"
 
 #include <cmath>
 #include <string>

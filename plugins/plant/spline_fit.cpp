@@ -1,4 +1,4 @@
-#include "plant/spline_fit.h"
+#include "pedicel/plant/spline_fit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::plant {
 

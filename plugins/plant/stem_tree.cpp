@@ -1,9 +1,9 @@
-#include "plant/stem_tree.h"
+#include "pedicel/plant/stem_tree.h"
 
 #include <limits>
 
-#include "geometry/curve_distance.h"
-#include "plant/plant_graph.h"
+#include "pedicel/geometry/curve_distance.h"
+#include "pedicel/plant/plant_graph.h"
 
 namespace pedicel::plant {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "plant/plant_file.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::plant {
 

@@ -1,14 +1,14 @@
-#include "plant/stroke_fit.h"
+#include "pedicel/plant/stroke_fit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
-#include "geometry/curve.h"
-#include "geometry/curve_distance.h"
-#include "plant/spline_fit.h"
+#include "pedicel/core/check.h"
+#include "pedicel/geometry/curve.h"
+#include "pedicel/geometry/curve_distance.h"
+#include "pedicel/plant/spline_fit.h"
 
 namespace pedicel::plant {
 

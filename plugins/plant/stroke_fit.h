@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 /// From a stroke of the hand to the control points of a curve.
 namespace pedicel::plant {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "analytic/rod_cases.h"
-#include "cosserat/standing.h"
+#include "pedicel/cosserat/solver/standing.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

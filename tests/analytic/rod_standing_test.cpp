@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "analytic/rod_cases.h"
-#include "core/random.h"
-#include "cosserat/standing.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/solver/standing.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

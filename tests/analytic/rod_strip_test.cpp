@@ -16,7 +16,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "analytic/rod_cases.h"
-#include "cosserat/standing.h"
+#include "pedicel/cosserat/solver/standing.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "cosserat/contact.h"
+#include "pedicel/cosserat/contact/contact.h"
 
 namespace pedicel::cosserat::cases {
 

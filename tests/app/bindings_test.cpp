@@ -1,4 +1,4 @@
-#include "app/panels/bindings.h"
+#include "pedicel/app/ui/bindings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Scenes are built, changed, saved and left in the window as a person does it.
-#include "app/panels/thing_editor.h"
 #include "empty_desk.h"
+#include "pedicel/app/editors/thing_editor.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,8 +1,8 @@
 // The panel of measured data: an experiment opened, looked through, diagnosed, accepted.
-#include "app/window/measured_marks.h"
 #include "cut_text.h"
 #include "desk.h"
-#include "session/measured_data.h"
+#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/view/measured_marks.h"
 #include "support/measured_stem.h"
 #include "support/slow_file.h"
 #include "support/temporary_folder.h"

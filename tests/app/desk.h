@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/window/desktop.h"
+#include "pedicel/app/window/desktop.h"
 #include "places.h"
 
 namespace pedicel::app {

@@ -1,5 +1,5 @@
 // Bars that are dragged: a press changes nothing, and a hand's width of two px little.
-#include "app/panels/drag_bar.h"
+#include "pedicel/app/ui/drag_bar.h"
 
 #include "desk.h"
 #include "words.h"

@@ -1,9 +1,9 @@
 // Editing a drawn plant in the scene, by real input events off screen.
-#include "app/panels/stem_editor.h"
-#include "app/window/radius_handles.h"
 #include "desk.h"
-#include "plant/plant_edit.h"
-#include "plant/point_kind.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/tools/radius_handles.h"
+#include "pedicel/plant/plant_edit.h"
+#include "pedicel/plant/point_kind.h"
 
 namespace pedicel::app {
 namespace {

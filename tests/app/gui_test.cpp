@@ -2,10 +2,10 @@
 #include <chrono>
 #include <thread>
 
-#include "app/panels/stem_editor.h"
-#include "core/check.h"
 #include "desk.h"
-#include "io/atomic_file.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
 #include "places.h"
 #include "words.h"
 

@@ -1,9 +1,9 @@
 // What the panels say of the chosen thing, of the world and of what happened, and what they do.
-#include "app/panels/stem_editor.h"
-#include "app/panels/time_line.h"
-#include "app/window/selection_follow.h"
 #include "desk.h"
-#include "io/atomic_file.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/panels/time_line.h"
+#include "pedicel/app/ui/selection_follow.h"
+#include "pedicel/io/atomic_file.h"
 #include "words.h"
 
 namespace pedicel::app {

@@ -1,9 +1,9 @@
 // What a person does who has read only the README: types and leaves fields, mistypes paths, adds
 // one thing after the other, asks for pictures and exports.
-#include "app/panels/add_menu.h"
-#include "app/panels/thing_editor.h"
 #include "empty_desk.h"
-#include "io/atomic_file.h"
+#include "pedicel/app/editors/add_menu.h"
+#include "pedicel/app/editors/thing_editor.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,10 +1,10 @@
 // Every panel is drawn off screen in several windows, and must show something, and whole words.
 #include <map>
 
-#include "app/panels/stem_editor.h"
-#include "app/panels/theme.h"
 #include "cut_text.h"
 #include "desk.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/ui/theme.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/window/picking.h"
+#include "pedicel/app/view/picking.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Plots: their numbers, and the mouse in them by real input events off screen.
-#include "app/panels/plot.h"
+#include "pedicel/app/ui/plot.h"
 
 #include <algorithm>
 #include <charconv>
 #include <fstream>
 
 #include "desk.h"
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 #include "words.h"
 
 namespace pedicel::app {

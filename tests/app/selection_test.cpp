@@ -1,8 +1,8 @@
 // What is chosen stays the same thing, whatever happens to its number.
-#include "app/panels/stem_editor.h"
-#include "app/window/selection_follow.h"
 #include "desk.h"
-#include "plant/plant_edit.h"
+#include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/ui/selection_follow.h"
+#include "pedicel/plant/plant_edit.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/window/drawn_shape.h"
+#include "pedicel/app/tools/drawn_shape.h"
 
 namespace pedicel::app {
 namespace {

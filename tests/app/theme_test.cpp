@@ -1,4 +1,4 @@
-#include "app/panels/theme.h"
+#include "pedicel/app/ui/theme.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/view_camera.h"
+#include "pedicel/app/view/view_camera.h"
 
 #include <gtest/gtest.h>
 

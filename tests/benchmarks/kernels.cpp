@@ -4,17 +4,17 @@
 
 #include <stdexcept>
 
-#include "core/random.h"
-#include "cosserat/block_system.h"
-#include "cosserat/rod_system.h"
-#include "cosserat/self_contact.h"
-#include "cosserat/standing.h"
-#include "geometry/grid_distance.h"
-#include "geometry/primitives_mesh.h"
-#include "geometry/shapes.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/solver/block_system.h"
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/cosserat/solver/standing.h"
+#include "pedicel/geometry/grid_distance.h"
+#include "pedicel/geometry/primitives_mesh.h"
+#include "pedicel/geometry/shapes.h"
+#include "pedicel/plant/plant_builder.h"
+#include "pedicel/plant/reference_plants.h"
 #include "places.h"
-#include "plant/plant_builder.h"
-#include "plant/reference_plants.h"
 
 namespace pedicel {
 

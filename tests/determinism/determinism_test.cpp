@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/simulation.h"
+#include "pedicel/app/run/simulation.h"
 #include "scenes/shipped_scenes.h"
 
 namespace pedicel {

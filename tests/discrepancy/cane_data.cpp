@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy::testing {
 

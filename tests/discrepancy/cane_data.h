@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/experiment.h"
+#include "pedicel/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy::testing {
 

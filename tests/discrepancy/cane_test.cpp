@@ -11,8 +11,8 @@
 #include <string>
 
 #include "discrepancy/cane_data.h"
-#include "discrepancy/causes.h"
-#include "discrepancy/fit.h"
+#include "pedicel/discrepancy/fit/causes.h"
+#include "pedicel/discrepancy/fit/fit.h"
 #include "places.h"
 
 namespace pedicel::discrepancy {

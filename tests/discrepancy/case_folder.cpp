@@ -2,8 +2,8 @@
 #include <sstream>
 
 #include "discrepancy/hidden_case.h"
-#include "io/atomic_file.h"
-#include "io/csv.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::hidden {
 

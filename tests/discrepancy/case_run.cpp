@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discrepancy/cause_names.h"
-#include "discrepancy/diagnosis.h"
-#include "discrepancy/evidence.h"
-#include "io/atomic_file.h"
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace pedicel::hidden {
 
@@ -61,11 +61,10 @@ std::optional<double> lead_of(const HiddenCase& hidden, const Diagnosis& diagnos
   const auto truth = std::ranges::find_if(
       diagnosis.ranking, [&](const Candidate& c) { return c.whole && c.cause == name; });
   if (truth == diagnosis.ranking.end()) return lead_among(diagnosis.verdict, name);
-  const auto& special = discrepancy::special_cases();
   std::optional<double> lead;
   for (const Candidate& rival : diagnosis.ranking) {
     if (!rival.whole || rival.cause == name || rival.limit_of == name ||
-        std::ranges::find(special, std::pair(name, rival.cause)) != special.end())
+        effects::is_special_case(name, rival.cause))
       continue;
     const double here = discrepancy::said_by_data(*truth) - discrepancy::said_by_data(rival);
     lead = std::min(lead.value_or(here), here);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/random.h"
 #include "discrepancy/reference_trial.h"
+#include "pedicel/core/random.h"
 
 namespace pedicel::hidden {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "discrepancy/verdict.h"
-#include "plant/plant_file.h"
+#include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::hidden {
 

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "core/random.h"
-#include "discrepancy/diagnosis.h"
-#include "discrepancy/report.h"
-#include "discrepancy/simulator.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/discrepancy/report/report.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
 
 namespace pedicel::discrepancy {
 namespace {

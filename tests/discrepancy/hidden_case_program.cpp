@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "discrepancy/hidden_case.h"
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace {
 

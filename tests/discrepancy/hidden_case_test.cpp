@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
-#include "io/atomic_file.h"
-#include "io/csv.h"
-#include "plant/effects.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/effect_reader.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::hidden {
@@ -36,7 +36,7 @@ TEST(HiddenCases, ListHoldsEveryKindAndEveryEffect) {
   EXPECT_GE(case_orders().size(), 300u);
   EXPECT_GE(kinds[Kind::null], 100);
   for (const Kind kind : {Kind::pair, Kind::look_alike, Kind::outside}) EXPECT_GE(kinds[kind], 24);
-  for (const plant::EffectKind& effect : plant::known_effects())
+  for (const effects::EffectDefinition& effect : effects::effect_definitions())
     if (effect.name != "detachment_law") {
       EXPECT_GE(names[effect.name], 6) << effect.name;
     }

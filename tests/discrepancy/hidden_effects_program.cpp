@@ -11,12 +11,12 @@
 #include <set>
 #include <thread>
 
-#include "core/stop.h"
-#include "core/thread_pool.h"
 #include "discrepancy/case_run.h"
 #include "discrepancy/score_report.h"
 #include "discrepancy/score_table.h"
-#include "io/atomic_file.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/core/thread_pool.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace {
 

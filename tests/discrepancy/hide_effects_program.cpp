@@ -5,9 +5,9 @@
 #include <cstdio>
 
 #include "discrepancy/measured_anew.h"
-#include "io/atomic_file.h"
-#include "io/yaml.h"
-#include "plant/effects.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/plant/effect_reader.h"
 
 namespace {
 
@@ -23,8 +23,9 @@ struct Arguments {
 plant::Effect parse_effect(const std::string& text, Diagnostics& diagnostics) {
   const io::YamlNode node = io::parse_yaml(text, "--set", diagnostics);
   const bool named = node.is_map() && node.raw()["name"] && node.raw()["name"].IsScalar();
-  const plant::EffectKind* kind = named ? plant::find_effect(node.raw()["name"].Scalar()) : nullptr;
-  return plant::read_effect(node, kind ? kind->home : plant::EffectHome::plant);
+  const effects::EffectDefinition* known =
+      named ? effects::find_effect(node.raw()["name"].Scalar()) : nullptr;
+  return plant::read_effect(node, known ? known->file : effects::EffectFile::plant);
 }
 
 Stranger parse_stranger(const std::string& text, Diagnostics& diagnostics) {

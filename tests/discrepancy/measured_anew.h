@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "discrepancy/experiment.h"
 #include "discrepancy/reference_trial.h"
+#include "pedicel/discrepancy/data/experiment.h"
 
 namespace pedicel::hidden {
 

@@ -10,8 +10,8 @@
 #include <map>
 #include <sstream>
 
-#include "discrepancy/pick.h"
-#include "io/csv.h"
+#include "pedicel/discrepancy/simulate/pick.h"
+#include "pedicel/io/csv.h"
 #include "places.h"
 
 namespace pedicel::discrepancy {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plant/plant_file.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::reference {
 

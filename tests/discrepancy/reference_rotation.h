@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 /// Rotation vectors, written anew for the reference simulator.
 namespace pedicel::reference {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/frames.h"
-#include "plant/plant_file.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::reference {
 

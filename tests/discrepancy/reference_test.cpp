@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "cosserat/direct_solver.h"
-#include "cosserat/rod_system.h"
 #include "discrepancy/case_setting.h"
 #include "discrepancy/reference_plants.h"
 #include "discrepancy/reference_trial.h"
-#include "plant/plant_builder.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/plant/plant_builder.h"
 
 namespace pedicel::reference {
 namespace {

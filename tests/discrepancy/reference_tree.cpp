@@ -7,7 +7,7 @@
 
 #include "discrepancy/reference_rotation.h"
 #include "discrepancy/reference_section.h"
-#include "geometry/curve.h"
+#include "pedicel/geometry/curve.h"
 
 namespace pedicel::reference {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "discrepancy/reference_solver.h"
-#include "plant/plant_file.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::reference {
 

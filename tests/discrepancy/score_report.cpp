@@ -7,10 +7,10 @@
 #include <map>
 
 #include "discrepancy/score_table.h"
-#include "io/atomic_file.h"
-#include "io/csv.h"
-#include "io/html_report.h"
-#include "io/svg_heat_map.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/html_report.h"
+#include "pedicel/io/svg_heat_map.h"
 
 namespace pedicel::hidden {
 

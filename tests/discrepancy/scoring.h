@@ -6,7 +6,7 @@
 
 #include "discrepancy/cause_size.h"
 #include "discrepancy/hidden_case.h"
-#include "discrepancy/verdict.h"
+#include "pedicel/discrepancy/select/verdict.h"
 
 namespace pedicel::hidden {
 

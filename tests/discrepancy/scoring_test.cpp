@@ -10,7 +10,7 @@
 
 #include "discrepancy/score_report.h"
 #include "discrepancy/score_table.h"
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::hidden {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::hidden {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Dense>
 
-#include "core/random.h"
-#include "plant/effects.h"
+#include "pedicel/core/random.h"
+#include "pedicel/plant/effect_reader.h"
 
 namespace pedicel::hidden {
 

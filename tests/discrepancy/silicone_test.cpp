@@ -11,9 +11,9 @@
 #include <filesystem>
 #include <string>
 
-#include "discrepancy/diagnosis.h"
-#include "discrepancy/oscillation.h"
-#include "discrepancy/simulator.h"
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
+#include "pedicel/discrepancy/test/oscillation.h"
 #include "places.h"
 
 namespace pedicel::discrepancy {

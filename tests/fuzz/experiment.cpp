@@ -1,4 +1,4 @@
-#include "discrepancy/experiment.h"
+#include "pedicel/discrepancy/data/experiment.h"
 
 #include "reading.h"
 

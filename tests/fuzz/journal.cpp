@@ -1,9 +1,9 @@
-#include "session/journal.h"
+#include "pedicel/app/session/journal.h"
 
-#include "core/check.h"
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/core/check.h"
 #include "reading.h"
-#include "session/command_table.h"
-#include "session/document.h"
 
 using namespace pedicel;
 

@@ -1,4 +1,4 @@
-#include "plant/leaf_template.h"
+#include "pedicel/plant/leaf_template.h"
 #include "reading.h"
 
 using namespace pedicel;

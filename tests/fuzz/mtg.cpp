@@ -1,4 +1,4 @@
-#include "plant/mtg_reader.h"
+#include "pedicel/skeleton/mtg_reader.h"
 #include "reading.h"
 
 using namespace pedicel;

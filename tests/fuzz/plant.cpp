@@ -1,4 +1,4 @@
-#include "plant/plant_builder.h"
+#include "pedicel/plant/plant_builder.h"
 #include "reading.h"
 
 using namespace pedicel;

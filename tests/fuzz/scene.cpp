@@ -1,5 +1,5 @@
+#include "pedicel/world/scene_reader.h"
 #include "reading.h"
-#include "world/scene_reader.h"
 
 using namespace pedicel;
 

@@ -1,4 +1,4 @@
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 #include "reading.h"
 
 using namespace pedicel;

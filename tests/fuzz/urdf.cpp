@@ -1,5 +1,5 @@
+#include "pedicel/urdf/urdf_reader.h"
 #include "reading.h"
-#include "robot/urdf_reader.h"
 
 using namespace pedicel;
 

@@ -2,7 +2,7 @@
 // criteria.
 #include <gtest/gtest.h>
 
-#include "app/headless.h"
+#include "pedicel/app/report/headless.h"
 #include "scenes/shipped_scenes.h"
 
 namespace pedicel {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/world/scene_reader.h"
 #include "places.h"
-#include "world/scene_reader.h"
 
 namespace pedicel {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/frames.h"
-#include "core/random.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/core/random.h"
 
 /// Draws that the stress cases share.
 namespace pedicel::stress {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cosserat/rotation.h"
-#include "cosserat/self_contact.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/model/rotation.h"
 
 namespace pedicel::stress {
 

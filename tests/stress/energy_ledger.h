@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "cosserat/contact.h"
-#include "cosserat/detachment.h"
-#include "cosserat/rod_solver.h"
+#include "pedicel/cosserat/contact/contact.h"
+#include "pedicel/cosserat/solver/detachment.h"
+#include "pedicel/cosserat/solver/rod_solver.h"
 
 namespace pedicel::stress {
 

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "pedicel/world/scene_reader.h"
 #include "places.h"
 #include "stress/draw.h"
 #include "stress/sentence.h"
-#include "world/scene_reader.h"
 
 namespace pedicel::stress {
 

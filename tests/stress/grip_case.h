@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "app/simulation.h"
-#include "core/frames.h"
+#include "pedicel/app/run/simulation.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::stress {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/colliders.h"
-#include "core/timer.h"
+#include "pedicel/app/run/colliders.h"
+#include "pedicel/core/timer.h"
 #include "stress/sentence.h"
 #include "support/temporary_folder.h"
 

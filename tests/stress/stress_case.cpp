@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cosserat/rod_state.h"
-#include "geometry/shapes.h"
+#include "pedicel/cosserat/model/rod_state.h"
+#include "pedicel/geometry/shapes.h"
 #include "stress/draw.h"
 #include "stress/sentence.h"
 #include "stress/stress_plants.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cosserat/rod_solver.h"
-#include "coupling/coupling_settings.h"
-#include "geometry/signed_distance.h"
+#include "pedicel/cosserat/solver/rod_solver.h"
+#include "pedicel/coupling/coupling_settings.h"
+#include "pedicel/geometry/signed_distance.h"
 
 namespace pedicel::stress {
 

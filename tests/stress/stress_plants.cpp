@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cosserat/standing.h"
+#include "pedicel/cosserat/solver/standing.h"
+#include "pedicel/plant/plant_builder.h"
+#include "pedicel/skeleton/mtg_reader.h"
 #include "places.h"
-#include "plant/mtg_reader.h"
-#include "plant/plant_builder.h"
 #include "stress/draw.h"
 
 namespace pedicel::stress {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
 #include "stress/stress_case.h"
 
 namespace pedicel::stress {

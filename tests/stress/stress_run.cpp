@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "cosserat/rod_system.h"
-#include "cosserat/self_contact.h"
-#include "coupling/collider_source.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/coupling/collider_source.h"
 #include "stress/energy_ledger.h"
 #include "stress/sentence.h"
 

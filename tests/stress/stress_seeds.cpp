@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/thread_pool.h"
+#include "pedicel/core/thread_pool.h"
 #include "stress/stress_run.h"
 
 namespace {

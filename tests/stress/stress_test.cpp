@@ -2,7 +2,7 @@
 // and energy_ledger.h for the bounds.
 #include <gtest/gtest.h>
 
-#include "cosserat/rod_system.h"
+#include "pedicel/cosserat/solver/rod_system.h"
 #include "stress/energy_ledger.h"
 #include "stress/stress_run.h"
 

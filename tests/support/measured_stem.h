@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "core/random.h"
-#include "discrepancy/simulator.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 /// A stem that was pulled aside and let go in two directions, as the program itself would see it.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cosserat/rod_system.h"
+#include "pedicel/cosserat/solver/rod_system.h"
 
 namespace pedicel::cosserat::cases {
 

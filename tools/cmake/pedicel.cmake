@@ -1,17 +1,32 @@
-# pedicel_library(NAME SOURCES file... [PUBLIC target...] [PRIVATE target...])
+# pedicel_library(NAME [ALONE] [COLD] SOURCES file... [PUBLIC target...] [PRIVATE target...])
 #
-# One static library per folder. Its headers are reached as <folder>/<header>.h, and only by targets
-# that link it: each library exports an include root of its own that holds nothing but a link to its
-# folder, so that a forbidden include is a build error.
+# One static library per folder, a room. Its headers are reached as
+#   pedicel/core/check.h        of engine/core
+#   pedicel/plant/plant_file.h  of plugins/plant
+#   pedicel/app/run/grip.h      of app/run
+# and only by targets that link it: each room exports an include root of its own that holds nothing
+# but a link to its folder. An include of a room that is not linked is a build error.
+#
+# Half of a file's compile time goes into headers, so five files of a room are compiled as one; ALONE:
+# each by itself (kernels that include themselves once an instruction set). COLD: nothing here takes
+# a run's time, so the compiler need not either.
 function(pedicel_library NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-  set(root ${PROJECT_BINARY_DIR}/include/${folder})
-  file(MAKE_DIRECTORY ${root})
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${folder} SYMBOLIC)
+  cmake_parse_arguments(ARG "ALONE;COLD" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REGEX REPLACE "^(engine|plugins)/" "" folder ${folder})
+  set(root ${PROJECT_BINARY_DIR}/include/${NAME})
+  get_filename_component(parent ${root}/pedicel/${folder} DIRECTORY)
+  file(MAKE_DIRECTORY ${parent})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/pedicel/${folder} SYMBOLIC)
   add_library(${NAME} STATIC ${ARG_SOURCES})
   target_include_directories(${NAME} PUBLIC ${root})
   target_link_libraries(${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  if(NOT ARG_ALONE)
+    set_target_properties(${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
+  endif()
+  if(ARG_COLD AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${NAME} PRIVATE -O2)
+  endif()
 endfunction()
 
 # pedicel_test(NAME SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT s])

@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
-#include "core/ring_down.h"
-#include "core/timer.h"
+#include "pedicel/core/ring_down.h"
+#include "pedicel/core/timer.h"
 
 namespace peers {
 

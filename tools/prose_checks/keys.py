@@ -18,8 +18,8 @@ PARAMETER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*&s\.")
 WORD = re.compile(r"\{\"(\w+)\",\s*\{\"")
 NUMBER = re.compile(r"\{\"(\w+)\",\s*[-\d.e]+,\s*[-\d.e]+,\s*(?:true|false)\}")
 DOTTED = re.compile(r"\{\"((?:material|detach|sampling)\.\w+)\"")
-EFFECT = re.compile(r"\{\"(\w+)\",\s*(?:plant|experiment),")
-EFFECT_NUMBER = re.compile(r"\{\"([a-z_0-9]+)\",\s*(?:io::|gradient\b)")
+EFFECT = re.compile(r"\bd\.name = \"(\w+)\"")
+EFFECT_NUMBER = re.compile(r"\{\.name = \"([a-z_0-9]+)\"")
 JSON = re.compile(r"(?:\{|json\[)\"([a-z_0-9]+)\"[,\]]")
 QUANTITY = re.compile(r"^\s+\{\"(\w+)\", \"", re.M)
 SCRIPT_QUANTITY = re.compile(r"if \(name == \"(\w+)\"\)")
@@ -43,33 +43,41 @@ class Rule:
 READER = (ASKED, NAMED, EITHER)
 RULES = [
     Rule("plant_file.md", ("plugins/plant/plant_reader.cpp",), READER, 35),
-    Rule("plant_file.md", ("plugins/plant/skeleton_columns.cpp",), (TABLE_COLUMN,), 47, end=""),
+    Rule("plant_file.md", ("plugins/skeleton/skeleton_columns.cpp",), (TABLE_COLUMN,), 47, end=""),
     Rule("leaf_template.md", ("plugins/plant/leaf_template.cpp",), READER, 12),
     Rule("scene_file.md", ("engine/world/scene_reader.cpp", "engine/world/scene_bodies.cpp",
          "engine/world/scene_common.cpp", "engine/world/scene_plants.cpp",
          "engine/world/scene_robot.cpp", "engine/world/scene_views.cpp",
          "engine/world/scene_expect.cpp"), READER, 75),
-    Rule("experiment.md", ("plugins/discrepancy/experiment_reader.cpp",), READER, 23, end=r"^  }$"),
-    Rule("effects.md", ("plugins/plant/effects.cpp",), (EFFECT, EFFECT_NUMBER), 45, end=""),
+    Rule("experiment.md", ("plugins/discrepancy/data/experiment_reader.cpp",), READER, 23, end=r"^  }$"),
+    Rule("effects.md", ("plugins/effects/*.cpp",), (EFFECT, EFFECT_NUMBER), 45, end=""),
     Rule("settings.md", ("engine/world/settings.cpp",), (NUMBER,), 5),
-    Rule("settings.md", ("plugins/cosserat/rod_settings.cpp",), (PARAMETER,), 4),
+    Rule("settings.md", ("plugins/cosserat/solver/rod_settings.cpp",), (PARAMETER,), 4),
     Rule("settings.md", ("plugins/coupling/coupling_settings.cpp",), (PARAMETER,), 8),
-    Rule("settings.md", ("app/rod_options.cpp",), (WORD,), 3, end=""),
+    Rule("settings.md", ("app/run/rod_options.cpp",), (WORD,), 3, end=""),
     Rule("settings.md", ("plugins/plant/plant_numbers.cpp",), (DOTTED,), 11),
-    Rule("verdict.md", ("plugins/discrepancy/verdict.cpp",), (JSON,), 30, end=""),
+    Rule("verdict.md", ("plugins/discrepancy/select/verdict.cpp",), (JSON,), 30, end=""),
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
     Rule("quantities.md", ("app/session/session_run.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
-    Rule("quantities.md", ("app/channels.cpp",), (CHANNEL,), 6, end=""),
-    Rule("quantities.md", ("app/channels.cpp",), (FRUIT_CHANNEL,), 5, prefix="PLANT/FRUIT", end=""),
-    Rule("quantities.md", ("app/meta.cpp",), (JSON,), 25, end="", leave_out=("value", "unit")),
+    Rule("quantities.md", ("app/run/channels.cpp",), (CHANNEL,), 6, end=""),
+    Rule("quantities.md", ("app/run/channels.cpp",), (FRUIT_CHANNEL,), 5, prefix="PLANT/FRUIT", end=""),
+    Rule("quantities.md", ("app/report/meta.cpp",), (JSON,), 25, end="", leave_out=("value", "unit")),
 ]
+
+
+def sources_of(rule, root):
+    """A source may stand for all files of a folder."""
+    found = []
+    for source in rule.sources:
+        found += sorted(str(path.relative_to(root)) for path in root.glob(source)) if "*" in source else [source]
+    return found
 
 
 def groups(rule, root):
     """The keys of each function of the rule's sources."""
     found = []
-    for source in rule.sources:
+    for source in sources_of(rule, root):
         text = (root / source).read_text(encoding="utf-8")
         parts = re.split(rule.end, text, flags=re.M) if rule.end else [text]
         for part in parts:
@@ -83,7 +91,7 @@ def groups(rule, root):
 
 
 def check(rule, page, root):
-    absent = [source for source in rule.sources if not (root / source).exists()]
+    absent = [source for source in sources_of(rule, root) if not (root / source).exists()]
     if absent:
         return [(1, f"{absent[0]} is not there: tools/prose_checks/keys.py no longer fits it")]
     found = groups(rule, root)

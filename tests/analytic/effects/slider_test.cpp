@@ -131,7 +131,7 @@ TEST(Nonlinearity, PureMoment) {
     set_laws(model, [&](int e) {
       JointLaw law;
       const double phi0 = k0 * length / 8 * (e == 0 ? 0.5 : 1.0);
-      law.hardening = b / (phi0 * phi0);
+      law.term("material_nonlinearity") = b / (phi0 * phi0);
       return law;
     });
     for (const double k : {0.5, 2.5, 4.0}) {
@@ -153,7 +153,7 @@ TEST(Nonlinearity, SoftensToAPlateau) {
   RodModel model = Joint::model();
   set_laws(model, [](int) {
     JointLaw law;
-    law.hardening = -1.0 / (3.0 * 0.2 * 0.2);  // peak at 0.2 rad
+    law.term("material_nonlinearity") = -1.0 / (3.0 * 0.2 * 0.2);  // peak at 0.2 rad
     return law;
   });
   hold_direction(model);
@@ -172,7 +172,7 @@ TEST(Nonlinearity, SwingsAsTheEquationSays) {
     RodModel model = Joint::model();
     set_laws(model, [&](int) {
       JointLaw law;
-      law.hardening = b / (phi0 * phi0);
+      law.term("material_nonlinearity") = b / (phi0 * phi0);
       return law;
     });
     Simulation sim(model, settings_with(Integrator::bdf2));

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "robot/dynamics.h"
+#include "pedicel/robot/dynamics.h"
 #include "unit/robot/robot_cases.h"
 
 // At rest the torque of each joint balances gravity by virtual work: tau_i = dV/dq_i with

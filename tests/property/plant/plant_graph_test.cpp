@@ -1,12 +1,12 @@
-#include "plant/plant_graph.h"
+#include "pedicel/plant/plant_graph.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
-#include "plant/plant_builder.h"
+#include "pedicel/core/random.h"
+#include "pedicel/plant/plant_builder.h"
 
 // The authoring pipeline on random drawings: a stem and branches that start on curves drawn before
 // them, some of them drawn from tip to base, some with a gap below `connect`.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cosserat/direct_solver.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
+#include "pedicel/plant/plant_builder.h"
 #include "places.h"
-#include "plant/plant_builder.h"
 
 // Every plant file that ships builds, and where it is drawn as it hangs, stays there: no node moves
 // by more than 1 um in 5 s.

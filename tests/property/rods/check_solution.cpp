@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
-#include "cosserat/attachments.h"
-#include "cosserat/block_system.h"
-#include "cosserat/lane_kernels.h"
-#include "cosserat/rod_rows.h"
+#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "pedicel/cosserat/solver/attachments.h"
+#include "pedicel/cosserat/solver/block_system.h"
+#include "pedicel/cosserat/solver/rod_rows.h"
 #include "property/rods/garden_check.h"
 #include "property/rods/plain_rotation.h"
 #include "property/rods/plain_step.h"

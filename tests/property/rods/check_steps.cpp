@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cosserat/lane_kernels.h"
-#include "cosserat/rod_system.h"
+#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "pedicel/cosserat/solver/rod_system.h"
 #include "property/rods/garden_check.h"
 #include "property/rods/plain_step.h"
 

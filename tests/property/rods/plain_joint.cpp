@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/effects_list/joint_terms.h"
+
 namespace pedicel::plain {
 
 namespace {
@@ -24,6 +26,10 @@ Curve hardening_curve(double b, double u) {
   const double peak = -1.0 / (3.0 * b), at_peak = 0.5 * peak + 0.25 * b * peak * peak;
   const double moment = 2.0 / 3.0 * std::sqrt(peak), bend = std::sqrt(u);
   return {at_peak + moment * (bend - std::sqrt(peak)), moment / bend, -moment / (bend * u)};
+}
+
+double hardening_of(const cosserat::JointLaw& law) {
+  return law.terms.empty() ? 0.0 : law.terms[effects::first_number("material_nonlinearity")];
 }
 
 Curve slider_curve(double reach, double u) {
@@ -105,7 +111,7 @@ JointAnswer answer(const JointStep& joint, const Vec3& phi) {
   if (!joint.law) return out;
   const Vec3& k = joint.stiffness;
   Mat2 curved = Mat2::Zero();
-  Curve beyond = hardening_curve(joint.law->hardening, measure(k, phi.head<2>()));
+  Curve beyond = hardening_curve(hardening_of(*joint.law), measure(k, phi.head<2>()));
   beyond.g -= 1.0;  // what is linear of it is there
   beyond.psi -= 0.5 * measure(k, phi.head<2>());
   add_radial(k, joint.law->elastic, phi.head<2>(), beyond, out, curved);

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "cosserat/joint_law.h"
+#include "pedicel/cosserat/model/joint_law.h"
 
 namespace pedicel::plain {
 

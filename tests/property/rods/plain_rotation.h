@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::plain {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "cosserat/rod_solver.h"
+#include "pedicel/cosserat/solver/rod_solver.h"
 #include "property/rods/plain_joint.h"
 #include "property/rods/plain_system.h"
 

@@ -123,7 +123,7 @@ void extend(Random& random, RodModel& model) {
     const Vec3& k = model.elements[e].bend_stiffness;
     const double softer = std::min(k.x(), k.y());
     cosserat::JointLaw law;
-    if (chance(random, 0.3)) law.hardening = random.uniform(-2.0, 10.0);
+    if (chance(random, 0.3)) law.term("material_nonlinearity") = random.uniform(-2.0, 10.0);
     if (chance(random, 0.2)) cosserat::add_structural_damping(law, random.uniform(0.02, 0.2));
     if (chance(random, 0.3))
       cosserat::add_relaxation(law, random.uniform(0.0, 0.3), draw_log(random, 0.01, 1.0),

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/random.h"
-#include "cosserat/rod_solver.h"
-#include "cosserat/self_contact.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/solver/rod_solver.h"
 
 namespace pedicel::plain {
 

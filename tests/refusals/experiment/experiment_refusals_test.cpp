@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "discrepancy/experiment.h"
-#include "io/atomic_file.h"
+#include "pedicel/discrepancy/data/experiment.h"
+#include "pedicel/io/atomic_file.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::discrepancy {

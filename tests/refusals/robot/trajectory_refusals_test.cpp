@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "robot/cartesian_path.h"
+#include "pedicel/robot/cartesian_path.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

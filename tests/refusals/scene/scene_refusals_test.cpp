@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "world/scene_reader.h"
+#include "pedicel/world/scene_reader.h"
 
 namespace pedicel::world {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "app/simulation.h"
+#include "pedicel/app/run/simulation.h"
+#include "pedicel/world/scene_reader.h"
 #include "support/temporary_folder.h"
-#include "world/scene_reader.h"
 
 namespace pedicel::app {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "app/pictures.h"
-#include "app/plant_drawing.h"
-#include "core/random.h"
-#include "render/colormap.h"
+#include "pedicel/app/draw/pictures.h"
+#include "pedicel/app/draw/plant_drawing.h"
+#include "pedicel/core/random.h"
+#include "pedicel/render/colormap.h"
 
 namespace pedicel::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "app/colliders.h"
+#include "pedicel/app/run/colliders.h"
 #include "places.h"
 #include "unit/app/contact_cases.h"
 

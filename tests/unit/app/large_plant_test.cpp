@@ -1,4 +1,4 @@
-#include "app/large_plant.h"
+#include "pedicel/app/run/large_plant.h"
 
 #include <gtest/gtest.h>
 

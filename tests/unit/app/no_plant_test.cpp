@@ -1,10 +1,10 @@
 // Worlds without rods: bodies alone, and an optional plant whose file is not there.
 #include <gtest/gtest.h>
 
-#include "app/headless.h"
-#include "io/atomic_file.h"
+#include "pedicel/app/report/headless.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/world/scene_reader.h"
 #include "support/temporary_folder.h"
-#include "world/scene_reader.h"
 
 namespace pedicel::app {
 namespace {

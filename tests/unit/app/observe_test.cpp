@@ -1,14 +1,14 @@
-#include "app/observe.h"
+#include "pedicel/app/verbs/observe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "app/validate.h"
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "io/csv.h"
+#include "pedicel/app/verbs/validate.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
 #include "support/temporary_folder.h"
 #include "unit/discrepancy/beam_experiment.h"
 

@@ -1,15 +1,15 @@
 // Worlds of one scene read the same meshes and fields and still do not influence each other.
-#include "app/parallel_worlds.h"
+#include "pedicel/app/verbs/parallel_worlds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/scene_assets.h"
-#include "core/check.h"
-#include "io/atomic_file.h"
+#include "pedicel/app/run/scene_assets.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/world/scene_reader.h"
 #include "support/stem_plants.h"
 #include "support/temporary_folder.h"
-#include "world/scene_reader.h"
 
 namespace pedicel::app {
 namespace {

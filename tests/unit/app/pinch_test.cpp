@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/rough_spell.h"
+#include "pedicel/app/run/rough_spell.h"
 #include "places.h"
 #include "unit/app/contact_cases.h"
 

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 #include "support/stem_plants.h"
 
 namespace pedicel {

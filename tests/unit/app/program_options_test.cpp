@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 #include "program_case.h"
 
 namespace pedicel {

@@ -1,9 +1,9 @@
 // What runs write, where, and what they leave when they are stopped, killed, or the disk is full.
 #include <fstream>
 
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/render/video.h"
 #include "program_case.h"
-#include "render/video.h"
 
 namespace pedicel {
 namespace {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cosserat/rod_model.h"
-#include "io/csv.h"
+#include "pedicel/cosserat/model/rod_model.h"
+#include "pedicel/io/csv.h"
 #include "program_case.h"
 
 namespace pedicel {

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/log_plots.h"
-#include "app/run_report.h"
-#include "core/diagnostics.h"
-#include "io/atomic_file.h"
-#include "render/image.h"
+#include "pedicel/app/report/log_plots.h"
+#include "pedicel/app/report/run_report.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/render/image.h"
 
 namespace pedicel::app {
 namespace {

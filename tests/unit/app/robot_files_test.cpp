@@ -5,15 +5,15 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "app/mesh_fields.h"
-#include "app/simulation.h"
-#include "app/validate.h"
-#include "core/diagnostics.h"
-#include "geometry/primitives_mesh.h"
-#include "io/atomic_file.h"
+#include "pedicel/app/run/mesh_fields.h"
+#include "pedicel/app/run/simulation.h"
+#include "pedicel/app/verbs/validate.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/geometry/primitives_mesh.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/world/scene_reader.h"
 #include "places.h"
 #include "support/temporary_folder.h"
-#include "world/scene_reader.h"
 
 // Robots as people have them, in scenes: where they begin, and meshes of any size.
 namespace pedicel::app {

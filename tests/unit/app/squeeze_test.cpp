@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/colliders.h"
+#include "pedicel/app/run/colliders.h"
 #include "places.h"
 #include "unit/app/contact_cases.h"
 

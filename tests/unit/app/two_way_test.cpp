@@ -1,8 +1,8 @@
 // Two-way coupling: what a plant feels, the robot or the rigid body feels, in the same step.
 #include <cmath>
 
-#include "app/colliders.h"
-#include "core/random.h"
+#include "pedicel/app/run/colliders.h"
+#include "pedicel/core/random.h"
 #include "unit/app/contact_cases.h"
 
 namespace pedicel::app {

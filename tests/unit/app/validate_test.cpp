@@ -1,4 +1,4 @@
-#include "app/validate.h"
+#include "pedicel/app/verbs/validate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 #include "places.h"
 
 namespace pedicel::app {

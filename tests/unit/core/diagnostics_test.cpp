@@ -1,8 +1,8 @@
-#include "core/diagnostics.h"
+#include "pedicel/core/diagnostics.h"
 
 #include <gtest/gtest.h>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel {
 namespace {

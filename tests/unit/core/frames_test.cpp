@@ -1,8 +1,8 @@
-#include "core/frames.h"
+#include "pedicel/core/frames.h"
 
 #include <gtest/gtest.h>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
 
 namespace pedicel {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/parameter.h"
+#include "pedicel/core/parameter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/random.h"
+#include "pedicel/core/random.h"
 
 #include <gtest/gtest.h>
 

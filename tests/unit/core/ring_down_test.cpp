@@ -1,4 +1,4 @@
-#include "core/ring_down.h"
+#include "pedicel/core/ring_down.h"
 
 #include <gtest/gtest.h>
 

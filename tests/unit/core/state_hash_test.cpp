@@ -1,4 +1,4 @@
-#include "core/state_hash.h"
+#include "pedicel/core/state_hash.h"
 
 #include <gtest/gtest.h>
 

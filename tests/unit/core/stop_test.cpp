@@ -1,5 +1,5 @@
 // What signals do to a program before and after it has begun output.
-#include "core/stop.h"
+#include "pedicel/core/stop.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -4,7 +4,7 @@
 
 #include "analytic/rod_cases.h"
 #include "analytic/sphere_source.h"
-#include "cosserat/rod_system.h"
+#include "pedicel/cosserat/solver/rod_system.h"
 #include "support/allocation_counter.h"
 #include "unit/cosserat/extension_cases.h"
 

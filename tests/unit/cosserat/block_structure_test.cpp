@@ -1,5 +1,5 @@
 // The symbolic phase against the theorem on fill, and the fill of the loops that plants have.
-#include "cosserat/block_structure.h"
+#include "pedicel/cosserat/solver/block_structure.h"
 
 #include <gtest/gtest.h>
 

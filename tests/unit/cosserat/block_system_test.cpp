@@ -1,5 +1,5 @@
 // The block factorisation against a dense solution of the same system.
-#include "cosserat/block_system.h"
+#include "pedicel/cosserat/solver/block_system.h"
 
 #include <gtest/gtest.h>
 

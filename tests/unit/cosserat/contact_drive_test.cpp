@@ -1,11 +1,11 @@
-#include "cosserat/contact_drive.h"
+#include "pedicel/cosserat/contact/contact_drive.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
 
 namespace pedicel::cosserat {
 namespace {

@@ -1,5 +1,5 @@
 // Contact and friction as energies, and what they do in a step.
-#include "cosserat/contact_terms.h"
+#include "pedicel/cosserat/solver/contact_terms.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "analytic/rod_cases.h"
 #include "analytic/sphere_source.h"
-#include "cosserat/lane_kernels.h"
-#include "cosserat/rotation.h"
+#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "pedicel/cosserat/model/rotation.h"
 #include "unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {

@@ -1,5 +1,5 @@
 // Fruits that come off: at their threshold, with the right cause, and with their momentum.
-#include "cosserat/detachment.h"
+#include "pedicel/cosserat/solver/detachment.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include <functional>
 
-#include "cosserat/lane_kernels.h"
-#include "cosserat/rod_system.h"
-#include "cosserat/turn_frame.h"
+#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "pedicel/cosserat/model/turn_frame.h"
+#include "pedicel/cosserat/solver/rod_system.h"
 #include "support/rod_tips.h"
 #include "unit/cosserat/extension_cases.h"
 #include "unit/cosserat/step_potential.h"
@@ -105,7 +105,7 @@ TEST(Extension, EnergyNeverGrows) {
       [](JointLaw& law, double) { add_structural_damping(law, 0.2); },
       [](JointLaw& law, double k) { add_friction(law, 0.4, 0.4 * k * 0.03); },
       [](JointLaw& law, double k) { add_yield(law, k * 0.1); },
-      [](JointLaw& law, double) { law.hardening = 5.0; },
+      [](JointLaw& law, double) { law.term("material_nonlinearity") = 5.0; },
   };
   for (int kind = 0; kind < 6; ++kind) {
     Random random(40 + kind);

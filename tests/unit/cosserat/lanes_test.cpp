@@ -5,9 +5,9 @@
 #include <array>
 #include <set>
 
-#include "cosserat/lane_kernels.h"
-#include "cosserat/lane_layout.h"
-#include "plant/reference_plants.h"
+#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "pedicel/cosserat/lanes/lane_layout.h"
+#include "pedicel/plant/reference_plants.h"
 #include "support/rod_tips.h"
 #include "unit/cosserat/extension_cases.h"
 #include "unit/cosserat/step_potential.h"

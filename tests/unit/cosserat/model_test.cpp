@@ -1,7 +1,7 @@
 // What is computed once of a plant: frames, stiffness of joints, inertia.
 #include <gtest/gtest.h>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 #include "unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {

@@ -1,6 +1,6 @@
 // The position-based constraints: gradients by differences, zero at rest, unchanged by rigid
 // motion.
-#include "cosserat/position_based_constraints.h"
+#include "pedicel/cosserat/solver/position_based_constraints.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/random.h"
-#include "cosserat/rod_rows.h"
-#include "cosserat/rod_state.h"
-#include "cosserat/rotation.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/model/rod_state.h"
+#include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/cosserat/solver/rod_rows.h"
 
 /// Random plants and random states of them, for property tests. Seeded.
 namespace pedicel::cosserat::cases {

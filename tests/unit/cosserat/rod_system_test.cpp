@@ -1,5 +1,5 @@
 // Many plants: the same bits with any number of threads; states set from outside; what a step says.
-#include "cosserat/rod_system.h"
+#include "pedicel/cosserat/solver/rod_system.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "analytic/rod_cases.h"
 #include "analytic/sphere_source.h"
-#include "plant/reference_plants.h"
+#include "pedicel/plant/reference_plants.h"
 #include "unit/cosserat/extension_cases.h"
 #include "unit/cosserat/random_plants.h"
 

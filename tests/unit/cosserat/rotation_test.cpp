@@ -1,5 +1,5 @@
 // The rotation vector: exp and log are inverse, and the Jacobian is log's derivative.
-#include "cosserat/rotation.h"
+#include "pedicel/cosserat/model/rotation.h"
 
 #include <gtest/gtest.h>
 

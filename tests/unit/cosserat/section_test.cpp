@@ -1,5 +1,5 @@
 // Section properties against closed forms and tables.
-#include "cosserat/section.h"
+#include "pedicel/cosserat/model/section.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "cosserat/standing.h"
+#include "pedicel/cosserat/solver/standing.h"
 #include "unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {

@@ -1,10 +1,10 @@
 // Standing as drawn: the drawn shape carries no net force on any element, and where supports and
 // welds leave a choice, their loads are those of beam theory.
-#include "cosserat/standing.h"
+#include "pedicel/cosserat/solver/standing.h"
 
 #include <gtest/gtest.h>
 
-#include "cosserat/direct_solver.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
 #include "unit/cosserat/random_plants.h"
 #include "unit/cosserat/step_potential.h"
 

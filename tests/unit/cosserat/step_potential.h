@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "cosserat/attachments.h"
-#include "cosserat/block_system.h"
-#include "cosserat/rod_rows.h"
+#include "pedicel/cosserat/solver/attachments.h"
+#include "pedicel/cosserat/solver/block_system.h"
+#include "pedicel/cosserat/solver/rod_rows.h"
 
 namespace pedicel::cosserat::cases {
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/random.h"
-#include "core/state_hash.h"
-#include "cosserat/rod_system.h"
-#include "cosserat/self_contact.h"
-#include "coupling/collider_source.h"
-#include "coupling/element_chunks.h"
-#include "geometry/shapes.h"
-#include "plant/reference_plants.h"
+#include "pedicel/core/random.h"
+#include "pedicel/core/state_hash.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/coupling/collider_source.h"
+#include "pedicel/coupling/element_chunks.h"
+#include "pedicel/geometry/shapes.h"
+#include "pedicel/plant/reference_plants.h"
 #include "support/allocation_counter.h"
 
 namespace pedicel::coupling {

@@ -1,4 +1,4 @@
-#include "coupling/collider_source.h"
+#include "pedicel/coupling/collider_source.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "core/random.h"
-#include "cosserat/rod_state.h"
-#include "geometry/shapes.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/model/rod_state.h"
+#include "pedicel/geometry/shapes.h"
 #include "support/allocation_counter.h"
 #include "unit/coupling/plants.h"
 

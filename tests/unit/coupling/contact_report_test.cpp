@@ -1,10 +1,10 @@
-#include "coupling/contact_report.h"
+#include "pedicel/coupling/contact_report.h"
 
 #include <gtest/gtest.h>
 
-#include "core/random.h"
-#include "cosserat/self_contact.h"
-#include "geometry/shapes.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/geometry/shapes.h"
 #include "support/allocation_counter.h"
 #include "unit/coupling/plants.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
-#include "cosserat/rod_system.h"
-#include "cosserat/self_contact.h"
-#include "coupling/collider_source.h"
-#include "coupling/contact_report.h"
-#include "geometry/shapes.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/coupling/collider_source.h"
+#include "pedicel/coupling/contact_report.h"
+#include "pedicel/geometry/shapes.h"
 #include "support/allocation_counter.h"
 #include "unit/coupling/plants.h"
 

@@ -1,12 +1,12 @@
-#include "coupling/nearest_place.h"
+#include "pedicel/coupling/nearest_place.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "core/random.h"
-#include "geometry/shapes.h"
+#include "pedicel/core/random.h"
+#include "pedicel/geometry/shapes.h"
 
 namespace pedicel::coupling {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cosserat/rod_model.h"
+#include "pedicel/cosserat/model/rod_model.h"
 
 namespace pedicel::coupling {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "cosserat/rod_system.h"
-#include "cosserat/self_contact.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/solver/rod_system.h"
 
 namespace pedicel::cosserat {
 namespace {

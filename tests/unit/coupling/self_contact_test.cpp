@@ -1,4 +1,4 @@
-#include "cosserat/self_contact.h"
+#include "pedicel/cosserat/contact/self_contact.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <set>
 #include <tuple>
 
-#include "core/check.h"
-#include "core/random.h"
-#include "cosserat/contact_terms.h"
-#include "cosserat/lane_kernels.h"
-#include "cosserat/rotation.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/cosserat/solver/contact_terms.h"
 #include "support/allocation_counter.h"
 
 namespace pedicel::cosserat {

@@ -22,10 +22,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/random.h"
-#include "cosserat/rod_system.h"
-#include "coupling/collider_source.h"
-#include "geometry/shapes.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/coupling/collider_source.h"
+#include "pedicel/geometry/shapes.h"
 #include "unit/coupling/plants.h"
 
 namespace pedicel::coupling {

@@ -1,13 +1,13 @@
 // What is wrong with data before any physics: made data with known faults, which must all be found,
 // and nothing else.
-#include "discrepancy/admission.h"
+#include "pedicel/discrepancy/admission/admission.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
 #include "unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {

@@ -1,6 +1,6 @@
 // Which parameters data see, on a weightless beam whose tip is pulled aside: it stands at
 // d = F L^3 / 3EI, and with a modulus a tenth larger at d / 1.1.
-#include "discrepancy/baseline_start.h"
+#include "pedicel/discrepancy/fit/baseline_start.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "beam_experiment.h"
-#include "core/random.h"
-#include "discrepancy/causes.h"
-#include "discrepancy/missing_force.h"
-#include "discrepancy/places.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/data/places.h"
+#include "pedicel/discrepancy/fit/causes.h"
+#include "pedicel/discrepancy/force/missing_force.h"
 
 namespace pedicel::discrepancy::testing {
 

@@ -1,4 +1,4 @@
-#include "discrepancy/bounded_solve.h"
+#include "pedicel/discrepancy/fit/bounded_solve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,17 @@
 // Refits of a handful of causes on a beam whose data were simulated with one of them: it must be
 // first, with its size, and the alarm must be about it. Without it there must be no alarm.
-#include "discrepancy/candidates.h"
+#include "pedicel/discrepancy/select/candidates.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
-#include "discrepancy/candidate_starts.h"
-#include "discrepancy/evidence.h"
-#include "discrepancy/needed_parameters.h"
-#include "discrepancy/promise.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/select/candidate_starts.h"
+#include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/discrepancy/select/needed_parameters.h"
+#include "pedicel/discrepancy/test/score_test.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {

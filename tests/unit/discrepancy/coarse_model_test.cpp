@@ -1,12 +1,12 @@
 // The coarse model of searches: it must agree with the fine one where it is anchored, follow it
 // near by, and give way to the fine one where it would be wrong by much of the noise.
-#include "discrepancy/coarse_model.h"
+#include "pedicel/discrepancy/fit/coarse_model.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "discrepancy/causes.h"
+#include "pedicel/discrepancy/fit/causes.h"
 #include "unit/discrepancy/released_beam.h"
 
 namespace pedicel::discrepancy {

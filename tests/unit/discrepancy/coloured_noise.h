@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/random.h"
-#include "discrepancy/noise.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/simulate/noise.h"
 
 namespace pedicel::discrepancy::testing {
 

@@ -1,6 +1,6 @@
 // What is concluded from fits and alarms that are written down: which causes are named, which are
 // rivals, and what is said of the rest.
-#include "discrepancy/conclusion.h"
+#include "pedicel/discrepancy/procedure/conclusion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // Mistakes of a day in a laboratory: each must be told with its file and its likely cause, and what
 // known effects explain must not be.
-#include "discrepancy/contradiction.h"
+#include "pedicel/discrepancy/admission/contradiction.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "discrepancy/admission.h"
-#include "io/yaml.h"
-#include "plant/effects.h"
+#include "pedicel/discrepancy/admission/admission.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/plant/effect_reader.h"
 #include "unit/discrepancy/laboratory.h"
 
 namespace pedicel::discrepancy {
@@ -53,8 +53,8 @@ std::function<void(Trial&)> path_times(const std::function<double(double)>& chan
 plant::Effect effect(const std::string& text) {
   Diagnostics diagnostics;
   const io::YamlNode node = io::parse_yaml(text, "effect.yaml", diagnostics);
-  const plant::EffectKind* kind = plant::find_effect(node.raw()["name"].Scalar());
-  const plant::Effect effect = plant::read_effect(node, kind->home);
+  const effects::EffectDefinition* known = effects::find_effect(node.raw()["name"].Scalar());
+  const plant::Effect effect = plant::read_effect(node, known->file);
   EXPECT_EQ(diagnostics.text(), "");
   return effect;
 }

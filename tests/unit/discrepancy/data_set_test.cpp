@@ -1,5 +1,5 @@
 // Residuals in units of the noise, of an experiment whose predictions are written down.
-#include "discrepancy/data_set.h"
+#include "pedicel/discrepancy/simulate/data_set.h"
 
 #include <gtest/gtest.h>
 

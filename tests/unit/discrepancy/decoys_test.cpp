@@ -1,5 +1,5 @@
 // A change that is in the data, against the same change in the wrong places.
-#include "discrepancy/decoys.h"
+#include "pedicel/discrepancy/select/decoys.h"
 
 #include <gtest/gtest.h>
 

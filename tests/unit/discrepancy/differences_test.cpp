@@ -1,11 +1,11 @@
 // Derivatives by differences of a prediction in closed form.
-#include "discrepancy/differences.h"
+#include "pedicel/discrepancy/simulate/differences.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "discrepancy/causes.h"
+#include "pedicel/discrepancy/fit/causes.h"
 
 namespace pedicel::discrepancy {
 namespace {

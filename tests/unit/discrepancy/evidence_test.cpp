@@ -1,11 +1,11 @@
 // What numbers cost, and which causes turned into others, from fits that are written down.
-#include "discrepancy/evidence.h"
+#include "pedicel/discrepancy/select/evidence.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "discrepancy/cause_start.h"
+#include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -26,7 +26,9 @@ double cost_of_one(const Hypothesis& hypothesis, int p) {
 }
 
 Hypothesis sensor(const Vec3& offset) {
-  return Start("force_gain").positive("gain", 1.02, 0.1, 10.0).vector("offset", offset, 0.01, 100);
+  return effects::Start("force_gain")
+      .positive("gain", 1.02, 0.1, 10.0)
+      .vector("offset", offset, 0.01, 100);
 }
 
 // Laplace: ln sqrt(1 + (width j)^2) a number. An offset at zero adds as much to the density there,
@@ -41,14 +43,15 @@ TEST(Evidence, AnOffsetThatIsNotNeededIsFree) {
 }
 
 TEST(Evidence, TheOnlySizeOfACauseIsPaidFor) {
-  const Hypothesis offset =
-      Start("marker_offset").word("marker", "m1").vector("offset", Vec3::Zero(), 1e-3, 0.2);
+  const Hypothesis offset = effects::Start("marker_offset")
+                                .word("marker", "m1")
+                                .vector("offset", Vec3::Zero(), 1e-3, 0.2);
   EXPECT_NEAR(cost_of_numbers(fit_of(offset), 1.0), 3.0 * cost_of_one(offset, 0), 1e-9);
 }
 
 // Twice the noise variance is left: the data say half as much.
 TEST(Evidence, WhatIsLeftMakesDataSayLess) {
-  const Hypothesis drag = Start("leaf_drag").positive("drag_area", 0.05, 1e-5, 10.0);
+  const Hypothesis drag = effects::Start("leaf_drag").positive("drag_area", 0.05, 1e-5, 10.0);
   const double width = drag.free[0].width();
   EXPECT_NEAR(cost_of_numbers(fit_of(drag), 2.0), 0.5 * std::log1p(std::pow(sharp * width, 2) / 2),
               1e-9);
@@ -58,7 +61,7 @@ Candidate memory(const std::string& cause, double time, double cost) {
   Candidate c;
   c.cause = cause;
   const bool creep = cause == "creep";
-  c.fit = fit_of(Start(cause)
+  c.fit = fit_of(effects::Start(cause)
                      .positive("fraction", 0.1, 1e-3, 0.95)
                      .positive("time", time, creep ? 5.0 : 0.005, creep ? 250.0 : 5.0));
   c.fit.cost = cost;

@@ -1,5 +1,5 @@
 // Tables of measured data as instruments and spreadsheets write them.
-#include "discrepancy/experiment_tables.h"
+#include "pedicel/discrepancy/data/experiment_tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

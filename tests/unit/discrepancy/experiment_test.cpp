@@ -1,11 +1,11 @@
-#include "discrepancy/experiment.h"
+#include "pedicel/discrepancy/data/experiment.h"
 
 #include <gtest/gtest.h>
 
-#include "discrepancy/causes.h"
-#include "discrepancy/scales.h"
-#include "discrepancy/variant_plant.h"
-#include "io/asset_folder.h"
+#include "pedicel/discrepancy/fit/causes.h"
+#include "pedicel/discrepancy/simulate/scales.h"
+#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "pedicel/io/asset_folder.h"
 #include "support/temporary_folder.h"
 #include "unit/discrepancy/beam_experiment.h"
 

@@ -1,12 +1,12 @@
 // Mesh, step and corrections that an experiment is fitted with: as coarse as its noise allows, and
 // right about the model that they are asked for.
-#include "discrepancy/fit_setup.h"
+#include "pedicel/discrepancy/fit/fit_setup.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "discrepancy/causes.h"
+#include "pedicel/discrepancy/fit/causes.h"
 #include "unit/discrepancy/released_beam.h"
 
 namespace pedicel::discrepancy {

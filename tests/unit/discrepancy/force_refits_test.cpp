@@ -1,5 +1,5 @@
 // Laws that the linear response found, refitted by the simulator.
-#include "discrepancy/force_refits.h"
+#include "pedicel/discrepancy/force/force_refits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bent_stem.h"
-#include "discrepancy/force_term.h"
+#include "pedicel/discrepancy/simulate/force_term.h"
 
 namespace pedicel::discrepancy {
 

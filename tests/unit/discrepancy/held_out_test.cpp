@@ -1,5 +1,5 @@
 // Models on trials kept back, as linear predictions whose answers are known.
-#include "discrepancy/held_out.h"
+#include "pedicel/discrepancy/test/held_out.h"
 
 #include <gtest/gtest.h>
 

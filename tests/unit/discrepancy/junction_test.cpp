@@ -3,7 +3,7 @@
 // adds l'/2EI: a share l'/l of that, the same at all junctions.
 #include <gtest/gtest.h>
 
-#include "discrepancy/causes.h"
+#include "pedicel/discrepancy/fit/causes.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {

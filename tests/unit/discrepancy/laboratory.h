@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
-#include "core/random.h"
-#include "discrepancy/layout.h"
-#include "discrepancy/simulator.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/admission/layout.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
 
 /// A day in a laboratory: a stem with two branches, nine markers; let go along x and y, weights
 /// hung on from the side, and pushed with the force measured. Simulated, with noise on top; nothing

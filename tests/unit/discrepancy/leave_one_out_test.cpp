@@ -1,12 +1,12 @@
 // Leaving out a trial of a linear model is the least squares fit to the others, solved here anew.
-#include "discrepancy/leave_one_out.h"
+#include "pedicel/discrepancy/test/leave_one_out.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "core/random.h"
-#include "discrepancy/cause_start.h"
+#include "pedicel/core/random.h"
+#include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -17,8 +17,8 @@ constexpr std::array<Eigen::Index, 3> rows{20, 30, 25};
 FitSummary linear_fit() {
   Random random(5);
   FitSummary fit;
-  fit.hypothesis = Start("leaf_drag").positive("drag_area", 0.05, 1e-5, 10.0);
-  fit.hypothesis.add(Start("relaxation").positive("fraction", 0.1, 1e-3, 0.9));
+  fit.hypothesis = effects::Start("leaf_drag").positive("drag_area", 0.05, 1e-5, 10.0);
+  fit.hypothesis.add(effects::Start("relaxation").positive("fraction", 0.1, 1e-3, 0.9));
   fit.jacobian.resize(75, 2);
   for (double& x : fit.jacobian.reshaped()) x = random.normal();
   fit.residual.resize(75);

@@ -1,12 +1,11 @@
 // What is left of the plant's own motion: seen along its shapes, not across them, whatever the
 // colour of the noise.
-#include "discrepancy/leftover.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "made_data.h"
+#include "pedicel/discrepancy/test/residual_power.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
-#include "core/random.h"
-#include "discrepancy/symptoms.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/test/symptoms.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "discrepancy/report.h"
 #include "made_data.h"
+#include "pedicel/discrepancy/report/report.h"
 
 namespace pedicel::discrepancy {
 

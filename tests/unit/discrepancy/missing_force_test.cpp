@@ -1,11 +1,11 @@
-#include "discrepancy/missing_force.h"
+#include "pedicel/discrepancy/force/missing_force.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "bent_stem.h"
-#include "discrepancy/force_term.h"
+#include "pedicel/discrepancy/simulate/force_term.h"
 
 namespace pedicel::discrepancy {
 

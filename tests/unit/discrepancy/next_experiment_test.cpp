@@ -1,9 +1,9 @@
-#include "discrepancy/next_experiment.h"
+#include "pedicel/discrepancy/procedure/next_experiment.h"
 
 #include <gtest/gtest.h>
 
-#include "discrepancy/trial_designs.h"
 #include "made_diagnosis.h"
+#include "pedicel/discrepancy/procedure/trial_designs.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,7 +1,7 @@
 // Noise models. Exact covariances must give the weights that made them (Yule-Walker: of a process
 // x_t = a x_(t-1) + b x_(t-2) + e the correlations are r1 = a / (1 - b) and r_k = a r_(k-1) +
 // b r_(k-2)); drawn series must give them within the scatter of the estimate.
-#include "discrepancy/noise.h"
+#include "pedicel/discrepancy/simulate/noise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Our own numerical error on a released beam. Step and mesh err by the second power of their size:
 // halving the step must quarter what half a step more would change, and what Richardson's
 // correction leaves must be far below what it corrects.
-#include "discrepancy/numerics.h"
+#include "pedicel/discrepancy/fit/numerics.h"
 
 #include <gtest/gtest.h>
 

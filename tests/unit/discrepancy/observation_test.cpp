@@ -1,9 +1,9 @@
 // From a motion that is known to what the instruments report.
-#include "discrepancy/observation.h"
+#include "pedicel/discrepancy/simulate/observation.h"
 
 #include <gtest/gtest.h>
 
-#include "cosserat/rotation.h"
+#include "pedicel/cosserat/model/rotation.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {

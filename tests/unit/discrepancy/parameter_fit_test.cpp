@@ -1,15 +1,15 @@
 // Data are made with known parameters, another step and another mesh, and the parameters must come
 // back within their intervals.
-#include "discrepancy/parameter_fit.h"
+#include "pedicel/discrepancy/fit/parameter_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
-#include "core/random.h"
-#include "discrepancy/parameter_request.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/fit/parameter_request.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {

@@ -1,4 +1,4 @@
-#include "discrepancy/pick.h"
+#include "pedicel/discrepancy/simulate/pick.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // A place lies in a narrow valley: a fit that stopped elsewhere must be led to it.
-#include "discrepancy/place_search.h"
+#include "pedicel/discrepancy/select/place_search.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "discrepancy/cause_start.h"
-#include "discrepancy/causes.h"
-#include "discrepancy/profile.h"
+#include "pedicel/discrepancy/fit/causes.h"
+#include "pedicel/discrepancy/fit/profile.h"
+#include "pedicel/effects/registry/effect_definition.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
@@ -75,7 +75,7 @@ struct Slid {
 TEST(PlaceSearch, LeadsAMassAlongTheCurve) {
   Slid slid;
   const FitSummary early = slid.stopped_early(
-      Start("extra_mass").moving_place("stem", 0.4).positive("mass", 0.008, 1e-5, 0.3));
+      effects::Start("extra_mass").moving_place("stem", 0.4).positive("mass", 0.008, 1e-5, 0.3));
   ASSERT_LT(early.hypothesis.effects.back().place->at, 0.6);
   const FitSummary found = slide_along(slid.evaluator, early, slid.options);
   EXPECT_NEAR(found.hypothesis.effects.back().place->at, hidden_at, 0.02);
@@ -87,7 +87,7 @@ TEST(PlaceSearch, LeadsAMassAlongTheCurve) {
 // farther than the next sample.
 TEST(PlaceSearch, LeadsASlipToItsMoment) {
   Slid slid(held_beam(slip(), std::numeric_limits<double>::infinity()));
-  const FitSummary stuck = slid.fitted(Start("grip_slip")
+  const FitSummary stuck = slid.fitted(effects::Start("grip_slip")
                                            .signed_number("distance", 0.01, 0.01, -0.1, 0.1)
                                            .signed_number("time", 0.3, 0.2, 0.0, 1.0),
                                        30);
@@ -100,8 +100,8 @@ TEST(PlaceSearch, LeadsASlipToItsMoment) {
 
 TEST(PlaceSearch, LeavesAFitWithoutPlaceAsItIs) {
   Slid slid;
-  const FitSummary early =
-      slid.stopped_early(Start("mass_distribution").signed_number("gradient", 0.2, 0.3, -1.9, 1.9));
+  const FitSummary early = slid.stopped_early(
+      effects::Start("mass_distribution").signed_number("gradient", 0.2, 0.3, -1.9, 1.9));
   const FitSummary found = slide_along(slid.evaluator, early, slid.options);
   EXPECT_EQ(found.hypothesis.unknowns(), early.hypothesis.unknowns());
 }

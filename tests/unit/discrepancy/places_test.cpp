@@ -1,4 +1,4 @@
-#include "discrepancy/places.h"
+#include "pedicel/discrepancy/data/places.h"
 
 #include <gtest/gtest.h>
 

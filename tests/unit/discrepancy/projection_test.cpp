@@ -1,12 +1,12 @@
-#include "discrepancy/projection.h"
+#include "pedicel/discrepancy/test/projection.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "core/random.h"
-#include "discrepancy/oscillation.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/test/oscillation.h"
 
 namespace pedicel::discrepancy {
 namespace {

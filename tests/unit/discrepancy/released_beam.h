@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "core/random.h"
-#include "discrepancy/simulator.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy::testing {

@@ -1,4 +1,4 @@
-#include "discrepancy/report.h"
+#include "pedicel/discrepancy/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,11 +6,11 @@
 #include <cctype>
 #include <regex>
 
-#include "core/check.h"
-#include "discrepancy/plant_sketch.h"
-#include "discrepancy/report_words.h"
-#include "io/atomic_file.h"
 #include "made_diagnosis.h"
+#include "pedicel/core/check.h"
+#include "pedicel/discrepancy/report/plant_sketch.h"
+#include "pedicel/discrepancy/report/report_words.h"
+#include "pedicel/io/atomic_file.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::discrepancy {

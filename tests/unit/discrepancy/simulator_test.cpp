@@ -1,12 +1,12 @@
 // Predictions against beam theory (Euler-Bernoulli, small deflections; shear adds less than 1e-3 at
 // this slenderness) and against each other.
-#include "discrepancy/simulator.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {

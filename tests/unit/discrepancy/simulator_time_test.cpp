@@ -1,8 +1,8 @@
 // Frequencies after a release, and the order of convergence in the time step where forces jump.
 #include <gtest/gtest.h>
 
-#include "core/ring_down.h"
-#include "discrepancy/simulator.h"
+#include "pedicel/core/ring_down.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {

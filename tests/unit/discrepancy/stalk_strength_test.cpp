@@ -1,13 +1,13 @@
 // Laws of breaking from when fruits came off, on loads that are known: ramps of force, moment and
 // torsion in fixed proportions, one for each stalk.
-#include "discrepancy/stalk_strength.h"
+#include "pedicel/discrepancy/select/stalk_strength.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,12 +1,12 @@
 // Directed statistics on residuals that are drawn: standard normal where nothing but noise is left,
 // and no alarm; what is laid along a direction must raise one.
-#include "discrepancy/statistics.h"
+#include "pedicel/discrepancy/test/statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
 #include "unit/discrepancy/made_diagnosis.h"
 
 namespace pedicel::discrepancy {

@@ -1,4 +1,4 @@
-#include "discrepancy/step_plan.h"
+#include "pedicel/discrepancy/simulate/step_plan.h"
 
 #include <gtest/gtest.h>
 

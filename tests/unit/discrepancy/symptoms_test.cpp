@@ -1,4 +1,4 @@
-#include "discrepancy/symptoms.h"
+#include "pedicel/discrepancy/test/symptoms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "discrepancy/trial_split.h"
+#include "pedicel/discrepancy/data/trial_split.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "discrepancy/experiment.h"
+#include "pedicel/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

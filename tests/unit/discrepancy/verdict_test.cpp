@@ -1,6 +1,6 @@
 // verdict.json against section 3 of the formats: its fields, null where there is no value, and the
 // exit codes.
-#include "discrepancy/verdict.h"
+#include "pedicel/discrepancy/select/verdict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

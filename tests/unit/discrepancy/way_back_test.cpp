@@ -1,13 +1,12 @@
 // A mass that no model knows raises the density that is fitted; from there it must be found by
 // going back to the density that is believed.
-#include "discrepancy/way_back.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
+#include "pedicel/discrepancy/select/continuation.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {

@@ -1,4 +1,4 @@
-#include "geometry/cache_folder.h"
+#include "pedicel/geometry/cache_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -6,8 +6,8 @@
 #include <chrono>
 #include <thread>
 
-#include "geometry/grid_cache.h"
-#include "geometry/primitives_mesh.h"
+#include "pedicel/geometry/grid_cache.h"
+#include "pedicel/geometry/primitives_mesh.h"
 #include "support.h"
 
 namespace pedicel::geometry {

@@ -1,4 +1,4 @@
-#include "geometry/closest_point.h"
+#include "pedicel/geometry/closest_point.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "geometry/curve.h"
+#include "pedicel/geometry/curve.h"
 
 #include <gmock/gmock.h>
 
-#include "core/check.h"
-#include "geometry/curve_distance.h"
+#include "pedicel/core/check.h"
+#include "pedicel/geometry/curve_distance.h"
 #include "support.h"
 
 namespace pedicel::geometry {

@@ -1,10 +1,10 @@
-#include "geometry/grid_cache.h"
+#include "pedicel/geometry/grid_cache.h"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "geometry/primitives_mesh.h"
+#include "pedicel/geometry/primitives_mesh.h"
 #include "support.h"
 
 namespace pedicel::geometry {

@@ -1,10 +1,10 @@
-#include "geometry/grid_distance.h"
+#include "pedicel/geometry/grid_distance.h"
 
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "core/thread_pool.h"
-#include "geometry/primitives_mesh.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/thread_pool.h"
+#include "pedicel/geometry/primitives_mesh.h"
 #include "support.h"
 
 namespace pedicel::geometry {

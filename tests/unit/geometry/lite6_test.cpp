@@ -2,8 +2,8 @@
 // inside. They must load, give a usable distance, and mass properties.
 #include <gtest/gtest.h>
 
-#include "geometry/grid_distance.h"
-#include "geometry/mass_properties.h"
+#include "pedicel/geometry/grid_distance.h"
+#include "pedicel/geometry/mass_properties.h"
 #include "places.h"
 #include "support.h"
 

@@ -1,10 +1,10 @@
-#include "geometry/mesh_distance.h"
+#include "pedicel/geometry/mesh_distance.h"
 
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "geometry/primitives_mesh.h"
-#include "geometry/shapes.h"
+#include "pedicel/core/check.h"
+#include "pedicel/geometry/primitives_mesh.h"
+#include "pedicel/geometry/shapes.h"
 #include "sdf_property.h"
 
 namespace pedicel::geometry {

@@ -1,11 +1,11 @@
-#include "geometry/mesh_file.h"
+#include "pedicel/geometry/mesh_file.h"
 
 #include <gmock/gmock.h>
 
 #include <cstdint>
 #include <cstring>
 
-#include "core/diagnostics.h"
+#include "pedicel/core/diagnostics.h"
 #include "support.h"
 
 namespace pedicel::geometry {

@@ -1,14 +1,14 @@
-#include "geometry/mesh.h"
+#include "pedicel/geometry/mesh.h"
 
 #include <gmock/gmock.h>
 
 #include <cstring>
 
-#include "core/check.h"
-#include "core/diagnostics.h"
-#include "geometry/aabb.h"
-#include "geometry/mass_properties.h"
-#include "geometry/mesh_topology.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/geometry/aabb.h"
+#include "pedicel/geometry/mass_properties.h"
+#include "pedicel/geometry/mesh_topology.h"
 #include "support.h"
 
 namespace pedicel::geometry {

@@ -1,9 +1,9 @@
-#include "geometry/near_exact_distance.h"
+#include "pedicel/geometry/near_exact_distance.h"
 
 #include <gtest/gtest.h>
 
-#include "geometry/primitives_mesh.h"
-#include "geometry/shapes.h"
+#include "pedicel/geometry/primitives_mesh.h"
+#include "pedicel/geometry/shapes.h"
 #include "support.h"
 
 // A box of 2 m: its exact distance is known in closed form.

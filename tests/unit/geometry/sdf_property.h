@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/signed_distance.h"
+#include "pedicel/geometry/signed_distance.h"
 #include "support.h"
 
 namespace pedicel::geometry {

@@ -1,8 +1,8 @@
-#include "geometry/shapes.h"
+#include "pedicel/geometry/shapes.h"
 
 #include <gtest/gtest.h>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 #include "sdf_property.h"
 
 namespace pedicel::geometry {

@@ -1,11 +1,11 @@
 // Closed meshes of known solids: their topology, volume and inertia.
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "geometry/aabb.h"
-#include "geometry/mass_properties.h"
-#include "geometry/mesh_topology.h"
-#include "geometry/primitives_mesh.h"
+#include "pedicel/core/check.h"
+#include "pedicel/geometry/aabb.h"
+#include "pedicel/geometry/mass_properties.h"
+#include "pedicel/geometry/mesh_topology.h"
+#include "pedicel/geometry/primitives_mesh.h"
 #include "support.h"
 
 namespace pedicel::geometry {

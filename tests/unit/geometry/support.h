@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
-#include "core/random.h"
-#include "geometry/mesh.h"
+#include "pedicel/core/random.h"
+#include "pedicel/geometry/mesh.h"
 
 namespace pedicel::geometry {
 

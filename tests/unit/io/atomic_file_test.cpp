@@ -1,4 +1,4 @@
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "core/diagnostics.h"
+#include "pedicel/core/diagnostics.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::io {

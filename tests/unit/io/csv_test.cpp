@@ -1,4 +1,4 @@
-#include "io/csv.h"
+#include "pedicel/io/csv.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <fstream>
 #include <limits>
 
-#include "core/random.h"
-#include "io/atomic_file.h"
+#include "pedicel/core/random.h"
+#include "pedicel/io/atomic_file.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::io {

@@ -8,8 +8,8 @@
 
 #include <fstream>
 
-#include "io/atomic_file.h"
-#include "io/csv.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::io {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <regex>
 
-#include "core/check.h"
-#include "io/svg_heat_map.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/svg_heat_map.h"
 
 namespace pedicel::io {
 namespace {

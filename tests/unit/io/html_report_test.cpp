@@ -1,11 +1,11 @@
-#include "io/html_report.h"
+#include "pedicel/io/html_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "io/markup.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/markup.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::io {

@@ -1,12 +1,12 @@
 // A run's folder: what the next run may take away, and what it may not.
-#include "io/output_folder.h"
+#include "pedicel/io/output_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::io {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <regex>
 
-#include "core/check.h"
-#include "core/random.h"
-#include "io/plot_scale.h"
-#include "io/svg_plot.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
+#include "pedicel/io/plot_scale.h"
+#include "pedicel/io/svg_plot.h"
 
 namespace pedicel::io {
 namespace {

@@ -1,12 +1,12 @@
 // What a file is before its lines are read.
-#include "io/text_file.h"
+#include "pedicel/io/text_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "core/diagnostics.h"
+#include "pedicel/core/diagnostics.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::io {

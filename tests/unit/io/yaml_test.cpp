@@ -1,4 +1,4 @@
-#include "io/yaml.h"
+#include "pedicel/io/yaml.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // A file that is changed place by place keeps its comments and its layout.
-#include "io/yaml_text.h"
+#include "pedicel/io/yaml_text.h"
 
 #include <gmock/gmock.h>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::io {
 namespace {

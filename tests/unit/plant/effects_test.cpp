@@ -1,14 +1,13 @@
 // Effects on the small-deflection flexibility of a cantilever under a tip
 // force, integral (L - z)^2 / EI dz (Euler-Bernoulli, unit load method); of a
 // discrete rod it is the sum of (L - z)^2 / k over its joints.
-#include "plant/effects.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "plant/plant_builder.h"
+#include "pedicel/plant/effect_reader.h"
+#include "pedicel/plant/plant_builder.h"
 #include "support/stem_plants.h"
 
 namespace pedicel::plant {
@@ -99,12 +98,6 @@ TEST(Effects, FactorsAndMasses) {
   EXPECT_EQ(with("effects: [{name: mass_damping, rate: 2}]\n").model.elements[3].mass_damping, 2.0);
   EXPECT_NEAR(with("effects: [{name: damping_time, factor: 2}]\n").model.elements[3].damping_time,
               0.02, 1e-15);
-}
-
-// Every effect of the plant file runs.
-TEST(Effects, AllOfThePlantFileAreSimulated) {
-  for (const EffectKind& kind : known_effects())
-    EXPECT_EQ(kind.simulated, kind.home == EffectHome::plant) << kind.name;
 }
 
 }  // namespace

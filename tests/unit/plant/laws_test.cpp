@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "cosserat/detachment.h"
-#include "cosserat/direct_solver.h"
-#include "plant/plant_builder.h"
+#include "pedicel/cosserat/solver/detachment.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
+#include "pedicel/plant/plant_builder.h"
 #include "support/stem_plants.h"
 
 namespace pedicel::plant {

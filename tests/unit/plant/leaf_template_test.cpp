@@ -1,5 +1,5 @@
 // Leaf templates: what is read and refused, and what grows from them.
-#include "plant/leaf_template.h"
+#include "pedicel/plant/leaf_template.h"
 
 #include <gmock/gmock.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/check.h"
-#include "core/random.h"
-#include "cosserat/direct_solver.h"
-#include "cosserat/rod_state.h"
-#include "cosserat/standing.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
+#include "pedicel/cosserat/model/rod_state.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
+#include "pedicel/cosserat/solver/standing.h"
 #include "places.h"
 
 namespace pedicel::plant::cases {

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <vector>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/skeleton/mtg_reader.h"
 #include "places.h"
-#include "plant/mtg_reader.h"
 
 namespace pedicel::plant {
 namespace {

@@ -1,12 +1,12 @@
-#include "plant/point_grid.h"
+#include "pedicel/plant/point_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "core/check.h"
-#include "core/random.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
 
 namespace pedicel::plant {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "plant/mtg_reader.h"
+#include "pedicel/skeleton/mtg_reader.h"
 
 namespace pedicel::plant {
 namespace {

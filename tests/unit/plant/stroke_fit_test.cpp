@@ -1,5 +1,5 @@
 // Strokes to curves: within the tolerance, with few points, corners kept, radii as asked.
-#include "plant/stroke_fit.h"
+#include "pedicel/plant/stroke_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <functional>
 #include <map>
 
-#include "core/check.h"
-#include "core/random.h"
-#include "geometry/curve.h"
-#include "geometry/curve_distance.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
+#include "pedicel/geometry/curve.h"
+#include "pedicel/geometry/curve_distance.h"
 
 namespace pedicel::plant {
 namespace {

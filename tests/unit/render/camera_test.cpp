@@ -1,10 +1,10 @@
-#include "render/camera.h"
+#include "pedicel/render/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "core/random.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,11 +1,11 @@
-#include "render/colormap.h"
+#include "pedicel/render/colormap.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "render/colour_space.h"
+#include "pedicel/render/colour_space.h"
 
 namespace pedicel::render {
 namespace {

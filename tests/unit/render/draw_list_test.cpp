@@ -1,8 +1,8 @@
-#include "render/draw_list.h"
+#include "pedicel/render/draw_list.h"
 
 #include <gtest/gtest.h>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,13 +1,13 @@
-#include "render/image.h"
+#include "pedicel/render/image.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "core/check.h"
-#include "core/diagnostics.h"
-#include "core/random.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/core/random.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::render {

@@ -1,10 +1,10 @@
-#include "render/overlay.h"
+#include "pedicel/render/overlay.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "render/colormap.h"
+#include "pedicel/render/colormap.h"
 
 namespace pedicel::render {
 namespace {

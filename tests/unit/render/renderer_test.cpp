@@ -1,4 +1,4 @@
-#include "render/renderer.h"
+#include "pedicel/render/renderer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/check.h"
-#include "render/offscreen.h"
+#include "pedicel/core/check.h"
+#include "pedicel/render/offscreen.h"
 
 namespace pedicel::render {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <set>
 
-#include "core/random.h"
-#include "render/gl_functions.h"
-#include "render/mesh_normals.h"
-#include "render/shadow_map.h"
-#include "render/unit_meshes.h"
+#include "pedicel/core/random.h"
+#include "pedicel/render/gl_functions.h"
+#include "pedicel/render/mesh_normals.h"
+#include "pedicel/render/shadow_map.h"
+#include "pedicel/render/unit_meshes.h"
 
 namespace pedicel::render {
 namespace {

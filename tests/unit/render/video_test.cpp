@@ -1,4 +1,4 @@
-#include "render/video.h"
+#include "pedicel/render/video.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "core/check.h"
-#include "render/child_process.h"
+#include "pedicel/core/check.h"
+#include "pedicel/render/child_process.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::render {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "robot/inverse_kinematics.h"
+#include "pedicel/robot/inverse_kinematics.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

@@ -1,4 +1,4 @@
-#include "robot/cartesian_path.h"
+#include "pedicel/robot/cartesian_path.h"
 
 #include <gtest/gtest.h>
 

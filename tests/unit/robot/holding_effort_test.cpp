@@ -1,4 +1,4 @@
-#include "robot/holding_effort.h"
+#include "pedicel/robot/holding_effort.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "robot/inverse_kinematics.h"
+#include "pedicel/robot/inverse_kinematics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

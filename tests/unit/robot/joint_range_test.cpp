@@ -1,4 +1,4 @@
-#include "robot/joint_range.h"
+#include "pedicel/robot/joint_range.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "robot/kinematics.h"
+#include "pedicel/robot/kinematics.h"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <gtest/gtest.h>
 
-#include "robot/bullet_types.h"
+#include "pedicel/robot/bullet_types.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "robot/cartesian_path.h"
+#include "pedicel/robot/cartesian_path.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

@@ -1,11 +1,11 @@
-#include "robot/package_paths.h"
+#include "pedicel/urdf/package_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::robot {
 namespace {

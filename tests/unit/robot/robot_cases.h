@@ -10,10 +10,10 @@
 #include <numbers>
 #include <string>
 
-#include "core/random.h"
+#include "pedicel/core/random.h"
+#include "pedicel/robot/robot.h"
+#include "pedicel/urdf/urdf_reader.h"
 #include "places.h"
-#include "robot/robot.h"
-#include "robot/urdf_reader.h"
 
 namespace pedicel::robot::testing {
 

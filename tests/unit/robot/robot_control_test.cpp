@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "robot/dynamics.h"
+#include "pedicel/core/check.h"
+#include "pedicel/robot/dynamics.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

@@ -1,10 +1,10 @@
-#include "robot/substitute_inertia.h"
+#include "pedicel/urdf/substitute_inertia.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "geometry/mass_properties.h"
-#include "geometry/primitives_mesh.h"
+#include "pedicel/geometry/mass_properties.h"
+#include "pedicel/geometry/primitives_mesh.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

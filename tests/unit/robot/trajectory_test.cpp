@@ -1,10 +1,10 @@
-#include "robot/trajectory.h"
+#include "pedicel/robot/trajectory.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 #include "unit/robot/robot_cases.h"
 
 namespace pedicel::robot {

@@ -1,12 +1,12 @@
 // The text form of commands: what is written reads back the same, and what is wrong is said with
 // its place.
-#include "session/command.h"
+#include "pedicel/app/session/commands/command.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "session/command_table.h"
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <thread>
 
-#include "session/diagnosis_card.h"
-#include "session/measured_data.h"
+#include "pedicel/app/session/measured/diagnosis_card.h"
+#include "pedicel/app/session/measured/measured_data.h"
 #include "session_cases.h"
 #include "support/measured_stem.h"
 #include "support/temporary_folder.h"

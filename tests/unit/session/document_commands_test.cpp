@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "edit_cases.h"
-#include "plant/stem_tree.h"
+#include "pedicel/plant/stem_tree.h"
 
 namespace pedicel::app {
 namespace {

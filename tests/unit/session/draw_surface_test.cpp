@@ -1,5 +1,5 @@
 // Rays to places: planes, bodies, and the strokes that are drawn on them.
-#include "session/draw_surface.h"
+#include "pedicel/app/session/live/draw_surface.h"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/check.h"
-#include "plant/plant_edit.h"
-#include "session/command_table.h"
-#include "session/document.h"
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/core/check.h"
+#include "pedicel/plant/plant_edit.h"
 #include "session_cases.h"
 
 namespace pedicel::app {

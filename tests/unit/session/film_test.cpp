@@ -1,9 +1,9 @@
 // Films of a session: when a picture is taken, whatever the machine's speed.
-#include "session/film.h"
+#include "pedicel/app/session/film.h"
 
 #include <gmock/gmock.h>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 
 namespace pedicel::app {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <thread>
 
-#include "core/timer.h"
-#include "io/atomic_file.h"
-#include "session/experiment_reading.h"
-#include "session/measured_moment.h"
+#include "pedicel/app/session/measured/experiment_reading.h"
+#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/core/timer.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/measured_stem.h"
 #include "support/slow_file.h"

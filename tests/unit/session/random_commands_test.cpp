@@ -2,11 +2,11 @@
 // give the same again; and their texts, replayed, too.
 #include <set>
 
-#include "core/check.h"
-#include "core/random.h"
-#include "session/command_table.h"
-#include "session/document.h"
-#include "session/history.h"
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/app/session/history.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
 #include "session_cases.h"
 
 namespace pedicel::app {

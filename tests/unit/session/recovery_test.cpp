@@ -10,8 +10,8 @@
 #include <fstream>
 #include <functional>
 
-#include "io/atomic_file.h"
-#include "session/journal.h"
+#include "pedicel/app/session/journal.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 

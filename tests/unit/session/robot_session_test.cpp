@@ -1,7 +1,7 @@
 // The robot led by hand: where its tool is asked to go, the ghost of its goal, programs.
 #include <gmock/gmock.h>
 
-#include "core/timer.h"
+#include "pedicel/core/timer.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 

@@ -2,10 +2,10 @@
 // takes off, and what is said where it does not.
 #include <gmock/gmock.h>
 
-#include "io/atomic_file.h"
-#include "session/pick_program.h"
-#include "session/robot_contacts.h"
-#include "session/robot_goal.h"
+#include "pedicel/app/session/live/pick_program.h"
+#include "pedicel/app/session/live/robot_contacts.h"
+#include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 

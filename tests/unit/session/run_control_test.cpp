@@ -1,14 +1,14 @@
 // The simulation on its own thread: it does what it is told, goes back exactly, and waits for
 // nobody.
-#include "session/run_control.h"
+#include "pedicel/app/session/live/run_control.h"
 
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <thread>
 
-#include "session/live_run.h"
-#include "session/organ_place.h"
+#include "pedicel/app/session/live/live_run.h"
+#include "pedicel/app/session/live/organ_place.h"
 #include "session_cases.h"
 
 namespace pedicel::app {

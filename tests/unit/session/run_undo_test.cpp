@@ -3,9 +3,9 @@
 
 #include <fstream>
 
-#include "io/atomic_file.h"
-#include "session/effective_plant.h"
-#include "session/robot_goal.h"
+#include "pedicel/app/session/document/effective_plant.h"
+#include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 
 namespace pedicel::app {

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 

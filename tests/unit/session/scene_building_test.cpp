@@ -3,10 +3,10 @@
 
 #include <fstream>
 
-#include "core/check.h"
 #include "edit_cases.h"
-#include "io/atomic_file.h"
-#include "session/scene_things.h"
+#include "pedicel/app/session/commands/scene_things.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::app {

@@ -1,11 +1,11 @@
 // What was changed of a scene is written into its file, which stays otherwise as it was.
-#include "session/scene_save.h"
+#include "pedicel/app/session/document/scene_save.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // Scripts: the whole story of a user, and what a script is told when it goes wrong.
-#include "session/script.h"
+#include "pedicel/app/session/script.h"
 
 #include <gmock/gmock.h>
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "pedicel/app/session/session.h"
 #include "places.h"
-#include "session/session.h"
 
 /// A stem, a branch that hangs from its middle, a fruit at the branch's end.
 namespace pedicel::app {

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "io/atomic_file.h"
-#include "plant/plant_graph.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/plant/plant_graph.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "edit_cases.h"
-#include "plant/point_kind.h"
+#include "pedicel/plant/point_kind.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,10 +1,10 @@
-#include "world/bodies.h"
+#include "pedicel/world/bodies.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "world/rigid_shape.h"
+#include "pedicel/world/rigid_shape.h"
 
 namespace pedicel::world {
 namespace {

@@ -1,4 +1,4 @@
-#include "world/expectation.h"
+#include "pedicel/world/expectation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "world/recorder.h"
+#include "pedicel/world/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/check.h"
-#include "io/atomic_file.h"
-#include "world/sim_world.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/world/sim_world.h"
 
 namespace pedicel::world {
 namespace {

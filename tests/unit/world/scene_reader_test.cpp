@@ -1,9 +1,9 @@
-#include "world/scene_reader.h"
+#include "pedicel/world/scene_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace pedicel::world {
 namespace {

@@ -1,9 +1,9 @@
-#include "world/settings.h"
+#include "pedicel/world/settings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::world {
 namespace {

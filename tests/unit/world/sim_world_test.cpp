@@ -1,10 +1,10 @@
-#include "world/sim_world.h"
+#include "pedicel/world/sim_world.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "core/check.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::world {
 namespace {

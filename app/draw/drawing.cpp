@@ -1,0 +1,193 @@
+#include "pedicel/app/draw/drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "pedicel/geometry/primitives_mesh.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using render::DrawList;
+using render::Material;
+
+constexpr int round_segments = 40;
+
+void add_cylinder(DrawList& shape, const Pose& pose, double radius, double length,
+                  const Material& material) {
+  auto mesh = std::make_shared<const geometry::TriangleMesh>(
+      geometry::make_cylinder(radius, length, round_segments));
+  shape.meshes.push_back({std::move(mesh), pose, material});
+}
+
+/// A sepal is a strip of four triangles and a tip, from the stalk down the fruit; its end stands
+/// off. `t` runs along it, `side` across.
+void add_sepal(DrawList& shape, const FruitLook& look, double radius, double azimuth,
+               double reach) {
+  const auto point = [&](double t, double side) {
+    const double polar = 0.12 + reach * t;
+    const double around = azimuth + side / std::sin(polar);
+    const double distance = radius * (1.015 + 0.05 * std::sin(3.0 * t) + 0.16 * t * t * t);
+    return Vec3(distance * std::sin(polar) * std::cos(around),
+                distance * std::sin(polar) * std::sin(around), -distance * std::cos(polar));
+  };
+  constexpr std::array<double, 4> along = {0.0, 0.3, 0.65, 1.0};
+  constexpr std::array<double, 4> half_width = {0.07, 0.13, 0.09, 0.0};
+  for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+    const double w0 = half_width[i], w1 = half_width[i + 1];
+    const Vec3 a = point(along[i], -w0), b = point(along[i], w0);
+    const Vec3 c = point(along[i + 1], w1), d = point(along[i + 1], -w1);
+    shape.blades.push_back({a, b, c, look.calyx});
+    if (w1 > 0.0) shape.blades.push_back({a, c, d, look.calyx});
+  }
+}
+
+/// Evenly spread over [0, 1), the same for the same number (golden ratio sequence).
+double spread(int number) {
+  return std::fmod(0.6180339887498949 * (number + 1), 1.0);
+}
+
+Material skin_of(const FruitLook& look, int number) {
+  const auto share = static_cast<float>(look.variety * std::pow(spread(number), 2.0));
+  Material skin = look.skin;
+  skin.colour.r += share * (look.unripe.r - skin.colour.r);
+  skin.colour.g += share * (look.unripe.g - skin.colour.g);
+  skin.colour.b += share * (look.unripe.b - skin.colour.b);
+  return skin;
+}
+
+Material material_of(const std::string& look) {
+  namespace materials = render::materials;
+  static const std::map<std::string, Material> known = {{"steel", materials::steel},
+                                                        {"wood", materials::wood},
+                                                        {"light", materials::robot_light},
+                                                        {"dark", materials::robot_dark},
+                                                        {"accent", materials::accent}};
+  const auto found = known.find(look);
+  return found == known.end() ? Material{} : found->second;
+}
+
+void add_part(DrawList& shape, const world::BodyPart& part, const Material& material) {
+  using Kind = world::BodyPart::Kind;
+  const Vec3 half_axis = part.pose.rotation * Vec3(0, 0, 0.5 * part.length);
+  switch (part.kind) {
+    case Kind::box:
+      shape.boxes.push_back({part.pose, part.half_extents, material});
+      break;
+    case Kind::sphere:
+      shape.spheres.push_back({part.pose.position, part.radius, material});
+      break;
+    case Kind::cylinder:
+      add_cylinder(shape, part.pose, part.radius, part.length, material);
+      break;
+    case Kind::capsule:
+      shape.capsules.push_back({part.pose.position - half_axis, part.pose.position + half_axis,
+                                part.radius, part.radius, material});
+      break;
+  }
+}
+
+void add_visual(DrawList& shape, const robot::Visual& visual) {
+  using Kind = robot::Geometry::Kind;
+  const robot::Geometry& geometry = visual.geometry;
+  const Eigen::Vector4f colour = visual.color.cast<float>();
+  const Material material{{colour[0], colour[1], colour[2]}, 0.4f, 0.5f};
+  switch (geometry.kind) {
+    case Kind::box:
+      shape.boxes.push_back({visual.X_LV, 0.5 * geometry.size, material});
+      break;
+    case Kind::sphere:
+      shape.spheres.push_back({visual.X_LV.position, geometry.radius, material});
+      break;
+    case Kind::cylinder:
+      add_cylinder(shape, visual.X_LV, geometry.radius, geometry.length, material);
+      break;
+    case Kind::capsule:
+      shape.capsules.push_back({visual.X_LV * Vec3(0, 0, -0.5 * geometry.length),
+                                visual.X_LV * Vec3(0, 0, 0.5 * geometry.length), geometry.radius,
+                                geometry.radius, material});
+      break;
+    case Kind::mesh:
+      if (geometry.mesh) shape.meshes.push_back({geometry.mesh, visual.X_LV, material});
+      break;
+  }
+}
+
+}  // namespace
+
+FruitLook FruitLook::apple() {
+  FruitLook look;
+  look.skin = render::materials::apple;
+  look.unripe = render::Colour::hex(0xb7b53e);
+  look.sepals = 0;
+  look.stalk = render::materials::wood;
+  return look;
+}
+
+void add_at(DrawList& list, const DrawList& shape, const Pose& X_WS) {
+  for (render::Capsule c : shape.capsules) {
+    c.p0 = X_WS * c.p0, c.p1 = X_WS * c.p1;
+    list.capsules.push_back(c);
+  }
+  for (render::TubeSegment t : shape.tubes) {
+    t.p0 = X_WS * t.p0, t.p1 = X_WS * t.p1;
+    for (Vec3* direction : {&t.tangent0, &t.tangent1, &t.side0, &t.side1})
+      *direction = X_WS.rotation * *direction;
+    list.tubes.push_back(t);
+  }
+  for (render::Sphere s : shape.spheres) {
+    s.centre = X_WS * s.centre;
+    list.spheres.push_back(s);
+  }
+  for (const render::Box& b : shape.boxes)
+    list.boxes.push_back({X_WS * b.pose, b.half_extents, b.material});
+  for (const render::MeshInstance& m : shape.meshes)
+    list.meshes.push_back({m.mesh, X_WS * m.pose, m.material});
+  for (const render::BladeTriangle& t : shape.blades)
+    list.blades.push_back({X_WS * t.a, X_WS * t.b, X_WS * t.c, t.material});
+  for (const render::Line& l : shape.lines)
+    list.lines.push_back({X_WS * l.a, X_WS * l.b, l.colour, l.width});
+}
+
+DrawList fruit_shape(const FruitLook& look, int number, double radius, double stub_length,
+                     double stub_radius) {
+  DrawList shape;
+  shape.spheres.push_back({Vec3::Zero(), radius, skin_of(look, number)});
+  if (stub_length > radius)
+    shape.capsules.push_back({Vec3(0, 0, -0.9 * radius), Vec3(0, 0, -stub_length), stub_radius,
+                              stub_radius, look.stalk});
+  for (int k = 0; k < look.sepals; ++k) {
+    const double turn = spread(number) + 2.0 * M_PI * k / look.sepals;
+    add_sepal(shape, look, radius, turn, 0.75 + 0.2 * spread(7 * number + k));
+  }
+  return shape;
+}
+
+DrawList body_shape(const world::BodyDescription& body) {
+  DrawList shape;
+  if (body.look == "hidden") return shape;
+  for (const world::BodyPart& part : body.parts) add_part(shape, part, material_of(body.look));
+  return shape;
+}
+
+std::vector<DrawList> robot_shapes(const robot::RobotDescription& robot) {
+  std::vector<DrawList> shapes;
+  for (const robot::Link& link : robot.links) {
+    DrawList& shape = shapes.emplace_back();
+    for (const robot::Visual& visual : link.visuals) add_visual(shape, visual);
+  }
+  return shapes;
+}
+
+void add_force(DrawList& list, const Vec3& point_W, const Vec3& force_W, double metres_per_newton,
+               const Material& material) {
+  const Vec3 arrow = metres_per_newton * force_W;
+  const double radius = std::clamp(0.02 * arrow.norm(), 4e-4, 2e-3);
+  list.add_arrow(point_W - arrow, point_W, radius, material);
+}
+
+}  // namespace pedicel::app

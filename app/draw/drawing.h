@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "pedicel/app/run/blade.h"
+#include "pedicel/core/frames.h"
+#include "pedicel/render/draw_list.h"
+#include "pedicel/robot/description.h"
+#include "pedicel/world/bodies.h"
+
+/// From the things of a simulation to the draw list of one picture. Rigid things are prepared once,
+/// as a draw list in their own frame (a "shape" below), and added to every frame at their pose.
+namespace pedicel::app {
+
+/// A fruit's looks.
+struct FruitLook {
+  render::Material skin = render::materials::tomato;
+  render::Colour unripe = render::Colour::hex(0xee7a22);
+  double variety = 0.45;  ///< 1, how far a fruit's colour may go towards `unripe`
+  render::Material calyx = render::materials::leaf;
+  int sepals = 5;  ///< 0: no calyx
+  render::Material stalk = render::materials::stem;
+
+  static FruitLook tomato() { return {}; }
+  static FruitLook apple();
+};
+
+/// Adds `shape`, which is given in its own frame, at X_WS. Its ground is left out.
+void add_at(render::DrawList& list, const render::DrawList& shape, const Pose& X_WS);
+
+/// A fruit about the origin of its own frame, whose stalk comes from -Z (the third axis of a rod's
+/// frame points along it), with the stub that came off with it: `stub_length` from the centre (m),
+/// 0: none. `number` picks the shade.
+render::DrawList fruit_shape(const FruitLook& look, int number, double radius,
+                             double stub_length = 0.0, double stub_radius = 0.0);
+
+/// A body as its `look` says; empty for a hidden one.
+render::DrawList body_shape(const world::BodyDescription& body);
+
+/// The visuals of every link, in the links' frames and the order of the description.
+std::vector<render::DrawList> robot_shapes(const robot::RobotDescription& robot);
+
+/// An arrow that ends at `point_W` (m) and shows a force (N).
+void add_force(render::DrawList& list, const Vec3& point_W, const Vec3& force_W,
+               double metres_per_newton, const render::Material& material);
+
+}  // namespace pedicel::app

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pedicel/app/draw/drawing.h"
+#include "pedicel/app/run/surface_strain.h"
+#include "pedicel/cosserat/model/rod_state.h"
+
+namespace pedicel::app {
+
+struct PlantLook {
+  render::Material stem = render::materials::stem;
+  render::Material vein{render::Colour::hex(0x6fa84a), 0.6f, 0.3f};  ///< rods of a leaf
+  render::Material blade = render::materials::leaf;
+  FruitLook fruit;
+
+  static PlantLook tomato() { return {}; }
+  static PlantLook apple();
+};
+
+/// A plant prepared for drawing.
+class PlantDrawing {
+ public:
+  /// The model must outlive it, and its fruits and organs stay as they are.
+  PlantDrawing(const cosserat::RodModel& model, std::vector<Blade> blades = {},
+               const PlantLook& look = PlantLook::tomato());
+
+  /// Adds the plant as it stands: every organ as a smooth tube along its elements, leaf blades, and
+  /// the fruits that are still on; what has come off is left out. With `strain_scale`, stems are
+  /// coloured by surface_strain() on a scale from 0 to that value (> 0).
+  void add_to(render::DrawList& list, const cosserat::RodState& state,
+              std::optional<double> strain_scale = {}) const;
+  /// The same with a colour for each element; leaf blades and fruits keep theirs. Leaves are left
+  /// out without `blades`.
+  void add_to(render::DrawList& list, const cosserat::RodState& state,
+              const std::vector<render::Colour>& colours, bool blades = true) const;
+  /// The colours that elements have by themselves.
+  std::vector<render::Colour> plain_colours() const;
+
+ private:
+  void add_chains(render::DrawList& list, const cosserat::RodState& state,
+                  const std::vector<render::Colour>& colours) const;
+  void add_fruits(render::DrawList& list, const cosserat::RodState& state) const;
+  void add_blades(render::DrawList& list, const cosserat::RodState& state) const;
+  std::vector<render::Colour> colours(const cosserat::RodState& state,
+                                      std::optional<double> strain_scale) const;
+  const render::Material& material_of(int element) const;
+
+  const cosserat::RodModel& model_;
+  std::vector<Blade> blades_;
+  std::vector<char> is_leaf_;             ///< one entry an organ
+  std::vector<render::DrawList> fruits_;  ///< in the frames of the elements that carry them
+  PlantLook look_;
+};
+
+}  // namespace pedicel::app

@@ -1,0 +1,99 @@
+#include "pedicel/app/draw/scene_view.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace pedicel::app {
+
+namespace {
+
+const FruitLook& fruit_look(const PlantInfo& plant) {
+  static const FruitLook tomato = FruitLook::tomato(), apple = FruitLook::apple();
+  return plant.is_woody ? apple : tomato;
+}
+
+}  // namespace
+
+SceneView::SceneView(const Simulation& simulation) : simulation_(simulation) {
+  plants_.reserve(simulation.plants().size());
+  for (int p = 0; p < simulation.rods().size(); ++p) {
+    const PlantInfo& plant = simulation.plants()[p];
+    plants_.emplace_back(simulation.rods().model(p), plant.blades,
+                         plant.is_woody ? PlantLook::apple() : PlantLook::tomato());
+  }
+  if (simulation.robot()) links_ = robot_shapes(simulation.robot()->description());
+}
+
+void SceneView::fill(Frame& frame, bool strain) {
+  frame.time = simulation_.world().time();
+  if (frame.list.ground && simulation_.scene().ground)
+    frame.list.ground->height = simulation_.scene().ground->height;
+  for (std::size_t p = 0; p < plants_.size(); ++p)
+    plants_[p].add_to(frame.list, simulation_.rods().state(static_cast<int>(p)),
+                      strain ? std::optional(strain_scale_) : std::nullopt);
+  for (std::size_t l = 0; l < links_.size(); ++l)
+    add_at(frame.list, links_[l], simulation_.robot()->link_pose(static_cast<int>(l)));
+  frame.list.ground.reset();
+  if (const auto& ground = simulation_.scene().ground) {
+    frame.list.ground.emplace();
+    frame.list.ground->height = ground->height;
+  }
+  add_bodies(frame.list);
+  add_texts(frame, strain);
+}
+
+void SceneView::add_bodies(render::DrawList& list) {
+  const world::SimWorld& world = simulation_.world();
+  for (int b = static_cast<int>(bodies_.size()); b < world.body_count(); ++b) {
+    bodies_.push_back(body_shape(world.body(b)));
+    for (const Detached& fruit : simulation_.plant_step().detached()) {
+      if (fruit.body != b) continue;
+      const double radius = simulation_.rods().model(fruit.plant).fruits[fruit.event.fruit].radius;
+      bodies_.back() = fruit_shape(fruit_look(simulation_.plants()[fruit.plant]), fruit.event.fruit,
+                                   radius, fruit.event.stub_length, fruit.event.stub_radius);
+    }
+  }
+  for (int b = 0; b < world.body_count(); ++b) add_at(list, bodies_[b], world.body_pose(b));
+}
+
+void SceneView::add_texts(Frame& frame, bool strain) const {
+  char text[160];
+  std::snprintf(text, sizeof text, "t = %.2f s", frame.time);
+  frame.caption = text;
+  double most = 0.0;
+  std::string name;
+  for (int p = 0; p < simulation_.rods().size(); ++p) {
+    const cosserat::RodModel& model = simulation_.rods().model(p);
+    for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
+      const double used = cosserat::margin_used(model, simulation_.rods().state(p), f);
+      if (used <= most) continue;
+      most = used;
+      name = fruit_name(model, f);
+    }
+  }
+  if (most > 0.0) {
+    std::snprintf(text, sizeof text, "  %s at %.0f %% of its threshold", name.c_str(),
+                  100.0 * most);
+    frame.caption += text;
+  }
+  const auto& detached = simulation_.plant_step().detached();
+  if (!detached.empty()) {
+    std::snprintf(text, sizeof text, "\n%s off at %.2f s (%s)", detached.back().fruit.c_str(),
+                  detached.back().event.time, detached.back().event.cause.c_str());
+    frame.caption += text;
+  }
+  if (strain) frame.legend = render::Legend{"surface strain", 0.0, strain_scale_, -1.0};
+}
+
+render::Camera SceneView::camera(const std::string& name, const Frame& frame) const {
+  for (const world::SceneCamera& camera : simulation_.scene().cameras) {
+    if (!name.empty() && camera.name != name) continue;
+    const auto anchor = camera.follow.kind == world::Anchor::Kind::none
+                            ? std::nullopt
+                            : simulation_.find(camera.follow);
+    return camera_of(camera, anchor.value_or(Vec3::Zero()));
+  }
+  return render::frame(frame.list.bounds());
+}
+
+}  // namespace pedicel::app

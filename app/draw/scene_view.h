@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pedicel/app/draw/pictures.h"
+#include "pedicel/app/draw/plant_drawing.h"
+#include "pedicel/app/run/simulation.h"
+
+namespace pedicel::app {
+
+/// Turns a simulation as it stands into a frame to be drawn.
+class SceneView {
+ public:
+  /// The simulation must outlive it.
+  explicit SceneView(const Simulation& simulation);
+
+  /// Fills an empty frame. With `strain`, stems have the colour of their strain.
+  void fill(Frame& frame, bool strain = false);
+
+  /// The scene's camera of that name (empty: the first), or one that shows everything where the
+  /// scene has none.
+  render::Camera camera(const std::string& name, const Frame& frame) const;
+
+ private:
+  void add_bodies(render::DrawList& list);
+  void add_texts(Frame& frame, bool strain) const;
+
+  const Simulation& simulation_;
+  std::vector<PlantDrawing> plants_;
+  std::vector<render::DrawList> links_, bodies_;
+  double strain_scale_ = 0.1;  // 1
+};
+
+}  // namespace pedicel::app

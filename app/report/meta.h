@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "pedicel/app/report/headless.h"
+
+namespace pedicel::app {
+
+/// Writes the sidecar of log.csv: version, seed, step, hash, machine, and every described parameter
+/// with its value and unit, so that a run can be repeated. Throws io::WriteError.
+void write_meta(const std::filesystem::path& path, const Simulation& simulation,
+                const RunResult& result);
+
+}  // namespace pedicel::app

@@ -1,0 +1,127 @@
+#include "pedicel/app/report/sweep.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "pedicel/app/report/scene_report.h"
+#include "pedicel/app/report/solver_comparison.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+constexpr int exit_unmet = 5;
+
+/// Reads back as the same number.
+std::string text_of(double value) {
+  const std::string text = io::format_number(value);
+  return world::to_number(text) == value ? text : io::exact_number(value);
+}
+
+// "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
+void say(const std::string& label, const RunResult& result) {
+  std::string text = "sweep " + label + ":";
+  for (const world::Verdict& verdict : result.verdicts)
+    text +=
+        " " + verdict.expectation.quantity + " " +
+        (verdict.measured.empty() ? "nothing" : io::format_number(verdict.measured.front(), 4)) +
+        ",";
+  std::fprintf(stderr, "%s %.2f x real time\n", text.c_str(), result.real_time_factor());
+}
+
+std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options,
+                                io::OutputFolder* output) {
+  std::vector<SweepRun> runs;
+  for (const double value : scene.sweep->values) {
+    RunOptions one = options;
+    one.video = false;
+    one.quiet = true;
+    one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
+    const std::string label = scene.sweep->key + "=" + text_of(value);
+    if (output) one.out = output->file("sweep_" + label + "/");
+    try {
+      runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
+    } catch (const Stopped&) {
+      break;
+    }
+    if (!options.quiet) say(label, runs.back().result);
+    if (stop_requested) break;
+  }
+  return runs;
+}
+
+/// Nothing where it was stopped: half of one would say what is not so.
+std::optional<SolverComparison> whole_comparison(const world::Scene& scene,
+                                                 const std::vector<SweepRun>& runs,
+                                                 const RunOptions& options) {
+  try {
+    auto comparison = compare_solvers(scene, runs, options);
+    if (!stop_requested) return comparison;
+  } catch (const Stopped&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+world::Scene scene_of_value(const world::Scene& scene, double value) {
+  world::Scene one = scene;
+  world::apply_override(one, scene.sweep->key, text_of(value));
+  one.sweep.reset();
+  one.expectations.clear();
+  for (world::Expectation expectation : scene.expectations) {
+    if (!expectation.over_sweep()) continue;
+    expectation.test = world::Expectation::Test::above;
+    expectation.low = -1.0e300;  // whatever is measured meets it; not measured (NaN) does not
+    one.expectations.push_back(expectation);
+  }
+  return one;
+}
+
+const world::Expectation* measured_by(const world::Scene& scene) {
+  for (const world::Expectation& e : scene.expectations)
+    if (e.over_sweep()) return &e;
+  return scene.expectations.empty() ? nullptr : &scene.expectations.front();
+}
+
+double measured_in(const world::Expectation& wanted, const RunResult& run) {
+  for (const world::Verdict& verdict : run.verdicts) {
+    const world::Expectation& e = verdict.expectation;
+    if (e.quantity == wanted.quantity && e.fruit == wanted.fruit && e.plant == wanted.plant &&
+        e.body == wanted.body && e.link == wanted.link && !verdict.measured.empty())
+      return verdict.measured.front();
+  }
+  return std::nan("");
+}
+
+RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
+  RunResult result = run_scene(scene, options);
+  std::vector<SweepRun> runs;
+  if (scene.sweep && result.exit_code != 4 && !stop_requested)
+    runs = run_sweep(scene, options, result.output.get());
+  for (const world::Expectation& expectation : scene.expectations) {
+    if (!expectation.over_sweep()) continue;
+    std::vector<double> values;
+    for (const SweepRun& run : runs) values.push_back(measured_in(expectation, run.result));
+    result.verdicts.push_back(world::judge_sweep(expectation, values));
+    if (!options.quiet)
+      std::fprintf(stderr, "%s\n", world::to_string(result.verdicts.back()).c_str());
+    if (!result.verdicts.back().met && result.exit_code == 0) result.exit_code = exit_unmet;
+  }
+  for (const SweepRun& run : runs)
+    if (run.result.exit_code == 4) result.exit_code = 4;
+  std::optional<SolverComparison> comparison;
+  if (!options.out.empty() && options.comparison && !stop_requested)
+    comparison = whole_comparison(scene, runs, options);
+  if (stop_requested) {
+    result.exit_code = stop_exit_code();
+    if (result.error.empty()) result.error = Stopped().what();
+  }
+  if (!result.output) return result;
+  write_scene_report(scene, result, runs, comparison);
+  return result;
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,74 @@
+#include "pedicel/app/run/reaction.h"
+
+#include "pedicel/app/run/colliders.h"
+
+namespace pedicel::app {
+
+using coupling::Collider;
+using coupling::ContactSum;
+
+Reaction::Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders)
+    : world_(world), robot_(robot), colliders_(colliders) {
+  pushes_.reserve(colliders.size());
+  const std::vector<ContactSum> none(colliders.size());
+  for (int i = 0; i < colliders.size(); ++i) colliders.set_give(i, give_of(i, none));
+}
+
+void Reaction::act(const coupling::ContactReport& contacts) {
+  if (robot_) push_robot(contacts);
+  push_bodies(contacts);
+  for (int i = 0; i < colliders_.size(); ++i)
+    colliders_.set_give(i, give_of(i, contacts.colliders()));
+}
+
+void Reaction::push_robot(const coupling::ContactReport& contacts) {
+  pushes_.clear();
+  for (int i = 0; i < colliders_.size(); ++i) {
+    const ContactSum& sum = contacts.colliders()[i];
+    if (colliders_.collider(i).body == robot_body && sum.contacts > 0 && !is_gripping(i))
+      pushes_.push_back({colliders_.collider(i).link, sum.force_W, sum.place_W, sum.moment_W});
+  }
+  robot_->robot().push_back(pushes_, world_.dt());
+}
+
+void Reaction::push_bodies(const coupling::ContactReport& contacts) {
+  for (int i = 0; i < colliders_.size(); ++i) {
+    const ContactSum& sum = contacts.colliders()[i];
+    const int body = colliders_.collider(i).body;
+    if (body < 0 || sum.contacts == 0) continue;
+    world_.push_back_body(body, sum.force_W, sum.place_W, sum.moment_W);
+  }
+}
+
+// What a gripper holds is the grip's own affair (app/run/grip.h).
+bool Reaction::is_gripping(int collider) const {
+  return colliders_.placement(collider).drive >= 0;
+}
+
+Vec3 Reaction::place_of(int collider, const std::vector<ContactSum>& sums) const {
+  return sums[collider].contacts > 0 ? sums[collider].place_W
+                                     : colliders_.placement(collider).X_WC.position;
+}
+
+// With W the inverse mass matrix of all contacts, each is solved by D_i = sum_j |W_ij| alone: D - W
+// is positive semidefinite (Gershgorin), so that what they push together is never more than
+// backward Euler allows. Contacts on the same collider are counted where they are found
+// (ContactPoint::give), those on other colliders of the same robot as they were in the step before.
+double Reaction::give_of(int i, const std::vector<ContactSum>& sums) const {
+  if (is_gripping(i)) return 0.0;
+  const Collider& own = colliders_.collider(i);
+  const Vec3 place = place_of(i, sums);
+  double mobility = 0.0;  // 1/kg
+  for (int j = 0; j < colliders_.size(); ++j) {
+    const Collider& other = colliders_.collider(j);
+    const int contacts = i == j ? 1 : sums[j].contacts;
+    if (other.body != own.body || contacts == 0 || is_gripping(j)) continue;
+    if (own.body >= 0) mobility += contacts * world_.body_mobility(own.body, place);
+    if (own.body == robot_body)
+      mobility +=
+          contacts * robot_->robot().mobility(own.link, place, other.link, place_of(j, sums));
+  }
+  return mobility * world_.dt() * world_.dt();
+}
+
+}  // namespace pedicel::app

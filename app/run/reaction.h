@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "pedicel/app/run/robot_control.h"
+#include "pedicel/coupling/collider.h"
+#include "pedicel/coupling/contact_report.h"
+#include "pedicel/world/sim_world.h"
+
+namespace pedicel::app {
+
+/// The other half of two-way coupling: what the plants felt of the robot's links and of rigid
+/// bodies acts on those within the same step, and the plants are told how far those give way
+/// (plugins/coupling/README.md, "Two-way coupling").
+class Reaction {
+ public:
+  /// `robot` may be null. All must outlive this object.
+  Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders);
+
+  /// After the plants moved. Does not allocate once warm.
+  void act(const coupling::ContactReport& contacts);
+
+ private:
+  void push_robot(const coupling::ContactReport& contacts);
+  void push_bodies(const coupling::ContactReport& contacts);
+  double give_of(int collider, const std::vector<coupling::ContactSum>& sums) const;
+  bool is_gripping(int collider) const;
+  Vec3 place_of(int collider, const std::vector<coupling::ContactSum>& sums) const;
+
+  world::SimWorld& world_;
+  RobotControl* robot_;
+  coupling::ColliderSet& colliders_;
+  std::vector<robot::LinkPush> pushes_;
+};
+
+}  // namespace pedicel::app

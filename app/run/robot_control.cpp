@@ -1,0 +1,122 @@
+#include "pedicel/app/run/robot_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pedicel::app {
+
+namespace {
+
+robot::RobotSettings settings_of(const world::SceneRobot& scene) {
+  robot::RobotSettings settings;
+  settings.base_pose = scene.base;
+  return settings;
+}
+
+/// The link that waypoints move: the scene's, else one called "tool", else the last link.
+int tool_of(const world::SceneRobot& scene, const robot::RobotDescription& description) {
+  const int named = description.link(scene.tool.empty() ? "tool" : scene.tool);
+  return named >= 0 ? named : static_cast<int>(description.links.size()) - 1;
+}
+
+}  // namespace
+
+Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
+                             const robot::RobotDescription& description) {
+  Eigen::VectorXd speed = model.velocity_limits();
+  for (int i = 0; i < model.dofs(); ++i) {
+    const robot::JointType type =
+        description.joints[description.joint(model.joint_names()[i])].type;
+    const double own = type == robot::JointType::prismatic ? 0.25 : 1.0;
+    speed[i] = speed[i] > 0.0 ? std::min(speed[i], own) : own;
+  }
+  return speed;
+}
+
+RobotControl::RobotControl(const world::SceneRobot& scene,
+                           const robot::RobotDescription& description, world::SimWorld& world)
+    : name_(scene.name),
+      mode_(scene.control),
+      robot_(description, settings_of(scene), world.bullet()),
+      reader_(robot_),
+      tool_link_(tool_of(scene, description)),
+      tool_offset_(scene.tool_offset) {
+  q_ = robot_.model().neutral();
+  qd_ = Eigen::VectorXd::Zero(q_.size());
+  for (const auto& [joint, value] : scene.joints) q_[robot_.model().joint_index(joint)] = value;
+  q_ = robot_.model().clamped(q_);
+  speed_ = manual_speed(robot_.model(), description);
+  if (!scene.gripper.empty()) gripper_ = robot_.model().joint_index(scene.gripper);
+  if (scene.gripper_force > 0.0 && gripper_ >= 0)
+    robot_.set_effort_limit(gripper_, scene.gripper_force);
+  robot_.reset(q_, qd_);
+  start_of_step_ = q_;
+}
+
+void RobotControl::act(world::SimWorld& world, world::StepReport&) {
+  start_of_step_ = robot_.positions();
+  if (goal_)
+    approach_goal(world.dt());
+  else if (!trajectory_.empty())
+    part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
+  for (int i = 0; i < q_.size(); ++i) {
+    if (mode_ == "position") robot_.set_position_target(i, q_[i], qd_[i]);
+    if (mode_ == "velocity") robot_.set_velocity_target(i, qd_[i]);
+    if (mode_ == "torque") robot_.set_torque(i, 0.0);
+  }
+  robot_.begin_step(world.dt());
+}
+
+void RobotControl::go_to(const Eigen::VectorXd& q) {
+  // A program may be ahead of a robot that could not keep up.
+  if (follows_program()) q_ = robot_.model().clamped(robot_.positions());
+  goal_ = robot_.model().clamped(q);
+  trajectory_ = lap_ = {};
+}
+
+// The way to the first lap, or the lap.
+const robot::Trajectory& RobotControl::part_at(double world_time) const {
+  const bool leads = lap_.empty() || world_time - start_ <= trajectory_.duration();
+  return leads ? trajectory_ : lap_;
+}
+
+double RobotControl::program_time(double world_time) const {
+  const double time = world_time - start_;
+  if (&part_at(world_time) == &trajectory_) return time;
+  return std::fmod(time - trajectory_.duration(), lap_.duration());
+}
+
+Eigen::VectorXd RobotControl::goal() const {
+  if (goal_) return *goal_;
+  if (trajectory_.empty()) return q_;
+  Eigen::VectorXd q = q_, qd = qd_;
+  const robot::Trajectory& last = lap_.empty() ? trajectory_ : lap_;
+  last.sample(last.duration(), q, qd);
+  return q;
+}
+
+void RobotControl::approach_goal(double dt) {
+  for (int i = 0; i < q_.size(); ++i) {
+    const double step = std::clamp((*goal_)[i] - q_[i], -speed_[i] * dt, speed_[i] * dt);
+    q_[i] += step;
+    qd_[i] = step / dt;
+  }
+}
+
+void RobotControl::Reader::act(world::SimWorld&, world::StepReport& report) {
+  robot_.end_step();
+  const Eigen::VectorXd& q = robot_.positions();
+  if (q.allFinite()) return;
+  report.errors |= world::robot_not_finite;
+  for (int i = 0; i < q.size() && report.culprit.empty(); ++i)
+    if (!std::isfinite(q[i]))
+      report.culprit = robot_.description().name + "/" + robot_.model().joint_names()[i];
+  report.cause = "the joint's position is not a finite number";
+}
+
+Pose RobotControl::tool_pose() const {
+  const Pose link = robot_.link_pose_W(tool_link_);
+  return {link * tool_offset_, link.rotation};
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/core/state_hash.h"
+#include "pedicel/robot/robot.h"
+#include "pedicel/robot/trajectory.h"
+#include "pedicel/world/scene.h"
+#include "pedicel/world/sim_world.h"
+
+namespace pedicel::app {
+
+/// The scene's robot and the program it follows.
+class RobotControl : public world::Participant {
+ public:
+  /// Throws UsageError where the description does not fit the world (nothing moves).
+  RobotControl(const world::SceneRobot& scene, const robot::RobotDescription& description,
+               world::SimWorld& world);
+
+  world::Phase phase() const override { return world::Phase::control; }
+  /// Sets the program's targets for the end of this step and hands them to Bullet.
+  void act(world::SimWorld& world, world::StepReport& report) override;
+  /// After Bullet's part of the step: reads where the robot is now. To be added to the world before
+  /// the plants.
+  world::Participant& reader() { return reader_; }
+
+  const std::string& name() const { return name_; }
+  const robot::Robot& robot() const { return robot_; }
+  robot::Robot& robot() { return robot_; }
+  const robot::RobotDescription& description() const { return robot_.description(); }
+  Pose link_pose(int link) const { return robot_.link_pose_W(link); }
+  const std::vector<Pose>& link_poses() const { return robot_.link_poses(); }
+  /// Index of the joint that the scene calls the gripper; -1: none.
+  int gripper() const { return gripper_; }
+  /// rad or m, of all joints when the step at hand began.
+  const Eigen::VectorXd& start_of_step() const { return start_of_step_; }
+  int tool_link() const { return tool_link_; }
+  /// X_W of the tool: the link that waypoints move, with the scene's offset.
+  Pose tool_pose() const;
+  /// To be followed; its time 0 is at `start` (s) of the world.
+  void set_trajectory(robot::Trajectory trajectory, double start = 0.0) {
+    trajectory_ = std::move(trajectory);
+    lap_ = {};
+    start_ = start;
+    goal_.reset();
+  }
+  /// The same, and after its end a lap (from its time 0 on) over and over. The lap should end where
+  /// it begins.
+  void set_loop(robot::Trajectory lead, robot::Trajectory lap, double start) {
+    set_trajectory(std::move(lead), start);
+    lap_ = std::move(lap);
+  }
+  /// Gives up the program or the goal: it stays where it is now.
+  void stop() { go_to(robot_.positions()); }
+  /// Gives up the program: from where it is, every joint moves evenly to `q` (rad or m,
+  /// moved into the limits), at its speed limit at most, at 1 rad/s or 0.25 m/s where that is
+  /// lower.
+  void go_to(const Eigen::VectorXd& q);
+  /// Where it is told to go in the end (rad or m).
+  Eigen::VectorXd goal() const;
+  bool follows_program() const { return !trajectory_.empty() && !goal_; }
+  bool loops() const { return follows_program() && !lap_.empty(); }
+  /// s, of the program followed: how long since its start (of a lap: since the lap began), and how
+  /// long it takes.
+  double program_time(double world_time) const;
+  double program_duration(double world_time) const { return part_at(world_time).duration(); }
+
+  void add_to(StateHash& hash) const { robot_.add_to(hash); }
+
+ private:
+  class Reader : public world::Participant {
+   public:
+    explicit Reader(robot::Robot& robot) : robot_(robot) {}
+    world::Phase phase() const override { return world::Phase::plants; }
+    void act(world::SimWorld& world, world::StepReport& report) override;
+
+   private:
+    robot::Robot& robot_;
+  };
+
+  std::string name_, mode_;
+  robot::Robot robot_;
+  Reader reader_;
+  void approach_goal(double dt);
+  const robot::Trajectory& part_at(double world_time) const;
+
+  robot::Trajectory trajectory_, lap_;
+  double start_ = 0.0;                   // s, of the trajectory
+  std::optional<Eigen::VectorXd> goal_;  // of go_to()
+  Eigen::VectorXd speed_;                // rad/s or m/s, of go_to()
+  int tool_link_ = 0, gripper_ = -1;
+  Vec3 tool_offset_;
+  Eigen::VectorXd q_, qd_, start_of_step_;
+};
+
+/// How fast each joint goes where it is sent by hand, rad/s or m/s.
+Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
+                             const robot::RobotDescription& description);
+
+/// Reads the robot's files. Faults (an unreadable file, a joint of the scene that is not there) go
+/// to `diagnostics`, and then nothing comes back. `packages`: "NAME=PATH" beside the scene's own.
+std::optional<robot::RobotDescription> read_robot(const world::SceneRobot& scene,
+                                                  const std::vector<std::string>& packages,
+                                                  Diagnostics& diagnostics);
+
+/// Puts the robot that read_robot() read into the world and plans its program. Faults (a waypoint
+/// that cannot be reached) go to `diagnostics`, and then nothing comes back. `find` tells where a
+/// scene's anchor is.
+std::unique_ptr<RobotControl> make_robot_control(
+    const world::SceneRobot& scene, const robot::RobotDescription& description,
+    world::SimWorld& world, const std::function<std::optional<Vec3>(const world::Anchor&)>& find,
+    Diagnostics& diagnostics);
+
+}  // namespace pedicel::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "pedicel/app/run/simulation.h"
+
+namespace pedicel::app {
+
+/// The longest row of steps in which a plant found no equilibrium: it is squeezed by what does not
+/// give way, and inexact there.
+class RoughSpell {
+ public:
+  /// After every step.
+  void look(const Simulation& simulation, const world::StepReport& report);
+  /// "warning: no equilibrium in 212 steps in a row from 0.8 s: p/stem, pressed by ..."; empty
+  /// where none was long enough to be said.
+  std::string warning() const;
+
+ private:
+  int row_ = 0, longest_ = 0;  // steps
+  double from_ = 0.0;          // s
+  std::string text_;           // of the longest one
+};
+
+}  // namespace pedicel::app

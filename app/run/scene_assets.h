@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pedicel/app/run/colliders.h"
+#include "pedicel/app/run/simulation.h"
+
+namespace pedicel::app {
+
+/// What the worlds of a scene only read: loaded and built once, however many worlds there are.
+/// Never changes, so worlds on several threads may share it.
+struct SceneAssets {
+  /// Throws InvalidFile with every fault of the scene's settings, plants and robot.
+  SceneAssets(const world::Scene& scene, const SimulationOptions& options);
+
+  world::Scene scene;
+  cosserat::RodSettings rods;
+  coupling::CouplingSettings coupling;
+  std::vector<cosserat::RodModel> models;  ///< as built; a world breaks fruits off a copy
+  std::vector<PlantInfo> plants;           ///< one a model
+  std::optional<robot::RobotDescription> robot;
+  ShapeFields robot_fields;        ///< empty where there is no robot
+  std::vector<std::string> notes;  ///< what a user should know and that stops nothing
+};
+
+}  // namespace pedicel::app

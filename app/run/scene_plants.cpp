@@ -1,0 +1,164 @@
+#include "pedicel/app/run/scene_plants.h"
+
+#include "pedicel/app/run/large_plant.h"
+#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/cosserat/solver/standing.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/plant_builder.h"
+#include "pedicel/plant/reference_plants.h"
+#include "pedicel/skeleton/plant_source.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using world::ScenePlant;
+
+/// Rod elements of a scene, some 1.5 kB each in the solver.
+constexpr double most_elements = 500'000;
+
+std::optional<plant::PlantFile> read_file(const ScenePlant& wanted, Diagnostics& diagnostics,
+                                          std::vector<std::string>& notes) {
+  if (source_of(wanted) != wanted.file)
+    notes.push_back(wanted.name + ": " + wanted.file.string() + " is not there" +
+                    (wanted.fallback.empty() ? "; the scene runs without it"
+                                             : "; taken instead: " + wanted.fallback.string()));
+  return read_scene_plant(wanted, diagnostics);
+}
+
+ScenePlantModel reference_plant(const ScenePlant& wanted, int index, Diagnostics& diagnostics) {
+  ScenePlantModel made;
+  if (wanted.built_in == "forest")
+    made.model = plant::forest_plant(index);
+  else if (wanted.built_in == "hanging_tree")
+    made.model = plant::hanging_tree();
+  else if (wanted.built_in == "cantilever")
+    made.model = plant::cantilever(20);
+  else
+    diagnostics.error(wanted.where, "built_in is \"" + wanted.built_in +
+                                        "\", expected one of: forest, hanging_tree, cantilever");
+  return made;
+}
+
+/// The plants of one entry: names, places and overrides.
+class Builder {
+ public:
+  Builder(const world::Scene& scene, const SimulationOptions& options, Diagnostics& diagnostics,
+          std::vector<std::string>& notes)
+      : scene_(scene), options_(options), diagnostics_(diagnostics), notes_(notes) {}
+
+  void add(const ScenePlant& wanted) {
+    if (wanted.source == ScenePlant::Source::built_in) return add_reference(wanted);
+    const auto edited = options_.edited.find(wanted.name);
+    const bool is_edited = edited != options_.edited.end();
+    std::optional<plant::PlantFile> file =
+        is_edited ? std::optional(edited->second) : read_file(wanted, diagnostics_, notes_);
+    if (!file || (is_edited && file->curves.empty())) return;
+    apply_plant_overrides(*file, wanted.set, diagnostics_);
+    if (diagnostics_.has_errors()) return;
+    say_if_large(*file);
+    const int count = wanted.repeat[0] * wanted.repeat[1];
+    for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
+      if (i == 1 && !is_affordable(wanted, count)) return;
+      Pose pose = wanted.pose;
+      pose.position.x() += wanted.spacing.x() * (i % wanted.repeat[0]);
+      pose.position.y() += wanted.spacing.y() * (i / wanted.repeat[0]);
+      file->name = count > 1 ? wanted.name + "_" + std::to_string(i) : wanted.name;
+      add_file(*file, wanted, pose);
+    }
+  }
+
+  std::vector<ScenePlantModel> plants;
+
+ private:
+  // Once the first of `count` equal plants is built. Before the others are.
+  bool is_affordable(const ScenePlant& wanted, int count) {
+    const double elements = static_cast<double>(count) * plants.back().model.size();
+    if (elements <= most_elements) return true;
+    diagnostics_.error(wanted.where,
+                       "plant \"" + wanted.name + "\": repeat makes " + std::to_string(count) +
+                           " plants of " + std::to_string(plants.back().model.size()) +
+                           " rod elements, " + io::format_number(elements, 3) +
+                           " in all: expected at most " + io::format_number(most_elements));
+    return false;
+  }
+
+  plant::BuildOptions options_for(const ScenePlant& wanted, const Pose& pose) const {
+    const auto beside = wanted.file.parent_path();
+    plant::BuildOptions options{
+        pose,
+        scene_.gravity,
+        {beside, beside / "../assets/leaves", scene_.file.parent_path() / "../leaves"}};
+    options.leaf_folders.insert(options.leaf_folders.end(), options_.leaf_folders.begin(),
+                                options_.leaf_folders.end());
+    return options;
+  }
+
+  void add_file(const plant::PlantFile& file, const ScenePlant& wanted, const Pose& pose) {
+    std::optional<plant::BuiltPlant> built =
+        plant::build_plant(file, options_for(wanted, pose), diagnostics_);
+    if (!built) return;
+    ScenePlantModel made;
+    made.info.name = file.name;
+    made.info.is_woody = wanted.source == ScenePlant::Source::mtg ||
+                         file.material.youngs_modulus.value_or(0.0) > 5.0e8;
+    made.info.sampled_nodes = built->nodes_sampled;
+    made.info.residual = built->residual;
+    made.info.residual_text = plant::residual_text(*built);
+    for (const auto& triangle : built->blades) {
+      Blade blade;
+      for (int c = 0; c < 3; ++c)
+        blade[c] = {triangle.corners[c].element, triangle.corners[c].back};
+      made.info.blades.push_back(blade);
+    }
+    made.model = std::move(built->model);
+    plants.push_back(std::move(made));
+  }
+
+  void add_reference(const ScenePlant& wanted) {
+    if (!wanted.set.empty())
+      diagnostics_.error(wanted.set.front().where,
+                         "set: a built-in plant cannot be changed, expected none");
+    const int count = wanted.built_in == "forest" ? plant::forest_size : 1;
+    for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
+      ScenePlantModel made = reference_plant(wanted, i, diagnostics_);
+      if (count > 1) made.model.name = wanted.name + "_" + std::to_string(i);
+      made.info.name = made.model.name;
+      plants.push_back(std::move(made));
+    }
+  }
+
+  const world::Scene& scene_;
+  const SimulationOptions& options_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string>& notes_;
+};
+
+}  // namespace
+
+std::filesystem::path source_of(const ScenePlant& plant) {
+  return plant.optional && !std::filesystem::exists(plant.file) ? plant.fallback : plant.file;
+}
+
+std::optional<plant::PlantFile> read_scene_plant(const ScenePlant& plant,
+                                                 Diagnostics& diagnostics) {
+  const std::filesystem::path source = source_of(plant);
+  if (source.empty()) return std::nullopt;
+  // The fallback of an MTG is a plant file, and so is what has no name that tells.
+  const bool own = source == plant.file;
+  plant::SourceKind kind = plant::source_kind(source);
+  if (kind == plant::SourceKind::unknown) kind = plant::SourceKind::plant_file;
+  if (own && plant.source == ScenePlant::Source::mtg) kind = plant::SourceKind::mtg;
+  return plant::read_plant_source(source, own ? plant.unit : 0.0, diagnostics, kind);
+}
+
+std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
+                                          const SimulationOptions& options,
+                                          Diagnostics& diagnostics,
+                                          std::vector<std::string>& notes) {
+  Builder builder(scene, options, diagnostics, notes);
+  for (const ScenePlant& wanted : scene.plants) builder.add(wanted);
+  return std::move(builder.plants);
+}
+
+}  // namespace pedicel::app

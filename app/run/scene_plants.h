@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pedicel/app/run/simulation.h"
+
+namespace pedicel::app {
+
+/// A plant of a scene, ready for the solver.
+struct ScenePlantModel {
+  cosserat::RodModel model;
+  PlantInfo info;
+};
+
+/// The file that a scene's plant is read from: an absent optional one's fallback, which may be
+/// empty.
+std::filesystem::path source_of(const world::ScenePlant& plant);
+
+/// Reads that file, a plant's, a skeleton table or an MTG, in the entry's unit; nothing where it is
+/// faulty, or absent and optional.
+std::optional<plant::PlantFile> read_scene_plant(const world::ScenePlant& plant,
+                                                 Diagnostics& diagnostics);
+
+/// Builds every plant of a scene: from plant files, MTG files and built-in reference plants, with
+/// the scene's `set:` overrides, repeated where it says so. Faults go to `diagnostics`; what is
+/// worth knowing (an absent optional file) to `notes`.
+///
+/// Overrides: detach.stretch, .bend, .force, .moment, .torsion (all fruits),
+/// material.youngs_modulus, .poisson_ratio, .density, .damping_time (the plant's number; curves
+/// with one of their own keep their ratio to it), sampling.connect, sampling.distance.
+std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
+                                          const SimulationOptions& options,
+                                          Diagnostics& diagnostics,
+                                          std::vector<std::string>& notes);
+
+}  // namespace pedicel::app

@@ -1,0 +1,100 @@
+#include "pedicel/app/session/commands/measured_commands.h"
+
+#include <array>
+
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/core/check.h"
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/plant/effect_reader.h"
+
+/// Commands about measured data, and the effects that a diagnosis brings into the document.
+namespace pedicel::app {
+
+namespace {
+
+using Kind = ArgumentKind;
+
+void set_effects(Document& document, const Command& c) {
+  Diagnostics diagnostics;
+  auto effects = parse_effects(c.word("text"), diagnostics);
+  if (!effects) throw UsageError(sentences(diagnostics.all()));
+  const plant::PlantFile& before = document.plant(c.word("plant"));
+  for (const plant::Effect& effect : *effects)
+    if (effect.place && before.curve_index(effect.place->curve) < 0)
+      throw UsageError(effect.name + " is at a place on \"" + effect.place->curve +
+                       "\", expected a stem of the plant");
+  document.edit_plant(c.word("plant")).effects = std::move(*effects);
+}
+
+}  // namespace
+
+bool is_measured_command(const std::string& verb) {
+  for (const CommandDescription& one : measured_commands())
+    if (one.verb == verb) return one.scope == Scope::session;
+  return false;
+}
+
+bool is_experiment(const std::filesystem::path& path) {
+  return path.filename() == "experiment.yaml" || std::filesystem::exists(path / "experiment.yaml");
+}
+
+std::string effects_text(const std::vector<plant::Effect>& effects) {
+  std::string text = "[";
+  for (const plant::Effect& effect : effects)
+    text += (text.size() > 1 ? ", " : "") + plant::effect_text(effect);
+  return text + "]";
+}
+
+std::optional<std::vector<plant::Effect>> parse_effects(const std::string& text,
+                                                        Diagnostics& diagnostics) {
+  std::vector<plant::Effect> effects;
+  try {
+    for (const io::YamlNode& node : io::parse_yaml(text, "effects", diagnostics).list("effects"))
+      effects.push_back(plant::read_effect(node, effects::EffectFile::plant));
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+  }
+  if (diagnostics.has_errors()) return std::nullopt;
+  return effects;
+}
+
+std::vector<CommandDescription> measured_commands() {
+  const Scope s = Scope::session;
+  return {
+      {"set effects",
+       Scope::document,
+       {{"plant", Kind::word, true, "name of the plant in the scene"},
+        {"text", Kind::text, true,
+         "as in a plant file: [{name: base_compliance, stiffness: 0.8}]"}},
+       "Gives a plant these model extensions in place of the ones it has.",
+       set_effects},
+      {"open experiment",
+       s,
+       {{"folder", Kind::text, true, "path of the experiment"}},
+       "Opens measured data and simulates them with the nominal plant.",
+       nullptr},
+      {"cancel reading", s, {}, "Drops the experiment that is being read.", nullptr},
+      {"close experiment", s, {}, "Leaves the measured data.", nullptr},
+      {"diagnose",
+       s,
+       {{"threads", Kind::whole, false, "that work on it (all cores but one)"},
+        {"seed", Kind::whole, false, "of the bootstrap (1)"}},
+       "Begins to find out what the simulation of the measured data gets wrong.",
+       nullptr},
+      {"cancel diagnosis", s, {}, "Ends a diagnosis without a result.", nullptr},
+      {"accept diagnosis",
+       s,
+       {},
+       "Gives the plant the effects that the diagnosis found; undo takes them away.",
+       nullptr},
+      {"write report",
+       s,
+       {{"folder", Kind::text, true, "path"}},
+       "Writes the diagnosis as report.html, verdict.json and extended.plant.yaml.",
+       nullptr},
+  };
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pedicel/plant/plant_file.h"
+
+namespace pedicel::app {
+
+/// Whether a command of scope `session` is about measured data.
+bool is_measured_command(const std::string& verb);
+
+/// Whether a path is an experiment's folder or its experiment.yaml.
+bool is_experiment(const std::filesystem::path& path);
+
+/// A list of effects as `set effects` takes it, and back. Faults go to `diagnostics`.
+std::string effects_text(const std::vector<plant::Effect>& effects);
+std::optional<std::vector<plant::Effect>> parse_effects(const std::string& text,
+                                                        Diagnostics& diagnostics);
+
+}  // namespace pedicel::app

@@ -1,0 +1,212 @@
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/app/session/document/effective_plant.h"
+#include "pedicel/core/check.h"
+#include "pedicel/plant/organ_edit.h"
+#include "pedicel/plant/plant_edit.h"
+
+/// Fruits, leaves, masses, supports and materials as commands: thin covers of plant/organ_edit.h.
+namespace pedicel::app {
+
+namespace {
+
+using Kind = ArgumentKind;
+
+const ArgumentDescription plant_name{"plant", Kind::word, true, "name of the plant in the scene"};
+const ArgumentDescription organ_name{"name", Kind::word, true, "of the fruit or leaf"};
+const ArgumentDescription stem_name{"stem", Kind::word, true, "that carries it"};
+const ArgumentDescription place{"at", Kind::number, true, "fraction of the stem's length"};
+
+plant::PlantFile& edited(Document& document, const Command& c) {
+  return document.edit_plant(c.word("plant"));
+}
+
+std::optional<double> limit(const Command& c, const std::string& name) {
+  return c.has(name) ? std::optional(c.number(name)) : std::nullopt;
+}
+
+void add_fruit(Document& document, const Command& c) {
+  plant::PlantFruit fruit;
+  fruit.name = c.word("name");
+  fruit.place = {c.word("stem"), c.number("at"), {}};
+  fruit.radius = c.number("radius");
+  fruit.density = c.number_or("density", 950.0);
+  fruit.detach = {limit(c, "stretch"), limit(c, "bend"), limit(c, "force"), limit(c, "moment"),
+                  limit(c, "torsion")};
+  plant::add_fruit(edited(document, c), std::move(fruit));
+}
+
+void add_leaf(Document& document, const Command& c) {
+  plant::PlantLeaf leaf;
+  leaf.name = c.word("name");
+  leaf.place = {c.word("stem"), c.number("at"), {}};
+  leaf.leaf_template = c.word_or("template", "tomato");
+  leaf.size = c.number("size");
+  if (c.has("normal")) leaf.normal = c.point("normal");
+  if (c.has("direction")) leaf.direction = c.point("direction");
+  plant::add_leaf(edited(document, c), std::move(leaf));
+}
+
+void move_organ(Document& document, const Command& c) {
+  plant::place_organ(edited(document, c), c.word("name"), c.word("stem"), c.number("at"));
+}
+
+void delete_organ(Document& document, const Command& c) {
+  plant::remove_organ(edited(document, c), c.word("name"));
+}
+
+void set_organ(Document& document, const Command& c) {
+  plant::set_organ(edited(document, c), c.word("name"), c.word("key"), c.number("value"));
+}
+
+void turn_leaf(Document& document, const Command& c) {
+  plant::turn_leaf(edited(document, c), c.word("name"), c.point("normal"),
+                   c.has("direction") ? c.point("direction") : Vec3(Vec3::Zero()));
+}
+
+void add_mass(Document& document, const Command& c) {
+  plant::add_mass(edited(document, c), c.word("stem"), c.number("at"), c.number("mass"));
+}
+
+void delete_mass(Document& document, const Command& c) {
+  plant::remove_mass(edited(document, c), c.whole("index"));
+}
+
+void add_support(Document& document, const Command& c) {
+  plant::add_support(edited(document, c), c.word("stem"), c.number("at"));
+}
+
+void delete_support(Document& document, const Command& c) {
+  plant::remove_support(edited(document, c), c.whole("index"));
+}
+
+void set_material(Document& document, const Command& c) {
+  plant::set_material(edited(document, c), c.word_or("stem", ""), c.word("key"), c.number("value"));
+}
+
+void keep_one(Document& document, const Command& c) {
+  keep_setting(document, c.word("key"));
+}
+
+void set_sampling(Document& document, const Command& c) {
+  plant::set_sampling(edited(document, c), c.word("key"), c.number("value"));
+}
+
+void set_shape(Document& document, const Command& c) {
+  const std::string& word = c.word("shape");
+  if (word != "drawn" && word != "rest")
+    throw UsageError("shape \"" + word + "\", expected drawn or rest");
+  edited(document, c).shape = word == "rest" ? plant::Shape::rest : plant::Shape::drawn;
+}
+
+void set_root(Document& document, const Command& c) {
+  edited(document, c).root = c.point("to");
+}
+
+const ArgumentDescription index_in_file{"index", Kind::whole, true, "number in the file, from 0"};
+
+std::vector<CommandDescription> plant_value_commands() {
+  const Scope d = Scope::document;
+  return {
+      {"set material",
+       d,
+       {plant_name,
+        {"key", Kind::word, true, "youngs_modulus (Pa), poisson_ratio, density, damping_time (s)"},
+        {"value", Kind::number, true, "of the key; 0 takes a stem's own away"},
+        {"stem", Kind::word, false, "one stem; left out: the plant's default"}},
+       "Sets a constant of the plant's material, or of one stem's.",
+       set_material},
+      {"keep setting",
+       d,
+       {{"key", Kind::word, true, "of a plant, that was set: plants.NAME.KEY, or KEY of all"}},
+       "Writes one setting into the plants that it is about, so that it is no setting any more.",
+       keep_one},
+      {"set sampling",
+       d,
+       {plant_name,
+        {"key", Kind::word, true, "connect or distance"},
+        {"value", Kind::number, true, "m"}},
+       "Sets how near ends are joined, or how far nodes lie apart.",
+       set_sampling},
+      {"set shape",
+       d,
+       {plant_name, {"shape", Kind::word, true, "drawn or rest"}},
+       "Whether the drawing is how the plant hangs, or its unloaded shape.",
+       set_shape},
+      {"set root",
+       d,
+       {plant_name, {"to", Kind::point, true, "m, in the plant's frame"}},
+       "Where the plant is clamped.",
+       set_root},
+  };
+}
+
+}  // namespace
+
+std::vector<CommandDescription> organ_commands() {
+  const Scope d = Scope::document;
+  std::vector<CommandDescription> table = {
+      {"add fruit",
+       d,
+       {plant_name,
+        organ_name,
+        stem_name,
+        place,
+        {"radius", Kind::number, true, "m"},
+        {"density", Kind::number, false, "kg/m3 (950)"},
+        {"stretch", Kind::number, false, "strain at which it comes off"},
+        {"bend", Kind::number, false, "rad, at which it comes off"},
+        {"force", Kind::number, false, "N, at which it comes off"},
+        {"moment", Kind::number, false, "N m, at which it comes off"},
+        {"torsion", Kind::number, false, "N m, at which it comes off"}},
+       "Hangs a fruit on a stem.",
+       add_fruit},
+      {"add leaf",
+       d,
+       {plant_name,
+        organ_name,
+        stem_name,
+        place,
+        {"size", Kind::number, true, "m"},
+        {"template", Kind::word, false, "name of the leaf's shape (tomato)"},
+        {"normal", Kind::point, false, "the way its upper face looks (up)"},
+        {"direction", Kind::point, false, "the way its midrib points"}},
+       "Puts a leaf on a stem.",
+       add_leaf},
+      {"move organ",
+       d,
+       {plant_name, organ_name, stem_name, place},
+       "Moves a fruit or leaf along its stem, or to another.",
+       move_organ},
+      {"delete organ", d, {plant_name, organ_name}, "Takes a fruit or leaf away.", delete_organ},
+      {"set organ",
+       d,
+       {plant_name,
+        organ_name,
+        {"key", Kind::word, true,
+         "radius, density, stretch, bend, force, moment, torsion of a fruit; size of a leaf"},
+        {"value", Kind::number, true, "of the key; a threshold of 0 is none"}},
+       "Sets a number of a fruit or leaf.",
+       set_organ},
+      {"turn leaf",
+       d,
+       {plant_name,
+        organ_name,
+        {"normal", Kind::point, true, "the way its upper face looks"},
+        {"direction", Kind::point, false, "the way its midrib points; left out: by itself"}},
+       "Turns a leaf.",
+       turn_leaf},
+      {"add mass",
+       d,
+       {plant_name, stem_name, place, {"mass", Kind::number, true, "kg"}},
+       "Fixes a point mass to a stem.",
+       add_mass},
+      {"delete mass", d, {plant_name, index_in_file}, "Takes a point mass away.", delete_mass},
+      {"add support", d, {plant_name, stem_name, place}, "Clamps a place of a stem.", add_support},
+      {"delete support", d, {plant_name, index_in_file}, "Takes a clamp away.", delete_support},
+  };
+  for (const CommandDescription& one : plant_value_commands()) table.push_back(one);
+  return table;
+}
+
+}  // namespace pedicel::app

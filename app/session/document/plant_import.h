@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/plant/plant_file.h"
+
+namespace pedicel::app {
+
+bool is_plant_file(const std::filesystem::path& path);
+
+/// A plant file, a skeleton or cylinder table (*.csv) or an MTG (*.mtg), by its name. `unit` (m) is
+/// that of a table's or an MTG's lengths; 0: as the file says. Faults go to `diagnostics`, and then
+/// nothing comes back; so do warnings and the plant's height.
+std::optional<plant::PlantFile> read_plant(const std::filesystem::path& path,
+                                           Diagnostics& diagnostics, double unit = 0.0);
+
+/// Metres a unit that a user names ("cm", "0.01"); 0 for an empty text. Throws UsageError, which
+/// names `option`.
+double unit_of_text(const std::string& text, const std::string& option);
+
+}  // namespace pedicel::app

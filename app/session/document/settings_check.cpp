@@ -1,0 +1,25 @@
+#include "pedicel/app/session/document/settings_check.h"
+
+#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/run/scene_assets.h"
+#include "pedicel/core/check.h"
+
+namespace pedicel::app {
+
+void check_settings(const Document& document) {
+  const world::Scene scene = scene_of(document);
+  Diagnostics diagnostics;
+  cosserat::RodSettings rods;
+  coupling::CouplingSettings coupling;
+  apply_rod_settings(scene.rods, rods, diagnostics);
+  apply_coupling_settings(scene.coupling, coupling, diagnostics);
+  for (std::size_t p = 0; p < document.plants.size(); ++p) {
+    plant::PlantFile plant;
+    if (document.plants[p].file) plant = *document.plants[p].file;
+    apply_plant_overrides(plant, scene.plants[p].set, diagnostics);
+  }
+  if (diagnostics.has_errors()) throw UsageError(sentences(diagnostics.all()));
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,75 @@
+#include "pedicel/app/session/measured/diagnosis_card.h"
+
+#include <algorithm>
+
+#include "pedicel/discrepancy/report/report_words.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using discrepancy::Outcome;
+
+constexpr std::size_t most_rivals = 5;
+
+std::string next_step(const discrepancy::Verdict& verdict) {
+  if (!verdict.next_experiment.empty()) return verdict.next_experiment;
+  switch (verdict.outcome) {
+    case Outcome::bad_data:
+      return "Mend the data: " + verdict.remainder + ".";
+    case Outcome::numerical:
+      return "Fewer or shorter trials, or a plant drawn without very short pieces, would let the "
+             "mesh and the step become finer.";
+    case Outcome::adequate:
+      return "Nothing is missing at this noise: the refitted parameters will do.";
+    case Outcome::unknown:
+      return "Repeat the trial with the largest residual at half and at twice its amplitude, with "
+             "one more marker where the residual is largest.";
+    default:
+      return "No further experiment is needed for this: accept the extended plant.";
+  }
+}
+
+DiagnosisCard::Cause cause_of(const discrepancy::NamedCause& cause) {
+  std::string numbers;
+  for (const auto& [name, estimates] : cause.parameters)
+    numbers += (numbers.empty() ? "" : "; ") + name + " " + discrepancy::estimate_text(estimates);
+  const std::string place = discrepancy::place_text(cause);
+  return {effects::plain_name(cause.name) + " (" + cause.name + ")",
+          place.empty() ? "the whole" : place, numbers, cause.because, cause.evidence};
+}
+
+std::vector<DiagnosisCard::Rival> rivals_of(const discrepancy::Diagnosis& diagnosis) {
+  std::vector<DiagnosisCard::Rival> rivals;
+  const auto& causes = diagnosis.verdict.causes;
+  for (const discrepancy::Candidate& candidate : diagnosis.ranking) {
+    const bool named = std::ranges::any_of(
+        causes, [&](const auto& cause) { return cause.name == candidate.cause; });
+    if (named || rivals.size() == most_rivals) continue;
+    rivals.push_back({candidate.cause, discrepancy::why_it_lost(candidate, diagnosis),
+                      diagnosis.ranking.front().evidence - candidate.evidence});
+  }
+  return rivals;
+}
+
+}  // namespace
+
+DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis) {
+  const discrepancy::Verdict& verdict = diagnosis.verdict;
+  DiagnosisCard card;
+  card.good = verdict.outcome == Outcome::adequate || verdict.outcome == Outcome::named;
+  card.outcome = to_string(verdict.outcome);
+  card.headline = headline(verdict);
+  card.certainty = discrepancy::certainty_text(diagnosis);
+  card.next = next_step(verdict);
+  if (verdict.outcome == Outcome::bad_data || verdict.outcome == Outcome::numerical) return card;
+  card.remainder = discrepancy::remainder_text(verdict);
+  for (const auto& cause : verdict.causes) card.causes.push_back(cause_of(cause));
+  card.gain = discrepancy::gain_text(diagnosis);
+  card.rivals = rivals_of(diagnosis);
+  std::tie(card.could_hide, card.unseen) = discrepancy::hiding_texts(verdict);
+  return card;
+}
+
+}  // namespace pedicel::app

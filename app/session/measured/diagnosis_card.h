@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+
+namespace pedicel::app {
+
+/// What a diagnosis found out, in sentences, in the order in which a person asks.
+struct DiagnosisCard {
+  struct Cause {
+    std::string name, place, numbers;  ///< "spring at the root", "the root", "stiffness 0.81 ..."
+    std::string because;
+    double evidence = 0.0;  ///< nats
+  };
+  struct Rival {
+    std::string name, why;  ///< why it lost
+    double behind = 0.0;    ///< nats
+  };
+
+  bool good = false;  ///< adequate or named: something may be concluded
+  std::string outcome, headline, certainty;
+  std::string remainder;  ///< what is still unexplained, as sentences; may be empty
+  std::vector<Cause> causes;
+  std::string gain;
+  std::vector<Rival> rivals;
+  std::vector<std::string> could_hide;  ///< sizes below which it would not have been seen
+  std::vector<std::string> unseen;      ///< causes that these data cannot see at all
+  std::string next;                     ///< what to do next; never empty
+};
+
+DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis);
+
+}  // namespace pedicel::app

@@ -1,0 +1,16 @@
+#include "pedicel/app/session/measured/experiment_reading.h"
+
+#include "pedicel/discrepancy/data/experiment_progress.h"
+
+namespace pedicel::app {
+
+ExperimentReading::ExperimentReading(std::filesystem::path path)
+    : path_(std::move(path)), job_([this](const std::atomic<bool>& stop) {
+        experiment_ =
+            discrepancy::read_experiment(path_, diagnostics_, [this, &stop](int done, int all) {
+              done_ = done, all_ = all;
+              return !stop;
+            });
+      }) {}
+
+}  // namespace pedicel::app

@@ -1,0 +1,105 @@
+#include "pedicel/app/session/measured/measured_moment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pedicel::app {
+
+namespace {
+
+/// Two neighbouring samples and how far between them.
+struct Between {
+  Eigen::Index low = 0, high = 0;
+  double share = 0.0;
+};
+
+Between find(const std::vector<double>& time, double t) {
+  const auto above = std::upper_bound(time.begin(), time.end(), t);
+  if (above == time.begin()) return {};
+  const auto high = static_cast<Eigen::Index>(above - time.begin());
+  if (above == time.end()) return {high - 1, high - 1, 0.0};
+  const double before = *(above - 1);
+  return {high - 1, high, (t - before) / (*above - before)};
+}
+
+Vec3 point(const Eigen::MatrixXd& table, const Between& at, Eigen::Index column) {
+  const Vec3 low = table.block<1, 3>(at.low, column).transpose();
+  if (at.share == 0.0) return low;
+  const Vec3 high = table.block<1, 3>(at.high, column).transpose();
+  return low + at.share * (high - low);
+}
+
+}  // namespace
+
+std::optional<MeasuredMoment> moment_of(const MeasuredData& data, int trial,
+                                        discrepancy::Model model, double time) {
+  const discrepancy::Experiment* experiment = data.experiment();
+  if (!experiment || trial < 0 || trial >= static_cast<int>(experiment->trials.size()))
+    return std::nullopt;
+  const discrepancy::Samples& seen = experiment->trials[static_cast<std::size_t>(trial)].markers;
+  if (seen.time.empty()) return std::nullopt;
+  MeasuredMoment moment;
+  moment.time = std::clamp(time, seen.time.front(), seen.time.back());
+  const Between at = find(seen.time, moment.time);
+  const TrialPath* path = data.path(model, trial);
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t m = 0; m < experiment->markers.size(); ++m) {
+    const auto column = static_cast<Eigen::Index>(3 * m);
+    MarkerMoment one{point(seen.value, at, column),
+                     Vec3::Constant(std::numeric_limits<double>::quiet_NaN())};
+    if (path) one.simulated = point(path->markers, at, column);
+    if (one.error().allFinite()) sum += one.error().squaredNorm(), ++count;
+    moment.markers.push_back(one);
+  }
+  moment.rms = count ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
+  if (!path) return moment;
+  for (Eigen::Index c = 0; c < path->shape.cols(); c += 3)
+    moment.shape.push_back(point(path->shape, at, c));
+  return moment;
+}
+
+MeasuredSeries series_of(const MeasuredData& data, int trial, int marker, int axis) {
+  MeasuredSeries series;
+  const discrepancy::Experiment* experiment = data.experiment();
+  if (!experiment || trial < 0 || trial >= static_cast<int>(experiment->trials.size()) ||
+      marker < 0 || marker >= static_cast<int>(experiment->markers.size()))
+    return series;
+  const auto column = [&](const Eigen::MatrixXd& table) {
+    const auto values = table.col(3 * marker + axis);
+    return std::vector<double>(values.begin(), values.end());
+  };
+  const discrepancy::Samples& seen = experiment->trials[static_cast<std::size_t>(trial)].markers;
+  series.time = seen.time;
+  if (seen.time.empty()) return series;
+  series.measured = column(seen.value);
+  for (int m = 0; m < discrepancy::model_count; ++m)
+    if (const TrialPath* path = data.path(static_cast<discrepancy::Model>(m), trial))
+      series.models[static_cast<std::size_t>(m)] = column(path->markers);
+  return series;
+}
+
+std::optional<MeasuredSeries> force_series_of(const MeasuredData& data, int trial, int axis) {
+  const discrepancy::Experiment* experiment = data.experiment();
+  if (!experiment || trial < 0 || trial >= static_cast<int>(experiment->trials.size()))
+    return std::nullopt;
+  const discrepancy::Samples& seen = experiment->trials[static_cast<std::size_t>(trial)].force;
+  if (seen.time.empty()) return std::nullopt;
+  const auto part = [&](const Eigen::MatrixXd& table) {
+    const Eigen::VectorXd values =
+        axis < 3 ? Eigen::VectorXd(table.col(axis)) : Eigen::VectorXd(table.rowwise().norm());
+    return std::vector<double>(values.begin(), values.end());
+  };
+  MeasuredSeries series;
+  series.time = seen.time;
+  series.measured = part(seen.value);
+  for (int m = 0; m < discrepancy::model_count; ++m) {
+    const TrialPath* path = data.path(static_cast<discrepancy::Model>(m), trial);
+    if (path && path->force.rows() == seen.value.rows())
+      series.models[static_cast<std::size_t>(m)] = part(path->force);
+  }
+  return series;
+}
+
+}  // namespace pedicel::app

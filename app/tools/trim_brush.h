@@ -1,0 +1,42 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <vector>
+
+#include "pedicel/app/tools/drawn_shape.h"
+#include "pedicel/app/ui/ui.h"
+#include "pedicel/app/view/scene_mouse.h"
+#include "pedicel/render/draw_list.h"
+
+namespace pedicel::app {
+
+/// A stroke that cuts every stem it crosses in the picture. What is cut off is shown until the
+/// button goes up; then it goes, in one step of the history.
+class TrimBrush {
+ public:
+  void begin(const ImVec2& at);
+  void extend(const Ui& ui, const SceneFrame& frame, const ImVec2& to);
+  /// A click on a stem cuts it there.
+  void cut(const StemPlace& place);
+  void apply(Ui& ui);
+  void clear();
+
+  /// One a stem: that nearest to its foot.
+  const std::vector<StemPlace>& cuts() const { return cuts_; }
+  const ImVec2& last() const { return last_; }
+  /// The stroke, and what would go, in red.
+  void add_to(render::DrawList& list, const Ui& ui, const SceneFrame& frame) const;
+
+ private:
+  void add(const StemPlace& place);
+
+  ImVec2 last_{0, 0};  // px
+  std::vector<ImVec2> way_;
+  std::vector<StemPlace> cuts_;
+};
+
+/// Draws everything that a cut there would take in red, over the plant as it hangs.
+void add_beyond(render::DrawList& list, const Snapshot& snapshot, const StemPlace& place);
+
+}  // namespace pedicel::app

@@ -1,0 +1,409 @@
+#include "pedicel/app/verbs/cli.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <thread>
+
+#include "pedicel/app/report/version.h"
+#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/run/verbosity.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/app/session/document/plant_import.h"
+#include "pedicel/app/session/script.h"
+#include "pedicel/app/verbs/diagnose.h"
+#include "pedicel/app/verbs/effective_scene.h"
+#include "pedicel/app/verbs/fit.h"
+#include "pedicel/app/verbs/observe.h"
+#include "pedicel/app/verbs/parallel_worlds.h"
+#include "pedicel/app/verbs/param_sweep.h"
+#include "pedicel/app/verbs/run_arguments.h"
+#include "pedicel/app/verbs/validate.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/render/image.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+enum Exit {
+  ok = 0,
+  failure = 1,
+  usage = 2,
+  invalid = 3,
+  unstable = 4,
+  unwritable = 6,
+  no_pictures = 77
+};
+
+constexpr const char* exit_codes =
+    "Exit codes: 0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the "
+    "simulation is unstable, 5 an expectation is not met or a comparison beyond its tolerance, 6 "
+    "output cannot be written, 77 pictures were asked for and there is no OpenGL, 128 plus the "
+    "signal where one stopped it (130 Ctrl-C, 143 SIGTERM, 129 SIGHUP, 152 SIGXCPU, 141 SIGPIPE). "
+    "diagnose: 0 the model is adequate, 10 a cause is named, 11 several fit alike, 12 an unknown "
+    "cause, 13 unusable data, 14 our own numerical error is too large.";
+
+constexpr const char* cache_place =
+    "Distance grids of collision meshes are kept in the folder that PEDICEL_CACHE names (\"off\": "
+    "nowhere), else in $XDG_CACHE_HOME/pedicel, else in ~/.cache/pedicel; at most 512 MB, those "
+    "used longest ago go first.";
+
+/// `pedicel --script FILE [SCENE]`: commands in place of a window, see session/script.h.
+int script_verb(const RunArguments& a, const MakeFilms& make_films) {
+  SessionOptions options;
+  options.packages = a.packages;
+  options.waits = true;
+  stop_in_good_order();
+  Session session(options);
+  std::unique_ptr<FilmMaker> films;
+  if (make_films) films = make_films(session);
+  session.set_film_maker(films.get());
+  if (!a.scene.empty() && !session.open(a.scene, unit_of_text(a.unit, "--unit"))) {
+    std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
+    return invalid;
+  }
+  for (const std::string& assignment : a.set) {
+    const auto [key, value] = world::split_assignment(assignment);
+    const Result result = session.run(Command("set", {{"key", key}, {"value", value}}));
+    if (!result) throw UsageError(result.text);
+  }
+  return run_script(a.script, session, std::cout, std::cerr);
+}
+
+/// With the plant, where that is all there is.
+RunOptions options_of_run(const RunArguments& a) {
+  RunOptions options = run_options(a);
+  if (is_lone_plant(a.scene))
+    options.simulation.edited =
+        options_of(open_document(a.scene, unit_of_text(a.unit, "--unit")), {}).edited;
+  return options;
+}
+
+int end_of_run(const world::Scene& scene, const RunArguments& a, const RunOptions& options,
+               const RunResult& result) {
+  if (a.json) std::cout << to_json(scene, result) << std::endl;
+  if (!a.quiet) say(Verbosity::lines, "written to %s", options.out.string().c_str());
+  return result.exit_code;
+}
+
+int run_verb(const RunArguments& a, const MakeFilms& make_films) {
+  if (!a.script.empty()) return script_verb(a, make_films);
+  if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
+  const RunOptions options = options_of_run(a);
+  const world::Scene scene = load_scene(a);
+  if (a.print_scene) {
+    std::cout << effective_scene(scene) << std::flush;
+    return ok;
+  }
+  if (a.param_sweep.empty()) return end_of_run(scene, a, options, run_with_sweep(scene, options));
+  return end_of_run(scene, a, options,
+                    run_param_sweep(scene, read_param_sweep(a.param_sweep), options));
+}
+
+void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
+  app.add_flag("--paused", paused, "the window opens with the simulation held");
+  app.add_option("--screenshot", window.screenshot, "writes a picture there (PNG), off screen");
+  app.add_option("--record", window.record,
+                 "writes a film there, off screen: *.mp4, or pictures (frame_%05d.png)");
+  app.add_flag("--with-ui", window.with_interface,
+               "the picture or the film shows the window with its panels");
+  app.add_option("--at", window.time, "simulated time of the picture, s")
+      ->check(CLI::Range(0.0, 1e4));
+  app.add_option("--show", window.show, "a panel to bring to the front (Plots); may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--colours", window.colours, "of stems in the window")
+      ->check(CLI::IsMember({"strain", "margin", "contact", "residual"}));
+  app.add_option("--theme", window.theme, "of the window")->check(CLI::IsMember({"dark", "light"}));
+  app.add_option("--scale", window.scale, "of the window's texts (default: as the monitor says)")
+      ->check(CLI::Range(0.5, 4.0));
+  app.add_option("--platform", window.platform, "where the window is shown")
+      ->check(CLI::IsMember({"window", "offscreen", "null"}));
+}
+
+void set_verbosity(const RunArguments& a) {
+  if (a.quiet) set_verbosity(Verbosity::warnings);
+  if (a.verbosity) set_verbosity(static_cast<Verbosity>(*a.verbosity));
+}
+
+/// What a picture or a film of the window would leave undone.
+void check_picture_arguments(const RunArguments& a) {
+  const std::pair<const char*, bool> of_runs[] = {
+      {"--steps", a.steps.has_value()},        {"--log", !a.log.empty()},
+      {"--events", !a.events.empty()},         {"--trajectory", !a.trajectory.empty()},
+      {"--compare", !a.compare.empty()},       {"--save-state", !a.save_state.empty()},
+      {"--load-state", !a.load_state.empty()}, {"--param-sweep", !a.param_sweep.empty()},
+      {"--print-scene", a.print_scene}};
+  for (const auto& [option, given] : of_runs)
+    if (given)
+      throw UsageError(std::string(option) +
+                       ": is of a run off screen, expected it without --screenshot and --record");
+}
+
+std::optional<double> duration_of(const RunArguments& a) {
+  const std::string text = a.number("duration");
+  if (text.empty()) return std::nullopt;
+  world::Scene scene;
+  world::apply_override(scene, "duration", text, "--");
+  return scene.duration;
+}
+
+/// The window, or a run off screen: with --headless, with what only a run can give, and where no
+/// window can be opened.
+int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
+                const OpenDesktop& open_desktop, const MakeFilms& make_films) {
+  check_run_arguments(a);
+  set_verbosity(a);
+  const bool picture = !window.screenshot.empty() || !window.record.empty();
+  if (picture) check_picture_arguments(a);
+  if (!window.record.empty() && a.scene.empty())
+    throw UsageError("--record: no scene given, expected one to make a film of");
+  if (!open_desktop || (a.asks_for_run() && !picture)) return run_verb(a, make_films);
+  if (!window.screenshot.empty() && !window.screenshot.ends_with(".png"))
+    throw UsageError("--screenshot " + window.screenshot + ": expected a name that ends in .png");
+  window.file = a.scene;
+  window.unit = unit_of_text(a.unit, "--unit");
+  window.script = a.script;
+  window.set = a.set;
+  for (const char* key : {"dt", "seed", "threads"})
+    if (const std::string text = a.number(key); !text.empty())
+      window.set.push_back(std::string(key) + "=" + text);
+  window.packages = a.packages;
+  window.playing = !a.scene.empty() && !paused;
+  if (const auto size = run_options(a).size) window.size = *size, window.sized = true;
+  window.duration = duration_of(a);
+  window.fps = a.fps;
+  window.camera = a.camera;
+  window.quiet = a.quiet;
+  if (const std::optional<int> code = open_desktop(window)) return *code;
+  if (!a.scene.empty()) return run_verb(a, make_films);
+  throw std::runtime_error("there is no window to open; give a scene to run it off screen");
+}
+
+/// `pedicel sweep SCENE --set key=v1,v2,...`: the scene's own sweep is replaced by this one.
+int sweep_verb(RunArguments a) {
+  check_run_arguments(a);
+  set_verbosity(a);
+  if (!a.param_sweep.empty() || !a.load_state.empty())
+    throw UsageError("sweep: expected neither --param-sweep nor --load-state");
+  std::optional<world::SceneSweep> sweep;
+  std::vector<std::string> plain;
+  for (const std::string& assignment : a.set) {
+    const auto [key, values] = world::split_assignment(assignment);
+    if (values.find(',') == std::string::npos) {
+      plain.push_back(assignment);
+      continue;
+    }
+    if (sweep) throw UsageError("--set " + key + ": expected one key with several values");
+    sweep = world::SceneSweep{key, {}, {}};
+    for (std::size_t start = 0; start <= values.size();) {
+      const std::size_t end = std::min(values.find(',', start), values.size());
+      const auto value = world::to_number(values.substr(start, end - start));
+      if (!value) throw UsageError("--set " + assignment + ": expected numbers between the commas");
+      if (std::ranges::count(sweep->values, *value) > 0)
+        throw UsageError("--set " + assignment + ": a value comes twice, expected each once");
+      sweep->values.push_back(*value);
+      start = end + 1;
+    }
+  }
+  if (!sweep) throw UsageError("sweep: expected --set key=value,value,...");
+  a.set = plain;
+  const RunOptions options = options_of_run(a);
+  world::Scene scene = load_scene(a);
+  if (scene.sweep && scene.sweep->key != sweep->key)
+    std::erase_if(scene.expectations, [](const auto& e) { return e.over_sweep(); });
+  for (const double value : sweep->values) {
+    world::Scene one = scene;  // an impossible key or value is found before the first run
+    world::apply_override(one, sweep->key, io::exact_number(value), "--set ");
+  }
+  scene.sweep = sweep;
+  if (a.print_scene) {
+    std::cout << effective_scene(scene) << std::flush;
+    return ok;
+  }
+  return end_of_run(scene, a, options, run_with_sweep(scene, options));
+}
+
+CLI::Range range_of(std::string_view key) {
+  const io::Bounds bounds = world::scene_bounds(key);
+  return CLI::Range(bounds.minimum, bounds.maximum);
+}
+
+/// What the command line says of a benchmark. What is not given is the bench's or the scene's own.
+struct BenchArguments {
+  BenchOptions options;
+  std::optional<int> worlds, threads;
+  std::optional<double> dt, duration;
+  std::vector<std::string> set, packages;
+  bool json = false;
+};
+
+void add_bench_options(CLI::App& bench, BenchArguments& a) {
+  std::string list;
+  for (const std::string& name : bench_names()) list += name + ", ";
+  bench.add_option("name", a.options.name, "one of " + list + "or a scene file (*.scene.yaml)");
+  bench.add_option("--worlds", a.worlds, "independent copies, each stepped by one thread")
+      ->check(CLI::Range(1, 100000));
+  bench.add_option("--threads", a.threads, "threads (default: 1; with --worlds all cores)")
+      ->check(CLI::Range(1, 1024));
+  bench.add_option("--dt", a.dt, "time step, s")->check(range_of("dt"));
+  bench.add_option("--duration", a.duration, "simulated time, s")->check(range_of("duration"));
+  bench.add_option("--set", a.set, "rods.KEY=VALUE, of a scene any of its keys; may be repeated")
+      ->allow_extra_args(false);
+  bench.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies")
+      ->allow_extra_args(false);
+  bench.add_flag("--self-contact", a.options.self_contact,
+                 "organs of one plant may touch each other");
+  bench.add_flag("!--no-accuracy", a.options.accuracy, "measure the speed only");
+  bench.add_flag("--json", a.json, "as JSON");
+}
+
+BenchOptions bench_options(const BenchArguments& a) {
+  BenchOptions options = a.options;
+  options.threads = a.threads.value_or(options.threads);
+  options.dt = a.dt.value_or(options.dt);
+  options.duration = a.duration.value_or(options.duration);
+  std::vector<world::Setting> rods;
+  for (const std::string& assignment : a.set) {
+    const auto [key, value] = world::split_assignment(assignment);
+    if (!key.starts_with("rods."))
+      throw UsageError("--set " + assignment + ": expected rods.KEY=VALUE");
+    rods.push_back({key.substr(5), value, {"--set " + assignment}});
+  }
+  Diagnostics diagnostics;
+  apply_rod_settings(rods, options.rods, diagnostics);
+  if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
+  return options;
+}
+
+/// All cores, as far as there are worlds for them.
+WorldsOptions worlds_options(const BenchArguments& a, double dt, double duration) {
+  const int worlds = a.worlds.value_or(1);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return {worlds, a.threads.value_or(std::min(worlds, cores)), dt, duration};
+}
+
+WorldsResult bench_scene(const BenchArguments& a) {
+  if (a.options.self_contact)
+    throw UsageError("--self-contact: expected --set coupling.self_contact=1 for a scene");
+  RunArguments run;
+  run.scene = a.options.name;
+  run.set = a.set;
+  if (a.dt) run.numbers.emplace_back("dt", io::exact_number(*a.dt));
+  if (a.duration) run.numbers.emplace_back("duration", io::exact_number(*a.duration));
+  const world::Scene scene = load_scene(run);
+  return run_worlds(scene_worlds(scene, {a.packages, {}, asset_leaf_folders()}),
+                    worlds_options(a, scene.dt, scene.duration));
+}
+
+int bench_verb(const BenchArguments& a) {
+  const auto print = [&a](const auto& result) {
+    std::cout << (a.json ? to_json(result) : to_text(result)) << std::endl;
+    return ok;
+  };
+  if (a.options.name.ends_with(".scene.yaml")) return print(bench_scene(a));
+  const BenchOptions options = bench_options(a);
+  if (!a.worlds) return print(run_bench(options));
+  return print(run_worlds(rod_worlds(options), worlds_options(a, options.dt, options.duration)));
+}
+
+int guarded(const std::function<int()>& verb) {
+  try {
+    const int code = verb();
+    return stop_requested ? stop_exit_code() : code;
+  } catch (const Stopped&) {
+    return stop_exit_code();
+  } catch (const InvalidFile& error) {
+    say(Verbosity::errors, "%s", error.what());
+    return invalid;
+  } catch (const UsageError& error) {
+    say(Verbosity::errors, "error: %s", error.what());
+    return usage;
+  } catch (const UnstableWorld& error) {
+    say(Verbosity::errors, "error: %s", error.what());
+    return unstable;
+  } catch (const io::WriteError& error) {
+    say(Verbosity::errors, "error: %s", error.what());
+    return unwritable;
+  } catch (const render::OutputError& error) {
+    say(Verbosity::errors, "error: %s", error.what());
+    return unwritable;
+  } catch (const NoPictures& error) {
+    say(Verbosity::errors, "%s", error.what());
+    return no_pictures;
+  } catch (const std::exception& error) {
+    say(Verbosity::errors, "error: %s", error.what());
+    return failure;
+  }
+}
+
+}  // namespace
+
+int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFilms& make_films) {
+  hear_stop_signals();
+  CLI::App app("Pedicel: a sandbox where robots handle plants.");
+  app.footer(std::string(exit_codes) + "\n" + cache_place);
+  app.set_version_flag("--version", "pedicel " + version() + " (" + git_hash() + ")");
+
+  RunArguments run;
+  app.add_option("scene", run.scene, "scene file (*.scene.yaml)");
+  app.add_option("--script", run.script, "run commands from a file, one a line, off screen");
+  app.add_flag("--headless", run.headless,
+               "no window: run off screen (so do --out, --json and --quiet)");
+  DesktopRequest window;
+  bool paused = false;
+  add_window_options(app, window, paused);
+  add_run_options(app, run);
+
+  RunArguments swept;
+  CLI::App* sweep = app.add_subcommand("sweep", "run a scene for several values of one setting");
+  sweep->add_option("scene", swept.scene, "scene file")->required();
+  add_run_options(*sweep, swept);
+
+  std::vector<std::string> files, packages;
+  CLI::App* validate = app.add_subcommand("validate", "load and check files without running them");
+  validate
+      ->add_option("files", files,
+                   "plants, experiments, scenes, leaf templates, URDFs, meshes, tables, scripts")
+      ->required();
+  std::string unit;
+  validate->add_option("--unit", unit,
+                       "of the lengths in skeleton tables and MTGs: m, cm, mm or metres");
+  validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies")
+      ->allow_extra_args(false);
+
+  BenchArguments benched;
+  CLI::App* bench =
+      app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
+  add_bench_options(*bench, benched);
+  const std::function<int()> diagnose = add_diagnose_verb(app);
+  const std::function<int()> fit = add_fit_verb(app);
+
+  ObserveArguments observed;
+  CLI::App* observe =
+      app.add_subcommand("observe", "simulate an experiment and write it as measured data");
+  add_observe_options(*observe, observed);
+  app.require_subcommand(0, 1);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ok : usage;
+  }
+  if (*sweep) return guarded([&] { return sweep_verb(swept); });
+  if (*validate)
+    return guarded(
+        [&] { return validate_files(files, packages, std::cerr, unit_of_text(unit, "--unit")); });
+  if (*bench) return guarded([&] { return bench_verb(benched); });
+  if (app.got_subcommand("diagnose")) return guarded(diagnose);
+  if (app.got_subcommand("fit")) return guarded(fit);
+  if (*observe) return guarded([&] { return observe_verb(observed); });
+  return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });
+}
+
+}  // namespace pedicel::app

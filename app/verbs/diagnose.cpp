@@ -1,0 +1,74 @@
+#include "pedicel/app/verbs/diagnose.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "pedicel/app/verbs/experiment_run.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/discrepancy/report/report.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/plant/plant_file.h"
+
+namespace pedicel::app {
+
+namespace {
+
+struct DiagnoseArguments : ExperimentArguments {
+  bool verbose = false;
+};
+
+void write_results(const std::filesystem::path& folder, const discrepancy::Experiment& experiment,
+                   discrepancy::Diagnosis& diagnosis) {
+  using discrepancy::Outcome;
+  discrepancy::Verdict& verdict = diagnosis.verdict;
+  if (!diagnosis.best.hypothesis.effects.empty() && verdict.outcome != Outcome::bad_data) {
+    verdict.extended_plant = "extended.plant.yaml";
+    plant::write_plant_file(folder / verdict.extended_plant,
+                            discrepancy::extended_plant(experiment, diagnosis.best.hypothesis));
+  }
+  io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
+  discrepancy::write_report(folder, experiment, diagnosis);
+}
+
+int run(const DiagnoseArguments& a) {
+  const discrepancy::Experiment experiment = load_experiment(a);
+  ProgressLine progress;
+  discrepancy::DiagnosisOptions options;
+  options.threads = a.thread_count();
+  options.seed = static_cast<std::uint64_t>(a.seed);
+  options.stop = &stop_requested;
+  options.progress = progress.callback(a.quiet);
+  if (a.verbose)
+    options.note = [&progress](const std::string& sentence) { progress.note(sentence); };
+  discrepancy::Diagnosis diagnosis = discrepancy::diagnose(experiment, options);
+  progress.end(diagnosis.stopped);
+  if (diagnosis.stopped) return stop_exit_code();
+  const std::filesystem::path folder = a.folder("diagnosis_", experiment);
+  a.write(folder,
+          [&](const std::filesystem::path& in) { write_results(in, experiment, diagnosis); });
+  if (a.json)
+    std::cout << to_json(diagnosis.verdict) << std::endl;
+  else
+    std::cout << headline(diagnosis.verdict) << "\nwritten to " << folder.string() << std::endl;
+  return exit_code(diagnosis.verdict.outcome);
+}
+
+}  // namespace
+
+std::function<int()> add_diagnose_verb(CLI::App& app) {
+  const auto a = std::make_shared<DiagnoseArguments>();
+  CLI::App* verb = app.add_subcommand(
+      "diagnose", "show what the simulation of a measured experiment gets wrong, and why");
+  add_experiment(*verb, *a);
+  add_experiment_options(
+      *verb, *a,
+      {"folder for report.html, verdict.json, extended.plant.yaml", "of the bootstrap",
+       "the verdict as JSON, and nothing else, on standard output"});
+  verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
+  return [a] { return run(*a); };
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "pedicel/discrepancy/data/experiment.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pedicel::app {
+
+/// What the verbs that work on a measured experiment have in common on the command line.
+struct ExperimentArguments {
+  std::string experiment, out;
+  int threads = 0;  ///< 0: all cores
+  int seed = 1;
+  bool json = false, quiet = false;
+
+  int thread_count() const;
+  /// `out`, or out/<prefix><name of the experiment's folder>.
+  std::filesystem::path folder(const std::string& prefix,
+                               const discrepancy::Experiment& measured) const;
+  /// io::write_folder(), and says what was replaced.
+  void write(const std::filesystem::path& folder,
+             const std::function<void(const std::filesystem::path&)>& write) const;
+};
+
+/// Adds the experiment itself, which is the verb's first argument.
+void add_experiment(CLI::App& verb, ExperimentArguments& a);
+
+/// Help texts of the options whose meaning depends on the verb.
+struct ExperimentHelp {
+  std::string out, seed, json;
+};
+void add_experiment_options(CLI::App& verb, ExperimentArguments& a, const ExperimentHelp& help);
+
+/// The experiment that was asked for; throws InvalidFile.
+discrepancy::Experiment load_experiment(const ExperimentArguments& a);
+
+/// Says on standard error what is being done, how far it is and how long it will take: on a
+/// terminal in place, elsewhere a line for each new step.
+class ProgressLine {
+ public:
+  using Callback = std::function<void(const std::string&, double)>;
+
+  /// For options that report progress, from any thread; empty where `quiet`. It must not outlive
+  /// the line.
+  Callback callback(bool quiet);
+  /// A sentence on a line of its own, above the progress.
+  void note(const std::string& sentence);
+  /// Takes the line away. `stopped`: and says that the run was.
+  void end(bool stopped);
+
+ private:
+  void show(const std::string& what, double share);
+  void clear();
+
+  using Clock = std::chrono::steady_clock;
+  std::mutex mutex_;
+  Clock::time_point start_ = Clock::now();
+  std::string last_;
+};
+
+}  // namespace pedicel::app

@@ -1,0 +1,66 @@
+#include "pedicel/app/verbs/fit.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "pedicel/app/verbs/experiment_run.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/fit/parameter_fit.h"
+#include "pedicel/discrepancy/fit/parameter_request.h"
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/io/atomic_file.h"
+
+namespace pedicel::app {
+
+namespace {
+
+struct FitArguments : ExperimentArguments {
+  std::vector<std::string> parameters;
+};
+
+int run(const FitArguments& a) {
+  const discrepancy::Experiment experiment = load_experiment(a);
+  const auto starts = discrepancy::requested_starts(experiment, a.parameters);
+  ProgressLine progress;
+  discrepancy::ParameterFitOptions options;
+  options.threads = a.thread_count();
+  options.seed = static_cast<std::uint64_t>(a.seed);
+  options.stop = &stop_requested;
+  options.progress = progress.callback(a.quiet);
+  const discrepancy::ParameterFit fit = fit_parameters(experiment, starts, options);
+  progress.end(fit.stopped);
+  if (fit.stopped) return stop_exit_code();
+  const std::filesystem::path folder = a.folder("fit_", experiment);
+  a.write(folder, [&](const std::filesystem::path& in) {
+    plant::write_plant_file(in / "fitted.plant.yaml",
+                            discrepancy::extended_plant(experiment, fit.summary.hypothesis));
+    io::write_file_atomically(in / "fit.json", to_json(fit) + "\n");
+  });
+  if (a.json)
+    std::cout << to_json(fit) << std::endl;
+  else
+    std::cout << to_table(fit) << "written to " << folder.string() << std::endl;
+  return 0;
+}
+
+}  // namespace
+
+std::function<int()> add_fit_verb(CLI::App& app) {
+  const auto a = std::make_shared<FitArguments>();
+  CLI::App* verb = app.add_subcommand(
+      "fit", "fit parameters of a plant to a measured experiment, with intervals");
+  add_experiment(*verb, *a);
+  verb->add_option("parameters", a->parameters,
+                   "youngs_modulus, density, damping_time, EFFECT.PARAMETER[@CURVE:AT] (free) or "
+                   "EFFECT.PARAMETER=VALUE[@CURVE:AT] (given)")
+      ->required();
+  add_experiment_options(
+      *verb, *a,
+      {"folder for fit.json and fitted.plant.yaml", "of the starts that are drawn",
+       "fit.json, and nothing else, on standard output"});
+  return [a] { return run(*a); };
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,193 @@
+#include "pedicel/app/verbs/observe.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/app/run/scene_plants.h"
+#include "pedicel/app/verbs/parallel_worlds.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/random.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/simulate/simulator.h"
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/output_folder.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/plant/effect_reader.h"
+#include "pedicel/world/scene_reader.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using discrepancy::Experiment;
+using discrepancy::Trial;
+
+Experiment read_experiment(const std::string& path) {
+  Diagnostics diagnostics;
+  auto experiment = discrepancy::read_experiment(path, diagnostics);
+  if (!experiment) throw InvalidFile(diagnostics);
+  return std::move(*experiment);
+}
+
+/// The one that is asked for; of a single one, that.
+const world::ScenePlant& plant_of(const world::Scene& scene, const std::string& name) {
+  std::string names;
+  for (const world::ScenePlant& plant : scene.plants) {
+    if (plant.name == name || (name.empty() && scene.plants.size() == 1)) return plant;
+    names += (names.empty() ? "" : ", ") + plant.name;
+  }
+  throw UsageError("observe " + scene.file.string() + ": " +
+                   (name.empty() ? "no single plant" : "no plant \"" + name + "\"") +
+                   ", expected --plant with one of: " + names);
+}
+
+/// A scene's plant as the scene changes it; where it stands and what touches it is the
+/// experiment's.
+plant::PlantFile scene_plant(const world::ScenePlant& wanted, Diagnostics& diagnostics) {
+  if (wanted.source == world::ScenePlant::Source::built_in)
+    throw UsageError("observe: plant \"" + wanted.name +
+                     "\" is built in, expected one that is read from a file");
+  std::optional<plant::PlantFile> plant = read_scene_plant(wanted, diagnostics);
+  if (!plant && !diagnostics.has_errors())
+    throw UsageError("observe: plant \"" + wanted.name + "\": " + wanted.file.string() +
+                     " is not there, expected a plant file or an MTG");
+  if (plant) apply_plant_overrides(*plant, wanted.set, diagnostics);
+  if (!plant || diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  return std::move(*plant);
+}
+
+/// The plant to simulate, in the place of the one that `experiment` has.
+void take_plant(const ObserveArguments& a, Experiment& experiment) {
+  const std::filesystem::path model = a.model;
+  Diagnostics diagnostics;
+  std::string format = "pedicel-experiment";
+  if (!std::filesystem::is_directory(model)) {
+    const io::YamlNode root = io::load_yaml(model, diagnostics);
+    format = root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
+  }
+  if (!a.plant.empty() && format != "pedicel-scene")
+    throw UsageError("--plant: " + a.model + " is no scene, expected *.scene.yaml");
+  if (format == "pedicel-experiment") {
+    Experiment other = read_experiment(a.model);
+    experiment.plant = std::move(other.plant);
+    experiment.plant_path = other.plant_path;
+  } else if (format == "pedicel-plant") {
+    auto plant = plant::read_plant_file(model, diagnostics);
+    if (!plant) throw InvalidFile(diagnostics);
+    experiment.plant = std::move(*plant);
+    experiment.plant_path = model;
+  } else if (format == "pedicel-scene") {
+    const std::optional<world::Scene> scene = world::read_scene(model, diagnostics);
+    if (!scene) throw InvalidFile(diagnostics);
+    const world::ScenePlant& wanted = plant_of(*scene, a.plant);
+    experiment.plant = scene_plant(wanted, diagnostics);
+    experiment.plant_path = source_of(wanted);
+  } else {
+    throw UsageError("observe " + a.model + ": format is \"" + format +
+                     "\", expected pedicel-plant, pedicel-scene or pedicel-experiment");
+  }
+}
+
+plant::Effect parse_effect(const std::string& text) {
+  Diagnostics diagnostics;
+  const io::YamlNode node = io::parse_yaml(text, "--set", diagnostics);
+  const bool named = node.is_map() && node.raw()["name"] && node.raw()["name"].IsScalar();
+  const effects::EffectDefinition* known =
+      named ? effects::find_effect(node.raw()["name"].Scalar()) : nullptr;
+  plant::Effect effect = plant::read_effect(node, known ? known->file : effects::EffectFile::plant);
+  if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
+  return effect;
+}
+
+// What was not measured is not observed either.
+void keep_gaps(const discrepancy::Samples& measured, Eigen::MatrixXd& predicted) {
+  predicted = measured.value.array().isNaN().select(measured.value, predicted);
+}
+
+void simulate(const ObserveArguments& a, Experiment& experiment) {
+  // Fruits come off by the plant's own thresholds, not when the other one's did.
+  for (Trial& trial : experiment.trials) trial.events.clear();
+  discrepancy::Variant variant;
+  for (const std::string& text : a.set) variant.effects.push_back(parse_effect(text));
+  discrepancy::Simulator simulator(experiment, {a.distance, a.dt}, a.threads);
+  std::vector<discrepancy::Simulator::Request> requests;
+  for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
+    requests.push_back({&variant, t});
+  std::vector<discrepancy::Prediction> found = simulator.run(requests);
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    Trial& trial = experiment.trials[t];
+    if (!found[t].healthy)
+      throw UnstableWorld("trial \"" + trial.name + "\" cannot be simulated: lower --dt");
+    keep_gaps(trial.markers, found[t].markers);
+    trial.markers.value = std::move(found[t].markers);
+    add_noise(trial.markers, a.noise_position, a.noise_colour, a.seed + 2 * t);
+    trial.events = std::move(found[t].events);
+    if (trial.force.size() == 0) continue;
+    keep_gaps(trial.force, found[t].force);
+    trial.force.value = std::move(found[t].force);
+    add_noise(trial.force, a.noise_force, a.noise_colour, a.seed + 2 * t + 1);
+  }
+}
+
+}  // namespace
+
+void add_observe_options(CLI::App& observe, ObserveArguments& a) {
+  observe.add_option("model", a.model, "plant file, or scene or experiment whose plant is meant")
+      ->required();
+  observe.add_option("--plant", a.plant, "name of the scene's plant, where it has several");
+  observe.add_option("--like", a.like, "experiment whose drives, markers and times are repeated")
+      ->required();
+  observe.add_option("--out", a.out, "folder to write")->required();
+  observe.add_option("--seed", a.seed, "of the noise");
+  observe.add_option("--noise-position", a.noise_position, "standard deviation, m")
+      ->check(CLI::NonNegativeNumber);
+  observe.add_option("--noise-force", a.noise_force, "standard deviation, N")
+      ->check(CLI::NonNegativeNumber);
+  observe
+      .add_option("--noise-colour", a.noise_colour, "correlation with the sample before (AR(1))")
+      ->check(CLI::Range(0.0, 0.999));
+  observe.add_option("--distance", a.distance, "between nodes, m")->check(CLI::Range(1e-4, 1.0));
+  const io::Bounds dt = world::scene_bounds("dt");
+  observe.add_option("--dt", a.dt, "time step, s")->check(CLI::Range(dt.minimum, dt.maximum));
+  observe.add_option("--threads", a.threads)->check(CLI::Range(1, 1024));
+  observe
+      .add_option(
+          "--set", a.set,
+          "an effect as in a file, \"{name: ..., ...}\": simulated, but not written; may be "
+          "repeated")
+      ->allow_extra_args(false);
+}
+
+int observe_verb(const ObserveArguments& a) {
+  Experiment experiment = read_experiment(a.like);
+  take_plant(a, experiment);
+  experiment.noise = {};
+  if (a.noise_position > 0.0) experiment.noise.position_std = a.noise_position;
+  if (a.noise_force > 0.0) experiment.noise.force_std = a.noise_force;
+  simulate(a, experiment);
+  stop_in_good_order();
+  const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {
+    discrepancy::write_experiment(in, experiment);
+  });
+  if (!replaced.empty()) std::fprintf(stderr, "%s\n", replaced.c_str());
+  std::fprintf(stderr, "written to %s\n", a.out.c_str());
+  return 0;
+}
+
+void add_noise(discrepancy::Samples& samples, double deviation, double colour, std::uint64_t seed) {
+  if (deviation == 0.0) return;
+  const double fresh = deviation * std::sqrt(1.0 - colour * colour);
+  for (int c = 0; c < samples.value.cols(); ++c) {
+    Random random(Random(seed * 1000 + static_cast<std::uint64_t>(c)).next());
+    double noise = deviation * random.normal();
+    for (int s = 0; s < samples.size(); ++s) {
+      samples.value(s, c) += noise;
+      noise = colour * noise + fresh * random.normal();
+    }
+  }
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "pedicel/app/report/headless.h"
+#include "pedicel/io/csv.h"
+
+namespace pedicel::app {
+
+/// Reads the table of `--param-sweep FILE.csv`: its columns are keys as of `--set`, each row is a
+/// run. Throws InvalidFile.
+io::CsvTable read_param_sweep(const std::filesystem::path& path);
+
+/// Runs a scene once for each row, into the folders run_001, run_002, ... of `options.out`, without
+/// video, and writes sweep.csv beside them: the row, the exit code of its run, what the scene
+/// expects something of, as measured. What is expected is not judged: that is of the scene's own
+/// values. Exit code 4 where a run is unstable. Throws UsageError for a key or a value that is
+/// impossible, before anything runs.
+RunResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
+                          const RunOptions& options);
+
+}  // namespace pedicel::app

@@ -1,0 +1,260 @@
+#include "pedicel/app/verbs/run_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "pedicel/app/run/verbosity.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/app/session/document/plant_import.h"
+#include "pedicel/core/check.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/bounds.h"
+#include "pedicel/world/scene_reader.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+std::optional<std::array<int, 2>> parse_size(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  std::array<int, 2> size{};
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size[0], &size[1], &rest) != 2 || size[0] < 16 ||
+      size[1] < 16 || size[0] > 8192 || size[1] > 8192)
+    throw UsageError("--size " + text + ": expected WxH in pixels, 16 to 8192 each (1280x720)");
+  return size;
+}
+
+}  // namespace
+
+namespace {
+
+void add_number(CLI::App& app, RunArguments& a, const std::string& option, const std::string& key,
+                const std::string& help) {
+  app.add_option_function<std::string>(
+         option, [&a, key](const std::string& text) { a.numbers.emplace_back(key, text); }, help)
+      ->type_name("NUMBER");
+}
+
+void add_table_options(CLI::App& app, RunArguments& a) {
+  app.add_option("--log", a.log, "a copy of log.csv there, at the end of the run");
+  app.add_option("--events", a.events, "a copy of events.csv there, at the end of the run");
+  app.add_option("--trajectory", a.trajectory,
+                 "joint positions over time (CSV) that the robot follows, in place of the scene's "
+                 "program");
+  app.add_option("--compare", a.compare,
+                 "measured values (CSV: time_s, and columns of the log); with --tolerance");
+  app.add_option("--tolerance", a.tolerance,
+                 "how far the log may be from them, in each column's unit; beyond: exit code 5");
+  app.add_option("--save-state", a.save_state, "the state at the end there, to go on from");
+  app.add_option(
+      "--load-state", a.load_state,
+      "goes on from a saved state of the same scene, to the same bits (its steps are done "
+      "again)");
+  app.add_option("--param-sweep", a.param_sweep,
+                 "a run for each row of a table (CSV) whose columns are keys of --set");
+}
+
+}  // namespace
+
+std::string RunArguments::number(const std::string& key) const {
+  const auto found = std::ranges::find(numbers, key, &std::pair<std::string, std::string>::first);
+  return found == numbers.end() ? "" : found->second;
+}
+
+bool RunArguments::asks_for_run() const {
+  const bool files = !out.empty() || !script.empty() || !log.empty() || !events.empty() ||
+                     !compare.empty() || !save_state.empty() || !load_state.empty() ||
+                     !param_sweep.empty() || !trajectory.empty();
+  return files || headless || json || quiet || print_scene || steps;
+}
+
+void add_run_options(CLI::App& app, RunArguments& a) {
+  app.add_option(
+      "--out", a.out,
+      "folder for everything that is written (default: out/<scene>); what an earlier run "
+      "wrote there is replaced, other files stay");
+  app.add_option("--set", a.set,
+                 "key=value: duration, dt, seed, threads, log_rate, rods.KEY, coupling.KEY, "
+                 "robot.gripper_force, plants.NAME.KEY, or a key of every plant such as "
+                 "detach.stretch; may be repeated")
+      ->allow_extra_args(false);
+  add_number(app, a, "--duration", "duration", "simulated time, s");
+  app.add_option("--steps", a.steps, "steps to do, in place of the duration");
+  add_number(app, a, "--dt", "dt", "time step, s");
+  add_number(app, a, "--seed", "seed", "seed of everything random");
+  add_number(app, a, "--threads", "threads", "threads for the plants");
+  add_number(app, a, "--log-rate", "log_rate", "rows a simulated second in log.csv, Hz");
+  add_table_options(app, a);
+  app.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--unit", a.unit,
+                 "of the lengths in a lone table or MTG: m, cm, mm or how many metres one is");
+  app.add_option("--fps", a.fps, "frames a simulated second of the video, Hz");
+  app.add_option("--size", a.size, "WxH of pictures and video, px");
+  app.add_option("--camera", a.camera,
+                 "of the scene's, for the video, the film and the picture (default: the scene's "
+                 "choice)");
+  app.add_flag("--no-video", a.no_video, "take no video");
+  app.add_flag("--no-pictures", a.no_pictures, "take neither pictures nor video");
+  app.add_flag("--no-sweep", a.no_sweep, "leave out the scene's sweep");
+  app.add_flag("--print-scene", a.print_scene,
+               "the scene with its defaults and these options as YAML on standard output, without "
+               "running it");
+  app.add_flag("--json", a.json, "the result as JSON on standard output");
+  app.add_flag("--quiet", a.quiet, "no progress, no start and end lines: as -v 2");
+  app.add_option("-v", a.verbosity,
+                 "0 nothing, 1 errors, 2 warnings, 3 start, end and progress, 4 every picture and "
+                 "break, too")
+      ->check(CLI::Range(0, 4));
+}
+
+namespace {
+
+/// A value that is the next option was forgotten, and of two tables in one file one would be lost.
+void check_files(const RunArguments& a) {
+  const std::pair<const char*, const std::string*> named[] = {{"--out", &a.out},
+                                                              {"--log", &a.log},
+                                                              {"--events", &a.events},
+                                                              {"--save-state", &a.save_state}};
+  for (const auto& [option, name] : named)
+    if (name->starts_with("--"))
+      throw UsageError(std::string(option) + ": found the option " + *name +
+                       ", expected a name (./" + *name + " where it is meant)");
+  for (const auto& [option, name] : named)
+    for (const auto& [other, same] : named)
+      if (option != other && !name->empty() && *name == *same)
+        throw UsageError(std::string(option) + " and " + other + ": both are " + *name +
+                         ", expected two names");
+}
+
+}  // namespace
+
+void check_run_arguments(const RunArguments& a) {
+  const auto set = [&](const std::string& key) {
+    return !a.number(key).empty() || std::ranges::any_of(a.set, [&](const std::string& one) {
+      return one.starts_with(key + "=");
+    });
+  };
+  for (std::size_t i = 0; i < a.numbers.size(); ++i)
+    for (const std::string& one : a.set)
+      if (one.starts_with(a.numbers[i].first + "="))
+        throw UsageError("--set " + one + ": " + a.numbers[i].first +
+                         " is given by its own option, too, expected one of them");
+  if (a.steps && set("duration"))
+    throw UsageError("--steps: the duration is given, too, expected one of them");
+  if (a.steps && *a.steps < 0)
+    throw UsageError("--steps " + std::to_string(*a.steps) + ": expected a whole number from 0 on");
+  if (a.compare.empty() != !a.tolerance)
+    throw UsageError("--compare and --tolerance: expected both or none");
+  if (a.tolerance && !(*a.tolerance >= 0.0 && std::isfinite(*a.tolerance)))
+    throw UsageError("--tolerance " + io::format_number(*a.tolerance) +
+                     ": expected a number from 0 on");
+  if (a.fps && !io::within(*a.fps, world::video_rates))
+    throw UsageError("--fps " + io::format_number(*a.fps) + ": expected " +
+                     io::bounds_text(world::video_rates) + " Hz");
+  check_files(a);
+  if (a.quiet && a.verbosity) throw UsageError("--quiet and -v: expected one of them");
+  if (!a.param_sweep.empty())
+    for (const auto& [option, given] : {std::pair{"--log", &a.log},
+                                        {"--events", &a.events},
+                                        {"--compare", &a.compare},
+                                        {"--save-state", &a.save_state},
+                                        {"--load-state", &a.load_state}})
+      if (!given->empty())
+        throw UsageError(std::string(option) +
+                         ": is of one run, expected it without --param-sweep");
+}
+
+namespace {
+
+/// With what the scene says of steps and duration in agreement.
+void apply_steps(const RunArguments& a, world::Scene& scene) {
+  if (!a.steps) return;
+  const double duration = static_cast<double>(*a.steps) * scene.dt;
+  const double most = world::scene_bounds("duration").maximum;
+  if (duration > most)
+    throw UsageError("--steps " + std::to_string(*a.steps) + ": are " +
+                     io::format_number(duration) + " s, expected at most " +
+                     io::format_number(most) + " s");
+  if (*a.steps > 0) scene.duration = std::max(duration, world::scene_bounds("duration").minimum);
+}
+
+void apply_trajectory(const RunArguments& a, world::Scene& scene) {
+  if (a.trajectory.empty()) return;
+  if (!scene.robot)
+    throw UsageError("--trajectory: the scene has no robot, expected one to follow it");
+  scene.robot->trajectory = a.trajectory;
+  scene.robot->waypoints.clear();
+}
+
+void apply_camera(const RunArguments& a, world::Scene& scene) {
+  if (a.camera.empty()) return;
+  std::string names;
+  for (const world::SceneCamera& camera : scene.cameras) {
+    if (camera.name == a.camera) scene.video.camera = a.camera;
+    names += (names.empty() ? "" : ", ") + camera.name;
+  }
+  if (scene.video.camera != a.camera)
+    throw UsageError("--camera " + a.camera + ": the scene has none of that name, expected " +
+                     (names.empty() ? "a scene with cameras" : "one of: " + names));
+}
+
+}  // namespace
+
+world::Scene load_scene(const RunArguments& a) {
+  Diagnostics diagnostics;
+  const double unit = unit_of_text(a.unit, "--unit");
+  if (unit > 0.0 && !is_lone_plant(a.scene))
+    throw UsageError(
+        "--unit: expected beside a table or an MTG; a scene says the unit of each of its "
+        "plants (unit: cm)");
+  std::optional<world::Scene> scene = is_lone_plant(a.scene)
+                                          ? scene_of(open_document(a.scene, unit, &diagnostics))
+                                          : world::read_scene(a.scene, diagnostics);
+  if (!scene) throw InvalidFile(diagnostics);
+  for (const Diagnostic& remark : diagnostics.all())
+    say(remark.severity == Severity::notice ? Verbosity::lines : Verbosity::warnings, "%s",
+        to_string(remark).c_str());
+  for (const auto& [key, text] : a.numbers) world::apply_override(*scene, key, text, "--");
+  for (const std::string& assignment : a.set) {
+    const auto [key, value] = world::split_assignment(assignment);
+    world::apply_override(*scene, key, value, "--set ");
+  }
+  apply_steps(a, *scene);
+  apply_trajectory(a, *scene);
+  apply_camera(a, *scene);
+  if (a.fps) scene->video.fps = *a.fps;
+  if (const auto size = parse_size(a.size)) scene->video.size = *size;
+  if (a.no_sweep) {
+    scene->sweep.reset();
+    std::erase_if(scene->expectations, [](const auto& e) { return e.over_sweep(); });
+  }
+  return std::move(*scene);
+}
+
+RunOptions run_options(const RunArguments& a) {
+  RunOptions options;
+  options.simulation.packages = a.packages;
+  options.simulation.leaf_folders = asset_leaf_folders();
+  options.out = a.out;
+  if (options.out.empty()) options.out = std::filesystem::path("out") / io::name_of_file(a.scene);
+  options.log = a.log;
+  options.events = a.events;
+  options.steps = a.steps;
+  options.save_state = a.save_state;
+  options.load_state = a.load_state;
+  if (a.tolerance)
+    options.comparison_with = ComparisonRequest{read_measured(a.compare), *a.tolerance};
+  options.pictures = !a.no_pictures;
+  options.video = !a.no_video;
+  options.fps = a.fps;
+  options.size = parse_size(a.size);
+  options.quiet = a.quiet;
+  return options;
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pedicel/app/report/headless.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pedicel::app {
+
+/// What the command line says of a run; names as in the options.
+struct RunArguments {
+  std::string scene, script, out, size, camera, unit;
+  std::string log, events, trajectory, compare, save_state, load_state, param_sweep;
+  std::vector<std::string> set, packages;
+  /// duration, dt, log_rate, seed, threads as they were typed: the same run as by `--set`.
+  std::vector<std::pair<std::string, std::string>> numbers;
+  std::optional<double> fps, tolerance;
+  std::optional<long> steps;
+  std::optional<int> verbosity;
+  bool headless = false, json = false, quiet = false, no_video = false, no_pictures = false,
+       no_sweep = false, print_scene = false;
+
+  /// Of `numbers`; empty where it was not given.
+  std::string number(const std::string& key) const;
+  /// Whether there is something that only a run off screen does.
+  bool asks_for_run() const;
+};
+
+void add_run_options(CLI::App& app, RunArguments& a);
+
+/// Refuses options that exclude each other, and applies those that count for the whole program.
+/// Throws UsageError.
+void check_run_arguments(const RunArguments& a);
+
+/// Reads the scene and applies the options to it; warnings go to standard error. Throws InvalidFile
+/// and UsageError.
+world::Scene load_scene(const RunArguments& a);
+
+/// Throws UsageError for a size that is none, and InvalidFile for measured data that are none.
+RunOptions run_options(const RunArguments& a);
+
+}  // namespace pedicel::app

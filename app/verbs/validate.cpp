@@ -1,0 +1,266 @@
+#include "pedicel/app/verbs/validate.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+
+#include "pedicel/app/run/large_plant.h"
+#include "pedicel/app/run/mesh_fields.h"
+#include "pedicel/app/run/simulation.h"
+#include "pedicel/app/session/document/document.h"
+#include "pedicel/app/verbs/validate_tables.h"
+#include "pedicel/discrepancy/admission/admission.h"
+#include "pedicel/geometry/mesh.h"
+#include "pedicel/io/text_file.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/plant/leaf_template.h"
+#include "pedicel/plant/plant_builder.h"
+#include "pedicel/skeleton/plant_source.h"
+#include "pedicel/urdf/urdf_reader.h"
+#include "pedicel/world/scene_reader.h"
+
+namespace pedicel::app {
+
+namespace {
+
+struct Options {
+  const std::vector<std::string>& packages;
+  double unit = 0.0;  ///< m, of the lengths in tables and MTGs; 0: as they say
+};
+
+/// Reads one kind of file; faults go to the diagnostics, or come as InvalidFile. What is worth
+/// knowing of a good one comes back.
+struct Kind {
+  const char* format;     ///< of `format:`; empty: none
+  const char* extension;  ///< empty: none of its own
+  const char* name;
+  std::string (*check)(const std::filesystem::path&, const Options&, Diagnostics&);
+};
+
+// Built, as a scene would.
+std::string check_built(const std::optional<plant::PlantFile>& file,
+                        const std::filesystem::path& path, Diagnostics& diagnostics) {
+  if (!file) return {};
+  plant::BuildOptions options;
+  options.leaf_folders = {path.parent_path(), path.parent_path() / "../assets/leaves"};
+  for (const std::filesystem::path& folder : asset_leaf_folders())
+    options.leaf_folders.push_back(folder);
+  say_if_large(*file);
+  const auto built = plant::build_plant(*file, options, diagnostics);
+  return built ? plant::residual_text(*built) : "";
+}
+
+std::string check_plant(const std::filesystem::path& path, const Options&,
+                        Diagnostics& diagnostics) {
+  return check_built(plant::read_plant_file(path, diagnostics), path, diagnostics);
+}
+
+std::string check_source(const std::filesystem::path& path, plant::SourceKind kind,
+                         const Options& options, Diagnostics& diagnostics) {
+  return check_built(plant::read_plant_source(path, options.unit, diagnostics, kind), path,
+                     diagnostics);
+}
+
+std::string check_mtg(const std::filesystem::path& path, const Options& options,
+                      Diagnostics& diagnostics) {
+  return check_source(path, plant::SourceKind::mtg, options, diagnostics);
+}
+
+std::string check_leaf(const std::filesystem::path& path, const Options&,
+                       Diagnostics& diagnostics) {
+  plant::read_leaf_template(path, diagnostics);
+  return {};
+}
+
+/// What a run would say ("FILE:LINE: warning: ...") as a warning.
+void warn(const std::string& note, Diagnostics& diagnostics) {
+  static const std::string mark = ": warning: ";
+  const std::size_t at = note.find(mark);
+  if (at == std::string::npos)
+    diagnostics.warning({}, note);
+  else
+    diagnostics.warning({note.substr(0, at)}, note.substr(at + mark.size()));
+}
+
+std::string check_scene(const std::filesystem::path& path, const Options& given,
+                        Diagnostics& diagnostics) {
+  const std::optional<world::Scene> scene = world::read_scene(path, diagnostics);
+  if (!scene) return {};
+  SimulationOptions options;
+  options.packages = given.packages;
+  options.leaf_folders = asset_leaf_folders();
+  // Builds everything that the scene names, and runs none of it.
+  const Simulation simulation(*scene, options);
+  for (const std::string& note : simulation.notes()) warn(note, diagnostics);
+  return simulation.worst_residual();
+}
+
+// The plant is built, too.
+std::string check_experiment(const std::filesystem::path& path, const Options& given,
+                             Diagnostics& diagnostics) {
+  const auto experiment = discrepancy::read_experiment(path, diagnostics);
+  if (!experiment) return {};
+  check_plant(experiment->plant_path, given, diagnostics);
+  // What a diagnosis would refuse.
+  discrepancy::add_refusal(diagnostics, discrepancy::admit(*experiment));
+  int samples = 0;
+  for (const discrepancy::Trial& trial : experiment->trials) samples += trial.markers.size();
+  return std::to_string(experiment->trials.size()) + " trials, " +
+         std::to_string(experiment->markers.size()) + " markers, " + std::to_string(samples) +
+         " samples";
+}
+
+std::string check_urdf(const std::filesystem::path& path, const Options& given,
+                       Diagnostics& diagnostics) {
+  robot::PackagePaths paths = robot::PackagePaths::from_environment();
+  for (const std::string& package : given.packages) paths.add(package);
+  const auto robot = robot::read_urdf(path, paths, diagnostics);
+  if (!robot) return {};
+  for (std::string& warning : large_mesh_warnings(*robot))
+    diagnostics.warning({path.string()}, std::move(warning));
+  return {};
+}
+
+std::string check_mesh(const std::filesystem::path& path, const Options&, Diagnostics&) {
+  return std::to_string(geometry::load_mesh(path).triangles.size()) + " triangles";
+}
+
+std::string check_commands(const std::filesystem::path& path, const Options&,
+                           Diagnostics& diagnostics) {
+  return check_script(path, diagnostics);
+}
+
+template <TableKind kind>
+std::string check_table_of(const std::filesystem::path& path, const Options& options,
+                           Diagnostics& diagnostics) {
+  if constexpr (kind == TableKind::skeleton || kind == TableKind::cylinders)
+    return check_source(path, plant::SourceKind::skeleton_table, options, diagnostics);
+  return check_table(path, kind, diagnostics);
+}
+
+template <TableKind kind>
+Kind table() {
+  return {"", "", name_of(kind), check_table_of<kind>};
+}
+
+constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
+                              Kind{"pedicel-experiment", "", "experiment", check_experiment},
+                              Kind{"pedicel-scene", "", "scene", check_scene},
+                              Kind{"pedicel-leaf", "", "leaf template", check_leaf},
+                              Kind{"", ".urdf", "robot", check_urdf},
+                              Kind{"", ".mtg", "digitised plant", check_mtg},
+                              Kind{"", ".stl", "mesh", check_mesh},
+                              Kind{"", ".obj", "mesh", check_mesh},
+                              Kind{"", ".dae", "mesh", check_mesh},
+                              Kind{"", ".gltf", "mesh", check_mesh},
+                              Kind{"", ".glb", "mesh", check_mesh}};
+
+Kind kind_of_table(TableKind kind) {
+  switch (kind) {
+    case TableKind::skeleton:
+      return table<TableKind::skeleton>();
+    case TableKind::cylinders:
+      return table<TableKind::cylinders>();
+    case TableKind::markers:
+      return table<TableKind::markers>();
+    case TableKind::path:
+      return table<TableKind::path>();
+    case TableKind::force:
+      return table<TableKind::force>();
+    case TableKind::events:
+      return table<TableKind::events>();
+    case TableKind::trajectory:
+      return table<TableKind::trajectory>();
+    case TableKind::unknown:
+      break;
+  }
+  return table<TableKind::unknown>();
+}
+
+std::string expected_kinds() {
+  std::string list;
+  for (const Kind& kind : kinds)
+    list += std::string(list.empty() ? "" : ", ") + (*kind.format ? kind.format : kind.extension);
+  return list + ", a table (.csv) or a script of commands";
+}
+
+/// What `format:` says; empty where the file is no YAML map that has it.
+std::string format_of(const std::filesystem::path& path) {
+  Diagnostics unused;
+  const io::YamlNode root = io::load_yaml(path, unused);
+  if (!root.is_map()) return {};
+  const YAML::Node format = root.raw()["format"];
+  return format.IsDefined() && format.IsScalar() ? format.Scalar() : std::string{};
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+/// By what the text begins with, where the name does not tell.
+std::optional<Kind> kind_of_text(const std::filesystem::path& path, const std::string& extension) {
+  const std::string text = io::read_text_file(path);
+  const std::string_view begin =
+      std::string_view(text).substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (begin.starts_with("<?xml") || begin.starts_with("<robot"))
+    return Kind{"", "", "robot", check_urdf};
+  if (text.find("\nMTG") != std::string::npos && text.find("CODE") != std::string::npos)
+    return Kind{"", "", "digitised plant", check_mtg};
+  if (const auto table = table_kind(path)) return kind_of_table(*table);
+  if (extension == ".csv") return kind_of_table(TableKind::unknown);
+  if (is_script(path)) return Kind{"", "", "script", check_commands};
+  return std::nullopt;
+}
+
+Kind kind_of(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return kind_of(path / "experiment.yaml");
+  const std::string extension = lower_extension(path);
+  for (const Kind& kind : kinds)
+    if (*kind.extension && extension == kind.extension) return kind;
+  if (extension == ".yaml" || extension == ".yml") {
+    const std::string format = format_of(path);
+    for (const Kind& kind : kinds)
+      if (*kind.format && format == kind.format) return kind;
+  } else if (const auto kind = kind_of_text(path, extension)) {
+    return *kind;
+  }
+  throw InvalidFile({path.string()},
+                    "kind of file is unknown, expected one of: " + expected_kinds());
+}
+
+void write_lines(const std::string& lines, std::ostream& out) {
+  if (!lines.empty()) out << lines << "\n";
+}
+
+/// True where the file is good.
+bool validate(const std::filesystem::path& path, const Options& options, std::ostream& out) {
+  Diagnostics diagnostics;
+  try {
+    const Kind& kind = kind_of(path);
+    const std::string known = kind.check(path, options, diagnostics);
+    write_lines(diagnostics.text(), out);
+    if (!diagnostics.has_errors())
+      out << path.string() << ": " << kind.name << ", good" << (known.empty() ? "" : "; ") << known
+          << "\n";
+  } catch (const InvalidFile& error) {
+    write_lines(diagnostics.text(), out);
+    write_lines(error.what(), out);
+    return false;
+  }
+  return !diagnostics.has_errors();
+}
+
+}  // namespace
+
+int validate_files(const std::vector<std::string>& files, const std::vector<std::string>& packages,
+                   std::ostream& out, double unit) {
+  bool good = true;
+  for (const std::string& file : files) good = validate(file, {packages, unit}, out) && good;
+  return good ? 0 : 3;
+}
+
+}  // namespace pedicel::app

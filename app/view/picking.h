@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "pedicel/app/session/live/draw_surface.h"
+#include "pedicel/app/session/live/snapshot.h"
+#include "pedicel/app/ui/view_state.h"
+#include "pedicel/app/view/rigid_shapes.h"
+#include "pedicel/render/camera.h"
+
+namespace pedicel::app {
+
+/// What a ray hits first, as it is drawn now (a stroke's depth on planes and surfaces is the
+/// session's: draw_surface.h; places on stems as they are drawn in the file: plant_pick.h). A stem
+/// may be missed by `slack` (rad, as seen from the eye), so that thin ones can be met; a leaf is
+/// met at its rods and blades. Another part of a plant that is hit squarely is preferred to one
+/// that is missed. Nothing hit: kind none, and `place_W` is where the ray meets the ground, or at
+/// the target's depth.
+Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render::Ray& ray,
+               double slack);
+
+/// Distances along a ray (unit direction); negative where it misses.
+double hit_sphere(const render::Ray& ray, const Vec3& centre, double radius);
+/// A capsule's axis nearest to the ray: `along` is the fraction from `a` to `b`, `gap` the distance
+/// between the ray and the axis (m), `distance` along the ray (m).
+struct NearAxis {
+  double along = 0.0, gap = 0.0, distance = 0.0;
+};
+NearAxis near_axis(const render::Ray& ray, const Vec3& a, const Vec3& b);
+/// Moeller and Trumbore 1997; negative where it misses.
+double hit_triangle(const render::Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c);
+/// The same ray for the session's planes and surfaces (draw_surface.h).
+Ray ray_of(const render::Ray& ray);
+
+}  // namespace pedicel::app

@@ -1,0 +1,268 @@
+#include "pedicel/cosserat/contact/shape_motion.h"
+
+#include <algorithm>
+#include <limits>
+
+// Compiled once for each instruction set, as lane_kernels.cpp is.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pedicel/cosserat/contact/shape_motion.cpp"
+// clang-format off: foreach_target.h includes this file again and must come first.
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+// clang-format on
+
+#include "pedicel/cosserat/contact/capsule_lanes-inl.h"
+
+#ifndef PEDICEL_COSSERAT_SHAPE_MOTION
+#define PEDICEL_COSSERAT_SHAPE_MOTION
+namespace pedicel::cosserat {
+using EndsRow = ShapeMotion::EndsRow;
+using Limits = ShapeMotion::Limits;
+using Places = ShapeMotion::Places;
+}  // namespace pedicel::cosserat
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace pedicel::cosserat {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE V load_at(const std::vector<float>& values, std::size_t i) {
+  return hn::PromoteTo(D(), hn::LoadU(hn::Rebind<float, D>(), &values[i]));
+}
+HWY_INLINE void store_at(V x, std::vector<float>& values, std::size_t i) {
+  const hn::Rebind<float, D> d;
+  hn::StoreU(hn::DemoteTo(d, x), d, &values[i]);
+}
+
+struct AxisEnds {
+  V3 near, far;
+};
+
+HWY_INLINE AxisEnds operator+(const AxisEnds& a, const AxisEnds& b) {
+  return {a.near + b.near, a.far + b.far};
+}
+HWY_INLINE AxisEnds operator-(const AxisEnds& a, const AxisEnds& b) {
+  return {a.near - b.near, a.far - b.far};
+}
+
+// The farther end's.
+HWY_INLINE V longest(const AxisEnds& moved) {
+  return hn::Sqrt(hn::Max(dot(moved.near, moved.near), dot(moved.far, moved.far)));
+}
+
+HWY_INLINE V3 load3(const float (*p)[lane_count], int lane) {
+  return {load(p[0] + lane), load(p[1] + lane), load(p[2] + lane)};
+}
+HWY_INLINE void store3(const V3& v, float (*p)[lane_count], int lane) {
+  store(v.x, p[0] + lane);
+  store(v.y, p[1] + lane);
+  store(v.z, p[2] + lane);
+}
+HWY_INLINE AxisEnds load_ends(const std::vector<EndsRow>& rows, std::size_t i) {
+  const EndsRow& row = rows[i / lane_count];
+  const int lane = i % lane_count;
+  return {load3(row.near, lane), load3(row.far, lane)};
+}
+HWY_INLINE void store_ends(const AxisEnds& ends, std::vector<EndsRow>& rows, std::size_t i) {
+  EndsRow& row = rows[i / lane_count];
+  const int lane = i % lane_count;
+  store3(ends.near, row.near, lane);
+  store3(ends.far, row.far, lane);
+}
+
+HWY_INLINE Ends load_all(const Capsules& capsules, std::size_t i) {
+  return transposed([&](int k, int place) { return load_row(capsules[i + k], place); });
+}
+
+HWY_INLINE AxisEnds axis_of(const Ends& all) {
+  return {all.near, all.far};
+}
+
+HWY_INLINE void store_capsules(const AxisEnds& ends, const Ends& radii, Capsules& capsules,
+                               std::size_t i) {
+  V all[fields] = {ends.near.x, ends.near.y, ends.near.z, radii.radius_near,
+                   ends.far.x,  ends.far.y,  ends.far.z,  radii.radius_far};
+  for (int place = 0; place < fields; place += width) {
+    transpose(all + place);
+    for (int k = 0; k < width; ++k) store(all[place + k], capsules[i + k].near + place);
+  }
+}
+
+struct Poses {
+  V3 position;
+  Q orientation;
+};
+
+// Of the elements that carry the shapes from i on; beyond the last shape that one's again.
+HWY_INLINE Poses poses_of(const RodModel& model, const RodState& state, std::size_t stems,
+                          std::size_t i) {
+  Poses out;
+  const D d;
+  if (i + width <= stems) {
+    hn::LoadInterleaved3(d, state.position[i].data(), out.position.x, out.position.y,
+                         out.position.z);
+    hn::LoadInterleaved4(d, state.orientation[i].coeffs().data(), out.orientation.x,
+                         out.orientation.y, out.orientation.z, out.orientation.w);
+    return out;
+  }
+  alignas(64) double lanes[7][width];
+  for (std::size_t k = 0; k < width; ++k) {
+    const int e = model.shapes[std::min(i + k, model.shapes.size() - 1)].element;
+    for (int j = 0; j < 3; ++j) lanes[j][k] = state.position[e][j];
+    for (int j = 0; j < 4; ++j) lanes[3 + j][k] = state.orientation[e].coeffs()[j];
+  }
+  out.position = {load(lanes[0]), load(lanes[1]), load(lanes[2])};
+  out.orientation = {load(lanes[3]), load(lanes[4]), load(lanes[5]), load(lanes[6])};
+  return out;
+}
+
+HWY_INLINE AxisEnds place(const Places& places, const RodModel& model, const RodState& state,
+                          std::size_t i) {
+  const Poses poses = poses_of(model, state, places.stems, i);
+  const V3 axis = axis3(poses.orientation);
+  return {less_scaled(poses.position, load_at(places.back_near, i), axis),
+          less_scaled(poses.position, load_at(places.back_far, i), axis)};
+}
+
+HWY_INLINE V minimum(V bound, V x) {
+  return hn::IfThenElse(x < bound, x, bound);
+}
+
+HWY_INLINE void begin_step(const Places& places, const RodModel& model, const RodState& state,
+                           std::size_t i, const ShapeMotion::Arrays& out) {
+  const Ends before = load_all(out.start, i);
+  const AxisEnds ends = place(places, model, state, i);
+  const AxisEnds unexpected = ends - axis_of(before) - load_ends(out.course, i);
+  store_ends(load_ends(out.astray, i) + unexpected, out.astray, i);
+  store_capsules(ends, before, out.start, i);
+}
+
+void Look(const Places& places, const Limits& limits, const RodModel& model, const RodState* begins,
+          const RodState& state, std::size_t first, std::size_t end, const ShapeMotion::Arrays& out,
+          ShapeMotion::Astray& astray) {
+  for (std::size_t i = first; i < end; i += width) {
+    if (begins) begin_step(places, model, *begins, i, out);
+    const Ends start = load_all(out.start, i);
+    const AxisEnds now = place(places, model, state, i);
+    store_capsules(now, start, out.now, i);
+    const AxisEnds moved = now - axis_of(start);
+    store_ends(moved, out.looked, i);
+    const V way = minimum(set(limits.most), longest(moved));
+    const V budget = hn::MulAdd(set(limits.slack), way, set(limits.margin));
+    const AxisEnds unexpected = moved - load_ends(out.course, i);
+    const V reach = longest(load_ends(out.astray, i) + unexpected) +
+                    minimum(set(limits.most), longest(unexpected)) + (budget + budget);
+    store_at(way, out.way, i);
+    store_at(budget, out.near_budget, i);
+    store_at(reach, out.reach, i);
+    const std::size_t shapes = model.shapes.size() - std::min(i, model.shapes.size());
+    const M astray_here =
+        hn::And(hn::Not(reach <= load_at(out.far_budget, i)), hn::FirstN(D(), shapes));
+    if (hn::AllFalse(D(), astray_here)) continue;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(D(), astray_here, bits);
+    for (unsigned left = bits[0]; left != 0; left &= left - 1)
+      astray.add(static_cast<int>(i) + __builtin_ctz(left));
+  }
+}
+
+bool LookAgain(const Places& places, const RodModel& model, const RodState& state,
+               std::size_t first, std::size_t end, const ShapeMotion::Arrays& out) {
+  M holds = hn::FirstN(D(), width);
+  for (std::size_t i = first; i < end; i += width) {
+    const Ends start = load_all(out.start, i);
+    const AxisEnds now = place(places, model, state, i);
+    store_capsules(now, start, out.now, i);
+    const V moved = longest(now - axis_of(start) - load_ends(out.looked, i));
+    holds = hn::And(holds, moved <= load_at(out.near_budget, i));
+  }
+  return hn::AllTrue(D(), holds);
+}
+
+void RestartFar(const Limits& limits, std::size_t first, std::size_t end, bool on_course,
+                const ShapeMotion::Arrays& out) {
+  const V least = set(limits.skin + 2.0 * limits.margin), zero = set(0.0);
+  const AxisEnds nothing{{zero, zero, zero}, {zero, zero, zero}};
+  for (std::size_t i = first; i < end; i += width) {
+    const AxisEnds moved = load_ends(out.looked, i);
+    store_ends(on_course ? moved : nothing, out.course, i);
+    store_ends(on_course ? nothing : nothing - moved, out.astray, i);
+    const V budget = load_at(out.near_budget, i);
+    store_at(budget + budget, out.reach, i);
+    store_at(hn::MulAdd(set(limits.astray), load_at(out.way, i), least), out.far_budget, i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pedicel::cosserat
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pedicel::cosserat {
+
+HWY_EXPORT(Look);
+HWY_EXPORT(LookAgain);
+HWY_EXPORT(RestartFar);
+
+ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
+    : count_(model.shapes.size()), limits_(limits) {
+  const std::size_t room = (count_ + lane_count - 1) / lane_count * lane_count;
+  start_.resize(room);
+  now_.resize(room);
+  course_.resize(room / lane_count);
+  astray_.resize(room / lane_count);
+  looked_.resize(room / lane_count);
+  for (std::vector<float>* values :
+       {&places_.back_near, &places_.back_far, &way_, &reach_, &near_budget_, &far_budget_})
+    values->assign(room, 0.0F);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const CollisionShape& shape = model.shapes[i];
+    start_[i].radius_near = shape.radius_near;
+    start_[i].radius_far = shape.radius_far;
+    places_.back_near[i] = static_cast<float>(shape.back_near);
+    places_.back_far[i] = static_cast<float>(shape.back_far);
+    if (places_.stems == i && shape.element == static_cast<int>(i)) ++places_.stems;
+  }
+  const RodState drawn = drawn_state(model);
+  Astray astray;
+  look(model, &drawn, drawn, 0, room, astray);
+  restart_far(0, room, false);
+}
+
+ShapeMotion::Arrays ShapeMotion::arrays() {
+  return {start_, now_, course_, astray_, looked_, way_, reach_, near_budget_, far_budget_};
+}
+
+void ShapeMotion::look(const RodModel& model, const RodState* begins, const RodState& iterate,
+                       std::size_t first, std::size_t end, Astray& astray) {
+  HWY_DYNAMIC_DISPATCH(Look)
+  (places_, limits_, model, begins, iterate, first, end, arrays(), astray);
+}
+
+bool ShapeMotion::look_again(const RodModel& model, const RodState& iterate, std::size_t first,
+                             std::size_t end) {
+  return HWY_DYNAMIC_DISPATCH(LookAgain)(places_, model, iterate, first, end, arrays());
+}
+
+void ShapeMotion::restart_far(std::size_t shape, bool on_course, double times) {
+  const std::size_t row = shape / lane_count, lane = shape % lane_count;
+  const auto restart = [&](const float(&looked)[3][lane_count], float(&course)[3][lane_count],
+                           float(&astray)[3][lane_count]) {
+    for (int k = 0; k < 3; ++k) {
+      course[k][lane] = on_course ? looked[k][lane] : 0.0F;
+      astray[k][lane] = on_course ? 0.0F : -looked[k][lane];
+    }
+  };
+  restart(looked_[row].near, course_[row].near, astray_[row].near);
+  restart(looked_[row].far, course_[row].far, astray_[row].far);
+  far_budget_[shape] = static_cast<float>(
+      times * (limits_.skin + 2.0 * limits_.margin + limits_.astray * way_[shape]));
+}
+
+void ShapeMotion::restart_far(std::size_t first, std::size_t end, bool on_course) {
+  HWY_DYNAMIC_DISPATCH(RestartFar)(limits_, first, end, on_course, arrays());
+}
+
+}  // namespace pedicel::cosserat
+#endif

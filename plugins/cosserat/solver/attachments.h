@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pedicel/cosserat/lanes/diagonal_blocks.h"
+#include "pedicel/cosserat/model/rod_state.h"
+#include "pedicel/cosserat/solver/rod_solver.h"
+
+namespace pedicel::cosserat {
+
+/// Loads, supports and welds of one plant as terms of the incremental potential of a step.
+class Attachments {
+ public:
+  /// The step starts at `start`: there loads have done no work.
+  void prepare(const RodState& start, std::span<const Load> loads);
+
+  /// Adds gradient (negative, as right side) and Hessian at `state`, without what a weld couples;
+  /// returns the potential (J). `state` becomes the one from which dead moments count their work.
+  double linearise(const RodModel& model, const RodState& state, DiagonalBlocks& blocks);
+
+  /// The potential at `state`.
+  double potential(const RodModel& model, const RodState& state) const;
+
+ private:
+  void refer_moments_to(const RodState& state);
+  double sum(const RodModel& model, const RodState& state, DiagonalBlocks* blocks) const;
+  double load(const RodState& state, int index, DiagonalBlocks* blocks) const;
+  double support(const RodState& state, const Support& support, DiagonalBlocks* blocks) const;
+  double weld(const RodState& state, const Weld& weld, DiagonalBlocks* blocks) const;
+
+  const RodState* start_ = nullptr;
+  std::span<const Load> loads_;
+  std::vector<Quat> moment_reference_;  // E to W, one a load: where its moment has done no work
+};
+
+/// What a weld couples: rows of its element b, columns of its a.
+Mat6 weld_coupling(const RodState& state, const Weld& weld);
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,350 @@
+#include "pedicel/cosserat/solver/contact_terms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "pedicel/core/check.h"
+#include "pedicel/cosserat/lanes/lane_access.h"
+
+namespace pedicel::cosserat {
+
+namespace {
+
+constexpr std::size_t stretch_length = 2;  // rows of contacts that a thread takes at a time
+constexpr std::size_t worth_waking = 2;    // stretches, a thread
+constexpr double same_place = 1.0e-6;      // m
+
+}  // namespace
+
+// task(first, end) for stretches of all rows, perhaps at once. Their length does not depend on the
+// number of threads, and a thread gets the same ones each time, which lie in its core's cache.
+template <class Task>
+void ContactTerms::for_each_stretch(const Task& task) const {
+  const std::size_t count = rows_.size();
+  const std::size_t stretches = (count + stretch_length - 1) / stretch_length;
+  const int parts = loop_.parts(stretches, worth_waking);
+  loop_.each(parts, [&](int part) {
+    const std::size_t end = stretches * (part + 1) / parts * stretch_length;
+    for (std::size_t i = stretches * part / parts * stretch_length; i < std::min(count, end);
+         i += stretch_length)
+      task(i, std::min(count, i + stretch_length));
+  });
+}
+
+// Which the stretch after the next one needs, from `end` of this one on, and another core may have
+// moved: in its turn it would wait for them.
+void ContactTerms::fetch_poses(std::size_t end, const RodState& state) const {
+  const std::size_t first = end + stretch_length;
+  for (std::size_t i = first; i < std::min(rows_.size(), first + stretch_length); ++i)
+    for (const std::int64_t element : rows_[i].element) {
+      __builtin_prefetch(&state.position[element]);
+      __builtin_prefetch(&state.orientation[element]);
+    }
+}
+
+void ContactTerms::find(const RodModel& model, const RodState& start, const RodState& iterate,
+                        double dt, std::span<ContactSource* const> sources) {
+  found_.clear();
+  report({});
+  for (ContactSource* source : sources)
+    if (source->is_within_plant()) source->find_lists(model, iterate, dt, found_);
+  sides_ = found_.size();
+  driver_ = nullptr;
+  driven_ = {};
+  for (ContactSource* source : sources) {
+    if (source->is_within_plant()) continue;
+    const std::size_t first = found_.size();
+    source->find_lists(model, iterate, dt, found_);
+    if (!source->drives().empty()) list_driven(*source, first);
+  }
+  share_gives();
+  move_drives();
+  make_rows(model);
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first * lane_count; i < std::min(found_.size(), end * lane_count); ++i)
+      put(i, model);
+    place_contacts(stretch(first, end), start, iterate);
+    push(first, end, iterate);
+  });
+  sum_energy();
+  blocks_stay_ = false;
+}
+
+// Contacts that push one collider together move it together: each one counts the others' share as
+// if they carried what it carries.
+void ContactTerms::share_gives() {
+  const auto pushes = [](const ContactPoint& point) { return point.gap < point.margin; };
+  const std::size_t count = found_.size();
+  gives_.assign(count, 0.0);
+  for (std::size_t i = sides_; i < count; ++i) {
+    const ContactPoint& own = found_[i];
+    if (own.give <= 0.0) continue;
+    int together = pushes(own) ? 0 : 1;
+    for (std::size_t k = 0; k < count; ++k)
+      together += pushes(found_[k]) && found_[k].collider == own.collider;
+    gives_[i] = together * own.give;
+  }
+}
+
+void ContactTerms::list_driven(ContactSource& source, std::size_t first) {
+  PEDICEL_ASSERT(driver_ == nullptr);
+  driver_ = &source;
+  first_driven_ = first;
+  driven_ = source.driven();
+  stands_.clear();
+  for (const ContactDrive& drive : source.drives()) stands_.push_back({drive.aim, 0.0});
+}
+
+// To where each of them stands with the plant at the iterate.
+void ContactTerms::move_drives() {
+  for (std::size_t d = 0; driver_ && d < stands_.size(); ++d) {
+    loads_.clear();
+    for (std::size_t i = 0; i < driven_.size(); ++i) {
+      if (driven_[i].drive != static_cast<int>(d)) continue;
+      const std::size_t contact = first_driven_ + i;
+      const ContactPoint& point = found_[contact];
+      loads_.push_back(
+          {driven_[i].lever, series_stiffness(contact, point), point.margin - point.gap});
+    }
+    if (!loads_.empty()) stands_[d].position = stand(driver_->drives()[d], loads_);
+  }
+}
+
+// Null where no joint presses the contact's collider.
+const DrivenContact* ContactTerms::driven(std::size_t contact) const {
+  if (contact < first_driven_ || contact - first_driven_ >= driven_.size()) return nullptr;
+  const DrivenContact& driven = driven_[contact - first_driven_];
+  return driven.drive >= 0 ? &driven : nullptr;
+}
+
+// m: how much nearer the collider is than it was where the contact was found.
+double ContactTerms::nearer(const DrivenContact& driven) const {
+  return driven.lever *
+         (stands_[driven.drive].position - driver_->drives()[driven.drive].reference);
+}
+
+// The joints follow to where the step ended, so that none presses with more than it can.
+void ContactTerms::end_drives() {
+  for (std::size_t d = 0; d < stands_.size(); ++d) {
+    loads_.clear();
+    for (std::size_t i = 0; i < driven_.size(); ++i)
+      if (driven_[i].drive == static_cast<int>(d))
+        loads_.push_back(load_at_end(first_driven_ + i, driven_[i]));
+    if (loads_.empty()) continue;
+    const ContactDrive& drive = driver_->drives()[d];
+    stands_[d].position = stand(drive, loads_);
+    stands_[d].load = load_at(drive, loads_, stands_[d].position);
+    std::size_t load = 0;
+    for (std::size_t i = 0; i < driven_.size(); ++i)
+      if (driven_[i].drive == static_cast<int>(d))
+        press_at_end(first_driven_ + i, driven_[i], loads_[load++]);
+  }
+  driver_->end_drives(stands_);
+}
+
+DriveLoad ContactTerms::load_at_end(std::size_t contact, const DrivenContact& driven) const {
+  const ContactRow& row = rows_[contact / lane_count];
+  const int lane = static_cast<int>(contact % lane_count);
+  const Vec3 move = vector_at(ends_[contact / lane_count].place, lane) - vector_at(row.place, lane);
+  const double overlap =
+      row.margin[lane] - found_[contact].gap - vector_at(row.normal, lane).dot(move);
+  return {driven.lever, row.stiffness[lane], overlap};
+}
+
+void ContactTerms::press_at_end(std::size_t contact, const DrivenContact& driven,
+                                const DriveLoad& load) {
+  const int lane = static_cast<int>(contact % lane_count);
+  rows_[contact / lane_count].gap[lane] = found_[contact].gap - nearer(driven);
+  ends_[contact / lane_count].normal[lane] =
+      load.stiffness * std::max(0.0, load.overlap + nearer(driven));
+}
+
+// N/m, of contact and collider in series.
+double ContactTerms::series_stiffness(std::size_t contact, const ContactPoint& point) const {
+  return point.stiffness / (1.0 + point.stiffness * gives_[contact]);
+}
+
+void ContactTerms::make_rows(const RodModel& model) {
+  const std::size_t rows = (found_.size() + lane_count - 1) / lane_count;
+  rows_.resize(rows);
+  block_elements_.resize(rows * lane_count, -1);
+  blocks_.resize(rows * lane_count);
+  ends_.resize(rows);
+  stay_.resize((rows + stretch_length - 1) / stretch_length);
+  last_of_shape_.resize(model.shapes.size(), -1);
+  if (rows > 0) rows_.back() = empty_contact_row();
+}
+
+void ContactTerms::put(std::size_t contact, const RodModel& model) {
+  const ContactPoint& point = found_[contact];
+  ContactRow& row = rows_[contact / lane_count];
+  const int lane = static_cast<int>(contact % lane_count);
+  row.element[lane] = model.shapes[point.shape].element;
+  row.collider[lane] = point.collider;
+  row.back[lane] = point.back;
+  row.radius[lane] = point.radius;
+  cosserat::put(row.normal, lane, point.normal_W);
+  const DrivenContact* const pressed = driven(contact);
+  row.gap[lane] = pressed ? point.gap - nearer(*pressed) : point.gap;
+  row.margin[lane] = point.margin;
+  cosserat::put(row.surface_motion, lane, point.surface_motion_W);
+  row.spring_stiffness[lane] = point.stiffening.stiffness;
+  row.spring_margin[lane] = point.stiffening.margin;
+  row.stiffness[lane] = series_stiffness(contact, point);
+  const Memory* const memory =
+      pressed ? remembered(point) : remembered(point.shape, point.collider);
+  cosserat::put(row.stretch, lane, memory ? memory->stretch_W : Vec3(0, 0, 0));
+  row.limit[lane] = memory ? point.friction * memory->normal : 0.0;
+}
+
+void ContactTerms::push(std::size_t first, std::size_t end, const RodState& iterate) {
+  stay_[first / stretch_length] =
+      push_contacts(stretch(first, end), iterate, block_elements_.data() + first * lane_count,
+                    blocks_.data() + first * lane_count);
+}
+
+void ContactTerms::sum_energy() {
+  energy_ = 0.0;
+  for (const ContactRow& row : rows_)
+    energy_ = std::accumulate(std::begin(row.energy), std::end(row.energy), energy_);
+}
+
+void ContactTerms::follow(const RodState& iterate) {
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    fetch_poses(end, iterate);
+    follow_contacts(stretch(first, end), iterate);
+    push(first, end, iterate);
+  });
+  sum_energy();
+  blocks_stay_ = std::ranges::all_of(stay_, [](char stays) { return stays; });
+}
+
+const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) const {
+  for (int i = last_of_shape_[shape]; i >= 0; i = before_[i])
+    if (memory_[i].collider == collider && memory_[i].normal != 0.0) return &memory_[i];
+  return nullptr;
+}
+
+// A pressed collider touches a shape in several places, which stay.
+const ContactTerms::Memory* ContactTerms::remembered(const ContactPoint& point) const {
+  for (int i = last_of_shape_[point.shape]; i >= 0; i = before_[i]) {
+    const Memory& memory = memory_[i];
+    if (memory.collider == point.collider && memory.normal != 0.0 &&
+        std::abs(memory.back - point.back) < same_place)
+      return &memory;
+  }
+  return nullptr;
+}
+
+void ContactTerms::forget() {
+  std::fill(last_of_shape_.begin(), last_of_shape_.end(), -1);
+}
+
+double ContactTerms::potential(const RodModel&, const RodState& state) const {
+  sums_.assign((rows_.size() + stretch_length - 1) / stretch_length, 0.0);
+  for_each_stretch([&](std::size_t first, std::size_t end) {
+    fetch_poses(end, state);
+    sums_[first / stretch_length] =
+        potential_of_contacts(std::span(rows_).subspan(first, end - first), state);
+  });
+  return std::accumulate(sums_.begin(), sums_.end(), 0.0);
+}
+
+void ContactTerms::finish(const RodModel&, const RodState& end) {
+  memory_.resize(rows_.size() * lane_count);
+  carried_.resize(stay_.size());
+  for_each_stretch([&](std::size_t first, std::size_t last) {
+    fetch_poses(last, end);
+    const int sides = static_cast<int>(sides_) - static_cast<int>(first * lane_count);
+    end_contacts(stretch(first, last), sides, end, ends_.data() + first);
+    if (!driver_) carried_[first / stretch_length] = remember(first, last);
+  });
+  if (driver_) {
+    end_drives();
+    for_each_stretch([&](std::size_t first, std::size_t last) {
+      carried_[first / stretch_length] = remember(first, last);
+    });
+  }
+  remember_shapes();
+  carrying_ = 0;
+  deepest_ = 0.0;
+  for (const Carried& carried : carried_) {
+    carrying_ += carried.contacts;
+    deepest_ = std::max(deepest_, carried.deepest);
+  }
+  forces_listed_ = false;
+}
+
+// Of the rows `first` to `end`.
+ContactTerms::Carried ContactTerms::remember(std::size_t first, std::size_t end) {
+  Carried carried;
+  for (std::size_t i = first * lane_count; i < std::min(found_.size(), end * lane_count); ++i) {
+    const ContactRow& row = rows_[i / lane_count];
+    const ContactEndRow& last = ends_[i / lane_count];
+    const int lane = static_cast<int>(i % lane_count);
+    const double normal = last.normal[lane];
+    memory_[i] = {vector_at(last.stretch, lane), normal, row.collider[lane],
+                  static_cast<float>(row.back[lane])};
+    if (normal == 0.0) continue;
+    ++carried.contacts;
+    carried.deepest = std::max(carried.deepest, -gap_of(i));
+  }
+  return carried;
+}
+
+void ContactTerms::remember_shapes() {
+  forget();
+  before_.resize(found_.size());
+  for (std::size_t i = 0; i < found_.size(); ++i)
+    before_[i] = std::exchange(last_of_shape_[found_[i].shape], static_cast<int>(i));
+}
+
+// As it is after the collider gave way.
+double ContactTerms::gap_of(std::size_t contact) const {
+  const std::size_t row = contact / lane_count, lane = contact % lane_count;
+  return rows_[row].gap[lane] + gives_[contact] * ends_[row].normal[lane];
+}
+
+void ContactTerms::report(const std::vector<ContactForce>& forces) {
+  forces_ = forces;
+  forces_listed_ = true;
+}
+
+const std::vector<ContactForce>& ContactTerms::forces() const {
+  if (!std::exchange(forces_listed_, true)) list_forces();
+  return forces_;
+}
+
+void ContactTerms::list_forces() const {
+  forces_.clear();
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    const ContactEndRow& last = ends_[i / lane_count];
+    const int lane = static_cast<int>(i % lane_count);
+    const double normal = last.normal[lane];
+    if (normal == 0.0) continue;
+    ContactPoint point = found_[i];
+    if (i < sides_) {  // they may have been followed
+      const ContactRow& row = rows_[i / lane_count];
+      point.margin = row.margin[lane];
+      point.stiffness = row.stiffness[lane];
+      point.surface_motion_W = vector_at(row.surface_motion, lane);
+    }
+    point.gap = gap_of(i);
+    forces_.push_back({point, vector_at(last.place, lane), normal, vector_at(last.friction, lane),
+                       last.slipping[lane] != 0.0});
+  }
+}
+
+void ContactTerms::add_to(std::vector<ContactForce>& forces, double share) const {
+  for (ContactForce force : this->forces()) {
+    force.normal *= share;
+    force.tangential_W *= share;
+    force.point.stiffness *= share;
+    force.point.surface_motion_W /= share;
+    forces.push_back(force);
+  }
+}
+
+}  // namespace pedicel::cosserat

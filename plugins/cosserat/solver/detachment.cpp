@@ -1,0 +1,119 @@
+#include "pedicel/cosserat/solver/detachment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pedicel::cosserat {
+
+namespace {
+
+// What the joint under a fruit carries against each of its thresholds.
+struct Margins {
+  double stretch, bend, force, moment, torsion;  // as in DetachEvent
+  double used = 0.0;                             // largest ratio to a threshold
+  const char* cause = "";
+};
+
+Margins margins(const RodModel& model, const RodState& state, const Fruit& fruit) {
+  const Strain strain = strain_of(model, state, fruit.element);
+  const JointLoad load = joint_load(model, state, fruit.element);
+  Margins m{strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
+            load.moment.head<2>().norm(), std::abs(load.moment.z())};
+  if (fruit.law) {
+    m.used = std::pow(m.force / fruit.law->force, fruit.law->exponents[0]) +
+             std::pow(m.moment / fruit.law->moment, fruit.law->exponents[1]) +
+             std::pow(m.torsion / fruit.law->torsion, fruit.law->exponents[2]);
+    m.cause = "law";
+    return m;
+  }
+  const Thresholds& t = fruit.thresholds;
+  const std::array<std::pair<double, const char*>, 5> ratios = {
+      std::pair(m.stretch / t.stretch, "stretch"), std::pair(m.bend / t.bend, "bend"),
+      std::pair(m.force / t.force, "force"), std::pair(m.moment / t.moment, "moment"),
+      std::pair(m.torsion / t.torsion, "torsion")};
+  for (const auto& [ratio, cause] : ratios) {
+    if (ratio <= m.used) continue;
+    m.used = ratio;
+    m.cause = cause;
+  }
+  return m;
+}
+
+bool is_tip(const RodModel& model, const RodState& state, const Fruit& fruit) {
+  if (fruit.back > 0.5 * model.elements[fruit.element].length) return false;
+  for (int e = fruit.element + 1; e < model.size(); ++e)
+    if (model.elements[e].parent == fruit.element && state.alive[e]) return false;
+  for (const Weld& weld : model.welds)
+    if (weld.a == fruit.element || weld.b == fruit.element) return false;
+  return true;
+}
+
+DetachEvent record(const RodModel& model, const RodState& state, int index, const Margins& m) {
+  const Fruit& fruit = model.fruits[index];
+  const Element& element = model.elements[fruit.element];
+  const Quat& q = state.orientation[fruit.element];
+  DetachEvent event;
+  event.time = state.time;
+  event.fruit = index;
+  event.cause = m.cause;
+  event.stretch = m.stretch;
+  event.bend = m.bend;
+  event.force = m.force;
+  event.moment = m.moment;
+  event.torsion = m.torsion;
+  const Vec3 axis = q * Vec3::UnitZ();
+  event.angle = std::acos(std::clamp(std::abs(axis.z()), 0.0, 1.0));
+  event.position_W = point_on(model, state, fruit.element, fruit.back);
+  event.orientation = q;
+  event.velocity_W = velocity_on(model, state, fruit.element, fruit.back);
+  event.angular_velocity_W = q * state.angular_velocity[fruit.element];
+  event.mass = fruit_mass(fruit);
+  if (!is_tip(model, state, fruit)) return event;
+  event.mass = element.mass;
+  event.stub_length = element.length - fruit.back;
+  event.stub_radius = 0.5 * (element.radius_near + element.radius_far);
+  return event;
+}
+
+// The segment lost a fruit: its centre of mass moves, and with it the velocity that the state
+// holds.
+void lighten(RodModel& model, RodState& state, int e) {
+  const Quat q = state.orientation[e];
+  const Vec3 omega = state.angular_velocity[e];
+  const double com_before = model.elements[e].com_back;
+  lump_inertia(model, e, state.fruit_gone);
+  state.velocity[e] += q * omega.cross(Vec3(0, 0, com_before - model.elements[e].com_back));
+}
+
+}  // namespace
+
+double margin_used(const RodModel& model, const RodState& state, int fruit) {
+  if (state.fruit_gone[fruit]) return 0.0;
+  return margins(model, state, model.fruits[fruit]).used;
+}
+
+void take_off(RodModel& model, RodState& state, int fruit) {
+  const int e = model.fruits[fruit].element;
+  const bool with_stub = is_tip(model, state, model.fruits[fruit]);
+  state.fruit_gone[fruit] = true;
+  // What pulled is gone at once: a second-order step would take the velocity's bend for curvature,
+  // and be of first order for good.
+  state.previous_dt = 0.0;
+  if (with_stub)
+    state.alive[e] = 0;
+  else
+    lighten(model, state, e);
+}
+
+void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events) {
+  for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
+    if (state.fruit_gone[f] || !state.alive[model.fruits[f].element]) continue;
+    const Margins m = margins(model, state, model.fruits[f]);
+    if (m.used < 1.0) continue;
+    events.push_back(record(model, state, f, m));
+    take_off(model, state, f);
+  }
+}
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pedicel/cosserat/model/rod_state.h"
+
+namespace pedicel::cosserat {
+
+/// The record of a fruit that came off, taken at the end of the step in which it broke.
+struct DetachEvent {
+  double time = 0.0;     ///< s
+  int fruit = -1;        ///< index into RodModel::fruits
+  std::string cause;     ///< stretch | bend | force | moment | torsion | law
+  double stretch = 0.0;  ///< 1, |C_s| at the break
+  double bend = 0.0;     ///< rad, |C_b| at the break
+  double force = 0.0;    ///< N, |force| in the joint
+  double moment = 0.0;   ///< N m, |bending moment|
+  double torsion = 0.0;  ///< N m
+  double angle = 0.0;    ///< rad, between the stalk's axis and the vertical
+
+  // The rigid body that goes on.
+  Vec3 position_W = Vec3::Zero();          ///< m, fruit centre
+  Quat orientation = Quat::Identity();     ///< E to W
+  Vec3 velocity_W = Vec3::Zero();          ///< m/s, at the fruit's centre
+  Vec3 angular_velocity_W = Vec3::Zero();  ///< rad/s
+  double mass = 0.0;                       ///< kg, fruit and stub
+  double stub_length = 0.0;                ///< m, of the stalk's stub that goes with it; 0: none
+  double stub_radius = 0.0;                ///< m
+};
+
+/// Checks the thresholds of every fruit that is still on and takes those off that pass one: at a
+/// tip the element dies with its fruit, elsewhere the element only gets lighter. Appends to
+/// `events`.
+void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events);
+
+/// Takes a fruit off that is still on, whatever its joint carries.
+void take_off(RodModel& model, RodState& state, int fruit);
+
+/// How near a fruit is to coming off: the largest ratio of a strain or load to its threshold, or
+/// the sum of its law (1 breaks).
+double margin_used(const RodModel& model, const RodState& state, int fruit);
+
+}  // namespace pedicel::cosserat

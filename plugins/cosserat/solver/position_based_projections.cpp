@@ -1,0 +1,219 @@
+// The constraints' and dampers' projections of PositionBasedSolver; the step is in
+// position_based_solver.cpp.
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/cosserat/solver/position_based_constraints.h"
+#include "pedicel/cosserat/solver/position_based_solver.h"
+
+namespace pedicel::cosserat {
+
+namespace {
+
+const Quat& parent_rotation(const RodModel& model, const RodState& state, int element) {
+  const int parent = model.elements[element].parent;
+  return parent < 0 ? state.root.rotation : state.orientation[parent];
+}
+
+// 1/k, where a part without stiffness never pushes back.
+Vec3 compliance_of(const Vec3& stiffness) {
+  constexpr double none = 1.0e30;
+  return (stiffness.array() > 0.0).select(stiffness.cwiseInverse(), none);
+}
+
+}  // namespace
+
+// Adds the multiplier that answers `value` to `lambda` (XPBD, eq. 18); `response` is the sum of
+// gradient x inverse mass x gradient^T.
+Vec3 PositionBasedSolver::multiplier_step(const Mat3& response, const Vec3& compliance,
+                                          const Vec3& value, Vec3& lambda) const {
+  const Vec3 scaled = compliance / (h_ * h_);
+  Mat3 matrix = response;
+  matrix.diagonal() += scaled;
+  const Vec3 step = -matrix.ldlt().solve(value + scaled.cwiseProduct(lambda));
+  if (!step.allFinite()) return Vec3::Zero();
+  lambda += step;
+  return step;
+}
+
+void PositionBasedSolver::move_node(RodState& state, int element, const Vec3& change,
+                                    double limit) {
+  const Vec3 move = clamped(change, limit);
+  state.position[element] += move;
+  if (move.norm() > largest_change_) {
+    largest_change_ = move.norm();
+    largest_element_ = element;
+  }
+}
+
+void PositionBasedSolver::turn(RodState& state, int element, const Vec3& delta) {
+  const Vec3 move = clamped(delta, largest_turn);
+  state.orientation[element] = (state.orientation[element] * exp_map(move)).normalized();
+  if (move.norm() > largest_change_) {
+    largest_change_ = move.norm();
+    largest_element_ = element;
+  }
+}
+
+Mat3 PositionBasedSolver::stretch_response(const RodModel& model, int e,
+                                           const Mat3& by_turn) const {
+  Mat3 response = by_turn * bodies_[e].inverse_inertia.asDiagonal() * by_turn.transpose();
+  response.diagonal().array() += bodies_[e].inverse_mass + inverse_mass(model.elements[e].parent);
+  return response;
+}
+
+Mat3 PositionBasedSolver::bend_response(const RodModel& model, int e, const Mat3& to_parent) const {
+  const int parent = model.elements[e].parent;
+  Mat3 response = bodies_[e].inverse_inertia.asDiagonal();
+  if (parent >= 0)
+    response += to_parent.transpose() * bodies_[parent].inverse_inertia.asDiagonal() * to_parent;
+  return response;
+}
+
+void PositionBasedSolver::project_stretch(const RodModel& model, RodState& state, int e) {
+  const Element& element = model.elements[e];
+  const Vec3 near = start_of(model, state, e);
+  const Quat q = state.orientation[e];
+  const Mat3 by_turn = stretch_shear_by_rotation(near, state.position[e], q);
+  const Vec3 value = stretch_shear(near, state.position[e], q, element.length, element.rest_strain);
+  const Vec3 compliance = element.length * compliance_of(element.stretch_stiffness);
+  const Vec3 step =
+      multiplier_step(stretch_response(model, e, by_turn), compliance, value, stretch_[e]);
+  move_node(state, e, bodies_[e].inverse_mass * (q * step), element.length);
+  if (element.parent >= 0)
+    move_node(state, element.parent, -inverse_mass(element.parent) * (q * step), element.length);
+  turn(state, e, bodies_[e].inverse_inertia.cwiseProduct(by_turn.transpose() * step));
+}
+
+void PositionBasedSolver::project_bend(const RodModel& model, RodState& state, int e) {
+  const Element& element = model.elements[e];
+  const Quat before = parent_rotation(model, state, e);
+  const Mat3 to_parent = (before.conjugate() * state.orientation[e]).toRotationMatrix();
+  const Vec3 value = bend_twist(before, state.orientation[e], element.rest_rotation);
+  const Vec3 step = multiplier_step(bend_response(model, e, to_parent),
+                                    compliance_of(element.bend_stiffness), value, bend_[e]);
+  turn(state, e, bodies_[e].inverse_inertia.cwiseProduct(step));
+  if (element.parent < 0) return;
+  turn(state, element.parent,
+       -bodies_[element.parent].inverse_inertia.cwiseProduct(to_parent * step));
+}
+
+double PositionBasedSolver::inverse_mass_at(const RodModel& model, int element, double back) const {
+  const double near = back / model.elements[element].length;
+  return (1.0 - near) * (1.0 - near) * bodies_[element].inverse_mass +
+         near * near * inverse_mass(model.elements[element].parent);
+}
+
+void PositionBasedSolver::move_place(const RodModel& model, RodState& state, int element,
+                                     double back, const Vec3& impulse) {
+  const Element& segment = model.elements[element];
+  const double near = back / segment.length;
+  move_node(state, element, (1.0 - near) * bodies_[element].inverse_mass * impulse, segment.length);
+  if (segment.parent >= 0)
+    move_node(state, segment.parent, near * inverse_mass(segment.parent) * impulse, segment.length);
+}
+
+void PositionBasedSolver::project_support(const RodModel& model, RodState& state, int i) {
+  const Support& support = model.supports[i];
+  const int e = support.element;
+  if (!state.alive[e]) return;
+  const Mat3 response = inverse_mass_at(model, e, support.back) * Mat3::Identity();
+  const Vec3 gap = point_on(model, state, e, support.back) - support.position;
+  const Vec3 stiffness = Vec3::Constant(support.position_stiffness);
+  move_place(model, state, e, support.back,
+             multiplier_step(response, compliance_of(stiffness), gap, support_position_[i]));
+  const Mat3 turning = bodies_[e].inverse_inertia.asDiagonal();
+  const Vec3 angle = bend_twist(Quat::Identity(), state.orientation[e], support.rotation);
+  const Vec3 step = multiplier_step(turning, compliance_of(support.rotation_stiffness), angle,
+                                    support_rotation_[i]);
+  turn(state, e, turning * step);
+}
+
+void PositionBasedSolver::project_weld(const RodModel& model, RodState& state, int i) {
+  const Weld& weld = model.welds[i];
+  if (!state.alive[weld.a] || !state.alive[weld.b]) return;
+  const Body &a = bodies_[weld.a], &b = bodies_[weld.b];
+  const Mat3 response = (a.inverse_mass + b.inverse_mass) * Mat3::Identity();
+  const Vec3 stiffness = Vec3::Constant(weld.position_stiffness);
+  const Vec3 push =
+      multiplier_step(response, compliance_of(stiffness),
+                      state.position[weld.b] - state.position[weld.a], weld_position_[i]);
+  move_node(state, weld.a, -a.inverse_mass * push, model.elements[weld.a].length);
+  move_node(state, weld.b, b.inverse_mass * push, model.elements[weld.b].length);
+
+  const Quat &qa = state.orientation[weld.a], &qb = state.orientation[weld.b];
+  const Mat3 to_a = (qa.conjugate() * qb).toRotationMatrix();
+  Mat3 turning = to_a.transpose() * a.inverse_inertia.asDiagonal() * to_a;
+  turning.diagonal() += b.inverse_inertia;
+  const Vec3 step = multiplier_step(turning, compliance_of(weld.bend_stiffness),
+                                    bend_twist(qa, qb, weld.rest_rotation), weld_rotation_[i]);
+  turn(state, weld.b, b.inverse_inertia.cwiseProduct(step));
+  turn(state, weld.a, -a.inverse_inertia.cwiseProduct(to_a * step));
+}
+
+void PositionBasedSolver::project_contact(const RodModel& model, RodState& state, Contact& contact,
+                                          double surface_share) {
+  const ContactPoint& point = contact.point;
+  const int e = model.shapes[point.shape].element;
+  const double response = inverse_mass_at(model, e, point.back);
+  if (!(response > 0.0)) return;
+  const Vec3& n = point.normal_W;
+  Vec3 place = point_on(model, state, e, point.back);
+  const double compliance = point.stiffness > 0.0 ? 1.0 / (point.stiffness * h_ * h_) : 0.0;
+  const double gap = point.gap - point.margin + n.dot(place - contact.found_at);
+  const double step = -(gap + compliance * contact.normal) / (response + compliance);
+  const double normal = std::max(0.0, contact.normal + step);
+  move_place(model, state, e, point.back, (normal - contact.normal) * n);
+  contact.normal = normal;
+
+  // Coulomb: pull the place back to where the surface has carried it, as far as friction reaches.
+  place = point_on(model, state, e, point.back);
+  const Vec3 slide = place - contact.place - surface_share * point.surface_motion_W;
+  const Vec3 wanted = contact.tangential - (slide - n.dot(slide) * n) / response;
+  const double reach = point.friction * contact.normal;
+  const Vec3 tangential = clamped(wanted, reach);
+  contact.slipping = wanted.norm() > reach;
+  move_place(model, state, e, point.back, tangential - contact.tangential);
+  contact.tangential = tangential;
+}
+
+// The impulse against a strain rate, implicit: after it the damper's force goes with the rate that
+// is left, so no damping is too strong.
+Vec3 PositionBasedSolver::damping_impulse(const Mat3& response, const Vec3& damping,
+                                          const Vec3& rate) const {
+  Mat3 matrix = response;
+  matrix.diagonal() += compliance_of(h_ * damping);
+  const Vec3 impulse = -matrix.ldlt().solve(rate);
+  return impulse.allFinite() ? impulse : Vec3::Zero();
+}
+
+void PositionBasedSolver::damp_stretch(const RodModel& model, const RodState& state, int e) {
+  const Element& element = model.elements[e];
+  Body& body = bodies_[e];
+  Body* parent = element.parent < 0 ? nullptr : &bodies_[element.parent];
+  const Quat& q = state.orientation[e];
+  const Mat3 by_turn = stretch_shear_by_rotation(start_of(model, state, e), state.position[e], q);
+  const Vec3 apart = parent ? Vec3(body.velocity - parent->velocity) : body.velocity;
+  const Vec3 damping = element.damping_time / element.length * element.stretch_stiffness;
+  const Vec3 impulse = damping_impulse(stretch_response(model, e, by_turn), damping,
+                                       q.conjugate() * apart + by_turn * body.spin);
+  body.velocity += body.inverse_mass * (q * impulse);
+  body.spin += body.inverse_inertia.cwiseProduct(by_turn.transpose() * impulse);
+  if (parent) parent->velocity -= parent->inverse_mass * (q * impulse);
+}
+
+void PositionBasedSolver::damp_bend(const RodModel& model, const RodState& state, int e) {
+  const Element& element = model.elements[e];
+  Body& body = bodies_[e];
+  Body* parent = element.parent < 0 ? nullptr : &bodies_[element.parent];
+  const Quat& before = parent_rotation(model, state, e);
+  const Mat3 to_parent = (before.conjugate() * state.orientation[e]).toRotationMatrix();
+  const Vec3 rate = parent ? Vec3(body.spin - to_parent.transpose() * parent->spin) : body.spin;
+  const Vec3 impulse = damping_impulse(bend_response(model, e, to_parent),
+                                       element.damping_time * element.bend_stiffness, rate);
+  body.spin += body.inverse_inertia.cwiseProduct(impulse);
+  if (parent) parent->spin -= parent->inverse_inertia.cwiseProduct(to_parent * impulse);
+}
+
+}  // namespace pedicel::cosserat

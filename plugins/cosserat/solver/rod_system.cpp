@@ -1,0 +1,224 @@
+#include "pedicel/cosserat/solver/rod_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pedicel/core/check.h"
+
+namespace pedicel::cosserat {
+
+namespace {
+// Elements. A bed of the first size stays in a core's own cache. Below the second, for each thread,
+// full lanes and even shares count for more, as far as dividing would cost any.
+constexpr int bed_size = 480, undivided = 2400, equal_undivided = 1100;
+// Likewise: from here on rows stand on huge pages.
+constexpr int large = 8000;
+
+struct Share {
+  int plants = 0, thread = 0;
+};
+
+// How many plants each bed takes, in order, and whose it is.
+std::vector<Share> share_out(const std::vector<int>& elements, int threads) {
+  const int plants = static_cast<int>(elements.size());
+  const int total = std::accumulate(elements.begin(), elements.end(), 0);
+  const int largest = *std::max_element(elements.begin(), elements.end());
+  const bool equal = std::count(elements.begin(), elements.end(), largest) == plants;
+  const int together = threads * (equal ? equal_undivided : undivided);
+  // A multiple of the number of threads, so that none waits for the last bed.
+  const int rounds = total <= together ? 1 : total / (threads * bed_size);
+  const double share = static_cast<double>(total) / (threads * rounds);
+  if (largest > share || total < bed_size) return {{plants, 0}};
+  std::vector<Share> shares;
+  if (equal && rounds > 1) {  // all lanes are full but in a thread's last bed
+    const int in_lanes = lane_count * largest;
+    const int full = lane_count * std::max(1, static_cast<int>(std::lround(share / in_lanes)));
+    for (int thread = 0; thread < threads; ++thread) {
+      int left = plants / threads + (thread < plants % threads ? 1 : 0);
+      for (; left > 0; left -= full) shares.push_back({std::min(left, full), thread});
+    }
+    return shares;
+  }
+  int filled = 0;
+  for (const int count : elements) {
+    if (filled >= share * static_cast<double>(shares.size()))
+      shares.push_back({0, static_cast<int>(shares.size()) % threads});
+    ++shares.back().plants;
+    filled += count;
+  }
+  return shares;
+}
+
+}  // namespace
+
+RodSystem::RodSystem(const RodSettings& settings, int threads)
+    : settings_(settings), pool_(threads) {}
+
+int RodSystem::add_plant(RodModel model) {
+  Plant plant;
+  plant.state = drawn_state(model);
+  if (settings_.solver == SolverKind::position_based) plant.solver = make_solver(settings_, model);
+  plant.model = std::move(model);
+  plants_.push_back(std::move(plant));
+  beds_.clear();
+  return size() - 1;
+}
+
+void RodSystem::add_contact_source(int plant, std::unique_ptr<ContactSource> source) {
+  plants_[plant].source_pointers.push_back(source.get());
+  plants_[plant].sources.push_back(std::move(source));
+}
+
+void RodSystem::step(double dt, const Vec3& gravity) {
+  if (plants_.empty()) return;  // a world of robots and bodies alone
+  if (settings_.solver == SolverKind::direct) {
+    if (beds_.empty()) make_beds();
+    if (beds_.size() == 1)
+      step_bed(beds_[0], dt, gravity, &pool_);
+    else
+      pool_.for_each(pool_.threads(), [&](int thread) {
+        for (Bed& bed : beds_)
+          if (bed.thread == thread) step_bed(bed, dt, gravity, nullptr);
+      });
+  } else {
+    pool_.for_each(size(), [&](int i) {
+      Plant& plant = plants_[i];
+      plant.report = plant.solver->step(plant.model, plant.state,
+                                        {dt, gravity, plant.loads, plant.source_pointers});
+    });
+  }
+  for (Plant& plant : plants_) {
+    plant.detached.clear();
+    detach(plant.model, plant.state, plant.detached);
+    plant.model_changed = plant.state_changed = !plant.detached.empty();
+  }
+}
+
+void RodSystem::make_beds() {
+  const int threads = pool_.threads();
+  std::vector<int> elements;
+  for (const Plant& plant : plants_) elements.push_back(plant.model.size());
+  // The beds of a thread share the memory that a step needs.
+  const bool is_large = std::accumulate(elements.begin(), elements.end(), 0) >= large;
+  std::vector<std::shared_ptr<RowScratch>> scratch;
+  for (int thread = 0; thread < threads; ++thread)
+    scratch.push_back(std::make_shared<RowScratch>(is_large));
+  const std::vector<Share> shares = share_out(elements, threads);
+  int next = 0;
+  for (const Share& share : shares) {
+    Bed& bed = beds_.emplace_back();
+    bed.first = next;
+    bed.thread = share.thread;
+    std::vector<const RodModel*> models;
+    for (int i = 0; i < share.plants; ++i, ++next) {
+      plants_[next].bed = static_cast<int>(beds_.size()) - 1;
+      plants_[next].model_changed = plants_[next].state_changed = true;
+      models.push_back(&plants_[next].model);
+    }
+    bed.solver = std::make_unique<DirectSolver>(settings_, models, shares.size() == 1 ? threads : 1,
+                                                scratch[bed.thread]);
+    bed.steps.resize(models.size());
+  }
+  ahead_.resize(threads);
+}
+
+// Without a pool it is one of several beds, and a thread steps it alone.
+void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool) {
+  for (std::size_t i = 0; i < bed.steps.size(); ++i) {
+    Plant& plant = plants_[bed.first + i];
+    bed.steps[i] = {&plant.model,        &plant.state,        plant.loads, plant.source_pointers,
+                    plant.model_changed, plant.state_changed, {}};
+  }
+  if (pool)
+    bed.solver->step(bed.steps, dt, gravity, *pool);
+  else
+    bed.solver->step(bed.steps, dt, gravity, what_follows(bed));
+  for (std::size_t i = 0; i < bed.steps.size(); ++i)
+    plants_[bed.first + i].report = bed.steps[i].report;
+}
+
+// The bed that its thread steps next, in the next step the first one again; nullptr where that is
+// the same.
+FetchAhead* RodSystem::what_follows(const Bed& bed) {
+  const auto count = beds_.size();
+  auto after = static_cast<std::size_t>(&bed - beds_.data());
+  do after = (after + 1) % count;
+  while (beds_[after].thread != bed.thread);
+  const Bed& next = beds_[after];
+  if (&next == &bed) return nullptr;
+  FetchAhead& ahead = ahead_[bed.thread].next_bed;
+  ahead.clear();
+  next.solver->add_to(ahead);
+  for (std::size_t i = 0; i < next.steps.size(); ++i) {
+    const RodState& state = plants_[next.first + i].state;
+    ahead.add(state.position);
+    ahead.add(state.orientation);
+    ahead.add(state.velocity);
+    ahead.add(state.angular_velocity);
+    ahead.add(state.alive);
+  }
+  return &ahead;
+}
+
+const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
+  static const std::vector<ContactForce> none;
+  if (plants_[plant].solver) return plants_[plant].solver->contact_forces();
+  if (beds_.empty()) return none;
+  const Bed& bed = beds_[plants_[plant].bed];
+  return bed.solver->contact_forces(plant - bed.first);
+}
+
+void RodSystem::set_state(int plant, const RodState& state) {
+  edit_state(plant) = state;
+  plants_[plant].state.previous_dt = 0.0;
+  plants_[plant].state.previous_root = state.root;
+  if (plants_[plant].solver) plants_[plant].solver->reset();
+  if (beds_.empty() || settings_.solver != SolverKind::direct) return;
+  Bed& bed = beds_[plants_[plant].bed];
+  bed.solver->reset(plant - bed.first);
+}
+
+void RodSystem::change_constants(int plant, RodModel model) {
+  Plant& held = plants_[plant];
+  if (!differs_in_constants_only(held.model, model))
+    throw UsageError("RodSystem::change_constants: \"" + model.name +
+                     "\" has another shape than \"" + held.model.name +
+                     "\", which is running: must have the same");
+  for (std::size_t f = 0; f < model.fruits.size(); ++f)
+    if (held.state.fruit_gone[f])
+      lump_inertia(model, model.fruits[f].element, held.state.fruit_gone);
+  // A velocity is that of the centre of mass, which may lie elsewhere now.
+  for (int e = 0; e < model.size(); ++e) {
+    const double shift = held.model.elements[e].com_back - model.elements[e].com_back;
+    held.state.velocity[e] +=
+        held.state.orientation[e] * held.state.angular_velocity[e].cross(Vec3(0, 0, shift));
+  }
+  held.model = std::move(model);
+  held.model_changed = held.state_changed = true;
+  held.state.previous_dt = 0.0;
+}
+
+void RodSystem::change_settings(const RodSettings& settings) {
+  if (settings.solver != settings_.solver)
+    throw UsageError("RodSystem::change_settings: another solver, must be the same");
+  settings_ = settings;
+  for (Plant& plant : plants_)
+    if (plant.solver) plant.solver->change_settings(settings);
+  for (Bed& bed : beds_) bed.solver->change_settings(settings);
+}
+
+void RodSystem::add_to(StateHash& hash) const {
+  for (const Plant& plant : plants_) {
+    for (int e = 0; e < plant.state.size(); ++e) {
+      hash.add(plant.state.position[e]);
+      hash.add(plant.state.orientation[e]);
+      hash.add(plant.state.velocity[e]);
+      hash.add(plant.state.angular_velocity[e]);
+      hash.add(static_cast<std::uint64_t>(plant.state.alive[e]));
+    }
+    for (const Vec3& z : plant.state.joint_memory) hash.add(z);
+  }
+}
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pedicel/core/state_hash.h"
+#include "pedicel/core/thread_pool.h"
+#include "pedicel/cosserat/solver/detachment.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
+#include "pedicel/cosserat/solver/rod_solver.h"
+
+namespace pedicel::cosserat {
+
+/// All the plants of a world, stepped side by side. Plants do not touch each other, so any number
+/// of threads gives the same bits.
+class RodSystem {
+ public:
+  explicit RodSystem(const RodSettings& settings, int threads = 1);
+
+  /// Adds a finished model, at rest in its drawn shape. Returns its index.
+  int add_plant(RodModel model);
+  /// What a plant may touch. The source must be this plant's own: plants are stepped at once.
+  void add_contact_source(int plant, std::unique_ptr<ContactSource> source);
+
+  /// Advances every plant by dt, then takes off the fruits whose joint passed a threshold.
+  void step(double dt, const Vec3& gravity);
+
+  int size() const { return static_cast<int>(plants_.size()); }
+  const RodModel& model(int plant) const { return plants_[plant].model; }
+  const RodState& state(int plant) const { return plants_[plant].state; }
+  /// To change it between two steps; take the reference anew after each. What stays as it was is
+  /// better read through model().
+  RodModel& edit_model(int plant) {
+    plants_[plant].model_changed = true;
+    return plants_[plant].model;
+  }
+  /// To change it between two steps. Set `previous_dt` to 0 with anything but the clamp's pose.
+  RodState& edit_state(int plant) {
+    plants_[plant].state_changed = true;
+    return plants_[plant].state;
+  }
+  /// Goes on with other constants: stiffness, mass, rest shape, thresholds. The model has the same
+  /// elements (parents, drawn shape), organs and fruits, and no joint laws. Supports are its own.
+  /// Throws UsageError where it is another plant.
+  void change_constants(int plant, RodModel model);
+  /// Goes on with other settings of the same solver. Throws UsageError for another solver.
+  void change_settings(const RodSettings& settings);
+  /// Supports, to move, add or take away between two steps: nothing else of the model is read anew.
+  /// They are of the model that add_plant() was given, then its own.
+  std::vector<Support>& supports(int plant) { return plants_[plant].model.supports; }
+  /// Loads that act until they are changed.
+  std::vector<Load>& loads(int plant) { return plants_[plant].loads; }
+
+  const StepReport& report(int plant) const { return plants_[plant].report; }
+  const std::vector<ContactForce>& contact_forces(int plant) const;
+  /// Fruits of a plant that came off in the last step.
+  const std::vector<DetachEvent>& detached(int plant) const { return plants_[plant].detached; }
+
+  /// Replaces the state of a plant and forgets its solver's history.
+  void set_state(int plant, const RodState& state);
+
+  void add_to(StateHash& hash) const;
+
+ private:
+  struct Plant {
+    RodModel model;
+    RodState state;
+    std::unique_ptr<RodSolver> solver;  // position-based: one a plant
+    int bed = -1;
+    bool model_changed = false, state_changed = true;
+    std::vector<std::unique_ptr<ContactSource>> sources;
+    std::vector<ContactSource*> source_pointers;
+    std::vector<Load> loads;
+    StepReport report;
+    std::vector<DetachEvent> detached;
+  };
+  /// Plants that are solved together: as many as stay in a core's cache from one phase of a step to
+  /// the next; one plant that is larger than a thread's share goes with all the others, and threads
+  /// then share the phases.
+  struct Bed {
+    std::unique_ptr<DirectSolver> solver;
+    int first = 0;   // its first plant
+    int thread = 0;  // that steps it, where there are several beds
+    std::vector<DirectSolver::PlantStep> steps;
+  };
+  void make_beds();
+  void step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool);
+  FetchAhead* what_follows(const Bed& bed);
+
+  RodSettings settings_;
+  ThreadPool pool_;
+  std::vector<Plant> plants_;
+  std::vector<Bed> beds_;  // direct solver; made by the first step after add_plant()
+  struct alignas(64) Ahead {
+    FetchAhead next_bed;
+  };
+  std::vector<Ahead> ahead_;  // by thread
+};
+
+}  // namespace pedicel::cosserat

@@ -1,0 +1,150 @@
+// Clocks against what is done. A marker beside a held point, a root or a load goes along with it,
+// no later than a latency of 0.3 s. No plant moves before anything is done.
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/discrepancy/admission/beside.h"
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/discrepancy/data/trial_clock.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// As stated the drive explains less than half of the motion; with another clock, nine tenths.
+constexpr double contradicts = 0.5, agrees = 0.9;
+// Or it explains more, but another clock leaves a quarter of what is left of the motion's square.
+constexpr double much_better = 0.25;
+constexpr double least_shift = 0.5;  // s: a latency of 0.3 s, and 0.2 s for a slow plant to follow
+constexpr double grid = 0.05;        // s, of shifts
+constexpr int most_shifts = 1500;
+constexpr double most = 0.5;  // of the drive's motion must be seen with the other clock
+constexpr double rate_grid = 0.01, slowest = 0.5, fastest = 2.0;
+
+struct ClockUnit {
+  const char* name;
+  double scale;
+};
+constexpr ClockUnit clock_units[] = {
+    {"milliseconds", 1e3}, {"microseconds", 1e6}, {"minutes", 1.0 / 60.0}};
+
+const std::string expected = ": expected seconds since the trial began, the same in all its tables";
+
+double step_of(const Beside& beside) {
+  return beside.drive().path ? clock_of({}, beside.drive().path->time).step : 0.0;
+}
+
+// Whether the marker's clock, or the path's, ticks in another unit.
+std::optional<Fault> other_unit(const Beside& beside) {
+  if (beside.explained() > contradicts) return std::nullopt;
+  std::vector<ClockUnit> units(std::begin(clock_units), std::end(clock_units));
+  if (step_of(beside) > 0.0) units.push_back({"numbers of frames", 1.0 / step_of(beside)});
+  for (const ClockUnit& unit : units)
+    for (const bool path : {false, true}) {
+      if (path && !beside.drive().path) continue;
+      const ClockReading reading{0.0, path ? 1.0 / unit.scale : unit.scale, path};
+      if (beside.explained(reading) < agrees ||
+          beside.follow(reading).driven < most * beside.whole())
+        continue;
+      return Fault{path ? beside.drive().path->file : "markers.csv",
+                   std::string("seems to have its times in ") + unit.name + ": " + beside.marker() +
+                       " follows " + beside.what() +
+                       text(" when they are divided by %.4g, and not as they are", unit.scale) +
+                       expected};
+    }
+  return std::nullopt;
+}
+
+struct Candidate {
+  ClockReading reading;
+  double left = 1.0;  // share of the motion that is not explained
+};
+
+void consider(const Beside& beside, const ClockReading& reading, std::vector<Candidate>& all) {
+  if (beside.follow(reading).driven >= most * beside.whole())
+    all.push_back({reading, 1.0 - beside.explained(reading)});
+}
+
+// Of those that leave nearly as little as any the one nearest to what is stated: a drive may repeat
+// itself.
+template <class Size>
+Candidate nearest_of_best(const std::vector<Candidate>& all, const Size& size) {
+  double least = 1.0;
+  for (const Candidate& one : all) least = std::min(least, one.left);
+  Candidate best;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Candidate& one : all) {
+    if (one.left > 1.5 * least + 0.005 || size(one.reading) >= smallest) continue;
+    smallest = size(one.reading);
+    best = one;
+  }
+  return best;
+}
+
+bool is_better(const Candidate& found, const Beside& beside) {
+  return 1.0 - found.left >= agrees && found.left <= much_better * (1.0 - beside.explained());
+}
+
+// A slow plant follows late, but it begins at once.
+bool rests_until(const Beside& beside, double shift) {
+  const double begins = drive_times(beside.view().trial).first;
+  const Track& track = beside.track();
+  double before = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < track.time.size(); ++i) {
+    const double way = (track.place[i] - track.place.front()).norm();
+    all = std::max(all, way);
+    if (track.time[i] < begins + 0.7 * shift) before = std::max(before, way);
+  }
+  return before < 0.1 * all + 6.0 * beside.noise();
+}
+
+std::optional<Fault> shifted(const Beside& beside) {
+  if (beside.explained() > agrees) return std::nullopt;
+  std::vector<Candidate> all;
+  const double last = beside.track().time.back();
+  for (int i = 0; i < most_shifts; ++i) {
+    const double shift = -std::min(last, 0.5 * grid * most_shifts) + grid * i;
+    if (shift > last) break;
+    consider(beside, {shift, 1.0}, all);
+  }
+  const Candidate best =
+      nearest_of_best(all, [](const ClockReading& r) { return std::abs(r.shift); });
+  const double shift = best.reading.shift;
+  if (std::abs(shift) < least_shift || !is_better(best, beside)) return std::nullopt;
+  if (shift > 0.0 && !rests_until(beside, shift)) return std::nullopt;
+  return Fault{"markers.csv", "is " + text("%.2g s ", std::abs(shift)) +
+                                  (shift > 0.0 ? "late" : "early") + ": " + beside.marker() +
+                                  " follows " + beside.what() +
+                                  " with that shift, and not without" + expected +
+                                  text(", but for a latency below %.2g s", largest_known::latency)};
+}
+
+// A rate of frames that is not the stated one: by the end the clocks are apart.
+std::optional<Fault> other_rate(const Beside& beside) {
+  if (!beside.drive().path) return std::nullopt;  // loads: load_check
+  const double end = std::min(beside.track().time.back(), beside.drive().until);
+  std::vector<Candidate> all;
+  const int rates = static_cast<int>(std::lround((fastest - slowest) / rate_grid));
+  for (int i = 0; i <= rates; ++i) consider(beside, {0.0, slowest + rate_grid * i}, all);
+  const Candidate best =
+      nearest_of_best(all, [](const ClockReading& r) { return std::abs(std::log(r.scale)); });
+  const double apart = std::abs(1.0 - 1.0 / best.reading.scale) * end;
+  if (apart < least_shift || !is_better(best, beside)) return std::nullopt;
+  return Fault{"markers.csv",
+               text("has a clock that runs %.3g times as fast as that of ", best.reading.scale) +
+                   beside.what() + ": " + beside.marker() + " follows it that way" +
+                   text(", and is %.2g s off by the end as it is", apart) + expected +
+                   "; another rate of frames?"};
+}
+
+}  // namespace
+
+std::optional<Fault> check_drive(const TrialView& view) {
+  if (!view.layout) return std::nullopt;
+  for (const Beside& beside : Beside::all_of(view))
+    for (const auto check : {other_unit, other_rate, shifted})
+      if (auto fault = check(beside)) return fault;
+  return std::nullopt;
+}
+
+}  // namespace pedicel::discrepancy

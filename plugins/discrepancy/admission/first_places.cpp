@@ -1,0 +1,63 @@
+#include "pedicel/discrepancy/admission/first_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr std::size_t looks = 5;  // samples whose median a single wild one does not move
+
+// Axis by axis the median of the first samples that were seen; NaN where there is none.
+Vec3 first_seen(const Samples& markers, int m) {
+  std::vector<double> axis[3];
+  for (int row = 0; row < markers.size() && axis[0].size() < looks; ++row) {
+    const Vec3 x = markers.value.block<1, 3>(row, 3 * m).transpose();
+    if (x.allFinite())
+      for (int c = 0; c < 3; ++c) axis[c].push_back(x[c]);
+  }
+  return {median_of(axis[0]), median_of(axis[1]), median_of(axis[2])};
+}
+
+}  // namespace
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, a.size())));
+}
+
+double FirstPlaces::spread() const {
+  return rms_distance(drawn, std::vector<Vec3>(drawn.size(), root));
+}
+
+FirstPlaces first_places(const TrialView& view) {
+  FirstPlaces places;
+  Pose base;  // of what stood as drawn
+  if (view.trial.base && !view.trial.base->time.empty()) {
+    base.rotation = view.trial.base->rotation_at(0.0);
+    base.position = view.trial.base->position_at(0.0) - base.rotation * view.layout->root();
+  }
+  places.root = base * view.layout->root();
+  for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
+    const Vec3 seen = first_seen(view.trial.markers, m);
+    if (!seen.allFinite()) continue;
+    const Spot& spot = view.layout->markers()[m];
+    places.marker.push_back(m);
+    places.seen.push_back(seen);
+    places.drawn.push_back(base * spot.drawn);
+    places.settled.push_back(base * spot.settled);
+  }
+  return places;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,182 @@
+#include "pedicel/discrepancy/admission/following.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pedicel/discrepancy/admission/first_places.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// Of the square of the plant's first frequency, as if all its mass moved with the held point; a
+// quarter of it does.
+constexpr double slow = 0.4;
+constexpr double least_share = 1.0e-3;  // of the drive's main square: below, it has no direction
+
+Drive hold_drive(const TrialView& view, const Hold& hold) {
+  const Path* path = &hold.path;
+  const Vec3 start = path->position.front();
+  return {Drive::Kind::hold, path, view.layout->spot(hold.place),
+          [path, start](double t) { return Vec3(path->position_at(t) - start); }, hold.release};
+}
+
+Drive base_drive(const TrialView& view) {
+  const Path* path = &*view.trial.base;
+  const Vec3 start = path->position.front();
+  Spot root;
+  root.drawn = root.settled = view.layout->root();
+  return {Drive::Kind::base, path, root,
+          [path, start](double t) { return Vec3(path->position_at(t) - start); },
+          std::numeric_limits<double>::infinity()};
+}
+
+Drive load_drive(const TrialView& view) {
+  const std::vector<TimedLoad>* loads = &view.trial.loads;
+  const auto force = [loads](double t) {
+    Vec3 sum = Vec3::Zero();
+    for (const TimedLoad& load : *loads)
+      if (t >= load.from && t < load.to) sum += load.force;
+    return sum;
+  };
+  return {Drive::Kind::load, nullptr, view.layout->spot(loads->front().place), force,
+          std::numeric_limits<double>::infinity()};
+}
+
+// 1/s2, of the mean speed of a path over its mean way.
+double frequency_square(const Path& path, double until) {
+  Vec3 mean = Vec3::Zero();
+  double speed = 0.0, way = 0.0;
+  for (const Vec3& x : path.position) mean += x / static_cast<double>(path.position.size());
+  for (std::size_t i = 1; i < path.time.size() && path.time[i] <= until; ++i) {
+    const double dt = path.time[i] - path.time[i - 1];
+    speed += (path.position[i] - path.position[i - 1]).squaredNorm() / dt;
+    way += dt * (path.position[i] - mean).squaredNorm();
+  }
+  return way > 0.0 ? speed / way : 0.0;
+}
+
+bool at_one_place(const std::vector<TimedLoad>& loads) {
+  return std::ranges::all_of(loads, [&](const TimedLoad& load) {
+    return load.place.curve == loads.front().place.curve && load.place.at == loads.front().place.at;
+  });
+}
+
+}  // namespace
+
+std::vector<Drive> drives_of(const TrialView& view) {
+  std::vector<Drive> drives;
+  // What came off no longer leads the plant.
+  double broken = std::numeric_limits<double>::infinity();
+  for (const MeasuredEvent& event : view.trial.events)
+    if (event.is_detachment()) broken = std::min(broken, event.time);
+  for (const Hold& hold : view.trial.holds) {
+    if (hold.path.time.empty()) continue;
+    drives.push_back(hold_drive(view, hold));
+    drives.back().until = std::min(drives.back().until, broken);
+  }
+  if (view.trial.base && !view.trial.base->time.empty()) drives.push_back(base_drive(view));
+  if (!view.trial.loads.empty() && at_one_place(view.trial.loads))
+    drives.push_back(load_drive(view));
+  return drives;
+}
+
+Track track_of(const Trial& trial, int marker) {
+  Track track{marker, {}, {}};
+  for (int row = 0; row < trial.markers.size(); ++row) {
+    const Vec3 x = trial.markers.value.block<1, 3>(row, 3 * marker).transpose();
+    if (!x.allFinite()) continue;
+    track.time.push_back(trial.markers.time[row]);
+    track.place.push_back(x);
+  }
+  return track;
+}
+
+Track force_track(const Trial& trial) {
+  Track track;
+  for (int row = 0; row < trial.force.size(); ++row) {
+    const Vec3 f = trial.force.value.row(row).head<3>().transpose();
+    if (!f.allFinite()) continue;
+    track.time.push_back(trial.force.time[row]);
+    track.place.push_back(f);
+  }
+  return track;
+}
+
+int marker_near(const Layout& layout, const Spot& spot, double share) {
+  int nearest = -1;
+  double least = share * std::max(spot.from_root, 0.1 * layout.reach());
+  for (int m = 0; m < static_cast<int>(layout.markers().size()); ++m) {
+    const double way = layout.along(layout.markers()[m], spot);
+    if (way > least) continue;
+    least = way;
+    nearest = m;
+  }
+  return nearest;
+}
+
+Following following(const Track& track, const Drive& drive, const ClockReading& reading) {
+  Following found;
+  std::vector<Vec3> u, x;
+  for (std::size_t i = 0; i < track.time.size(); ++i) {
+    const double t = (track.time[i] - reading.shift) / reading.scale;
+    if ((reading.own_end ? track.time[i] : t) >= drive.until) break;
+    u.push_back(drive.value(std::max(t, 0.0)));
+    x.push_back(track.place[i]);
+  }
+  found.rows = static_cast<int>(u.size());
+  if (u.empty()) return found;
+  Vec3 mean_u = Vec3::Zero(), mean_x = Vec3::Zero();
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    mean_u += u[i] / found.rows;
+    mean_x += x[i] / found.rows;
+  }
+  Mat3 uu = Mat3::Zero(), xu = Mat3::Zero();
+  double xx = 0.0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    uu += (u[i] - mean_u) * (u[i] - mean_u).transpose() / found.rows;
+    xu += (x[i] - mean_x) * (u[i] - mean_u).transpose() / found.rows;
+    xx += (x[i] - mean_x).squaredNorm() / found.rows;
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> main(uu);
+  double left = xx;
+  for (int i = 0; i < 3; ++i) {
+    const double square = main.eigenvalues()[i];
+    if (!(square > least_share * main.eigenvalues()[2]) || square <= 0.0) continue;
+    const Vec3 direction = main.eigenvectors().col(i);
+    left -= (xu * direction).squaredNorm() / square;
+    found.along = direction;
+    found.gain = xu * direction / square;
+  }
+  found.driven = std::sqrt(uu.trace());
+  found.moved = std::sqrt(xx);
+  found.left = std::sqrt(std::max(left, 0.0));
+  return found;
+}
+
+bool is_led_slowly(const TrialView& view, const Drive& drive) {
+  const double compliance = view.layout->compliance(drive.spot).trace();
+  return frequency_square(*drive.path, drive.until) * compliance * view.layout->mass() <= slow;
+}
+
+double noise_of_markers(const TrialView& view) {
+  return view.experiment.noise.position_std.value_or(scatter_of_markers(view.trial));
+}
+
+double scatter_of_markers(const Trial& trial) {
+  // From the cubic through two neighbours on either side, whose square is 70/36 of the noise's.
+  std::vector<double> distances;
+  const Eigen::MatrixXd& value = trial.markers.value;
+  for (Eigen::Index c = 0; c < value.cols(); ++c)
+    for (Eigen::Index i = 2; i + 2 < value.rows(); ++i) {
+      const double d =
+          value(i, c) -
+          (4.0 * (value(i - 1, c) + value(i + 1, c)) - (value(i - 2, c) + value(i + 2, c))) / 6.0;
+      if (std::isfinite(d)) distances.push_back(std::abs(d));
+    }
+  return distances.empty() ? 0.0 : 1.4826 * median_of(distances) / std::sqrt(70.0 / 36.0);
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,89 @@
+// Forces. Led slowly, a point pulls back like a spring: what holds it pushes the way it goes, about
+// as hard as the nominal plant says. Only a plant that gains energy would pull the other way.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/discrepancy/admission/following.h"
+#include "pedicel/discrepancy/data/sentence.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double agrees = 0.5;  // of the force's motion
+constexpr double mostly = 0.8;  // a cosine
+// A modulus ten times off, and a gain of the sensor beside.
+constexpr double most_off = 30.0;
+constexpr double sure = 4.0;  // deviations
+constexpr int least_rows = 10;
+constexpr double least_compliance =
+    1.0e-3;  // of the softest axis: a rod, its joints and the grip give
+
+std::string likely_unit(double ratio) {
+  if (ratio > 50.0 && ratio < 320.0) return "; in grams?";
+  if (ratio >= 320.0 && ratio < 3200.0) return "; in millinewtons?";
+  if (ratio < 1e-2 && ratio > 1e-4) return "; in kilonewtons?";
+  return "";
+}
+
+/// N/m, of a point that is led along an axis.
+struct Range {
+  double free = 0.0;  ///< it may go aside
+  double held = 0.0;  ///< it is held along the other axes, too: a rod hardly stretches
+};
+Range stiffness(const Mat3& compliance, double grip, const Vec3& along) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(compliance);
+  const double least = least_compliance * axes.eigenvalues()[2];
+  Range range{1.0 / (along.dot(compliance * along) + grip), 0.0};
+  for (int i = 0; i < 3; ++i)
+    range.held += std::pow(axes.eigenvectors().col(i).dot(along), 2) /
+                  (std::max(axes.eigenvalues()[i], least) + grip);
+  return range;
+}
+
+// A plant that is led pulls back within the plane of the path and of its own stiffest axis, fast or
+// slowly: not across both.
+bool is_across(const Following& f, const Mat3& compliance) {
+  if (f.explained() < agrees) return false;
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(compliance);
+  const Vec3 normal = f.along.cross(axes.eigenvectors().col(0));
+  if (normal.norm() < 0.5) return false;  // led along that axis
+  return std::abs(f.gain.dot(normal.normalized())) > mostly * f.gain.norm();
+}
+
+}  // namespace
+
+std::optional<Fault> check_force(const TrialView& view) {
+  const Trial& trial = view.trial;
+  if (!view.layout || trial.force.size() == 0 || trial.holds.empty()) return std::nullopt;
+  const std::vector<Drive> drives = drives_of(view);
+  if (drives.empty() || drives.front().kind != Drive::Kind::hold) return std::nullopt;
+  const Drive& drive = drives.front();
+  const Following f = following(force_track(trial), drive);
+  if (f.rows < least_rows || f.driven <= 0.0) return std::nullopt;
+  const Mat3 plant = view.layout->compliance(drive.spot);
+  if (!plant.allFinite()) return std::nullopt;
+  if (is_across(f, plant))
+    return Fault{"force.csv", "goes across the way that " + drive.path->file.string() +
+                                  " leads the held point: expected the plant's pull against it; "
+                                  "another axis, or another trial's table?"};
+  if (!is_led_slowly(view, drive)) return std::nullopt;
+  const double grip = trial.holds.front().stiffness ? 1.0 / *trial.holds.front().stiffness : 0.0;
+  const Range expected = stiffness(plant, grip, f.along);
+  const double measured = f.gain.dot(f.along);
+  const double error = sure * f.left / (f.driven * std::sqrt(static_cast<double>(f.rows)));
+  const std::string said = text(
+      "changes by %.3g N for a metre that the held point is led, and the nominal plant takes "
+      "%.3g N: expected ",
+      measured, expected.free);
+  if (measured < -error && f.explained() > agrees && -measured > expected.free / most_off)
+    return Fault{"force.csv", said + "the holder's pull on the plant; of the opposite sign?"};
+  const bool is_large = measured - error > most_off * expected.held && f.explained() > agrees;
+  const bool is_small = std::abs(measured) + error < expected.free / most_off;
+  if (!is_large && !is_small) return std::nullopt;
+  return Fault{"force.csv", said + "newtons" +
+                                likely_unit(measured / (is_large ? expected.held : expected.free))};
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,94 @@
+// What is beside a held point goes where that goes.
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/discrepancy/admission/axes.h"
+#include "pedicel/discrepancy/admission/beside.h"
+#include "pedicel/discrepancy/data/sentence.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double agrees = 0.9;
+constexpr int least_rows = 8;
+constexpr double visible = 10.0;     // times the noise, of what moves
+constexpr double contradicts = 0.5;  // of the motion is not what is done
+constexpr double least_way = 0.02;   // of the reach, rms: of less a plant may make anything
+constexpr double seen = 30.0;        // times the noise, of what leads a marker
+constexpr double rests = 0.03;       // of the way of the point beside it
+
+std::string percent(double share) {
+  return text("%.2g %%", 100.0 * share);
+}
+
+// Another trial whose path the marker follows.
+const Trial* follows_that_of(const Beside& beside) {
+  const Experiment& experiment = beside.view().experiment;
+  for (const Trial& other : experiment.trials) {
+    if (&other == &beside.view().trial) continue;
+    const TrialView view{experiment, other, beside.view().layout};
+    for (const Drive& drive : drives_of(view))
+      if (drive.kind == beside.drive().kind && beside.explained_by(drive) > agrees) return &other;
+  }
+  return nullptr;
+}
+
+std::string other_axes_of(const Following& f) {
+  const Axes* best = nullptr;
+  double most = 0.8 * f.gain.norm();
+  for (const Axes& axes : other_axes()) {
+    const double along = (axes.read * f.along).dot(f.gain);
+    if (along <= (best ? 1.05 * most : most)) continue;
+    most = along;
+    best = &axes;
+  }
+  return best ? "; its axes are as (x, y, z) read as " + as_read(best->read) + ": " + best->what +
+                    "?"
+              : "";
+}
+
+std::string likely(const Beside& beside, const Following& f) {
+  if (const Trial* other = follows_that_of(beside))
+    return "; the markers of trial " + other->name + "?";
+  if (f.explained() > agrees) {
+    const std::string axes = other_axes_of(f);
+    if (!axes.empty()) return axes;
+  }
+  return "; another trial's table, another clock or frame?";
+}
+
+std::optional<Fault> goes_elsewhere(const Beside& beside) {
+  if (!beside.drive().path) return std::nullopt;
+  const Following f = beside.follow();
+  const double reach = beside.view().layout->reach();
+  if (f.rows < least_rows) return std::nullopt;
+  if (f.driven < std::max(least_way * reach, seen * beside.noise())) return std::nullopt;
+  if (f.moved < rests * f.driven)
+    return Fault{"markers.csv",
+                 "has " + beside.marker() +
+                     text(" within %.3g mm rms of one place, while ", 1e3 * f.moved) +
+                     beside.what() +
+                     text(" leads the plant beside it by %.3g mm: expected it to "
+                          "go along",
+                          1e3 * f.driven) +
+                     likely(beside, f)};
+  if (f.moved < visible * beside.noise() || beside.explained() > contradicts) return std::nullopt;
+  return Fault{"markers.csv", "has " + beside.marker() + " go another way than " + beside.what() +
+                                  " leads the plant beside it, which explains " +
+                                  percent(beside.explained()) +
+                                  " of its motion: expected it to go "
+                                  "along" +
+                                  likely(beside, f)};
+}
+
+}  // namespace
+
+std::optional<Fault> check_paths(const TrialView& view) {
+  if (!view.layout) return std::nullopt;
+  for (const Beside& beside : Beside::all_of(view))
+    if (auto fault = goes_elsewhere(beside)) return fault;
+  return std::nullopt;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/discrepancy/data/experiment.h"
+#include "pedicel/io/csv.h"
+
+namespace pedicel::discrepancy {
+
+/// A table of samples: a time that increases and is not negative, and the columns that are
+/// expected, in any order and in the ways in which programs write their names. Everything comes in
+/// SI units, whatever unit the header says. Columns that count the rows are told and passed over.
+/// Keeps a reference to the diagnostics.
+class SampleTable {
+ public:
+  /// `gaps`: cells but those of the time may be missing.
+  SampleTable(const std::filesystem::path& file, bool gaps, Diagnostics& diagnostics);
+
+  bool good() const { return diagnostics_.error_count() == before_; }
+  const io::CsvTable& table() const { return table_; }
+  std::size_t columns() const { return table_.columns.size() - counters_.size(); }
+  double time(std::size_t row) const { return table_.rows[row][time_]; }
+
+  /// Each of `expected` once and nothing else: their indices. `all` says them in a sentence.
+  std::vector<int> find(const std::vector<std::string>& expected, io::Quantity quantity,
+                        const std::string& all);
+  /// The three cells of a point are all there or none is.
+  void check_points(const std::vector<int>& columns);
+  Samples samples(const std::vector<int>& columns) const;
+  /// The same in row after row is said once.
+  void row_error(const char* kind, std::size_t row, int column, const std::string& what);
+
+ private:
+  void error(int line, int column, const std::string& what);
+  void find_time();
+  void check_time();
+  bool counts_frames(int column) const;
+  void to_si(int column, const std::string& name, io::Quantity quantity);
+  void say_differences(std::vector<std::string> unknown, int first_unknown,
+                       const std::vector<std::string>& missing, const std::string& all);
+
+  io::CsvTable table_;
+  int time_ = -1;
+  std::vector<int> counters_;  ///< columns that count the rows
+  Diagnostics& diagnostics_;
+  int before_;
+};
+
+}  // namespace pedicel::discrepancy

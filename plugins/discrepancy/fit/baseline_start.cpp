@@ -1,0 +1,67 @@
+#include "pedicel/discrepancy/fit/baseline_start.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double first_horizon = 0.3;  // share of the records in which periods do not slip
+constexpr double seen = 0.1, plainly_seen = 0.3;  // noise units, for a change by a tenth
+
+Hypothesis parameter(const std::string& name) {
+  const Hypothesis all = baseline();
+  const int p = all.factor_on(name);
+  Hypothesis one;
+  one.effects.push_back(all.effects[p]);
+  one.free.push_back(all.free[p]);
+  one.free.back().effect = 0;
+  return one;
+}
+
+// Those of the parameters that move a sample by so many noise units when they change by a tenth,
+// beside what `base` has; the names of the others are left.
+Hypothesis take_seen(Evaluator& evaluator, const FitOptions& options, const Hypothesis& base,
+                     double least, std::vector<std::string>& names) {
+  std::vector<Hypothesis> models{base};
+  for (const std::string& name : names) {
+    Hypothesis changed = parameter(name);
+    changed.set_value(0, 1.1);
+    models.push_back(base);
+    models.back().add(changed);
+  }
+  const Eigen::MatrixXd r = evaluator.residuals(models, options);
+  Hypothesis found;
+  int column = 0;
+  std::erase_if(names, [&](const std::string& name) {
+    if ((r.col(++column) - r.col(0)).cwiseAbs().maxCoeff() < least) return false;
+    found.add(parameter(name));
+    return true;
+  });
+  return found;
+}
+
+}  // namespace
+
+Hypothesis baseline_start(Evaluator& evaluator, const FitOptions& options,
+                          std::vector<std::string>& unseen) {
+  for (const plant::Effect& effect : baseline().effects) unseen.push_back(effect.name);
+  const Hypothesis found = take_seen(evaluator, options, {}, seen, unseen);
+  if (found.size() == 0) return found;
+  std::vector<Hypothesis> starts;
+  for (const double factor : {1.0, 0.4, 0.55, 0.7, 0.85, 1.2, 1.5, 2.2}) {
+    starts.push_back(found);
+    starts.back().set_value(0, factor);
+  }
+  FitOptions early = options;
+  early.horizon = first_horizon;
+  return starts[scan(evaluator, starts, early).best];
+}
+
+bool add_plainly_seen(Evaluator& evaluator, const FitOptions& options,
+                      std::vector<std::string>& unseen, Hypothesis& base) {
+  if (unseen.empty()) return false;
+  const Hypothesis found = take_seen(evaluator, options, base, plainly_seen, unseen);
+  base.add(found);
+  return found.size() > 0;
+}
+
+}  // namespace pedicel::discrepancy

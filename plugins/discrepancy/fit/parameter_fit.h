@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/fit/numerics.h"
+#include "pedicel/discrepancy/fit/profile.h"
+
+namespace pedicel::discrepancy {
+
+struct ParameterFitOptions {
+  int threads = 1;
+  std::uint64_t seed = 1;  ///< of the starts that are drawn
+  /// What is being done, and the share of the whole that is done (an estimate).
+  std::function<void(const std::string&, double)> progress;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// A number that was asked for, with its 95 % interval by profile likelihood.
+struct FittedParameter {
+  std::string name;  ///< "youngs_modulus", "extra_mass.mass@stem:0.7", a vector's with [0] to [2]
+  std::string unit;
+  double value = 0.0, low = 0.0, high = 0.0;
+  /// The data do not object to anything up to this side's bound.
+  bool low_open = false, high_open = false;
+  bool at_bound = false;  ///< the value itself
+  /// False: open on both sides, or it moves no sample by a tenth of the noise.
+  bool seen = true;
+};
+
+/// Of one trial: RMS of data minus prediction over the noise of a sample.
+struct TrialError {
+  std::string trial;
+  bool check = false;  ///< not fitted
+  double rms = 0.0;
+};
+
+struct ParameterFit {
+  FitSummary summary;  ///< its hypothesis also holds what was not seen, as it was given
+  std::vector<FittedParameter> parameters;
+  std::vector<TrialError> trials;
+  Noise position_noise, force_noise;
+  Numerics numerics;
+  double numerical_error = 0.0;  ///< RMS over the noise, before it was corrected for
+  /// RMS of the whitened residual where that is above 1: more than noise is left, and the intervals
+  /// are wider by it.
+  double spread = 1.0;
+  int starts = 0;  ///< looked at
+  int refits = 0;  ///< for the intervals
+  bool stopped = false;
+  std::vector<std::string> remarks;  ///< on the data, one sentence each
+  long simulations = 0;
+  double seconds = 0.0;
+};
+
+/// Fits the free parameters of `starts` (the same model at several values) to the experiment's fit
+/// trials, with the noise, the check of step and mesh and the freedom of the mesh of a diagnosis.
+/// Throws InvalidFile where the data cannot be used or the plant not be built.
+ParameterFit fit_parameters(const Experiment& experiment, const std::vector<Hypothesis>& starts,
+                            const ParameterFitOptions& options);
+
+/// fit.json.
+std::string to_json(const ParameterFit& fit);
+/// A table for people.
+std::string to_table(const ParameterFit& fit);
+
+}  // namespace pedicel::discrepancy

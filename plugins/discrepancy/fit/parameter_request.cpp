@@ -1,0 +1,232 @@
+#include "pedicel/discrepancy/fit/parameter_request.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "pedicel/core/check.h"
+#include "pedicel/discrepancy/fit/causes.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr int most_starts = 24;
+
+struct Word {
+  std::string text, effect, parameter;
+  std::optional<std::string> value;
+  std::optional<plant::CurvePlace> place;
+};
+
+[[noreturn]] void refuse(const std::string& word, const std::string& why) {
+  throw UsageError("fit " + word + ": " + why);
+}
+
+std::optional<double> number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
+plant::CurvePlace parse_place(const std::string& word, const std::string& text,
+                              const Experiment& experiment) {
+  const std::size_t colon = text.rfind(':');
+  const auto at = colon == std::string::npos ? std::nullopt : number(text.substr(colon + 1));
+  if (!at || *at < 0.0 || *at > 1.0)
+    refuse(word, "the place is \"" + text + "\", expected CURVE:AT with AT from 0 to 1");
+  const plant::CurvePlace place{text.substr(0, colon), *at, {}};
+  const auto& curves = experiment.plant.curves;
+  if (std::ranges::none_of(curves, [&](const auto& c) { return c.name == place.curve; }))
+    refuse(word, "the plant has no curve \"" + place.curve + "\"");
+  return place;
+}
+
+Word parse(const std::string& text, const Experiment& experiment) {
+  Word word;
+  word.text = text;
+  std::string rest = text;
+  if (const std::size_t sign = rest.find('@'); sign != std::string::npos) {
+    word.place = parse_place(text, rest.substr(sign + 1), experiment);
+    rest.resize(sign);
+  }
+  if (const std::size_t sign = rest.find('='); sign != std::string::npos) {
+    word.value = rest.substr(sign + 1);
+    rest.resize(sign);
+  }
+  const std::size_t dot = rest.find('.');
+  word.effect = rest.substr(0, dot);
+  word.parameter = dot == std::string::npos ? "factor" : rest.substr(dot + 1);
+  const Hypothesis base = baseline();
+  const bool material =
+      std::ranges::any_of(base.effects, [&](const auto& e) { return e.name == word.effect; });
+  const effects::EffectDefinition* kind = effects::find_effect(word.effect);
+  if (!kind || (dot == std::string::npos && !material))
+    refuse(text,
+           "expected youngs_modulus, density, damping_time, or EFFECT.PARAMETER of a known "
+           "effect");
+  const bool moves = kind->needs_place && word.parameter == "at";
+  std::string known;
+  for (const effects::EffectParameter& p : kind->parameters)
+    known += (known.empty() ? "" : ", ") + p.name;
+  if (!moves && std::ranges::none_of(kind->parameters,
+                                     [&](const auto& p) { return p.name == word.parameter; }))
+    refuse(text, word.effect + " has no \"" + word.parameter + "\", expected one of " + known);
+  if (word.place && !kind->needs_place) refuse(text, word.effect + " has no place");
+  return word;
+}
+
+/// The words that belong to one effect at one place.
+struct Group {
+  std::string effect;
+  std::optional<plant::CurvePlace> place;
+  std::vector<Word> words;
+};
+
+std::vector<Group> group(const std::vector<Word>& words) {
+  std::vector<Group> groups;
+  const auto find = [&](const Word& w) {
+    return std::ranges::find_if(
+        groups, [&](const Group& g) { return g.effect == w.effect && g.place == w.place; });
+  };
+  for (const Word& w : words)
+    if (w.place && find(w) == groups.end()) groups.push_back({w.effect, w.place, {}});
+  for (const Word& w : words) {
+    const bool placed = std::ranges::any_of(
+        groups, [&](const Group& g) { return g.effect == w.effect && g.place; });
+    if (!placed && find(w) == groups.end()) groups.push_back({w.effect, {}, {}});
+    for (Group& g : groups)
+      if (g.effect == w.effect && (g.place == w.place || !w.place)) g.words.push_back(w);
+  }
+  return groups;
+}
+
+std::vector<Hypothesis> material_starts(const std::string& name) {
+  const Hypothesis all = baseline();
+  std::vector<Hypothesis> starts;
+  for (int p = 0; p < all.size(); ++p) {
+    const plant::Effect& effect = all.effects[all.free[p].effect];
+    if (effect.name != name) continue;
+    Hypothesis one;
+    one.effects = {effect};
+    one.free = {all.free[p]};
+    one.free[0].effect = 0;
+    one.free[0].prior = 0.0;  // what is asked for by name is judged by the data alone
+    for (const double factor : {1.0, 0.55, 0.75, 1.35, 1.9}) {
+      one.set_value(0, factor);
+      starts.push_back(one);
+    }
+  }
+  return starts;
+}
+
+void give(const Word& word, plant::Effect& effect, const effects::EffectParameter& parameter) {
+  if (parameter.size == 0) {
+    const auto& known = parameter.words;
+    if (!known.empty() && std::ranges::find(known, *word.value) == known.end())
+      refuse(word.text, "is not one of the words that it may be");
+    effect.words[word.parameter] = *word.value;
+    return;
+  }
+  const auto value = number(*word.value);
+  if (parameter.size != 1) refuse(word.text, "a vector can be fitted, not given");
+  const io::Bounds& bounds = parameter.bounds;
+  if (!value || *value < bounds.minimum || *value > bounds.maximum ||
+      (bounds.open_minimum && *value == bounds.minimum))
+    refuse(word.text, "\"" + *word.value + "\" is not a number that it may be");
+  effect.numbers[word.parameter] = {*value};
+}
+
+bool is_of(const FreeParameter& free, const std::string& parameter) {
+  return free.name == parameter || (free.name == "heading" && parameter == "direction");
+}
+
+// What of a diagnosis's start is free here, and what is given.
+Hypothesis adapted(Hypothesis start, const Group& group) {
+  const effects::EffectDefinition* kind = effects::find_effect(group.effect);
+  plant::Effect& effect = start.effects[0];
+  if (group.place) effect.place = *group.place;
+  for (const Word& word : group.words)
+    if (word.value)
+      for (const effects::EffectParameter& p : kind->parameters)
+        if (p.name == word.parameter) give(word, effect, p);
+  std::erase_if(start.free, [&](const FreeParameter& free) {
+    return std::ranges::none_of(
+        group.words, [&](const Word& w) { return !w.value && is_of(free, w.parameter); });
+  });
+  for (FreeParameter& free : start.free) free.prior = 0.0;
+  return start;
+}
+
+void check_words(const Group& group, const std::vector<Hypothesis>& starts) {
+  const effects::EffectDefinition* kind = effects::find_effect(group.effect);
+  const auto spoken_of = [&](const std::string& parameter) {
+    return std::ranges::any_of(group.words,
+                               [&](const Word& w) { return w.parameter == parameter; });
+  };
+  for (const Word& word : group.words) {
+    if (word.value) continue;
+    const bool fits = std::ranges::any_of(starts.front().free, [&](const FreeParameter& free) {
+      return is_of(free, word.parameter);
+    });
+    if (!fits) refuse(word.text, "cannot be fitted; give it as " + word.text + "=VALUE");
+  }
+  if (kind->needs_place && !group.place)
+    refuse(group.words.front().text, group.effect + " needs a place: @CURVE:AT");
+  // A size that nobody speaks of would be a diagnosis's first guess, and silently so.
+  for (const effects::EffectParameter& p : kind->parameters)
+    if (p.required && p.name != "k0" && !spoken_of(p.name))
+      refuse(group.words.front().text, group.effect + " also needs " + p.name + ": name it (" +
+                                           group.effect + "." + p.name + ") or give it (" +
+                                           group.effect + "." + p.name + "=VALUE)");
+}
+
+std::vector<Hypothesis> starts_of(const Group& group, const std::vector<Cause>& causes) {
+  std::vector<Hypothesis> starts = material_starts(group.effect);
+  for (const Cause& cause : causes)
+    if (cause.name == group.effect) starts = cause.starts;
+  if (starts.empty())
+    refuse(group.words.front().text, group.effect + " cannot be fitted to this experiment");
+  check_words(group, starts);
+  std::vector<Hypothesis> result;
+  for (const Hypothesis& start : starts) {
+    const Hypothesis one = adapted(start, group);
+    const bool known = std::ranges::any_of(
+        result, [&](const Hypothesis& other) { return other.effects[0] == one.effects[0]; });
+    if (!known) result.push_back(one);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Hypothesis> requested_starts(const Experiment& experiment,
+                                         const std::vector<std::string>& words) {
+  std::vector<Word> parsed;
+  for (const std::string& word : words) {
+    if (std::ranges::any_of(parsed, [&](const Word& w) { return w.text == word; }))
+      refuse(word, "is named twice");
+    parsed.push_back(parse(word, experiment));
+  }
+  const std::vector<Cause> causes = candidate_causes(experiment, scales_of(experiment));
+  std::vector<Hypothesis> all{Hypothesis{}};
+  for (const Group& one : group(parsed)) {
+    const std::vector<Hypothesis> starts = starts_of(one, causes);
+    std::vector<Hypothesis> longer;
+    // All pairs while they are few; beyond that each start with one of the others.
+    const bool product = all.size() * starts.size() <= most_starts;
+    const std::size_t count =
+        product ? all.size() * starts.size() : std::max(all.size(), starts.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      longer.push_back(all[product ? i / starts.size() : i % all.size()]);
+      longer.back().add(starts[i % starts.size()]);
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+}  // namespace pedicel::discrepancy

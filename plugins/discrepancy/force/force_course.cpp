@@ -1,0 +1,91 @@
+#include "pedicel/discrepancy/force/force_course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "pedicel/discrepancy/data/sentence.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double small_share = 0.05;  // of the largest force, that is none
+
+struct Moment {
+  Vec3 force, velocity;  // N and m/s, W
+  double seconds = 0.0;
+};
+
+ForceCourse course_of(const std::vector<Moment>& moments) {
+  ForceCourse course;
+  for (const Moment& moment : moments) course.most = std::max(course.most, moment.force.norm());
+  double work = 0.0, turnover = 0.0, active = 0.0, all = 0.0;
+  for (const auto& [force, velocity, seconds] : moments) {
+    work += force.dot(velocity) * seconds;
+    turnover += std::abs(force.dot(velocity)) * seconds;
+    active += force.norm() > small_share * course.most ? seconds : 0.0;
+    all += seconds;
+  }
+  if (all > 0.0) course.active = active / all;
+  if (turnover > 0.0) course.work = work / turnover;
+  return course;
+}
+
+}  // namespace
+
+ForceCourse course_of_history(const ForceSpace& space, const ForcePath& path,
+                              const Eigen::VectorXd& history) {
+  std::vector<Moment> moments;
+  for (std::size_t k = 0; k < space.knots.size(); ++k) {
+    const ForceKnots& knots = space.knots[k];
+    for (int i = 0; i < knots.count; ++i) {
+      Vec3 force = Vec3::Zero();
+      for (std::size_t a = 0; a < space.axes.size(); ++a)
+        force += history[knots.first + static_cast<int>(a) * knots.count + i] * space.axes[a];
+      moments.push_back({force, path.velocity[k].row(i).transpose(), knots.interval});
+    }
+  }
+  return course_of(moments);
+}
+
+ForceCourse course_of_law(Simulator& simulator, const Hypothesis& model,
+                          std::span<const int> trials) {
+  std::vector<std::vector<Moment>> heard(trials.size());
+  std::vector<double> last(trials.size(), 0.0);
+  std::vector<Variant> variants(trials.size(), model.variant());
+  std::vector<Simulator::Request> requests;
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    auto& law = variants[t].forces.back().law;
+    law = [plain = law, &moments = heard[t], &before = last[t]](double time, const Vec3& x,
+                                                                const Vec3& v) -> Vec3 {
+      const Vec3 force = plain(time, x, v);
+      moments.push_back({force, v, std::max(0.0, time - before)});
+      before = time;
+      return force;
+    };
+    requests.push_back({&variants[t], trials[t]});
+  }
+  simulator.run(requests);
+  std::vector<Moment> all;
+  for (const std::vector<Moment>& moments : heard)
+    all.insert(all.end(), moments.begin(), moments.end());
+  return course_of(all);
+}
+
+std::string when_it_acts(const ForceCourse& course, const std::string& kind) {
+  const std::string size = text("it reaches %.2g N", course.most);
+  if (kind == "periodic") return size + ", and comes back with time, whatever the plant does";
+  if (kind == "jolt" || kind == "onset") return size + ", in one trial alone";
+  return size + text(", and acts in %.0f %% of the time", 100.0 * course.active) +
+         (kind == "string" || kind == "stop" ? ", by where the plant is" : "");
+}
+
+std::string what_it_does(const ForceCourse& course) {
+  const std::string what = course.work < -0.5  ? "it takes energy out"
+                           : course.work > 0.5 ? "it drives the plant"
+                                               : "it gives back about what it takes";
+  return what + text(" (work over turnover %.2f)", course.work);
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,238 @@
+#include "pedicel/discrepancy/force/force_refits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/discrepancy/simulate/force_term.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr std::size_t most_refits = 5;
+// Nats of linear response that a law must have, by which it may be behind the best one, and that in
+// shares of the best one's: large forces are not linear.
+constexpr double least_evidence = 4.0, refit_within = 30.0, refit_share = 0.3;
+// A string's numbers stand for one another: a refit could go along its valley for long.
+constexpr int most_iterations = 30;
+constexpr double close_share = 0.05;  // of the best law's evidence
+constexpr double place_share = 0.5;   // of the evidence, by which another place may be worse
+constexpr std::size_t most_looks = 6;
+constexpr int look_iterations = 5;
+constexpr double least_across = 0.05;  // of a unit vector, that has a direction across the curve
+constexpr double far_end = 0.6;  // m a length of the plant: where a near end is looked for first
+
+// What refits of one kind find for the other, too. (A spring does not find a pull that grows
+// weaker with distance: its refit goes where the pull is constant.)
+std::string family_of(const plant::Effect& force) {
+  return kind_of(force) == "string" ? "stop" : kind_of(force);
+}
+
+plant::Effect near_end(plant::Effect force, const ForcePlace& place, double distance) {
+  if (kind_of(force) == "constant") {
+    const Vec3 push(force.numbers.at("force").data());
+    const Vec3 about = place.path.position.front().row(0).transpose();
+    const Vec3 tangent = place.space.axes[0].cross(place.space.axes[1]);
+    const Vec3 towards = push.normalized();
+    force.numbers.erase("force");
+    force.numbers["about"] = {about.x(), about.y(), about.z()};
+    force.numbers["towards"] = {towards.x(), towards.y(), towards.z()};
+    force.numbers["tilt"] = {0.0, 0.0};
+    force.numbers["axis"] = {tangent.x(), tangent.y(), tangent.z()};
+    force.numbers["stiffness"] = {push.norm() / distance};
+  }
+  force.words["kind"] = kind_with_near_end(kind_of(force));
+  force.numbers["distance"] = {distance};
+  return force;
+}
+
+// A stop pushes across the curve, where a string may lean along it.
+plant::Effect as_stop(plant::Effect string) {
+  const Vec3 axis = Vec3(string.numbers.at("axis").data()).normalized();
+  const Vec3 pull = direction_of(string);
+  const Vec3 across = pull - axis.dot(pull) * axis;
+  if (across.norm() > least_across) {
+    const Vec3 n = across.normalized();
+    string.numbers["towards"] = {n.x(), n.y(), n.z()};
+    string.numbers["tilt"] = {0.0, 0.0};
+  }
+  string.words["kind"] = "stop";
+  string.numbers.erase("distance");
+  return string;
+}
+
+}  // namespace
+
+std::string place_text(const plant::CurvePlace& place) {
+  return place.curve + text(" at %.2g of its length", place.at);
+}
+
+std::string kind_with_near_end(const std::string& kind) {
+  return kind == "stop" ? "string" : kind == "constant" ? "spring" : "";
+}
+
+ForceRefits::ForceRefits(Evaluator& evaluator, const FitSummary& model, const FitSummary& centre,
+                         std::span<const ForcePlace> places, const LibraryScales& scales,
+                         const MissingForceOptions& options)
+    : evaluator_(evaluator),
+      model_(model),
+      centre_(centre),
+      places_(places),
+      scales_(scales),
+      options_(options) {}
+
+void ForceRefits::run(std::vector<ForceTerm> laws) {
+  linear_ = std::move(laws);
+  for (const ForceTerm& law : worth_refitting()) refit(law);
+  if (refitted_.empty()) return;
+  sort();
+  for (const ForceTerm& law : close_ones())
+    if (const std::optional<ForceTerm> other = with_other_end(law)) refit(*other);
+  sort();
+  if (!options_.correct_at) return;
+  options_.correct_at(best_);
+  best_ = discrepancy::refit(evaluator_, best_, options_.fit);
+  judge(best_, refitted_.front());
+}
+
+void ForceRefits::sort() {
+  std::ranges::stable_sort(refitted_, std::greater(), &ForceTerm::evidence);
+}
+
+// The best place of every kind, as long as it is not far behind; then, of the best kind, the best
+// place on every other curve. Simple laws first.
+std::vector<ForceTerm> ForceRefits::worth_refitting() const {
+  if (linear_.empty()) return {};
+  const plant::Effect& first = linear_.front().force;
+  const double best = linear_.front().evidence;
+  const double least =
+      std::max(least_evidence, std::min(best - refit_within, (1.0 - refit_share) * best));
+  std::vector<ForceTerm> chosen;
+  const auto take = [&](const ForceTerm& law, std::set<std::string>& known,
+                        const std::string& what) {
+    if (law.evidence > least && chosen.size() < most_refits && known.insert(what).second)
+      chosen.push_back(law);
+  };
+  std::set<std::string> families, curves{first.place->curve};
+  for (const ForceTerm& law : linear_) take(law, families, family_of(law.force));
+  for (const ForceTerm& law : linear_)
+    if (kind_of(law.force) == kind_of(first)) take(law, curves, law.force.place->curve);
+  std::ranges::stable_sort(
+      chosen, [](const ForceTerm& a, const ForceTerm& b) { return a.parameters < b.parameters; });
+  return chosen;
+}
+
+void ForceRefits::refit(ForceTerm law) {
+  FitSummary found = fitted(law);
+  judge(found, law);
+  const bool better = refitted_.empty() || law.evidence > best_evidence_;
+  refitted_.push_back(law);
+  if (!better) return;
+  best_evidence_ = law.evidence;
+  best_ = std::move(found);
+}
+
+// From the best of a few starts in each place where the same law does about as well: what is
+// stiff has ridges between places. A few iterations tell which one goes on.
+FitSummary ForceRefits::fitted(const ForceTerm& law) {
+  FitOptions few = options_.fit;
+  few.iterations = std::min(most_iterations, few.iterations);
+  std::vector<plant::Effect> places{law.force};
+  for (const ForceTerm& other : linear_)
+    if (kind_of(other.force) == kind_of(law.force) && !(other.force.place == law.force.place) &&
+        other.force.place->curve == law.force.place->curve &&
+        other.evidence > (1.0 - place_share) * law.evidence && places.size() < most_looks)
+      places.push_back(other.force);
+  if (places.size() == 1) return fit(evaluator_, best_start(law.force), few);
+  FitOptions look = few;
+  look.iterations = std::min(look_iterations, few.iterations);
+  FitSummary best;
+  for (const plant::Effect& force : places) {
+    FitSummary found = fit(evaluator_, best_start(force), look);
+    if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
+  }
+  few.iterations -= look.iterations;
+  return few.iterations > 0 ? discrepancy::refit(evaluator_, best, few) : best;
+}
+
+// What looks like a stop may be a string to a point at any distance.
+Hypothesis ForceRefits::best_start(const plant::Effect& force) {
+  std::vector<Hypothesis> starts;
+  for (const double factor : {1.0, 0.5, 2.0}) {
+    plant::Effect scaled = force;
+    scale_force(scaled, factor);
+    starts.push_back(with(scaled));
+  }
+  if (kind_of(force) == "string")
+    for (const ForceTerm& stop : refitted_)
+      for (const double distance : {0.3, 0.6, 1.5})
+        if (kind_of(stop.force) == "stop") {
+          plant::Effect string = stop.force;
+          string.words["kind"] = "string";
+          string.numbers["distance"] = {distance * scales_.length};
+          starts.push_back(with(string));
+        }
+  return starts[scan(evaluator_, starts, options_.fit).best];
+}
+
+Hypothesis ForceRefits::with(const plant::Effect& force) const {
+  Hypothesis start = centre_.hypothesis;
+  const ForcePlace& place = nearest(*force.place);
+  if (start.size() > 0)  // which have taken what they could of the force
+    start.set_unknowns(start.unknowns() +
+                       place.space.shift * history_of(force, place.space, place.path, scales_));
+  start.add(free_force(force, 0.02 * scales_.length, scales_.duration));
+  start.name = missing_force;
+  return start;
+}
+
+// What a refit says about its law.
+void ForceRefits::judge(const FitSummary& found, ForceTerm& law) const {
+  law.gain = (model_.cost - found.cost) / scales_.dispersion;
+  // One more: its place along the curve.
+  law.evidence = law.gain - cost_of(law.parameters + 1, scales_.samples, scales_.choices);
+  law.force = found.hypothesis.effects.back();
+  if (options_.note)
+    options_.note("Refitted: " + describe(law.force) + " at " + place_text(*law.force.place) +
+                  text(", evidence %.4g", law.evidence));
+}
+
+// A law that was left in a side valley may come out first by its other end.
+std::vector<ForceTerm> ForceRefits::close_ones() const {
+  const double least = (1.0 - close_share) * refitted_.front().evidence;
+  std::vector<ForceTerm> close;
+  for (const ForceTerm& law : refitted_)
+    if (law.evidence >= least) close.push_back(law);
+  return close;
+}
+
+// What pulls towards a far end is a stop or a constant push; its own kind, with an end that is
+// near, is tried there, too, so that it can be said whether the data tell them apart. So is a
+// stop in place of a string, which has more numbers.
+std::optional<ForceTerm> ForceRefits::with_other_end(const ForceTerm& law) const {
+  const bool is_string = kind_of(law.force) == "string";
+  const std::string kind = is_string ? "stop" : kind_with_near_end(kind_of(law.force));
+  const auto tried = [&](const ForceTerm& other) {
+    return kind_of(other.force) == kind && other.force.place->curve == law.force.place->curve;
+  };
+  if (kind.empty() || std::ranges::any_of(refitted_, tried)) return {};
+  ForceTerm other = law;
+  other.force = is_string
+                    ? as_stop(law.force)
+                    : near_end(law.force, nearest(*law.force.place), far_end * scales_.length);
+  other.parameters = kind == "string" ? 5 : 3;
+  return other;
+}
+
+const ForcePlace& ForceRefits::nearest(const plant::CurvePlace& at) const {
+  return *std::ranges::min_element(places_, std::less(), [&](const ForcePlace& place) {
+    const plant::CurvePlace& there = place.space.place;
+    return (there.curve == at.curve ? 0.0 : 10.0) + std::abs(there.at - at.at);
+  });
+}
+
+}  // namespace pedicel::discrepancy

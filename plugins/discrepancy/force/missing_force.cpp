@@ -1,0 +1,324 @@
+#include "pedicel/discrepancy/force/missing_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "pedicel/discrepancy/data/places.h"
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/discrepancy/force/force_course.h"
+#include "pedicel/discrepancy/force/force_refits.h"
+#include "pedicel/discrepancy/select/continuation.h"
+#include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/discrepancy/simulate/force_term.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double enough_evidence = 8.0;  // nats, for a force to be told of
+constexpr double clear_margin = 5.0;     // nats, of a sensor over a force
+constexpr double as_well_within = 3.0;   // nats: odds of 20 to 1
+constexpr std::size_t most_places = 14;
+constexpr std::ptrdiff_t most_loud = 3;  // places where laws are tried, besides two of each curve
+constexpr std::size_t kinds = 11;
+
+class Inference {
+ public:
+  Inference(Evaluator& evaluator, const FitSummary& model, const MissingForceOptions& options)
+      : evaluator_(evaluator),
+        model_(model),
+        options_(options),
+        experiment_(evaluator.data().experiment()) {
+    scales_.samples = evaluator.data().samples(options.fit.trials);
+    for (const plant::PlantCurve& curve : experiment_.plant.curves)
+      scales_.length = std::max(scales_.length, drawn_length(curve));
+    for (const Trial& trial : experiment_.trials) {
+      scales_.duration = std::max(scales_.duration, trial.duration());
+      scales_.trials.push_back(trial.name);
+    }
+  }
+
+  MissingForce run() {
+    choose_centre();
+    look_at_places();
+    const bool of_sensor = look_at_sensor();
+    if (stopped()) {
+      places_.clear();
+    } else if (of_sensor) {
+      conclude_sensor();
+    } else if (!places_.empty() && places_.front().free.evidence > options_.least_evidence) {
+      try_laws();
+      ForceRefits refits(evaluator_, model_, centre_, places_, scales_, options_);
+      refits.run(std::move(terms_));
+      result_.terms = refits.laws();
+      result_.fit = refits.best();
+      if (!result_.terms.empty()) result_.evidence = result_.terms.front().evidence;
+      if (!stopped()) conclude();
+    }
+    result_.simulations = responses_->simulations();
+    return std::move(result_);
+  }
+
+ private:
+  // What is found then is not used.
+  bool stopped() const {
+    const std::atomic<bool>* stop = evaluator_.simulator().stop();
+    return stop && *stop;
+  }
+
+  void note(const std::string& sentence) const {
+    if (options_.note) options_.note(sentence);
+  }
+
+  // Markers spread over the plant.
+  std::vector<int> markers() const {
+    std::vector<int> all;
+    for (const Chain& chain : chains_of(experiment_))
+      for (std::size_t m = 0; m < chain.markers.size(); ++m)
+        if (chain.arc[m] > 0.02 * chain.length) all.push_back(chain.markers[m]);
+    if (all.size() <= most_places) return all;
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < most_places; ++i)
+      chosen.push_back(all[i * (all.size() - 1) / (most_places - 1)]);
+    return chosen;
+  }
+
+  double noise_cost() const { return 0.5 * scales_.samples; }
+
+  // Where no number of the plant can stand for a force, it pulls them far away all the same: the
+  // plant as it was believed to be answers more like the real one then.
+  void choose_centre() {
+    centre_ = model_;
+    if (is_beyond_belief(model_)) {
+      note("The refitted plant is beyond belief: forces act on the one that was believed in.");
+      FitOptions none = options_.fit;
+      none.iterations = 0;
+      centre_ = fit(evaluator_, as_believed(model_.hypothesis), none);
+      if (options_.correct_at) options_.correct_at(centre_);
+    }
+    const Simulator& simulator = evaluator_.simulator();
+    const double distance = options_.response_distance > 0.0 ? options_.response_distance
+                                                             : simulator.numerics().distance;
+    responses_ =
+        std::make_unique<ForceResponses>(experiment_, evaluator_.data(), centre_, options_.fit,
+                                         distance, options_.threads, simulator.stop());
+  }
+
+  void look_at_places() {
+    double most = 0.0;
+    for (const int marker : markers()) {
+      if (stopped()) return;
+      ForcePlace place;
+      place.space = responses_->force_at(marker);
+      place.free = free_history(place.space);
+      place.path = responses_->path(place.space, place.free.value);
+      most = std::max(most, place.free.gain);
+      places_.push_back(std::move(place));
+    }
+    std::ranges::stable_sort(places_, [](const ForcePlace& a, const ForcePlace& b) {
+      return a.free.evidence > b.free.evidence;
+    });
+    for (const ForcePlace& place : places_)
+      note("A free force at " + place_text(place.space.place) +
+           text(": evidence %.4g", place.free.evidence));
+    scales_.dispersion = std::max(1.0, (centre_.cost - most) / noise_cost());
+    scales_.choices = kinds * std::max<std::size_t>(1, places_.size());
+  }
+
+  // Whether markers that move by themselves explain the data better than any force does. One alone
+  // could always have moved so.
+  bool look_at_sensor() {
+    if (experiment_.markers.size() < 2) return false;
+    std::vector<std::vector<int>> groups{{}};
+    for (int m = 0; m < static_cast<int>(experiment_.markers.size()); ++m) {
+      groups.front().push_back(m);
+      groups.push_back({m});
+    }
+    for (const std::vector<int>& group : groups) {
+      if (stopped()) return false;
+      const double evidence = free_history(responses_->displacement_of(group)).evidence;
+      if (evidence <= sensor_evidence_) continue;
+      sensor_evidence_ = evidence;
+      sensor_ = group;
+    }
+    const double force = places_.empty() ? 0.0 : places_.front().free.evidence;
+    note(text("A free displacement of markers: evidence %.4g", sensor_evidence_));
+    return sensor_evidence_ > std::max(force, enough_evidence) + clear_margin;
+  }
+
+  void conclude_sensor() {
+    result_.found = true;
+    result_.kind = "sensor";
+    result_.evidence = sensor_evidence_;
+    result_.where = sensor_.size() > 1 ? "All markers move alike: the camera's frame or the base"
+                                       : "Marker \"" + experiment_.markers[sensor_.front()].name +
+                                             "\" moves on its own: the marker, not the plant";
+    const FreeForce free = free_history(responses_->displacement_of(sensor_));
+    result_.share = share_of(free.gain);
+  }
+
+  double share_of(double gain) const {
+    return std::clamp(gain / std::max(1.0, model_.cost - noise_cost()), 0.0, 1.0);
+  }
+
+  void try_laws() {
+    std::map<std::string, std::size_t> tried;  // places of each curve
+    for (const ForcePlace& place : places_) {
+      if (stopped()) return;
+      const bool loud = &place - places_.data() < most_loud;
+      if (++tried[place.space.place.curve] > 2 && !loud) continue;
+      const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
+      for (const ForceTerm& term : terms)
+        note("  " + kind_of(term.force) + " at " + place_text(*term.force.place) +
+             text(": evidence %.4g with %g numbers", term.evidence, term.parameters));
+      terms_.insert(terms_.end(), terms.begin(), terms.end());
+    }
+    std::ranges::stable_sort(
+        terms_, [](const ForceTerm& a, const ForceTerm& b) { return a.evidence > b.evidence; });
+  }
+
+  void conclude() {
+    const ForcePlace& loudest = places_.front();
+    if (result_.evidence >= enough_evidence) {
+      const plant::Effect& force = result_.terms.front().force;
+      result_.found = true;
+      result_.kind = plain_kind(force);
+      result_.place = force.place;
+      result_.share = share_of(model_.cost - result_.fit.cost);
+      result_.what = "It fits best as this: " + describe(force);
+      describe_course(
+          course_of_law(evaluator_.simulator(), result_.fit.hypothesis, options_.fit.trials),
+          kind_of(force));
+      find_elsewhere();
+      find_other_kinds();
+      check();
+    } else if (loudest.free.evidence - (centre_.cost - model_.cost) >= enough_evidence) {
+      result_.found = true;
+      result_.kind = "force of no known law";
+      result_.place = loudest.space.place;
+      result_.evidence = loudest.free.evidence - (centre_.cost - model_.cost);
+      result_.share = share_of(loudest.free.gain - (centre_.cost - model_.cost));
+      result_.what = "No law of the library follows it";
+      describe_course(course_of_history(loudest.space, loudest.path, loudest.free.value), "");
+    }
+    if (result_.found) result_.where = where_text();
+  }
+
+  // How well the place is known: along its curve, and on which one.
+  void find_elsewhere() {
+    const Hypothesis& model = result_.fit.hypothesis;
+    for (int p = 0; p < model.size(); ++p)
+      if (model.free[p].name == "at" && model.effects[model.free[p].effect].name == missing_force &&
+          std::isfinite(result_.fit.standard_error[p]))
+        result_.place_error =
+            std::hypot(model.free[p].scale * result_.fit.standard_error[p], node_share());
+    std::set<std::string> known{result_.place->curve};
+    for (const ForceTerm& term : result_.terms)
+      if (term.evidence > result_.evidence - as_well_within &&
+          known.insert(term.force.place->curve).second)
+        result_.elsewhere.push_back(*term.force.place);
+  }
+
+  // The deviation of a place that is only known to a node, of its curve's length: loud data would
+  // know it better, were the law and the mesh exact.
+  double node_share() const {
+    for (const plant::PlantCurve& curve : experiment_.plant.curves)
+      if (curve.name == result_.place->curve)
+        return evaluator_.simulator().numerics().distance / std::sqrt(12.0) / drawn_length(curve);
+    return 0.0;
+  }
+
+  void find_other_kinds() {
+    const ForceTerm& best = result_.terms.front();
+    std::set<std::string> known{result_.kind};
+    for (const ForceTerm& term : result_.terms) {
+      const bool near_end = kind_of(term.force) == kind_with_near_end(kind_of(best.force));
+      const bool as_well = near_end ? term.gain > best.gain - as_well_within
+                                    : term.evidence > best.evidence - as_well_within;
+      if (as_well && known.insert(plain_kind(term.force)).second)
+        result_.other_kinds.push_back(plain_kind(term.force));
+    }
+  }
+
+  std::string where_text() const {
+    std::string where =
+        "A force acts on " + result_.place->curve + text(" at %.2g", result_.place->at) +
+        (result_.place_error > 0.0 ? text(" ± %.1g", result_.place_error) : "") + " of its length";
+    for (const plant::CurvePlace& other : result_.elsewhere)
+      where += (&other == result_.elsewhere.data() ? "; one on " : " or on ") + place_text(other);
+    return where + (result_.elsewhere.empty() ? "" : " would explain the data as well");
+  }
+
+  void describe_course(const ForceCourse& course, const std::string& kind) {
+    result_.when = when_it_acts(course, kind);
+    result_.how = what_it_does(course);
+  }
+
+  // RMS error in noise units over the trials kept back, without and with the force.
+  void check() {
+    if (options_.check.empty()) return;
+    FitOptions kept = options_.fit;
+    kept.trials = options_.check;
+    const std::vector<Hypothesis> models{model_.hypothesis, result_.fit.hypothesis};
+    const auto predicted = evaluator_.predictions(models, kept);
+    double error[2];
+    for (int m = 0; m < 2; ++m) {
+      double sum = 0.0, count = 0.0;
+      for (std::size_t t = 0; t < kept.trials.size(); ++t) {
+        const Eigen::MatrixXd r =
+            evaluator_.data().scaled_residual(kept.trials[t], predicted[m][t]);
+        for (const double x : r.reshaped())
+          if (std::isfinite(x)) sum += x * x, count += 1.0;
+      }
+      error[m] = std::sqrt(sum / std::max(count, 1.0));
+    }
+    note(text("Trials kept back: %.4g of the noise without it, %.4g with it", error[0], error[1]));
+    if (error[0] > 1.0) result_.gain = (error[0] - error[1]) / (error[0] - 1.0);
+  }
+
+  Evaluator& evaluator_;
+  const FitSummary& model_;
+  const MissingForceOptions& options_;
+  const Experiment& experiment_;
+  FitSummary centre_;  ///< the model about which forces act: `model_`, or what it was pulled from
+  std::unique_ptr<ForceResponses> responses_;
+  LibraryScales scales_;
+  std::vector<ForcePlace> places_;
+  std::vector<int> sensor_;
+  double sensor_evidence_ = 0.0;
+  std::vector<ForceTerm> terms_;
+  MissingForce result_;
+};
+
+}  // namespace
+
+std::string MissingForce::sentence() const {
+  if (!found) return "";
+  std::string all =
+      where + ". " +
+      text("It explains %.0f %% of what the refitted model leaves above the noise.", 100.0 * share);
+  if (!kind.empty()) all += " Kind: " + kind;
+  for (const std::string& other : other_kinds) all += " or " + other;
+  if (!other_kinds.empty()) all += ", which these data cannot tell apart";
+  if (!kind.empty()) all += ".";
+  if (!what.empty()) all += " " + what + ".";
+  std::string course = when.empty() || how.empty() ? when + how : when + "; " + how;
+  if (!course.empty()) {
+    course[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(course[0])));
+    all += " " + course + ".";
+  }
+  if (gain)
+    all += " On trials kept back it removes " + share_removed(*gain) +
+           " of the error above the noise.";
+  return all + " Do not extrapolate.";
+}
+
+MissingForce infer_missing_force(Evaluator& evaluator, const FitSummary& model,
+                                 const MissingForceOptions& options) {
+  return Inference(evaluator, model, options).run();
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,415 @@
+#include "pedicel/discrepancy/procedure/conclusion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/discrepancy/select/decoys.h"
+#include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/discrepancy/test/leave_one_out.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// Of the noise variance, an excess that is no sign of a missing effect.
+constexpr double small_excess = 0.01;
+constexpr double most_missed = 0.1;  // of what all causes found gain on all trials, by what is left
+// And of the gain, with which our model errors scale: of 230 single effects of the bench (gains up
+// to 3,900 nats) the true one was at most 3.7 nats behind, at a gain of 800.
+constexpr double margin_share = 0.002;
+constexpr double most_margin = 10.0;  // nats, of that
+constexpr double turned = 5.0;        // nats for a rival when a trial is left out
+// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
+// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
+// offsets of a force sensor) a cause follows others.
+constexpr double most_margins = 3.0;
+constexpr int most_more_numbers = 2;
+// Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
+constexpr double least_parameter_change = 0.0015;
+// Wild samples that are worth a name: so many, and of all samples (a swing that starts within a
+// sample makes a few).
+constexpr int least_outliers = 12;
+constexpr double least_outlier_share = 0.0045;
+
+// How far a factor that is needed is from 1 in its deviations; 0 where our own errors may have
+// moved it so far.
+double deviations(const Findings& findings, const FitSummary& base, const std::string& name) {
+  const FitSummary& model = findings.needed.model;
+  const int p = model.hypothesis.factor_on(name);
+  const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
+  const int shifted = base.hypothesis.factor_on(name);
+  const double shift = shifted >= 0 && shifted < findings.parameter_shift.size()
+                           ? left_uncorrected * std::abs(findings.parameter_shift[shifted])
+                           : 0.0;
+  // Three parameters share the few false alarms that are allowed.
+  const bool may_be_nominal = std::abs(u) < 3.5 * error + shift + least_parameter_change;
+  return may_be_nominal ? 0.0 : u / error;
+}
+
+NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
+                           const std::string& name, double evidence) {
+  const int p = model.hypothesis.factor_on(name);
+  NamedCause cause;
+  cause.name = name;
+  cause.parameters["factor"] = {findings.estimate(model, p)};
+  cause.evidence = evidence;
+  cause.because =
+      "The refitted value is " +
+      text("%.4g times the nominal one, and nothing else is needed.", model.hypothesis.value(p));
+  return cause;
+}
+
+// Likeliest first, without what loses: a law against another one by the odds of all rivals, the
+// plain parameter only where the law is worth a name beside it.
+void keep_likely(const std::string& parameter, Verdict& verdict) {
+  std::ranges::stable_sort(verdict.causes, std::ranges::greater{}, &NamedCause::evidence);
+  const double best = verdict.causes.front().evidence;
+  std::erase_if(verdict.causes, [&](const NamedCause& other) {
+    const double behind = best - other.evidence;
+    const bool loses = behind > (other.name == parameter ? worth_naming : clear_odds);
+    if (loses) verdict.rivals.push_back({other.name, behind});
+    return loses;
+  });
+  const auto lost = std::ranges::find(verdict.rivals, parameter, &Rival::name);
+  if (lost != verdict.rivals.end())
+    verdict.causes.front().because += " Another " + parameter + " alone would explain the data " +
+                                      text("%.3g nats worse.", lost->behind);
+}
+
+// Modulus, density or damping, where nothing else is wrong and 1 is far out; with the intervals of
+// the fit that leaves all of them free.
+void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  const NeededParameters& needed = findings.needed;
+  for (const std::string& name : needed.names) {
+    const double off = deviations(findings, diagnosis.base, name);
+    if (off != 0.0)
+      verdict.causes.push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
+  }
+  verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
+  if (verdict.causes.size() != 1) {
+    diagnosis.best = diagnosis.base;  // nothing to be better than
+    return;
+  }
+  const double evidence = verdict.causes.front().evidence;
+  for (const auto& [instead, behind] : needed.instead) {
+    const std::string& name = instead.hypothesis.name;
+    diagnosis.steps.push_back(name + " in place of " + needed.names.front() +
+                              text(" explains the data %.3g nats ", std::abs(behind)) +
+                              (behind < 0.0 ? "better." : "worse."));
+    if (instead.hypothesis.factor_on(name) >= 0) {
+      verdict.causes.push_back(parameter_cause(findings, instead, name, evidence - behind));
+    } else {
+      Candidate other;
+      other.cause = name;
+      other.evidence = evidence - behind;
+      const int last = static_cast<int>(instead.hypothesis.effects.size()) - 1;
+      verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
+    }
+  }
+  keep_likely(needed.names.front(), verdict);
+  if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
+}
+
+bool is_special_case(const Candidate& special, const Candidate& general) {
+  return effects::is_special_case(special.cause, general.cause);
+}
+
+// What more numbers gain by chance once in a hundred times, in nats: half a chi-squared.
+double gain_by_chance(int more_numbers) {
+  static constexpr std::array nats{0.0, 3.32, 4.61, 5.67, 6.64, 7.54};
+  return nats[std::clamp<int>(more_numbers, 0, nats.size() - 1)];
+}
+
+int more_numbers(const Candidate& rival, const Candidate& best) {
+  return rival.fit.hypothesis.size() - best.fit.hypothesis.size();
+}
+
+// A rival that has the best one as a special case, and needs more parameters to do no better than
+// by chance, is no other explanation: a wind of no speed is drag. Nor is one whose fit turned into
+// the best one. (What would win without one of the trials does better there.)
+bool contains(const Candidate& rival, const Candidate& best, bool turns) {
+  if (rival.limit_of == best.cause) return true;
+  return !turns && is_special_case(best, rival) && rival.evidence < best.evidence &&
+         said_by_data(rival) - said_by_data(best) <= gain_by_chance(more_numbers(rival, best));
+}
+
+bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
+  return more_numbers(rival, best) <= most_more_numbers &&
+         said_by_data(best) - said_by_data(rival) < as_well &&
+         best.evidence - rival.evidence < most_margins * margin;
+}
+
+// Whether the rival stands before the best where one of the trials is left out. Both as they were
+// fitted to all: a rival that is far off goes farther without a trial than first order tells. One
+// that has the best as a special case is never behind, and ahead by what its numbers gain by
+// chance.
+bool wins_without_a_trial(const Findings& findings, const Candidate& rival, const Candidate& best) {
+  if (findings.fit_trials.size() < 3) return false;
+  const double chance =
+      is_special_case(best, rival) ? gain_by_chance(more_numbers(rival, best)) : 0.0;
+  const double all = rival.fit.cost - best.fit.cost;
+  Eigen::Index row = 0;
+  for (const int t : findings.fit_trials) {
+    const Eigen::Index size = findings.data->size(std::span(&t, 1));
+    const double here = 0.5 * (rival.fit.residual.segment(row, size).squaredNorm() -
+                               best.fit.residual.segment(row, size).squaredNorm());
+    if (all - here < -turned - chance) return true;
+    row += size;
+  }
+  return false;
+}
+
+// Whether something is left that what was found should have explained.
+void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  if (!diagnosis.after.raised) return;
+  const double excess_before = diagnosis.base.cost - 0.5 * findings.samples();
+  const double excess_after = diagnosis.best.cost - 0.5 * findings.samples();
+  const double left = excess_after / std::max(excess_before, 1.0);
+  verdict.remainder =
+      text("%.2g %% of what the refitted model left above the noise", 100.0 * std::max(left, 0.0));
+  double gain = 0.0;
+  for (const Candidate& found : findings.chain)
+    gain += found.gain + std::max(0.0, found.held_out.gain);
+  // What the loudest direction would still gain, or a cause of what none looks for.
+  const Leftover& other = diagnosis.after.leftover;
+  const double missed =
+      0.5 *
+      std::pow(std::max(diagnosis.after.statistic, other.shows() ? other.deviations : 0.0), 2);
+  const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
+  if (!much && missed <= most_missed * gain) return;
+  verdict.outcome = Outcome::unknown;
+  verdict.remainder = "known causes leave " + verdict.remainder;
+}
+
+// Those that the data cannot tell from the best are causes, too; the others are rivals.
+void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
+  Verdict& verdict = diagnosis.verdict;
+  const Candidate& best = diagnosis.ranking.front();
+  const double margin = clear_odds + std::min(margin_share * best.gain, most_margin);
+  for (std::size_t i = 1; i < diagnosis.ranking.size(); ++i) {
+    const Candidate& rival = diagnosis.ranking[i];
+    const double behind = best.evidence - rival.evidence;
+    if (!rival.whole || rival.evidence < 0.0) break;
+    const bool turns = wins_without_a_trial(findings, rival, best);
+    const bool beaten = behind > margin && !explains_as_well(rival, best, margin) && !turns;
+    diagnosis.steps.push_back(text("Of %.4g nats that a rival must lose by, ", margin) +
+                              rival.cause +
+                              text(" loses by %.4g; the data say %.4g less for it, and it has",
+                                   behind, said_by_data(best) - said_by_data(rival)) +
+                              text(" %g more numbers", more_numbers(rival, best)) +
+                              (turns ? "; one trial alone decides between them." : "."));
+    if (beaten || findings.chain.size() > 1 || contains(rival, best, turns)) {
+      const bool found = std::ranges::any_of(
+          findings.chain, [&](const Candidate& named) { return named.cause == rival.cause; });
+      if (!found) verdict.rivals.push_back({rival.cause, behind});
+      continue;
+    }
+    verdict.causes.push_back(findings.named(rival, rival.fit, base_effects, verdict.fit));
+    verdict.outcome = Outcome::ambiguous;
+  }
+}
+
+// The first cause must gain more than the same change backwards in time or at other markers.
+void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
+  const Eigen::VectorXd& without = diagnosis.base.residual;
+  const Eigen::VectorXd& with = findings.chain.front().fit.residual;
+  if (without.size() != with.size() || with.size() == 0) return;
+  const Decoys decoys =
+      decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with));
+  Verdict& verdict = diagnosis.verdict;
+  verdict.causes.front().because +=
+      text(" Decoys of it gain less: %.3g nats backwards in time, %.3g at other markers,",
+           decoys.reversed, decoys.exchanged) +
+      text(" of %.3g.", decoys.own);
+  if (decoys.lose()) return;
+  verdict.outcome = Outcome::unknown;
+  verdict.remainder =
+      "the same change backwards in time, or at other markers, explains the data as well";
+}
+
+// By how much the trials disagree about the numbers of the first cause.
+void show_trials_left_out(const Findings& findings, NamedCause& cause) {
+  const FitSummary& fit = findings.chain.front().fit;
+  if (findings.fit_trials.size() < 2 ||
+      fit.jacobian.rows() != findings.data->size(findings.fit_trials))
+    return;
+  std::vector<Eigen::Index> rows;
+  for (const int t : findings.fit_trials) rows.push_back(findings.data->size(std::span(&t, 1)));
+  double most = 0.0;
+  for (const LeftOut& without : leave_one_out(fit, rows))
+    for (int p = 0; p < fit.hypothesis.size(); ++p)
+      if (fit.hypothesis.effects[fit.hypothesis.free[p].effect].name == cause.name &&
+          fit.standard_error[p] > 0.0)
+        most = std::max(most, std::abs(without.moved[p]) / fit.standard_error[p]);
+  cause.because +=
+      text(" Without any one of the trials its numbers move by %.2g deviations at most.", most);
+}
+
+void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  const int base_effects = static_cast<int>(diagnosis.base.hypothesis.effects.size());
+  for (std::size_t c = 0; c < findings.chain.size(); ++c)
+    verdict.causes.push_back(findings.named(findings.chain[c], diagnosis.best,
+                                            base_effects + static_cast<int>(c), verdict.fit));
+  verdict.outcome = Outcome::named;
+  weigh_rivals(findings, diagnosis, base_effects);
+  judge_remainder(findings, diagnosis);
+  show_decoys(findings, diagnosis);
+  show_trials_left_out(findings, verdict.causes.front());
+  // What does nothing for trials that it was not fitted to is no cause. The first of several was
+  // judged while the others were missing there.
+  const HeldOut& held_out =
+      findings.chain.size() > 1 ? findings.held_out : findings.chain.front().held_out;
+  if (verdict.outcome == Outcome::named && !held_out.carries_over()) {
+    verdict.outcome = Outcome::unknown;
+    verdict.remainder = "what was fitted does not carry over to the trials kept back";
+  }
+}
+
+}  // namespace
+
+void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
+  const auto measure = [&](const std::vector<int>& trials, Errors& errors) {
+    if (trials.empty()) return;
+    const auto over = [&](Model model) {
+      return findings.data->rms(trials, diagnosis.predictions[model]);
+    };
+    errors = {over(nominal), over(refitted), over(extended)};
+  };
+  measure(diagnosis.fit_trials, diagnosis.verdict.fit);
+  measure(diagnosis.check_trials, diagnosis.verdict.check);
+  const Errors& check = diagnosis.verdict.check;
+  if (!findings.chain.empty() && check.refitted && *check.refitted > 1.0)
+    diagnosis.verdict.gain = (*check.refitted - *check.extended) / (*check.refitted - 1.0);
+}
+
+void conclude(const Findings& findings, Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  if (!diagnosis.before.raised && findings.chain.empty()) {
+    conclude_parameters(findings, diagnosis);
+  } else if (findings.chain.empty() && !diagnosis.before.leftover.shows() &&
+             findings.excess(diagnosis.base) < small_excess) {
+    conclude_parameters(findings, diagnosis);
+    verdict.remainder = text(
+        "a steady difference of %.3g noise units in all, which no cause explains and no single "
+        "sample shows",
+        diagnosis.before.statistic);
+  } else if (findings.chain.empty()) {
+    verdict.outcome = Outcome::unknown;
+    const Leftover& left = diagnosis.before.leftover;
+    if (left.shows())
+      verdict.remainder =
+          "the plant moves in its own shapes in " +
+          (left.in_all ? "all trials"
+                       : "trial " + diagnosis.admission.experiment.trials[left.trial].name) +
+          left.frequency() + text(", %.3g deviations beyond noise", left.deviations) +
+          ", and no cause explains it";
+  } else {
+    conclude_causes(findings, diagnosis);
+  }
+}
+
+void name_nothing(Verdict& verdict) {
+  std::string nearest;
+  for (const NamedCause& cause : verdict.causes)
+    nearest += (nearest.empty() ? "" : " with ") + cause.name;
+  verdict.causes.clear();
+  if (!nearest.empty()) verdict.remainder += "; the nearest known cause is " + nearest;
+}
+
+void conclude_outliers(Diagnosis& diagnosis) {
+  const Admission& admission = diagnosis.admission;
+  if (admission.outliers < std::max<double>(least_outliers, least_outlier_share * admission.points))
+    return;
+  Verdict& verdict = diagnosis.verdict;
+  // Among rivals, or where nothing is known, they would read as one more explanation.
+  if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) return;
+  NamedCause cause;
+  cause.name = "outliers";
+  const double count = admission.outliers, fraction = admission.outlier_fraction();
+  const double error = interval95 * std::sqrt(count) / admission.points;
+  cause.parameters["fraction"] = {
+      {fraction, std::max(0.0, fraction - error), fraction + error, "1"}};
+  cause.because = std::to_string(admission.outliers) +
+                  " samples stand far from their neighbours, each by itself; they were left out.";
+  // Each lies 10 deviations out: as Gaussian noise it would cost 50 nats.
+  cause.evidence = 50.0 * count;
+  verdict.causes.push_back(cause);
+  verdict.outcome = Outcome::named;
+}
+
+void conclude_detachment(Diagnosis& diagnosis) {
+  const StalkStrength& strength = diagnosis.strength;
+  if (!strength.needs_law()) return;
+  Verdict& verdict = diagnosis.verdict;
+  const std::string sentence = strength.sentence();
+  if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) {
+    verdict.remainder += (verdict.remainder.empty() ? "" : ". ") + sentence;
+    return;
+  }
+  NamedCause cause;
+  cause.name = "detachment_law";
+  plant::Effect effect;
+  effect.name = cause.name;
+  const BreakLaw& law = strength.law->law;
+  const std::array names{"force", "moment", "torsion"};
+  const std::array units{"N", "N m", "N m"};
+  for (int i = 0; i < 3; ++i) {
+    const double scale = law.scale[stalk_force + i];
+    if (!std::isfinite(scale)) continue;
+    const double factor = std::exp(interval95 * strength.law->error[stalk_force + i]);
+    cause.parameters[names[i]] = {{scale, scale / factor, scale * factor, units[i]}};
+    effect.numbers[names[i]] = {scale};
+  }
+  const Estimate exponent{law.exponent, law.exponent, law.exponent, "1"};
+  cause.parameters["exponents"] = {exponent, exponent, exponent};
+  effect.numbers["exponents"] = {law.exponent, law.exponent, law.exponent};
+  cause.because = sentence;
+  cause.evidence = strength.evidence;
+  verdict.causes.push_back(cause);
+  verdict.outcome = Outcome::named;
+  diagnosis.best.hypothesis.effects.push_back(effect);
+}
+
+void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
+  const FitSummary& fit = diagnosis.best;
+  const plant::MaterialValues& material = diagnosis.admission.experiment.plant.material;
+  for (int p = 0; p < fit.hypothesis.size(); ++p) {
+    const FreeParameter& free = fit.hypothesis.free[p];
+    const std::string& effect = fit.hypothesis.effects[free.effect].name;
+    const effects::EffectDefinition* known = effects::find_effect(effect);
+    if (!known || !known->material || !(material.*known->material)) continue;
+    const double value = *(material.*known->material);
+    Estimate estimate = findings.estimate(fit, p);
+    for (double* x : {&estimate.value, &estimate.low, &estimate.high}) *x *= value;
+    estimate.unit = known->material_unit;
+    diagnosis.verdict.parameters[effect] = estimate;
+  }
+}
+
+void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis) {
+  for (const Cause& cause : causes) {
+    CouldHide least;
+    least.name = cause.name;
+    double best = 0.0;
+    for (const Direction& direction : diagnosis.directions) {
+      if (direction.cause != cause.name) continue;
+      // The start that says most: the loudest, and of thresholds the highest that is seen.
+      const double size = length(direction);
+      const double seen = diagnosis.before.level + std::abs(direction.systematic);
+      const double worth = !direction.has_threshold ? size : size < seen ? 0.0 : 1.0 / size;
+      if (worth < best) continue;
+      best = worth;
+      least.smallest_seen = smallest_seen(direction, seen, least.parameter);
+    }
+    least.unit = effects::unit_of(cause.name, least.parameter);
+    diagnosis.verdict.could_hide.push_back(least);
+  }
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/discrepancy/select/findings.h"
+
+namespace pedicel::discrepancy {
+
+/// The verdict's parts, in the order in which they are drawn. All read the fits, alarms and ranking
+/// of the diagnosis and fill in its verdict.
+
+/// RMS residuals of the three models and the gain, from the diagnosis's predictions.
+void measure_errors(const Findings& findings, Diagnosis& diagnosis);
+
+/// Outcome, causes, rivals and remainder.
+void conclude(const Findings& findings, Diagnosis& diagnosis);
+
+/// Where the outcome is `unknown`: what was fitted but does not explain the data is told in words,
+/// not as a cause.
+void name_nothing(Verdict& verdict);
+
+/// Wild samples were left out before the fit; they are named beside what else was found.
+void conclude_outliers(Diagnosis& diagnosis);
+
+/// A law of detachment in place of the file's thresholds, where the diagnosis's `strength` needs
+/// one: a cause beside what else was found, and an effect of the best model.
+void conclude_detachment(Diagnosis& diagnosis);
+
+/// Modulus, density and damping of the best model, in their own units.
+void report_parameters(const Findings& findings, Diagnosis& diagnosis);
+
+/// The size from which each cause would have been seen, from the diagnosis's directions.
+void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/admission/admission.h"
+#include "pedicel/discrepancy/fit/numerics.h"
+#include "pedicel/discrepancy/force/missing_force.h"
+#include "pedicel/discrepancy/procedure/next_experiment.h"
+#include "pedicel/discrepancy/select/candidates.h"
+#include "pedicel/discrepancy/select/stalk_strength.h"
+#include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/discrepancy/test/statistics.h"
+
+namespace pedicel::discrepancy {
+
+struct DiagnosisOptions {
+  int threads = 1;
+  std::uint64_t seed = 1;
+  /// What is being done, and the share of the whole that is done (an estimate); from any thread.
+  std::function<void(const std::string&, double)> progress;
+  std::function<void(const std::string&)> note;  ///< each finding, as a sentence
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// The three models that a diagnosis compares.
+enum Model { nominal, refitted, extended };
+inline constexpr int model_count = 3;
+
+/// Everything that a diagnosis found out, for its report.
+struct Diagnosis {
+  Verdict verdict;
+  Admission admission;
+  Noise position_noise, force_noise;
+  Numerics numerics;
+  double numerical_error = 0.0;  ///< RMS over the noise, before it was corrected for
+  std::vector<int> fit_trials, check_trials;
+  std::string exchanged;  ///< a trial that was to be kept back, and was fitted because it objects
+  std::vector<std::string> unseen;  ///< parameters that these data cannot see
+  FitSummary base, best;            ///< refitted and extended
+  std::vector<Candidate> ranking;   ///< first round, best first
+  Alarm before, after;
+  std::vector<Direction> directions;
+  /// [model][trial]; of `extended` as refitted where no cause was found.
+  std::array<std::vector<Prediction>, model_count> predictions;
+  MissingForce force;              ///< where the outcome is unknown
+  StalkStrength strength;          ///< where it was recorded when fruits came off
+  NextExperiment next;             ///< empty where there is none
+  std::vector<std::string> steps;  ///< what was done, one sentence each
+  bool stopped = false;            ///< the caller asked for it, and the rest is not complete
+};
+
+/// The procedure of the folder's README, from the data to the verdict. Throws InvalidFile where the
+/// plant cannot be built.
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options);
+
+/// The nominal plant with what was found: refitted factors and causes that belong to the plant.
+plant::PlantFile extended_plant(const Experiment& experiment, const Hypothesis& hypothesis);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/test/statistics.h"
+
+namespace pedicel::discrepancy {
+
+/// What a diagnosis says while it runs: its progress, and each finding as a sentence, which is kept
+/// for the report.
+class DiagnosisLog {
+ public:
+  /// Both calls may be empty. Keeps a reference to `steps`.
+  DiagnosisLog(std::function<void(const std::string&, double)> progress,
+               std::function<void(const std::string&)> found, std::vector<std::string>& steps)
+      : progress_(std::move(progress)), found_(std::move(found)), steps_(steps) {}
+
+  void say(const std::string& what, double share) const;
+  void note(const std::string& sentence);
+  void noise(const DataSet& data);
+  /// A fit's parameters; `samples` were fitted.
+  void fit(const std::string& what, const FitSummary& fit, int samples);
+  /// The loudest directions.
+  void directions(std::vector<Direction> directions, const Alarm& alarm);
+
+ private:
+  std::function<void(const std::string&, double)> progress_;
+  std::function<void(const std::string&)> found_;
+  std::vector<std::string>& steps_;
+};
+
+}  // namespace pedicel::discrepancy

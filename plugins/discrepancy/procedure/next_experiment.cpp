@@ -1,0 +1,268 @@
+#include "pedicel/discrepancy/procedure/next_experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pedicel/discrepancy/fit/causes.h"
+#include "pedicel/discrepancy/procedure/trial_designs.h"
+#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// Noise units in all: below it a trial would leave the question open.
+constexpr double enough = 6.0;
+// The choice needs no more accuracy than the rivals' own; a coarse step makes it cheap.
+constexpr double longest_step = 1.0 / 240.0;
+
+/// The rivals as they would act in another trial: what happened in one trial alone stays out.
+std::vector<Variant> variants_of(const std::vector<Hypothesis>& rivals) {
+  std::vector<Variant> variants;
+  for (const Hypothesis& rival : rivals) {
+    variants.push_back(rival.variant());
+    std::erase_if(variants.back().effects,
+                  [](const plant::Effect& effect) { return effect.words.contains("trial"); });
+  }
+  return variants;
+}
+
+/// The same plant and markers without trials.
+Experiment empty_copy(const Experiment& experiment) {
+  Experiment copy;
+  copy.plant = experiment.plant;
+  copy.markers = experiment.markers;
+  copy.noise = experiment.noise;
+  copy.effects = experiment.effects;
+  return copy;
+}
+
+// Where the grip rests, by the likeliest model of the plant itself.
+bool find_rest(Experiment probe, Variant variant, const DesignScales& scales,
+               const Numerics& numerics, const Vec3& gravity, long& simulations, Vec3& rest) {
+  std::erase_if(variant.effects, is_of_sensor);
+  std::erase_if(probe.effects, is_of_sensor);
+  probe.markers = {{"grip", scales.grip}};
+  Trial trial;
+  trial.name = "rest";
+  trial.gravity = gravity;
+  trial.markers.time = {0.0, numerics.dt};
+  trial.markers.value = Eigen::MatrixXd::Zero(2, 3);
+  probe.trials = {trial};
+  Simulator simulator(probe, numerics, 1);
+  const Simulator::Request request{&variant, 0};
+  const Prediction prediction = simulator.run(std::span(&request, 1)).front();
+  simulations += simulator.simulations();
+  rest = prediction.markers.row(0).transpose();
+  return prediction.healthy && rest.allFinite();
+}
+
+/// What separates two predictions of a trial.
+struct Separation {
+  double total = 0.0;    // noise units, whitened
+  double largest = 0.0;  // noise units, of one sample
+  int column = 0;        // markers' columns, then the force's
+  int sample = 0;
+};
+
+Separation separation_of(const DataSet& data, int trial, const Prediction& a, const Prediction& b) {
+  Separation result;
+  const int size = data.size(std::span(&trial, 1));
+  Eigen::VectorXd ra(size), rb(size);
+  data.residual(trial, a, 1.0, ra);
+  data.residual(trial, b, 1.0, rb);
+  result.total = (ra - rb).norm();
+  const Eigen::MatrixXd difference =
+      data.scaled_residual(trial, a) - data.scaled_residual(trial, b);
+  for (Eigen::Index c = 0; c < difference.cols(); ++c)
+    for (Eigen::Index i = 0; i < difference.rows(); ++i) {
+      const double size_here = std::abs(difference(i, c));
+      if (!(size_here > result.largest)) continue;
+      result.largest = size_here;
+      result.column = static_cast<int>(c);
+      result.sample = static_cast<int>(i);
+    }
+  return result;
+}
+
+/// A design that was simulated for every rival.
+struct Tried {
+  const TrialDesign* design = nullptr;
+  std::vector<Prediction> predictions;
+  Separation nearest;  // of the first rival from the one least far from it
+  int rival = 1;
+  double worth() const { return nearest.total / design->minutes; }
+};
+
+std::vector<Tried> try_designs(Experiment designs, const DataSet& data,
+                               const std::vector<const TrialDesign*>& list,
+                               const std::vector<Variant>& variants,
+                               const NextExperimentOptions& options, long& simulations) {
+  for (const TrialDesign* design : list) designs.trials.push_back(design->trial);
+  Simulator simulator(designs, options.numerics, options.threads, options.stop);
+  std::vector<Simulator::Request> requests;
+  for (std::size_t t = 0; t < list.size(); ++t)
+    for (const Variant& variant : variants) requests.push_back({&variant, static_cast<int>(t)});
+  std::vector<Prediction> all = simulator.run(requests);
+  simulations += simulator.simulations();
+  DataSet measured(designs);
+  measured.set_noise(data.position_noise(), data.force_noise());
+  std::vector<Tried> tried;
+  for (std::size_t t = 0; t < list.size(); ++t) {
+    Tried one{list[t], {}, {}, 1};
+    bool healthy = true;
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+      one.predictions.push_back(std::move(all[t * variants.size() + v]));
+      healthy = healthy && one.predictions.back().healthy;
+    }
+    if (!healthy) continue;
+    one.nearest.total = std::numeric_limits<double>::infinity();
+    for (std::size_t v = 1; v < variants.size(); ++v) {
+      const Separation s =
+          separation_of(measured, static_cast<int>(t), one.predictions[0], one.predictions[v]);
+      if (s.total >= one.nearest.total) continue;
+      one.nearest = s;
+      one.rival = static_cast<int>(v);
+    }
+    tried.push_back(std::move(one));
+  }
+  return tried;
+}
+
+// What tells a cause from its look-alikes where no trial that can be simulated does.
+std::string tie_breaker(const std::vector<Hypothesis>& rivals) {
+  for (const Hypothesis& rival : rivals)
+    if (const effects::EffectDefinition* known = effects::find_effect(rival.name))
+      if (!known->tells_apart.empty()) return known->tells_apart;
+  return "repeat the trials at twice the amplitude with one more marker";
+}
+
+std::string name_of(const Hypothesis& rival) {
+  return rival.name.empty() ? "the refitted model" : rival.name;
+}
+
+// Where no design could be simulated.
+NextExperiment by_hand(const std::vector<Hypothesis>& rivals) {
+  NextExperiment next;
+  next.sentence = "To tell " + name_of(rivals[0]) + " from " + name_of(rivals[1]) + ": " +
+                  tie_breaker(rivals) + ".";
+  return next;
+}
+
+std::string channel_of(const Experiment& experiment, int column) {
+  const auto markers = static_cast<int>(3 * experiment.markers.size());
+  const std::string axis = std::string(".") + "xyz"[column % 3];
+  return (column < markers ? experiment.markers[column / 3].name : "force") + axis;
+}
+
+NextExperiment described(const Experiment& experiment, const DataSet& data, const Tried& best,
+                         const std::vector<Hypothesis>& rivals) {
+  const auto markers = static_cast<int>(3 * experiment.markers.size());
+  const Separation& s = best.nearest;
+  const bool force = s.column >= markers;
+  const Trial& trial = best.design->trial;
+  NextExperiment next;
+  next.channel = channel_of(experiment, s.column);
+  next.unit = force ? "N" : "m";
+  next.noise = (force ? data.force_noise() : data.position_noise()).std;
+  next.time = force ? trial.force.time : trial.markers.time;
+  next.separation = s.total;
+  next.minutes = best.design->minutes;
+  for (std::size_t v = 0; v < rivals.size(); ++v) {
+    const Eigen::MatrixXd& value = force ? best.predictions[v].force : best.predictions[v].markers;
+    const Eigen::VectorXd column = value.col(force ? s.column - markers : s.column);
+    next.names.push_back(name_of(rivals[v]));
+    next.series.emplace_back(column.begin(), column.end());
+  }
+  next.sentence = best.design->action + ": " + next.names[0] + " and " + next.names[best.rival] +
+                  " then differ by " + short_number(s.total) + " times the noise in all, most (" +
+                  short_number(s.largest) + " times) at " + next.channel + " after " +
+                  short_number(next.time[s.sample]) + " s. It takes about " +
+                  short_number(next.minutes) + " minutes.";
+  return next;
+}
+
+}  // namespace
+
+NextExperiment next_experiment(const Experiment& experiment, const DataSet& data,
+                               const std::vector<Hypothesis>& rivals,
+                               const NextExperimentOptions& given, long& simulations) {
+  if (rivals.size() < 2) return {};
+  NextExperimentOptions options = given;
+  options.numerics.dt = std::max(options.numerics.dt, longest_step);
+  options.numerics.distance = std::max(options.numerics.distance, experiment.plant.distance);
+  const std::vector<Variant> variants = variants_of(rivals);
+  DesignScales scales = design_scales(experiment);
+  Experiment upright = empty_copy(experiment), turned = upright;
+  turned.plant = turned_plant(experiment.plant);
+  const Vec3 gravity =
+      experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
+  if (!find_rest(upright, variants[0], scales, options.numerics, gravity, simulations,
+                 scales.rest) ||
+      !find_rest(turned, variants[0], scales, options.numerics, gravity, simulations,
+                 scales.turned_rest))
+    return by_hand(rivals);
+  const std::vector<TrialDesign> designs = trial_designs(experiment, scales);
+  std::vector<const TrialDesign*> plain, around;
+  for (const TrialDesign& design : designs) (design.turned ? around : plain).push_back(&design);
+  std::vector<Tried> tried = try_designs(upright, data, plain, variants, options, simulations);
+  for (Tried& one : try_designs(turned, data, around, variants, options, simulations))
+    tried.push_back(std::move(one));
+  if (tried.empty()) return by_hand(rivals);
+  const auto better = [](const Tried& a, const Tried& b) {
+    const bool ea = a.nearest.total >= enough, eb = b.nearest.total >= enough;
+    if (ea != eb) return eb;
+    return ea ? a.worth() < b.worth() : a.nearest.total < b.nearest.total;
+  };
+  const Tried& best = *std::ranges::max_element(tried, better);
+  NextExperiment next = described(experiment, data, best, rivals);
+  if (next.separation < enough)
+    next.sentence = "No trial of those that were tried out separates " + next.names[0] + " from " +
+                    next.names[best.rival] + " (the best one by " + short_number(next.separation) +
+                    " times the noise in all). What can: " + tie_breaker(rivals) + ".";
+  return next;
+}
+
+NextExperiment next_look(const Experiment& experiment, const DataSet& data,
+                         const std::vector<Prediction>& predictions) {
+  NextExperiment next;
+  if (predictions.size() != experiment.trials.size()) return next;
+  const auto markers = static_cast<int>(3 * experiment.markers.size());
+  double most = 0.0;
+  int trial = -1, column = 0;
+  Eigen::Index sample = 0;
+  for (int t = 0; t < static_cast<int>(predictions.size()); ++t) {
+    const Eigen::MatrixXd r = data.scaled_residual(t, predictions[t]);
+    for (int c = 0; c < r.cols(); ++c) {
+      double sum = 0.0, count = 0.0, peak = 0.0;
+      Eigen::Index at = 0;
+      for (Eigen::Index i = 0; i < r.rows(); ++i) {
+        if (!std::isfinite(r(i, c))) continue;
+        sum += r(i, c) * r(i, c), count += 1.0;
+        if (std::abs(r(i, c)) > peak) peak = std::abs(r(i, c)), at = i;
+      }
+      if (count == 0.0 || std::sqrt(sum / count) <= most) continue;
+      most = std::sqrt(sum / count);
+      trial = t, column = c, sample = at;
+    }
+  }
+  if (trial < 0) return next;
+  const Trial& loud = experiment.trials[trial];
+  const bool force = column >= markers;
+  next.channel = channel_of(experiment, column);
+  const double time = (force ? loud.force : loud.markers).time[sample];
+  next.sentence =
+      "Repeat " + loud.name + " at half and at twice its amplitude" +
+      (force ? std::string()
+             : ", with one more marker beside " + experiment.markers[column / 3].name) +
+      ": there the residual is largest (" + short_number(most) + " times the noise at " +
+      next.channel + ", most after " + short_number(time) +
+      " s). Whether it grows in proportion, faster or not at all tells what kind of force is "
+      "missing.";
+  return next;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+
+namespace pedicel::discrepancy {
+
+/// The report as one HTML page: first the card (what is wrong, how sure that is, where, how large,
+/// what it gains, what else it could be, what could still hide, what to do next), then all that the
+/// diagnosis found out, with its plots. Nothing in it comes from elsewhere.
+std::string report_text(const Experiment& experiment, const Diagnosis& diagnosis);
+
+/// Writes it as report.html into the folder. Throws io::WriteError.
+void write_report(const std::filesystem::path& folder, const Experiment& experiment,
+                  const Diagnosis& diagnosis);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,213 @@
+#include "pedicel/discrepancy/report/report_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/csv.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+std::string unit_text(const std::string& unit) {
+  return unit.empty() || unit == "1" ? "" : " " + unit;
+}
+
+std::string interval_text(const Estimate& e) {
+  const bool low = std::isfinite(e.low), high = std::isfinite(e.high);
+  if (low && high && e.low == e.high) return "fixed";
+  if (low && high) return "95 %: " + short_number(e.low) + " to " + short_number(e.high);
+  if (low) return "95 %: above " + short_number(e.low) + ", no upper end";
+  if (high) return "95 %: below " + short_number(e.high) + ", no lower end";
+  return "the data leave it open";
+}
+
+std::string percent(double share) {
+  return short_number(100.0 * share) + " %";
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? last : ", ") + words[i];
+  return text;
+}
+
+}  // namespace
+
+std::string estimate_text(const Estimate& e) {
+  return short_number(e.value) + unit_text(e.unit) + " (" + interval_text(e) + ")";
+}
+
+std::string estimate_text(const std::vector<Estimate>& estimates) {
+  if (estimates.size() == 1) return estimate_text(estimates.front());
+  std::string text = "[";
+  for (const Estimate& e : estimates)
+    text += (text.size() > 1 ? "; " : "") + short_number(e.value) + " (" + interval_text(e) + ")";
+  return text + "]" + (estimates.empty() ? "" : unit_text(estimates.front().unit));
+}
+
+std::string place_text(const NamedCause& cause) {
+  const effects::EffectDefinition* known = effects::find_effect(cause.name);
+  if (known && known->home == effects::Home::base) return "the root";
+  if (const auto marker = cause.words.find("marker"); marker != cause.words.end())
+    return "marker " + marker->second;
+  std::string text;
+  if (cause.where)
+    text = "at " + short_number(cause.where->at) + " of the length of " + cause.where->curve;
+  if (const auto trial = cause.words.find("trial"); trial != cause.words.end())
+    text += (text.empty() ? "in trial " : ", in trial ") + trial->second;
+  return text;
+}
+
+std::string parameters_text(const Candidate& candidate) {
+  const Hypothesis& model = candidate.fit.hypothesis;
+  std::string text;
+  for (int p = 0; p < model.size(); ++p) {
+    const FreeParameter& free = model.free[p];
+    const plant::Effect& effect = model.effects[free.effect];
+    if (effect.name != candidate.cause) continue;
+    text += text.empty() ? "" : ", ";
+    text += free.name + " " + short_number(model.value(p)) +
+            (free.name == "at" ? " of " + (effect.place ? effect.place->curve : "")
+                               : unit_text(free.unit));
+  }
+  return text;
+}
+
+std::string why_it_lost(const Candidate& candidate, const Diagnosis& d) {
+  if (d.ranking.empty()) return "";
+  const Candidate& best = d.ranking.front();
+  if (&candidate == &best)
+    return d.verdict.outcome == Outcome::unknown ? "nearest of what is known, and not enough"
+                                                 : "the likeliest";
+  for (std::size_t c = 1; c < d.verdict.causes.size(); ++c)
+    if (d.verdict.causes[c].name == candidate.cause)
+      return d.verdict.outcome == Outcome::ambiguous ? "did not lose: as likely, by these data"
+                                                     : "did not lose: needed as well";
+  const double behind = best.evidence - candidate.evidence;
+  std::string text =
+      candidate.gain < 1.0 ? "explains none of it"
+      : candidate.gain < 0.1 * best.gain
+          ? "explains " + percent(candidate.gain / best.gain) + " of what " + best.cause + " does"
+          : short_number(behind) + " nats behind " + best.cause;
+  const int extra = candidate.fit.hypothesis.size() - best.fit.hypothesis.size();
+  if (extra > 0 && candidate.gain > 0.9 * best.gain)
+    text += ", and needs " + std::to_string(extra) + " more parameter" + (extra > 1 ? "s" : "");
+  std::set<std::string> stuck;  // but for what we allow our own mesh
+  const Hypothesis& fitted = candidate.fit.hypothesis;
+  for (const int p : candidate.fit.at_bound)
+    if (fitted.effects[fitted.free[p].effect].name != mesh_error) stuck.insert(fitted.free[p].name);
+  if (!stuck.empty())
+    text +=
+        "; runs to the end of its range (" + joined({stuck.begin(), stuck.end()}, " and ") + ")";
+  return text;
+}
+
+std::string remainder_text(const Verdict& v) {
+  if (v.remainder.empty()) return "";
+  return (v.outcome == Outcome::unknown ? "What is known of it: " : "Still unexplained: ") +
+         v.remainder + (v.remainder.ends_with('.') ? "" : ".");
+}
+
+std::string gain_text(const Diagnosis& d) {
+  const Errors& check = d.verdict.check;
+  const Errors& errors = check.refitted ? check : d.verdict.fit;
+  if (!errors.refitted) return "";
+  std::vector<std::string> names;
+  for (const int t : check.refitted ? d.check_trials : d.fit_trials)
+    names.push_back(d.admission.experiment.trials[t].name);
+  // What is not a finding gains nothing: the extended model is then that of a name taken back.
+  const bool taken_back = d.verdict.outcome == Outcome::unknown && d.verdict.causes.empty();
+  const bool found =
+      !taken_back && d.best.hypothesis.effects.size() > d.base.hypothesis.effects.size();
+  std::string text = check.refitted ? "On the trials kept back (" + joined(names, " and ") + ") "
+                                    : "No trial was kept back; on the fitted ones ";
+  text += "the residual is " + short_number(*errors.refitted) +
+          " times the noise with the refitted model";
+  if (found && errors.extended)
+    text += ", and " + short_number(*errors.extended) + " times with the extended one";
+  text +=
+      " (1 is the noise floor; nominal model: " + short_number(errors.nominal.value_or(NAN)) + ").";
+  if (d.verdict.gain && found)
+    text += " That removes " + share_removed(*d.verdict.gain) + " of the error above the noise.";
+  return text;
+}
+
+std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const Verdict& verdict) {
+  std::pair<std::vector<std::string>, std::vector<std::string>> lists;
+  for (const CouldHide& hide : verdict.could_hide) {
+    const bool seen = std::isfinite(hide.smallest_seen) && !hide.parameter.empty();
+    if (!seen) {
+      lists.second.push_back(hide.name);
+      continue;
+    }
+    // Where the plain model stands at 1 or at infinity, effects hide on that side.
+    const effects::EffectParameter* size = effects::find_parameter(hide.name, hide.parameter);
+    const bool stiff = size && size->vanishes == effects::Vanishes::at_infinity;
+    const bool factor = size && size->vanishes == effects::Vanishes::at_one;
+    lists.first.push_back(
+        hide.name + ": " + hide.parameter +
+        (stiff    ? " above "
+         : factor ? " off 1 by less than "
+                  : " below ") +
+        short_number(factor ? std::abs(hide.smallest_seen - 1.0) : hide.smallest_seen) +
+        unit_text(hide.unit));
+  }
+  return lists;
+}
+
+std::string certainty_text(const Diagnosis& d) {
+  const Verdict& v = d.verdict;
+  if (v.outcome == Outcome::bad_data || v.outcome == Outcome::numerical)
+    return "Nothing was concluded about the plant.";
+  std::string text =
+      d.before.raised
+          ? "The loudest of the directed tests stands at " + short_number(d.before.statistic) +
+                " (pure noise exceeds " + short_number(d.before.level) + " once in 200 times)."
+          : "None of the directed tests of motion and force leaves what noise alone does "
+            "(largest " +
+                short_number(d.before.statistic) + ", level " + short_number(d.before.level) + ").";
+  if (v.outcome == Outcome::named && !v.causes.empty()) {
+    text += " The evidence for " + v.causes.front().name + " is " +
+            short_number(v.causes.front().evidence) + " nats";
+    if (!v.rivals.empty())
+      text += "; the nearest rival, " + v.rivals.front().name + ", is " +
+              short_number(v.rivals.front().behind) + " behind";
+    text += ".";
+  }
+  if (v.outcome == Outcome::ambiguous)
+    text +=
+        " The explanations above lie within what these data can tell apart; the experiment "
+        "below separates them.";
+  return text;
+}
+
+std::string symptom_title(const std::string& name) {
+  static const std::map<std::string, std::string> titles = {
+      {"base_rotation", "turn about the root at rest"},
+      {"excess_curvature", "bend at a place at rest"},
+      {"junction_kink", "kink at a junction at rest"},
+      {"time_shift", "delay of the markers"},
+      {"out_of_plane", "motion across the plane"},
+      {"frequency", "frequency of the swing"},
+      {"damping", "damping of the swing"},
+      {"frequency_by_amplitude", "frequency, wide less narrow swings"},
+      {"damping_by_amplitude", "damping, wide less narrow swings"},
+      {"damping_by_mode", "damping of mode 2 over mode 1"},
+      {"loop_area", "energy that a push costs"},
+      {"force_scale", "size of the force"},
+      {"force_drift", "drift of a held force"},
+      {"clock_trend", "stiffness by the clock"},
+      {"bad_channel", "one loud marker"},
+      {"constant_offset", "constant offset of a marker"},
+      {"length_scale", "lengths between markers"}};
+  const auto found = titles.find(name);
+  return found == titles.end() ? name : found->second;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+
+namespace pedicel::discrepancy {
+
+/// "0.81 N m/rad (95 %: 0.77 to 0.86)"; open ends are said.
+std::string estimate_text(const Estimate& estimate);
+/// The same for the components of a vector, in brackets.
+std::string estimate_text(const std::vector<Estimate>& estimates);
+
+/// "at 0.4 of stem", "marker m3", "the root": empty where it has no place of its own.
+std::string place_text(const NamedCause& cause);
+
+/// Values of a candidate's own parameters: "stiffness 0.81 N m/rad, ...".
+std::string parameters_text(const Candidate& candidate);
+
+/// Why a candidate lost against the best of the ranking, in words.
+std::string why_it_lost(const Candidate& candidate, const Diagnosis& diagnosis);
+
+/// What is still unexplained, or what is known of something unknown, as sentences; may be empty.
+std::string remainder_text(const Verdict& verdict);
+
+/// The gain on the trials kept back against the noise floor, one or two sentences.
+std::string gain_text(const Diagnosis& diagnosis);
+
+/// "extra_mass: mass from 0.004 kg on", for causes that could hide; those that nothing would show
+/// are in the second list.
+std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const Verdict& verdict);
+
+/// What has been decided, and on what: the sentence below the headline.
+std::string certainty_text(const Diagnosis& diagnosis);
+
+/// "turn about the root", the title of a symptom by its name.
+std::string symptom_title(const std::string& name);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,443 @@
+#include "pedicel/discrepancy/select/candidates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "pedicel/core/thread_pool.h"
+#include "pedicel/discrepancy/fit/profile.h"
+#include "pedicel/discrepancy/select/candidate_starts.h"
+#include "pedicel/discrepancy/select/continuation.h"
+#include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/discrepancy/select/place_search.h"
+#include "pedicel/discrepancy/test/score_test.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr int first_iterations = 6, whole_iterations = 10;
+constexpr double rough_step = 1.0;   // nats, of fits that only tell who leads
+constexpr std::size_t foremost = 2;  // that tell, fitted whole, how far behind the others are
+constexpr std::size_t leaders = 6;
+constexpr std::size_t most_whole = 8;     // of each of the two lists
+constexpr std::size_t most_extended = 3;  // starts from a special case
+constexpr std::array growing_horizons{0.5 * first_horizon, first_horizon, 1.0};
+// Iterations of every start, and how many starts go on. Between places there are ridges, on which
+// many steps are tried in vain.
+struct Look {
+  int iterations;
+  std::size_t leading;
+};
+constexpr std::size_t all_starts = std::numeric_limits<std::size_t>::max();
+constexpr Look look_at_size{2, 2}, look_at_place{6, all_starts}, look_at_extended{3, 1};
+constexpr double far_behind = 0.3;  // of the first one's gain or statistic
+// Nats, and of the best one's gain: of what could be a rival, and with a few iterations of the fine
+// simulator, because of the coarse one's errors.
+constexpr double near_by = 50.0, near_share = 0.05;
+constexpr int few_fine = 4;
+// Nats that the best one must gain for any to be left early: where it gains little, a fit on its
+// way from a start that does worse than the base is soon as many behind.
+constexpr double loud = 2000.0;
+// Nats, and of the best one's gain, by which a fit is too far behind to go on: one that has
+// converged, one after a few iterations, and after twice as many; and by which no other start would
+// make up for it.
+constexpr double lost_by = 200.0, lost_share = 0.05, lost_early = 0.6, lost_late = 0.3;
+constexpr double lost_at_once = 0.9;
+constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
+
+// The better of two fits, by what fits minimise: what is known beforehand counts.
+void keep_better(FitSummary& best, FitSummary&& found) {
+  if (best.why == "not run" || objective(found) < objective(best)) best = std::move(found);
+}
+
+FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
+                          FitOptions options, std::size_t count) {
+  FitSummary best;
+  const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
+  options.horizon = first_horizon;
+  options.iterations = std::min(first_iterations, options.iterations);
+  options.least_step = rough_step;
+  for (const Hypothesis& start : starts)
+    keep_better(best, fit(evaluator, start, options, base.jacobian));
+  return best;
+}
+
+// Ranks by value, largest first: the first `count` of them.
+std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
+  std::vector<int> order(value.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::ranges::stable_sort(order, [&](int a, int b) { return value[a] > value[b]; });
+  order.resize(std::min(count, order.size()));
+  return order;
+}
+
+// Costs above which a fit is too far behind those that were made before it.
+struct Limits {
+  double least = std::numeric_limits<double>::infinity();  // of those
+  double base = 0.0;
+  double at(double share) const {
+    if (base - least < loud) return std::numeric_limits<double>::infinity();
+    return least + std::max(lost_by, share * (base - least));
+  }
+};
+
+// In the order of their costs.
+std::vector<Hypothesis> by_cost(const std::vector<Hypothesis>& starts, const Scan& scanned) {
+  std::vector<double> closeness;
+  for (const double cost : scanned.cost) closeness.push_back(-cost);
+  std::vector<Hypothesis> sorted;
+  for (const int i : first_by(closeness, starts.size())) sorted.push_back(starts[i]);
+  return sorted;
+}
+
+// The best fit from any of these starts, the closest first: a few iterations from each, the rest
+// for those that lead. Where all starts do worse than the base they are out of phase: the closest
+// one is also fitted over growing parts of the records.
+FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
+                    const std::vector<Hypothesis>& starts, const FitOptions& options,
+                    const Look& look, const Limits& limits) {
+  FitOptions few = options, rest = options;
+  few.iterations = std::min(look.iterations, options.iterations);
+  rest.iterations = options.iterations - few.iterations;
+  const double most = limits.at(lost_early);
+  std::vector<FitSummary> found;
+  std::vector<double> closeness;
+  const Scan scanned = scan(evaluator, starts, options);
+  for (const Hypothesis& start : by_cost(starts, scanned)) {
+    found.push_back(fit(evaluator, start, few, base.jacobian));
+    closeness.push_back(-objective(found.back()));
+    if (found.front().cost > limits.at(lost_at_once)) break;
+  }
+  FitSummary best;
+  for (const int i : first_by(closeness, look.leading)) {
+    const bool goes_on = rest.iterations > 0 && found[i].cost <= most;
+    keep_better(best, goes_on ? refit(evaluator, found[i], rest) : std::move(found[i]));
+  }
+  if (best.cost <= most && scanned.cost[scanned.best] >= base.cost)
+    keep_better(best, fit_growing(evaluator, starts[scanned.best], options, growing_horizons));
+  return best;
+}
+
+// Calls task(evaluator, i) for i below count, each on one worker.
+template <class Task>
+void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& options, double from,
+               double to, const Task& task) {
+  ThreadPool pool(static_cast<int>(workers.size()));
+  std::atomic<int> next{0}, done{0};
+  pool.for_each(static_cast<int>(workers.size()), [&](int worker) {
+    for (int i = next++; i < count; i = next++) {
+      if (options.stop && *options.stop) return;
+      task(workers[worker], i);
+      if (options.progress)
+        options.progress(from + (to - from) * static_cast<double>(++done) / count);
+    }
+  });
+}
+
+// All candidates of one model, on their way from starts to a ranking.
+class Refits {
+ public:
+  Refits(const Workers& workers, const FitSummary& base, const std::vector<Cause>& causes,
+         const std::vector<Direction>& directions, const RefitOptions& options)
+      : coarse_(workers.coarse),
+        fine_(workers.fine),
+        base_(base),
+        causes_(causes),
+        directions_(directions),
+        options_(options),
+        promise_(promise_of(causes, directions)),
+        samples_(workers.fine.front().data().samples(options.fit.trials)),
+        candidates_(causes.size()) {}
+
+  std::vector<Candidate> run() {
+    for (std::size_t i = 0; i < causes_.size(); ++i) candidates_[i].cause = causes_[i].name;
+    if (2.0 * base_.cost > small_residual * samples_)
+      fit_first_parts();
+    else
+      promise_gains();
+    choose_whole(promise_);
+    const std::string foremost_cause = std::ranges::max(candidates_, {}, &Candidate::gain).cause;
+    for (Candidate& candidate : candidates_)
+      if (effects::same_family(candidate.cause, foremost_cause) ||
+          !ways_back(candidate.cause).empty())
+        candidate.whole = true;
+    std::vector<int> whole;
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+      if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
+    // A few iterations tell who is behind; only the leaders are worth the rest.
+    std::ranges::stable_sort(whole, std::greater(), [&](int i) { return candidates_[i].gain; });
+    const auto others = whole.begin() + std::min(foremost, whole.size());
+    std::vector<int> first(whole.begin(), others), behind(others, whole.end());
+    longest_first(behind);
+    fit_whole(first, {}, 0.5, 0.6);
+    Limits limits{base_.cost, base_.cost};
+    for (const int i : first) limits.least = std::min(limits.least, candidates_[i].fit.cost);
+    fit_whole(behind, limits, 0.6, 0.7);
+    extend_special_cases();
+    const std::vector<int> near = leading(whole, lost_early);
+    refit_coarse(near, whole_iterations, 0.7);
+    std::vector<int> moving = leading(near, lost_late);
+    std::erase_if(moving, [&](int i) { return candidates_[i].fit.converged; });
+    refit_coarse(moving, options_.fit.iterations, 0.75);
+    std::erase_if(candidates_, [](const Candidate& c) { return c.fit.why == "not run"; });
+    std::vector<Candidate*> all;
+    for (Candidate& candidate : candidates_)
+      if (candidate.whole) all.push_back(&candidate);
+    rank(all, coarse_);
+    end_with_fine();
+    return std::move(candidates_);
+  }
+
+ private:
+  void fit_first_parts() {
+    FitOptions early = options_.fit;
+    early.horizon = first_horizon;
+    const double early_cost =
+        0.5 * coarse_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
+    std::vector<std::size_t> starts(causes_.size(), 1);
+    for (const int i : first_by(promise_, most_whole)) starts[i] = 2;
+    std::vector<int> all(causes_.size());
+    std::iota(all.begin(), all.end(), 0);
+    longest_first(all);
+    share_out(coarse_, static_cast<int>(all.size()), options_, 0.0, 0.5,
+              [&](Evaluator& evaluator, int c) {
+                const int i = all[c];
+                candidates_[i].fit =
+                    fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
+                candidates_[i].gain = early_cost - candidates_[i].fit.cost;
+              });
+    std::vector<double> gain;
+    for (const Candidate& candidate : candidates_) gain.push_back(candidate.gain);
+    choose_whole(gain);
+  }
+
+  // So that no worker waits for one long task at the end.
+  void longest_first(std::vector<int>& chosen) const {
+    const auto work = [&](int i) {
+      return causes_[i].starts.size() * (base_.hypothesis.size() + causes_[i].starts[0].size());
+    };
+    std::ranges::stable_sort(chosen, [&](int a, int b) { return work(a) > work(b); });
+  }
+
+  // The first few, and others that are not far behind.
+  void choose_whole(const std::vector<double>& worth) {
+    const std::vector<int> order = first_by(worth, most_whole);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      if (i < leaders || worth[order[i]] > far_behind * worth[order[0]])
+        candidates_[order[i]].whole = true;
+  }
+
+  // Of a linear model the gain is half the squared statistic.
+  void promise_gains() {
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      candidates_[i].gain = 0.5 * promise_[i] * promise_[i];
+      candidates_[i].fit.hypothesis = base_.hypothesis;
+      candidates_[i].fit.hypothesis.add(causes_[i].starts.front());
+      candidates_[i].fit.why = "not fitted: its directions promise too little";
+    }
+  }
+
+  void fit_whole(const std::vector<int>& chosen, const Limits& limits, double from, double to) {
+    share_out(coarse_, static_cast<int>(chosen.size()), options_, from, to,
+              [&](Evaluator& evaluator, int c) { fit_whole(evaluator, chosen[c], limits); });
+  }
+
+  FitOptions rough(int iterations) const {
+    FitOptions few = options_.fit;
+    few.iterations = iterations;
+    few.least_step = rough_step;
+    return few;
+  }
+
+  void fit_whole(Evaluator& evaluator, int i, const Limits& limits) {
+    const bool placed = has_place(causes_[i].starts.front());
+    const FitOptions few = rough((placed ? 2 : 1) * whole_iterations);
+    Candidate& candidate = candidates_[i];
+    std::vector<Hypothesis> starts;
+    if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
+    std::ranges::move(
+        best_linear_starts(evaluator, base_, candidate.cause, directions_, options_.fit),
+        std::back_inserter(starts));
+    auto plain = best_plain_start(evaluator, base_, causes_[i], options_.fit);
+    if (plain) starts.push_back(std::move(*plain));
+    if (starts.empty())
+      starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
+    const std::vector<Direction> back = ways_back(candidate.cause);
+    candidate.fit =
+        best_fit(evaluator, base_, starts, few, placed ? look_at_place : look_at_size, limits);
+    if (candidate.fit.cost > limits.at(lost_early) && back.empty()) return;
+    candidate.fit = slide_along(evaluator, std::move(candidate.fit), few);
+    if (const auto twin = twin_of(candidate.fit.hypothesis))
+      keep_better(candidate.fit, fit(evaluator, *twin, few, base_.jacobian));
+    for (const Direction& start : back)
+      if (auto found = walk_back(evaluator, base_, start, few))
+        keep_better(candidate.fit, std::move(*found));
+  }
+
+  // What a base that misses the data is pulled by says nothing.
+  std::vector<Direction> ways_back(const std::string& cause) const {
+    if (2.0 * base_.cost > small_residual * samples_) return {};
+    return likest_way_back(base_, cause, directions_);
+  }
+
+  // A cause that has another one as a special case does at least as well: it goes on from there.
+  void extend_special_cases() {
+    for (const auto& [special, general] : effects::special_cases()) {
+      Candidate* from = whole_one(special);
+      Candidate* to = whole_one(general);
+      if (!from || !to || stopped() || is_lost(*from, lost_early)) continue;
+      const Cause& cause = causes_[to - candidates_.data()];
+      std::vector<Hypothesis> starts = continued(base_.hypothesis, from->fit.hypothesis, cause);
+      Evaluator& evaluator = coarse_.front();
+      starts = by_cost(starts, scan(evaluator, starts, options_.fit));
+      starts.resize(std::min(most_extended, starts.size()));
+      keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * whole_iterations),
+                                    look_at_extended, Limits{}));
+    }
+  }
+
+  Candidate* whole_one(const std::string& cause) {
+    for (Candidate& candidate : candidates_)
+      if (candidate.cause == cause && candidate.whole && candidate.fit.why != "not run")
+        return &candidate;
+    return nullptr;
+  }
+
+  // Whether it is too far behind the best one for the rest of its iterations to matter.
+  bool is_lost(const Candidate& candidate, double early_or_late) const {
+    const double share = candidate.fit.converged ? lost_share : early_or_late;
+    return candidate.fit.why == "not run" ||
+           candidate.fit.cost > Limits{least_cost(candidates_, base_), base_.cost}.at(share);
+  }
+
+  // The closest ones of those that may still lead.
+  std::vector<int> leading(const std::vector<int>& of, double early_or_late) const {
+    std::vector<int> found;
+    for (const int i : of)
+      if (!is_lost(candidates_[i], early_or_late)) found.push_back(i);
+    std::ranges::stable_sort(found, {}, [&](int i) { return candidates_[i].fit.cost; });
+    found.resize(std::min(leaders, found.size()));
+    return found;
+  }
+
+  void refit_coarse(const std::vector<int>& chosen, int iterations, double from) {
+    FitOptions rest = options_.fit;
+    rest.iterations = std::min(rest.iterations, iterations);
+    share_out(coarse_, static_cast<int>(chosen.size()), options_, from, from + 0.05,
+              [&](Evaluator& evaluator, int c) {
+                FitSummary& found = candidates_[chosen[c]].fit;
+                found = refit(evaluator, found, rest);
+              });
+  }
+
+  bool is_near_the_best(const Candidate& candidate) const {
+    return candidates_.front().evidence - candidate.evidence <= near_by;
+  }
+
+  // Whether it may be near once the fine simulator has its say.
+  bool could_be_near(const Candidate& candidate) const {
+    const Candidate& best = candidates_.front();
+    return is_near_the_best(candidate) ||
+           best.evidence - candidate.evidence <= near_share * best.gain;
+  }
+
+  // The first few stand in their final order once all of them were refitted: those that are not
+  // near with a few iterations, which tell whether they will be.
+  void end_with_fine() {
+    std::set<std::string> begun;
+    while (!stopped()) {
+      std::vector<Candidate*> open;
+      for (std::size_t i = 0; i < std::min(leaders, candidates_.size()); ++i) {
+        Candidate& candidate = candidates_[i];
+        const bool near = begun.contains(candidate.cause) ? is_near_the_best(candidate)
+                                                          : could_be_near(candidate);
+        if (candidate.whole && !candidate.fine && near) open.push_back(&candidate);
+      }
+      if (open.empty()) return;
+      share_out(fine_, static_cast<int>(open.size()), options_, 0.8, 1.0,
+                [&](Evaluator& evaluator, int i) {
+                  const bool to_the_end = is_near_the_best(*open[i]);
+                  FitOptions options = options_.fit;
+                  if (!to_the_end) options.iterations = std::min(few_fine, options.iterations);
+                  if (!begun.contains(open[i]->cause)) start_with_fine(evaluator, *open[i]);
+                  open[i]->fit = refit(evaluator, open[i]->fit, options);
+                  open[i]->fine = to_the_end || open[i]->fit.converged;
+                });
+      for (const Candidate* candidate : open) begun.insert(candidate->cause);
+      rank(open, fine_);
+    }
+  }
+
+  void start_with_fine(Evaluator& evaluator, Candidate& candidate) const {
+    const auto cause = std::ranges::find(causes_, candidate.cause, &Cause::name);
+    candidate.fit.hypothesis =
+        with_threshold_by(evaluator, candidate.fit.hypothesis, *cause, options_.fit);
+  }
+
+  bool stopped() const { return options_.stop && *options_.stop; }
+
+  // Gains, evidence and order of all, after the fits of some have `changed`.
+  void rank(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers) {
+    if (stopped()) return;
+    const double dispersion = dispersion_of(candidates_, base_, samples_);
+    ask_kept_back(changed, workers, dispersion);
+    weigh(candidates_, base_, samples_, dispersion);
+  }
+
+  // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
+  void ask_kept_back(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers,
+                     double dispersion) {
+    if (options_.check_trials.empty()) return;
+    FitOptions check = options_.fit;
+    check.trials = options_.check_trials;
+    if (kept_.empty()) {
+      base_kept_ = kept_back(fine_.front(), base_, check);
+      for (const Candidate* candidate : changed) kept_[candidate->cause] = {};
+    }
+    share_out(workers, static_cast<int>(changed.size()), options_, 1.0, 1.0,
+              [&](Evaluator& evaluator, int i) {
+                kept_.at(changed[i]->cause) = kept_back(evaluator, changed[i]->fit, check);
+              });
+    if (stopped()) return;
+    std::vector<Candidate*> whole;
+    std::vector<KeptBack> models;
+    for (Candidate& candidate : candidates_) {
+      if (!candidate.whole) continue;
+      whole.push_back(&candidate);
+      models.push_back(kept_.at(candidate.cause));
+    }
+    const int samples = fine_.front().data().samples(check.trials);
+    const std::vector<HeldOut> found = held_out(base_kept_, models, samples, dispersion);
+    for (std::size_t i = 0; i < whole.size(); ++i) whole[i]->held_out = found[i];
+  }
+
+  std::vector<Evaluator>&coarse_, &fine_;
+  const FitSummary& base_;
+  const std::vector<Cause>& causes_;
+  const std::vector<Direction>& directions_;
+  const RefitOptions& options_;
+  const std::vector<double> promise_;
+  const int samples_;
+  std::vector<Candidate> candidates_;
+  KeptBack base_kept_;  // on the trials kept back, as those of the causes that were fitted whole
+  std::map<std::string, KeptBack> kept_;
+};
+
+}  // namespace
+
+std::vector<Candidate> refit_all(const Workers& workers, const FitSummary& base,
+                                 const std::vector<Cause>& causes,
+                                 const std::vector<Direction>& directions,
+                                 const RefitOptions& options) {
+  return Refits(workers, base, causes, directions, options).run();
+}
+
+}  // namespace pedicel::discrepancy

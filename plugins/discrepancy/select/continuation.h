@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/test/statistics.h"
+
+namespace pedicel::discrepancy {
+
+/// What a baseline lacks may pull one of its factors away from what is known beforehand: a mass at
+/// the tip raises density, and leaves little that linear changes about there could tell. These go
+/// back step by step, a cause taking over bit by bit, so that the prediction never leaves the data
+/// by a period (a continuation: Allgower and Georg 2003, Introduction to Numerical Continuation
+/// Methods, chapter 2).
+
+/// Whether a factor stands further from what is believed than two of its deviations.
+bool is_pulled(const Hypothesis& model);
+
+/// Whether one stands so far away, or its modulus or density at a bound, that it is another plant.
+/// (Damping that the data do not show ends at a bound, too.)
+bool is_beyond_belief(const FitSummary& model);
+
+/// The same with its factors where they are believed to be.
+Hypothesis as_believed(Hypothesis model);
+
+/// The starts of a cause whose change looks like the pulled factor's own way back, the likest
+/// first, two at most; empty where no factor is half a deviation away.
+std::vector<Direction> likest_way_back(const FitSummary& base, const std::string& cause,
+                                       const std::vector<Direction>& directions);
+
+/// The base with that cause, the factors near what is believed, fitted at every step; nothing where
+/// the cause loses the data on the way.
+std::optional<FitSummary> walk_back(Evaluator& evaluator, const FitSummary& base,
+                                    const Direction& cause, const FitOptions& options);
+
+}  // namespace pedicel::discrepancy

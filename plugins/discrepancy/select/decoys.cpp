@@ -1,0 +1,47 @@
+#include "pedicel/discrepancy/select/decoys.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double too_alike = 0.95;  // cosine
+
+// Half the squared length of the residual along a direction.
+double gain_along(const Eigen::VectorXd& residual, const Eigen::VectorXd& direction) {
+  const double square = direction.squaredNorm();
+  return square > 0.0 ? 0.5 * std::pow(residual.dot(direction), 2) / square : 0.0;
+}
+
+double decoy_gain(const Eigen::VectorXd& residual, const Eigen::VectorXd& change,
+                  const Eigen::VectorXd& decoy) {
+  const double cosine = change.dot(decoy) / std::max(change.norm() * decoy.norm(), 1e-300);
+  return std::abs(cosine) > too_alike ? 0.0 : gain_along(residual, decoy);
+}
+
+}  // namespace
+
+Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::VectorXd& residual,
+                 const Eigen::VectorXd& change) {
+  Eigen::VectorXd reversed = change, exchanged = change;
+  Eigen::Index first = 0;
+  for (const int t : trials) {
+    const Trial& trial = data.experiment().trials[t];
+    const Eigen::Index rows = trial.markers.size(), columns = trial.markers.value.cols();
+    const Eigen::Index forces = trial.force.size();
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const Eigen::Index at = first + c * rows, neighbour = first + (c + 3) % columns * rows;
+      reversed.segment(at, rows) = change.segment(at, rows).reverse();
+      exchanged.segment(at, rows) = change.segment(neighbour, rows);
+    }
+    first += columns * rows;
+    for (Eigen::Index c = 0; c < trial.force.value.cols(); ++c, first += forces)
+      reversed.segment(first, forces) = change.segment(first, forces).reverse();
+  }
+  return {gain_along(residual, change), decoy_gain(residual, change, reversed),
+          decoy_gain(residual, change, exchanged)};
+}
+
+}  // namespace pedicel::discrepancy

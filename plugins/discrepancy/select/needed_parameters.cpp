@@ -1,0 +1,102 @@
+#include "pedicel/discrepancy/select/needed_parameters.h"
+
+#include <algorithm>
+
+#include "pedicel/discrepancy/fit/profile.h"
+#include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// Nats: 3.5 standard deviations, because three parameters share the few false alarms allowed.
+constexpr double needed_cost = 0.5 * 3.5 * 3.5;
+constexpr double objection = 3.0;  // nats
+
+// At its nominal value for good.
+Hypothesis without(const Hypothesis& model, int parameter) {
+  Hypothesis less = model;
+  less.set_value(parameter, 1.0);
+  less.free.erase(less.free.begin() + parameter);
+  return less;
+}
+
+// Whether trials that it was not fitted to say that the nominal values are better.
+bool is_refuted(Evaluator& evaluator, const NeededParameters& needed, FitOptions options,
+                const std::vector<int>& check) {
+  Hypothesis nominal = needed.model.hypothesis;
+  for (const std::string& name : needed.names) nominal.set_value(nominal.factor_on(name), 1.0);
+  options.trials = check;
+  const std::vector<Hypothesis> models{nominal, needed.model.hypothesis};
+  const Scan found = scan(evaluator, models, options);
+  return found.cost[1] - found.cost[0] > objection;
+}
+
+// Density in place of modulus, or the other way round, so that a free swing stays as it is.
+std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& model) {
+  const int modulus = model.hypothesis.factor_on("youngs_modulus"),
+            density = model.hypothesis.factor_on("density");
+  if ((modulus < 0) == (density < 0)) return {};
+  const int needed = std::max(modulus, density);
+  const char* other = modulus < 0 ? "youngs_modulus" : "density";
+  const int from = base.hypothesis.factor_on(other);
+  if (from < 0) return {};
+  Hypothesis instead = without(model.hypothesis, needed);
+  instead.free.push_back(base.hypothesis.free[from]);
+  instead.set_value(instead.size() - 1, 1.0 / model.hypothesis.value(needed));
+  instead.name = other;
+  return {instead};
+}
+
+// A law of damping in place of more damping time, at sizes of which one is near.
+std::vector<Hypothesis> damped_by(const Cause& law, const FitSummary& model) {
+  const int damping = model.hypothesis.factor_on("damping_time");
+  if (damping < 0 || model.hypothesis.value(damping) < 1.0) return {};
+  std::vector<Hypothesis> starts;
+  for (const double share : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    starts.push_back(without(model.hypothesis, damping));
+    starts.back().add(law.starts.front().shrunk(share));
+    starts.back().name = law.name;
+  }
+  return starts;
+}
+
+}  // namespace
+
+const FitSummary* NeededParameters::better() const {
+  const auto best = std::ranges::min_element(instead, {}, &Instead::behind);
+  return best != instead.end() && best->behind < 0.0 ? &best->model : nullptr;
+}
+
+NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
+                                   const std::vector<Cause>& causes, const FitOptions& options,
+                                   const std::vector<int>& check) {
+  NeededParameters needed;
+  needed.model = base;
+  for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
+    const int p = needed.model.hypothesis.factor_on(name);
+    if (p < 0) continue;
+    FitSummary found = fit(evaluator, without(needed.model.hypothesis, p), options);
+    if (found.cost - needed.model.cost > needed_cost)
+      needed.names.push_back(name);
+    else
+      needed.model = std::move(found);
+  }
+  if (!check.empty() && is_refuted(evaluator, needed, options, check)) needed.names.clear();
+  const auto ask = [&](const std::vector<Hypothesis>& starts) {
+    if (starts.empty()) return;
+    FitSummary found = fit(evaluator, starts[scan(evaluator, starts, options).best], options);
+    const double behind = objective(found) - objective(needed.model);
+    if (behind < clear_odds) needed.instead.push_back({std::move(found), behind});
+  };
+  if (needed.names.size() != 1) return needed;
+  ask(exchanged(base, needed.model));
+  for (const Cause& cause : causes)
+    if (const effects::EffectDefinition* known = effects::find_effect(cause.name);
+        known && known->instead_of == "damping_time")
+      ask(damped_by(cause, needed.model));
+  return needed;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,157 @@
+#include "pedicel/discrepancy/select/verdict.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json to_json(const Estimate& estimate) {
+  return {{"value", number(estimate.value)},
+          {"low", number(estimate.low)},
+          {"high", number(estimate.high)},
+          {"unit", estimate.unit}};
+}
+
+// A vector's components stand in lists.
+Json to_json(const std::vector<Estimate>& estimates) {
+  if (estimates.size() == 1) return to_json(estimates.front());
+  Json value = Json::array(), low = Json::array(), high = Json::array();
+  for (const Estimate& estimate : estimates) {
+    value.push_back(number(estimate.value));
+    low.push_back(number(estimate.low));
+    high.push_back(number(estimate.high));
+  }
+  return {{"value", value}, {"low", low}, {"high", high}, {"unit", estimates.front().unit}};
+}
+
+Json to_json(const NamedCause& cause) {
+  Json parameters = Json::object();
+  for (const auto& [name, estimates] : cause.parameters) parameters[name] = to_json(estimates);
+  Json json = {{"name", cause.name}, {"parameters", parameters}};
+  json["where"] = nullptr;
+  if (cause.where) json["where"] = {{"curve", cause.where->curve}, {"at", cause.where->at}};
+  for (const auto& [key, word] : cause.words) json[key] = word;
+  json["because"] = cause.because;
+  json["evidence"] = number(cause.evidence);
+  return json;
+}
+
+Json to_json(const Errors& errors) {
+  return {{"nominal", number(errors.nominal)},
+          {"refitted", number(errors.refitted)},
+          {"extended", number(errors.extended)}};
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::adequate:
+      return "adequate";
+    case Outcome::named:
+      return "named";
+    case Outcome::ambiguous:
+      return "ambiguous";
+    case Outcome::unknown:
+      return "unknown";
+    case Outcome::bad_data:
+      return "bad_data";
+    case Outcome::numerical:
+      return "numerical";
+  }
+  return "";
+}
+
+int exit_code(Outcome outcome) {
+  return outcome == Outcome::adequate ? 0 : 9 + static_cast<int>(outcome);
+}
+
+std::string to_json(const Verdict& verdict) {
+  Json causes = Json::array(), rivals = Json::array(), hide = Json::array();
+  for (const NamedCause& cause : verdict.causes) causes.push_back(to_json(cause));
+  for (const Rival& rival : verdict.rivals)
+    rivals.push_back({{"name", rival.name}, {"behind", number(rival.behind)}});
+  for (const CouldHide& effect : verdict.could_hide)
+    hide.push_back({{"name", effect.name},
+                    {"parameter", effect.parameter},
+                    {"smallest_seen", number(effect.smallest_seen)},
+                    {"unit", effect.unit}});
+  Json parameters = Json::object();
+  for (const auto& [name, estimate] : verdict.parameters) parameters[name] = to_json(estimate);
+  const Json json = {
+      {"format", "pedicel-verdict"},
+      {"version", 1},
+      {"verdict", to_string(verdict.outcome)},
+      {"causes", causes},
+      {"rivals", rivals},
+      {"parameters", parameters},
+      {"error",
+       {{"fit", to_json(verdict.fit)},
+        {"check", to_json(verdict.check)},
+        {"unit", "rms residual over the noise floor"}}},
+      {"gain", number(verdict.gain)},
+      {"remainder", verdict.remainder},
+      {"could_hide", hide},
+      {"next_experiment", verdict.next_experiment},
+      {"extended_plant",
+       verdict.extended_plant.empty() ? Json(nullptr) : Json(verdict.extended_plant)},
+      {"simulations", verdict.simulations},
+      {"seconds", number(verdict.seconds)}};
+  return json.dump(2);
+}
+
+std::string share_removed(double gain) {
+  return gain > 0.995 ? "all" : short_number(100.0 * gain) + " %";
+}
+
+std::string headline(const Verdict& verdict) {
+  std::string names;
+  for (const NamedCause& cause : verdict.causes) {
+    const bool last = &cause == &verdict.causes.back();
+    const std::string joint = verdict.outcome == Outcome::ambiguous ? " or " : " and ";
+    names += (names.empty() ? ""
+              : last        ? joint
+                            : ", ") +
+             effects::plain_name(cause.name) + " (" + cause.name + ")";
+  }
+  const std::string gain = verdict.gain ? "; it removes " + share_removed(*verdict.gain) +
+                                              " of the error above the noise on trials kept back"
+                                        : "";
+  switch (verdict.outcome) {
+    case Outcome::adequate:
+      return "The model explains these data down to their noise.";
+    case Outcome::named:
+      return "The data show " + names + gain + ".";
+    case Outcome::ambiguous:
+      return "Something is missing, and these data cannot tell which: " + names + ".";
+    case Outcome::unknown:
+      return "Something is missing that none of the known causes explains. Do not extrapolate.";
+    case Outcome::bad_data:
+      return "The data cannot be used: " + verdict.remainder;
+    case Outcome::numerical:
+      return "Our own numerical error is too large for these data: " + verdict.remainder;
+  }
+  return "";
+}
+
+}  // namespace pedicel::discrepancy

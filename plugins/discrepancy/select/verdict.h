@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pedicel/plant/plant_file.h"
+
+namespace pedicel::discrepancy {
+
+enum class Outcome { adequate, named, ambiguous, unknown, bad_data, numerical };
+std::string to_string(Outcome outcome);
+/// Exit code of `pedicel diagnose`: 0 adequate, 10 to 14 the others.
+int exit_code(Outcome outcome);
+
+/// A number with its 95 % interval; infinite ends are left open (null in the file).
+struct Estimate {
+  double value = 0.0, low = 0.0, high = 0.0;
+  std::string unit;
+};
+
+struct NamedCause {
+  std::string name;
+  std::map<std::string, std::vector<Estimate>> parameters;  ///< one entry a component
+  std::optional<plant::CurvePlace> where;
+  std::map<std::string, std::string> words;  ///< which marker, which trial
+  std::string because;                       ///< one sentence
+  double evidence = 0.0;  ///< log-likelihood gained, less what its parameters cost
+};
+
+struct Rival {
+  std::string name;
+  double behind = 0.0;  ///< of the evidence
+};
+
+/// RMS residual over the noise floor; absent where there were no such trials.
+struct Errors {
+  std::optional<double> nominal, refitted, extended;
+};
+
+struct CouldHide {
+  std::string name, parameter;
+  double smallest_seen = 0.0;
+  std::string unit;
+};
+
+/// Section 3 of the formats.
+struct Verdict {
+  Outcome outcome = Outcome::adequate;
+  std::vector<NamedCause> causes;
+  std::vector<Rival> rivals;
+  std::map<std::string, Estimate> parameters;
+  Errors fit, check;
+  std::optional<double> gain;
+  std::string remainder;
+  std::vector<CouldHide> could_hide;
+  std::string next_experiment;
+  std::string extended_plant;  ///< file name, empty where there is none
+  long simulations = 0;
+  double seconds = 0.0;
+};
+
+std::string to_json(const Verdict& verdict);
+/// How much of the error above the noise a gain removes: "96 %", or "all" where noise alone is
+/// left.
+std::string share_removed(double gain);
+/// One sentence: what is wrong and how sure that is.
+std::string headline(const Verdict& verdict);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,48 @@
+#include "pedicel/discrepancy/simulate/equilibrium.h"
+
+#include "pedicel/cosserat/solver/direct_solver.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr int iterations = 100;
+constexpr double first_step = 1.0e-3, last_step = 1.0e2, growth = 1.5;  // s, s, 1
+
+void stop(cosserat::RodState& state) {
+  for (int e = 0; e < state.size(); ++e) {
+    state.velocity[e].setZero();
+    state.angular_velocity[e].setZero();
+  }
+  state.previous_dt = 0.0;
+}
+
+// Pseudo-transient continuation: a step that starts from rest goes down the potential, held back by
+// inertia less and less.
+void sink(const cosserat::RodModel& model, cosserat::RodState& state, const Vec3& gravity,
+          std::span<const cosserat::Load> loads) {
+  cosserat::RodSettings settings;
+  settings.integrator = cosserat::Integrator::backward_euler;
+  settings.newton_iterations = iterations;
+  cosserat::DirectSolver solver(settings, model);
+  const double time = state.time;
+  for (double dt = first_step; dt < last_step; dt *= growth) {
+    solver.step(model, state, {dt, gravity, loads, {}});
+    stop(state);
+  }
+  state.time = time;
+}
+
+}  // namespace
+
+bool find_equilibrium(const cosserat::RodModel& model, cosserat::RodState& state,
+                      const Vec3& gravity, std::span<const cosserat::Load> loads) {
+  const cosserat::RodState start = state;
+  if (cosserat::settle(model, state, gravity, loads, iterations).errors == cosserat::none)
+    return true;
+  state = start;
+  sink(model, state, gravity, loads);
+  return cosserat::settle(model, state, gravity, loads, iterations).errors == cosserat::none;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "pedicel/discrepancy/test/symptom_parts.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double least_travel = 1.0e-3;  // m, of a held point that does work
+constexpr double least_hold = 1.0;       // s, of a force whose drift is looked at
+
+bool usable(const SymptomContext& context, int t) {
+  const Trial& trial = context.trial(t);
+  const Eigen::MatrixXd& force = context.predictions[t].force;
+  return trial.force.size() > 0 && !trial.holds.empty() && context.usable(t) &&
+         force.rows() == trial.force.value.rows() && force.cols() == 3;
+}
+
+/// The force samples of a trial while its first hold holds.
+struct Push {
+  int samples = 0;
+  Eigen::MatrixXd path;                 // samples x 3, m, of the held point
+  Eigen::MatrixXd measured, predicted;  // N
+  Vec3 along = Vec3::Zero();            // main direction of travel
+  double travel = 0.0;                  // m, farthest from the start
+};
+
+Push push_of(const SymptomContext& context, int t) {
+  const Trial& trial = context.trial(t);
+  const Hold& hold = trial.holds.front();
+  Push push;
+  while (push.samples < trial.force.size() && trial.force.time[push.samples] < hold.release - 1e-9)
+    ++push.samples;
+  const Eigen::Index n = push.samples;
+  push.path.resize(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i)
+    push.path.row(i) = hold.path.position_at(trial.force.time[i]).transpose();
+  push.measured = trial.force.value.topRows(n);
+  push.predicted = context.predictions[t].force.topRows(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vec3 d = (push.path.row(i) - push.path.row(0)).transpose();
+    if (d.norm() <= push.travel) continue;
+    push.travel = d.norm();
+    push.along = d.normalized();
+  }
+  return push;
+}
+
+// J, the work that a force does along the path, trapezoidal: sum of weights times force.
+Eigen::MatrixXd work_weights(const Eigen::MatrixXd& path) {
+  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(path.rows(), 3);
+  for (Eigen::Index i = 1; i < path.rows(); ++i) {
+    const Eigen::RowVector3d step = 0.5 * (path.row(i) - path.row(i - 1));
+    w.row(i) += step;
+    w.row(i - 1) += step;
+  }
+  return w;
+}
+
+SymptomPlot loop_plot(const Push& push, const std::string& trial) {
+  SymptomPlot plot{"Force against displacement in " + trial,
+                   "displacement of the held point (mm)",
+                   "force along it (N)",
+                   {{"measured", {}, {}}, {"simulated", {}, {}}}};
+  for (Eigen::Index i = 0; i < push.samples; ++i) {
+    const double d = 1e3 * (push.path.row(i) - push.path.row(0)).dot(push.along);
+    for (SymptomSeries& series : plot.series) series.x.push_back(d);
+    plot.series[0].y.push_back(push.measured.row(i).dot(push.along));
+    plot.series[1].y.push_back(push.predicted.row(i).dot(push.along));
+  }
+  return plot;
+}
+
+// The area between the way out and the way back is the energy that one push costs. Only for a path
+// that comes back: otherwise the elastic energy would be in it.
+void add_loop(const SymptomContext& context, int t, const Push& push, std::vector<Symptom>& out) {
+  const Eigen::Index n = push.samples;
+  if ((push.path.row(n - 1) - push.path.row(0)).norm() > 0.1 * push.travel) return;
+  const Eigen::MatrixXd w = work_weights(push.path);
+  Measured difference;
+  double measured = 0.0, simulated = 0.0, variance = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    Eigen::VectorXd weight = w.col(c);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!std::isfinite(push.measured(i, c))) return;
+      measured += weight[i] * push.measured(i, c);
+      simulated += weight[i] * push.predicted(i, c);
+    }
+    variance += std::pow(projected_std(weight, context.data.force_noise()), 2);
+  }
+  difference = {measured - simulated, std::sqrt(variance)};
+  const Trial& trial = context.trial(t);
+  const double rate = push.travel / std::max(trial.force.time[n - 1] - trial.force.time[0], 1e-9);
+  Symptom symptom =
+      make_symptom("loop_area", trial.name, 1e3 * difference.value, 1e3 * difference.error);
+  symptom.unit = "mJ";
+  symptom.sentence = "One push in " + trial.name + " (" + short_number(1e3 * push.travel) +
+                     " mm out, " + short_number(1e3 * rate) + " mm/s on average) costs " +
+                     with_error(1e3 * measured, symptom.standard_error, "mJ") + ", in the model " +
+                     short_number(1e3 * simulated) + " mJ.";
+  symptom.plot = loop_plot(push, trial.name);
+  out.push_back(std::move(symptom));
+}
+
+// How much larger the force is than the model's, over the whole push.
+void add_scale(const SymptomContext& context, int t, const Push& push, std::vector<Symptom>& out) {
+  Projection projection(2);
+  const Noise& noise = context.data.force_noise();
+  for (int c = 0; c < 3; ++c) {
+    Eigen::MatrixXd x(push.samples, 2);
+    x.col(0) = push.predicted.col(c);
+    x.col(1).setConstant(push.along[c]);
+    projection.add(push.measured.col(c) - push.predicted.col(c), x, noise);
+  }
+  Projection::Result result;
+  if (!projection.solve(result)) return;
+  const Measured scale = result.component(0);
+  if (scale.error > 0.2) return;  // the force hardly changes
+  const std::string& trial = context.trial(t).name;
+  Symptom symptom = make_symptom("force_scale", trial, 100.0 * scale.value, 100.0 * scale.error);
+  symptom.unit = "%";
+  symptom.least = 0.2;
+  symptom.sentence = "The push in " + trial + " needs " +
+                     with_error(std::abs(symptom.value), symptom.standard_error, "%") +
+                     (symptom.value < 0.0 ? " less" : " more") + " force than the model.";
+  symptom.plot = loop_plot(push, trial);
+  out.push_back(std::move(symptom));
+}
+
+/// Samples from <= i < to while the path stands still away from its start.
+struct Rest {
+  Eigen::Index from = 0, to = 0;
+};
+
+Rest longest_rest(const Push& push, const std::vector<double>& time) {
+  Rest best;
+  const auto length = [&](const Rest& rest) {
+    return rest.to > rest.from ? time[rest.to - 1] - time[rest.from] : 0.0;
+  };
+  for (Eigen::Index i = 0; i < push.samples;) {
+    Eigen::Index j = i + 1;
+    while (j < push.samples && (push.path.row(j) - push.path.row(i)).norm() < 1e-7) ++j;
+    const Rest rest{i, j};
+    const bool away = (push.path.row(i) - push.path.row(0)).norm() > 0.3 * push.travel;
+    if (away && length(rest) > length(best)) best = rest;
+    i = j;
+  }
+  return best;
+}
+
+void add_drift(const SymptomContext& context, int t, const Push& push, std::vector<Symptom>& out) {
+  const std::vector<double>& time = context.trial(t).force.time;
+  const Rest rest = longest_rest(push, time);
+  const Eigen::Index n = rest.to - rest.from;
+  if (n < 8) return;
+  const double length = time[rest.to - 1] - time[rest.from];
+  if (length < least_hold) return;
+  const Eigen::MatrixXd r = (push.measured - push.predicted).middleRows(rest.from, n);
+  const Vec3 mean = push.predicted.middleRows(rest.from, n).colwise().mean().transpose();
+  if (!(mean.norm() > 0.0)) return;
+  Eigen::MatrixXd x(n, 2);
+  SymptomPlot plot{"Force while the point is held still in " + context.trial(t).name,
+                   "time (s)",
+                   "force (N)",
+                   {{"measured", {}, {}, false}, {"simulated", {}, {}}}};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double at = time[rest.from + i];
+    x(i, 0) = 1.0;
+    x(i, 1) = (at - time[rest.from]) / length;
+    for (SymptomSeries& series : plot.series) series.x.push_back(at);
+    plot.series[0].y.push_back(push.measured.row(rest.from + i).dot(mean.normalized()));
+    plot.series[1].y.push_back(push.predicted.row(rest.from + i).dot(mean.normalized()));
+  }
+  Projection projection(2);
+  projection.add(r * mean.normalized(), x, context.data.force_noise());
+  Projection::Result result;
+  if (!projection.solve(result)) return;
+  const Measured drift = result.component(1);
+  const std::string& trial = context.trial(t).name;
+  Symptom symptom = make_symptom("force_drift", trial, drift.value, drift.error);
+  symptom.unit = "N";
+  symptom.sentence = "While the point is held still in " + trial + " (" + short_number(length) +
+                     " s) the force changes by " + with_error(drift.value, drift.error, "N") +
+                     " more than in the model, of " + short_number(mean.norm()) + " N.";
+  symptom.plot = std::move(plot);
+  out.push_back(std::move(symptom));
+}
+
+/// A stiffness relative to the model's, by the clock.
+struct Reading {
+  double clock, value, error;
+};
+
+// The slope of a straight line through readings; its error widened where they scatter more.
+bool slope_of(const std::vector<Reading>& readings, Measured& slope) {
+  double w = 0.0, wx = 0.0, wy = 0.0;
+  for (const Reading& r : readings) {
+    const double weight = 1.0 / (r.error * r.error);
+    w += weight, wx += weight * r.clock, wy += weight * r.value;
+  }
+  double xx = 0.0, xy = 0.0;
+  for (const Reading& r : readings) {
+    const double weight = 1.0 / (r.error * r.error);
+    xx += weight * std::pow(r.clock - wx / w, 2);
+    xy += weight * (r.clock - wx / w) * (r.value - wy / w);
+  }
+  if (readings.size() < 3 || !(xx > 0.0)) return false;
+  slope = {xy / xx, 1.0 / std::sqrt(xx)};
+  double chi = 0.0;
+  for (const Reading& r : readings)
+    chi += std::pow((r.value - wy / w - slope.value * (r.clock - wx / w)) / r.error, 2);
+  slope.error *= std::sqrt(std::max(1.0, chi / static_cast<double>(readings.size() - 2)));
+  return true;
+}
+
+// Stiffness goes with the square of a frequency and with the force of a push. Each kind for
+// itself, because a wrong model offsets them differently.
+void add_clock_trend(const SymptomContext& context, std::vector<Symptom>& out) {
+  std::map<std::string, std::vector<Reading>> kinds;
+  for (const Symptom& symptom : out)
+    for (int t = 0; t < context.trials(); ++t) {
+      if (symptom.subject != context.trial(t).name || !(symptom.standard_error > 0.0)) continue;
+      const double scale = symptom.name == "frequency"     ? 2.0
+                           : symptom.name == "force_scale" ? 1.0
+                                                           : 0.0;
+      if (scale > 0.0)
+        kinds[symptom.name].push_back(
+            {context.trial(t).clock, scale * symptom.value, scale * symptom.standard_error});
+    }
+  for (const auto& [kind, readings] : kinds) {
+    Measured slope;
+    if (!slope_of(readings, slope)) continue;
+    double first = readings[0].clock, last = first;
+    SymptomPlot plot{"Stiffness by the clock, from " +
+                         std::string(kind == "frequency" ? "free swings" : "pushes"),
+                     "clock (s)",
+                     "stiffness against the model (%)",
+                     {{"trials", {}, {}, false}}};
+    for (const Reading& r : readings) {
+      first = std::min(first, r.clock), last = std::max(last, r.clock);
+      plot.series[0].x.push_back(r.clock);
+      plot.series[0].y.push_back(r.value);
+    }
+    const double span = last - first;
+    Symptom symptom = make_symptom("clock_trend", kind == "frequency" ? "free swings" : "pushes",
+                                   span * slope.value, span * slope.error);
+    symptom.unit = "%";
+    symptom.least = 0.3;
+    symptom.sentence = "From the first trial to the last (" + short_number(span) +
+                       " s) the stiffness seen in " + symptom.subject + " changes by " +
+                       with_error(symptom.value, symptom.standard_error, "%") +
+                       " against the model's.";
+    symptom.plot = std::move(plot);
+    out.push_back(std::move(symptom));
+  }
+}
+
+}  // namespace
+
+void add_force_symptoms(const SymptomContext& context, std::vector<Symptom>& out) {
+  for (int t = 0; t < context.trials(); ++t) {
+    if (!usable(context, t)) continue;
+    const Push push = push_of(context, t);
+    if (push.samples < 8) continue;
+    if (push.travel > least_travel) {
+      add_loop(context, t, push, out);
+      add_scale(context, t, push, out);
+      add_drift(context, t, push, out);
+    }
+  }
+  add_clock_trend(context, out);
+}
+
+}  // namespace pedicel::discrepancy

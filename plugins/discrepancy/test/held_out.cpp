@@ -1,0 +1,87 @@
+#include "pedicel/discrepancy/test/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/discrepancy/simulate/differences.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double least_change = 3.0;  // noise units in all
+// Of the expected gain: with a change d and a residual d a + noise, the gain over the expected one
+// is 2 a - 1, so 0.2 stands for an amplitude a of 0.6. Its standard deviation is 2 / |d|.
+constexpr double least_share = 0.2;
+constexpr double deviations = 2.0;
+
+// A model with its unknowns moved as far as the trials kept back ask for and the fit allows.
+struct Moved {
+  Eigen::VectorXd residual;
+  double square = 0.0;  // what it leaves, weighed by its predictive covariance
+  double cost = 0.0;    // minus the log predictive density, but for a constant
+};
+
+Moved moved(const KeptBack& model, double fitted_dispersion, double dispersion) {
+  const Eigen::MatrixXd here = model.jacobian.transpose() * model.jacobian / dispersion;
+  Eigen::MatrixXd information = model.by_data / fitted_dispersion;
+  information.diagonal() += model.prior;
+  const Eigen::LLT<Eigen::MatrixXd> before(information), after(information + here);
+  const Eigen::VectorXd step =
+      after.solve(model.jacobian.transpose() * model.residual / dispersion);
+  const auto log_det = [](const Eigen::LLT<Eigen::MatrixXd>& root) {
+    return 2.0 * root.matrixLLT().diagonal().array().log().sum();
+  };
+  Moved result{model.residual - model.jacobian * step};
+  result.square = result.residual.squaredNorm() / dispersion + step.dot(information * step);
+  result.cost = 0.5 * (result.square + log_det(after) - log_det(before));
+  return result;
+}
+
+}  // namespace
+
+bool HeldOut::carries_over() const {
+  const double change = std::sqrt(2.0 * expected);
+  if (change < least_change) return true;
+  return gain > (least_share - deviations * 2.0 / change) * expected;
+}
+
+KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check) {
+  Differences differences(model.hypothesis, model.jacobian);
+  const Eigen::MatrixXd residuals =
+      evaluator.residuals(differences.points(model.hypothesis.unknowns()), check);
+  KeptBack result{residuals.col(0), differences.jacobian(residuals),
+                  model.jacobian.transpose() * model.jacobian,
+                  Eigen::VectorXd(model.hypothesis.size())};
+  for (int p = 0; p < model.hypothesis.size(); ++p)
+    result.prior[p] = std::pow(model.hypothesis.free[p].width(), -2);
+  return result;
+}
+
+double kept_back_excess(const KeptBack& model, int samples, double dispersion) {
+  return moved(model, dispersion, dispersion).square / std::max(1, samples);
+}
+
+std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,
+                              double dispersion) {
+  const double fitted = dispersion;
+  double least = base.residual.squaredNorm();
+  // What is left depends on how far the unknowns may move, and the other way round.
+  for (int pass = 0; pass < 3; ++pass) {
+    const double now = std::max(dispersion, least / std::max(1, samples));
+    least = moved(base, fitted, now).residual.squaredNorm();
+    for (const KeptBack& model : models)
+      least = std::min(least, moved(model, fitted, now).residual.squaredNorm());
+  }
+  dispersion = std::max(dispersion, least / std::max(1, samples));
+  const Moved without = moved(base, fitted, dispersion);
+  std::vector<HeldOut> found;
+  for (const KeptBack& model : models) {
+    const Moved with = moved(model, fitted, dispersion);
+    found.push_back({without.cost - with.cost,
+                     0.5 * (without.residual - with.residual).squaredNorm() / dispersion});
+  }
+  return found;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,181 @@
+#include "pedicel/discrepancy/test/residual_power.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/FFT>
+
+#include "pedicel/discrepancy/data/sentence.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr int most_shapes = 4;
+constexpr double least_shape = 1.0e-8;   // of the largest one's square
+constexpr int least_neighbourhood = 10;  // frequencies to either side, for the noise
+constexpr double tame = 4.0;             // noise units; a wild sample has power at all frequencies
+constexpr double mistrust = 2.0;         // of the amplitude of our own error
+
+/// One trial's markers in a vector over the trials' entries.
+struct Block {
+  int trial = 0;
+  Eigen::Index first = 0, rows = 0, channels = 0;
+  double duration = 0.0;  // s
+
+  Eigen::Map<const Eigen::MatrixXd> of(const double* entries) const {
+    return {entries + first, rows, channels};
+  }
+};
+
+std::vector<Block> blocks_of(const DataSet& data, std::span<const int> trials) {
+  std::vector<Block> blocks;
+  Eigen::Index place = 0;
+  for (const int t : trials) {
+    const Trial& trial = data.experiment().trials[t];
+    blocks.push_back(
+        {t, place, trial.markers.value.rows(), trial.markers.value.cols(), trial.duration()});
+    place += data.size(std::span(&t, 1));
+  }
+  return blocks;
+}
+
+/// Orthonormal columns, the shapes of motion first, then what lies across them.
+struct Shapes {
+  Eigen::MatrixXd basis;
+  int count = 0;  // of motion
+};
+
+Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& blocks) {
+  const Eigen::Index channels = blocks.front().channels;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(channels, channels);
+  for (Eigen::Index p = 0; p < jacobian.cols(); ++p) {
+    const double square = jacobian.col(p).squaredNorm();
+    if (!(square > 0.0)) continue;
+    for (const Block& block : blocks) {
+      const auto part = block.of(jacobian.col(p).data());
+      covariance += part.transpose() * part / square;
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  const auto moving =
+      (eigen.eigenvalues().array() > least_shape * eigen.eigenvalues()[channels - 1]).count();
+  const int count = static_cast<int>(std::min<Eigen::Index>(moving, channels / 3));
+  return {eigen.eigenvectors().rowwise().reverse(), std::min(most_shapes, count)};
+}
+
+/// Power of each column at the frequencies 1/duration, 2/duration, ...: squares of its products
+/// with a cosine and a sine of unit length, which are chi-square with two degrees of freedom for
+/// noise.
+Eigen::MatrixXd periodograms(const Eigen::MatrixXd& series) {
+  const Eigen::Index n = series.rows(), frequencies = (n - 1) / 2;
+  Eigen::MatrixXd power(frequencies, series.cols());
+  Eigen::FFT<double> transform;
+  Eigen::VectorXcd waves;
+  for (Eigen::Index c = 0; c < series.cols(); ++c) {
+    const Eigen::VectorXd column = series.col(c);
+    transform.fwd(waves, column);
+    power.col(c) = waves.segment(1, frequencies).cwiseAbs2() * 2.0 / static_cast<double>(n);
+  }
+  return power;
+}
+
+/// The ratio of two means of squares with n and m degrees of freedom, as a standard normal.
+double deviations_of(double ratio, double n, double m) {
+  const double a = 2.0 / (9.0 * n), b = 2.0 / (9.0 * m), root = std::cbrt(ratio);
+  return ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
+}
+
+/// One trial's power at the frequencies 1/duration, 2/duration, ...
+struct Powers {
+  Eigen::VectorXd along, across, own;  // of the residual, and along the shapes of our own error
+  int shapes = 0, others = 0, trial = 0;
+  double duration = 0.0;  // s
+
+  Eigen::Index at(double hz) const {
+    return std::clamp<Eigen::Index>(std::lround(hz * duration) - 1, 0, along.size() - 1);
+  }
+};
+
+/// Of a band of all these trials together.
+double deviations(std::span<const Powers> trials, double low_hz, double high_hz) {
+  double along = 0.0, across = 0.0, own = 0.0, n = 0.0, m = 0.0;
+  for (const Powers& powers : trials) {
+    const Eigen::Index first = powers.at(low_hz), count = powers.at(high_hz) - first + 1;
+    const Eigen::Index low = std::max<Eigen::Index>(0, first - least_neighbourhood);
+    const Eigen::Index high =
+        std::min<Eigen::Index>(powers.across.size(), first + count + least_neighbourhood);
+    along += powers.along.segment(first, count).sum();
+    own += powers.own.segment(first, count).sum();
+    across += powers.across.segment(low, high - low).sum();
+    n += 2.0 * powers.shapes * static_cast<double>(count);
+    m += 2.0 * powers.others * static_cast<double>(high - low);
+  }
+  const double found = std::sqrt(along) - mistrust * std::sqrt(own);
+  if (found <= 0.0 || !(across > 0.0)) return 0.0;
+  return deviations_of(found * found / n / (across / m), n, m);
+}
+
+Powers powers_of(const Block& block, const Shapes& shapes, const Eigen::VectorXd& residual,
+                 const Eigen::VectorXd& numerical) {
+  Powers powers;
+  powers.trial = block.trial;
+  powers.duration = block.duration;
+  powers.shapes = shapes.count;
+  powers.others = static_cast<int>(block.channels) - shapes.count;
+  const Eigen::MatrixXd power = periodograms(block.of(residual.data()) * shapes.basis);
+  powers.along = power.leftCols(shapes.count).rowwise().sum();
+  powers.across = power.rightCols(powers.others).rowwise().sum();
+  powers.own = Eigen::VectorXd::Zero(power.rows());
+  if (numerical.size() == residual.size())
+    powers.own = periodograms(block.of(numerical.data()) * shapes.basis.leftCols(shapes.count))
+                     .rowwise()
+                     .sum();
+  return powers;
+}
+
+}  // namespace
+
+std::string Leftover::frequency() const {
+  return low_hz == high_hz ? text(" at %.3g Hz", low_hz)
+                           : text(" at %.3g to %.3g Hz", low_hz, high_hz);
+}
+
+Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSummary& model,
+                  const Eigen::VectorXd& numerical) {
+  Leftover loudest;
+  const std::vector<Block> blocks = blocks_of(data, trials);
+  if (blocks.empty() || model.jacobian.rows() != model.residual.size()) return loudest;
+  const Eigen::Index channels = blocks.front().channels;
+  const bool same =
+      std::ranges::all_of(blocks, [&](const Block& block) { return block.channels == channels; });
+  if (channels < 3 || !same) return loudest;
+  const Eigen::VectorXd residual = model.residual.cwiseMax(-tame).cwiseMin(tame);
+  const Shapes shapes = shapes_of(model.jacobian, blocks);
+  if (shapes.count < 1) return loudest;
+  std::vector<Powers> all;
+  for (const Block& block : blocks)
+    if (block.rows >= 4 * least_neighbourhood)
+      all.push_back(powers_of(block, shapes, residual, numerical));
+  const auto look_at = [&](std::span<const Powers> some) {
+    const Powers& longest = *std::ranges::max_element(
+        some, {}, [](const Powers& powers) { return powers.along.size(); });
+    const auto look = [&](Eigen::Index first, Eigen::Index count) {
+      const double low = static_cast<double>(first + 1) / longest.duration;
+      const double high = static_cast<double>(first + count) / longest.duration;
+      const double found = deviations(some, low, high);
+      if (found > loudest.deviations) loudest = {found, longest.trial, some.size() > 1, low, high};
+    };
+    const Eigen::Index frequencies = longest.along.size();
+    for (Eigen::Index f = 0; f < frequencies; ++f) look(f, 1);
+    for (Eigen::Index width = 2; width <= frequencies; width *= 2) {
+      look(0, width);
+      if (2 * width <= frequencies) look(width, width);
+    }
+  };
+  for (const Powers& powers : all) look_at({&powers, 1});
+  // What acts in every trial, as a thing that was forgotten does, is louder in all together.
+  if (all.size() > 1) look_at(all);
+  return loudest;
+}
+
+}  // namespace pedicel::discrepancy

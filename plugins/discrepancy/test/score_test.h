@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "pedicel/discrepancy/fit/causes.h"
+#include "pedicel/discrepancy/test/statistics.h"
+
+namespace pedicel::discrepancy {
+
+/// The largest directed statistic of each cause.
+std::vector<double> promise_of(const std::vector<Cause>& causes,
+                               const std::vector<Direction>& directions);
+
+/// Causes whose direction shows in what is left; the loudest dozen, loudest first.
+std::vector<Cause> promising(const std::vector<Cause>& causes,
+                             const std::vector<Direction>& directions);
+
+}  // namespace pedicel::discrepancy

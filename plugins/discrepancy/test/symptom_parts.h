@@ -1,0 +1,59 @@
+#pragma once
+
+#include "pedicel/discrepancy/data/places.h"
+#include "pedicel/discrepancy/test/projection.h"
+#include "pedicel/discrepancy/test/symptoms.h"
+
+namespace pedicel::discrepancy {
+
+/// What the finders of symptoms share.
+struct SymptomContext {
+  const Experiment& experiment;
+  const DataSet& data;
+  const std::vector<Prediction>& predictions;
+  std::vector<Chain> chains;
+
+  int trials() const { return static_cast<int>(experiment.trials.size()); }
+  int markers() const { return static_cast<int>(experiment.markers.size()); }
+  const Trial& trial(int t) const { return experiment.trials[t]; }
+  /// Whether the trial has a whole prediction.
+  bool usable(int t) const;
+  /// m, measured less predicted, of column 3 marker + coordinate.
+  Series residual(int t, int column) const;
+  /// Velocity of the predicted markers, m/s: of the plant itself where the prediction has it, else
+  /// by differences.
+  Eigen::MatrixXd velocity(int t) const;
+};
+
+/// A time at which a trial's forces jump, and whether the plant swings freely from there to `to`.
+struct Span {
+  double from = 0.0, to = 0.0;  ///< s
+  bool free = false;            ///< nothing holds or moves it
+};
+/// The stretches of a trial between its jumps.
+std::vector<Span> spans_of(const Trial& trial);
+
+/// A stretch of samples in which the predicted plant rests, with the mean residual of every marker.
+struct StaticStretch {
+  int trial = 0, from = 0, to = 0;  ///< samples from <= i < to
+  Eigen::VectorXd mean;             ///< m, 3 markers; NaN where not seen
+  Eigen::VectorXd error;            ///< m
+  Eigen::VectorXd position;         ///< m, predicted mean
+};
+std::vector<StaticStretch> static_stretches(const SymptomContext& context);
+/// "weights, 12 to 16 s"
+std::string stretch_name(const SymptomContext& context, const StaticStretch& stretch);
+
+void add_static_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
+void add_motion_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
+void add_oscillation_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
+void add_force_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
+void add_sensor_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
+
+/// With the rest left to fill in.
+Symptom make_symptom(std::string name, std::string subject, double value, double standard_error);
+
+/// "0.83", three digits.
+std::string short_number(double value);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,157 @@
+#include "pedicel/discrepancy/test/symptoms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double beyond_chance = 5.0;
+
+// Steps of loads and releases, and the rows between which a path moves.
+std::vector<double> jumps(const Trial& trial) {
+  std::vector<double> times{0.0, trial.duration()};
+  for (const TimedLoad& load : trial.loads)
+    for (const double t : {load.from, load.to}) times.push_back(t);
+  for (const Hold& hold : trial.holds) times.push_back(hold.release);
+  std::erase_if(times, [&](double t) { return !(t >= 0.0 && t <= trial.duration()); });
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+bool moves(const Path& path) {
+  return std::ranges::any_of(path.position, [&](const Vec3& p) { return p != path.position[0]; });
+}
+
+}  // namespace
+
+bool Symptom::shows() const {
+  return std::abs(value) > std::max(beyond_chance * standard_error, least);
+}
+
+double Symptom::loudness() const {
+  if (standard_error > 0.0) return std::abs(value) / standard_error;
+  return value == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+Symptom make_symptom(std::string name, std::string subject, double value, double standard_error) {
+  Symptom symptom;
+  symptom.speaks_for = effects::spoken_for(name);
+  symptom.name = std::move(name);
+  symptom.subject = std::move(subject);
+  symptom.value = value;
+  symptom.standard_error = standard_error;
+  return symptom;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  const bool long_whole = std::abs(value) >= 999.5 && std::abs(value) < 1e6;
+  std::snprintf(text, sizeof text, long_whole ? "%.0f" : "%.3g", value);
+  return text;
+}
+
+// The error with one digit (two where that is a 1), the value to the same decimal.
+std::string with_error(double value, double error, const std::string& unit) {
+  char text[80];
+  int decimals = 9;
+  if (error > 0.0 && std::isfinite(error)) {
+    const double power = std::floor(std::log10(error));
+    decimals = static_cast<int>(error < 2.0 * std::pow(10.0, power) ? 1.0 - power : -power);
+  }
+  if (decimals > 5 || decimals < -3)
+    std::snprintf(text, sizeof text, "%.3g \u00b1 %.2g", value, error);
+  else
+    std::snprintf(text, sizeof text, "%.*f \u00b1 %.*f", std::max(decimals, 0), value,
+                  std::max(decimals, 0), error);
+  return text + (unit == "1" ? std::string() : " " + unit);
+}
+
+bool SymptomContext::usable(int t) const {
+  const Prediction& p = predictions[t];
+  return p.healthy && trial(t).markers.size() > 0 &&
+         p.markers.rows() == trial(t).markers.value.rows() &&
+         p.markers.cols() == trial(t).markers.value.cols() && p.markers.allFinite();
+}
+
+Series SymptomContext::residual(int t, int column) const {
+  return trial(t).markers.value.col(column) - predictions[t].markers.col(column);
+}
+
+Eigen::MatrixXd SymptomContext::velocity(int t) const {
+  const Prediction& p = predictions[t];
+  if (p.marker_velocity.rows() == p.markers.rows() && p.marker_velocity.cols() == p.markers.cols())
+    return p.marker_velocity;
+  const std::vector<double>& time = trial(t).markers.time;
+  Eigen::MatrixXd v = Eigen::MatrixXd::Zero(p.markers.rows(), p.markers.cols());
+  for (Eigen::Index i = 0; i < v.rows(); ++i) {
+    const Eigen::Index a = std::max<Eigen::Index>(i - 1, 0);
+    const Eigen::Index b = std::min(i + 1, v.rows() - 1);
+    if (b > a) v.row(i) = (p.markers.row(b) - p.markers.row(a)) / (time[b] - time[a]);
+  }
+  return v;
+}
+
+std::vector<Span> spans_of(const Trial& trial) {
+  const std::vector<double> times = jumps(trial);
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    Span span{times[i], times[i + 1], true};
+    for (const Hold& hold : trial.holds)
+      if (hold.release > span.from + 1e-9 &&
+          (std::isfinite(hold.release) || hold.path.time.empty() ||
+           hold.path.time.back() > span.from + 1e-9))
+        span.free = false;
+    if (trial.base && moves(*trial.base)) span.free = false;
+    spans.push_back(span);
+  }
+  return spans;
+}
+
+std::vector<Symptom> symptoms(const Experiment& experiment, const DataSet& data,
+                              const std::vector<Prediction>& predictions) {
+  std::vector<Symptom> found;
+  if (predictions.size() != experiment.trials.size()) return found;
+  const SymptomContext context{experiment, data, predictions, chains_of(experiment)};
+  add_static_symptoms(context, found);
+  add_motion_symptoms(context, found);
+  add_oscillation_symptoms(context, found);
+  add_force_symptoms(context, found);
+  add_sensor_symptoms(context, found);
+  return found;
+}
+
+std::vector<SymptomPair> paired(const std::vector<Symptom>& before,
+                                const std::vector<Symptom>& after) {
+  std::vector<SymptomPair> pairs;
+  for (const Symptom& symptom : before) {
+    const auto same = std::ranges::find_if(
+        pairs, [&](const SymptomPair& pair) { return pair.before.name == symptom.name; });
+    if (same == pairs.end())
+      pairs.push_back({symptom, {}});
+    else if (symptom.loudness() > same->before.loudness())
+      same->before = symptom;
+  }
+  for (SymptomPair& pair : pairs)
+    for (const Symptom& symptom : after) {
+      if (symptom.name != pair.before.name) continue;
+      const bool same = symptom.subject == pair.before.subject;
+      const bool had = !pair.after.name.empty() && pair.after.subject == pair.before.subject;
+      if (same || (!had && (pair.after.name.empty() || symptom.loudness() > pair.after.loudness())))
+        pair.after = symptom;
+    }
+  std::ranges::stable_sort(pairs, [](const SymptomPair& a, const SymptomPair& b) {
+    if (a.before.shows() != b.before.shows()) return a.before.shows();
+    return a.before.loudness() > b.before.loudness();
+  });
+  return pairs;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,52 @@
+#include <algorithm>
+
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// A branch whose junction gives: a spring in series with its first joint.
+EffectDefinition define_attachment_compliance() {
+  EffectDefinition d;
+  d.name = "attachment_compliance";
+  d.plain_name = "a branch whose junction gives";
+  d.home = Home::joint;
+  d.family = Family::softness;
+  d.needs_place = true;
+  d.parameters = {{.name = "stiffness",
+                   .unit = "N m/rad",
+                   .bounds = io::positive,
+                   .sentence = "of the junction against turning",
+                   .vanishes = Vanishes::at_infinity,
+                   .first = {5.0}}};
+  d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
+                           const int curve = t.plant.curve_index(t.effect.place->curve);
+                           for (const plant::RodPlaces::Span& span : t.places.spans)
+                             if (span.curve == curve)
+                               return t.soften(span.element, t.number("stiffness"));
+                           t.soften(0, t.number("stiffness"));
+                         }};
+  d.starts = [](const StartContext& c) {
+    // Where a curve's nearer end is from the root; those nearest to it have no junction.
+    const auto distance = [&](const plant::PlantCurve& curve) {
+      return std::min((curve.points.front() - c.plant.root).norm(),
+                      (curve.points.back() - c.plant.root).norm());
+    };
+    double nearest = 1e300;
+    for (const plant::PlantCurve& curve : c.plant.curves)
+      nearest = std::min(nearest, distance(curve));
+    std::vector<Start> starts;
+    const double k = c.scales.root_stiffness;
+    for (const plant::PlantCurve& curve : c.plant.curves)
+      if (distance(curve) > nearest + 1e-9)
+        for (const double part : {10.0, 1.0})
+          starts.push_back(Start("attachment_compliance")
+                               .place(curve.name, 0.0)
+                               .positive("stiffness", part * k, 1e-5 * k, 1e4 * k));
+    return starts;
+  };
+  d.speaks_for = {{"junction_kink", 1}};
+  d.tells_apart = "put a marker on either side of the junction";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,34 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// A root that turns elastically: a spring in series with the clamp.
+EffectDefinition define_base_compliance() {
+  EffectDefinition d;
+  d.name = "base_compliance";
+  d.plain_name = "a root that turns elastically";
+  d.home = Home::base;
+  d.family = Family::softness;
+  d.parameters = {{.name = "stiffness",
+                   .unit = "N m/rad",
+                   .bounds = io::positive,
+                   .sentence = "of the root against turning",
+                   .vanishes = Vanishes::at_infinity,
+                   .first = {5.0}}};
+  d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
+                           for (int e = 0; e < t.model.size(); ++e)
+                             if (t.model.elements[e].parent < 0) t.soften(e, t.number("stiffness"));
+                         }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const double k = c.scales.root_stiffness;
+    for (const double part : {30.0, 5.0})
+      starts.push_back(Start("base_compliance").positive("stiffness", part * k, 1e-3 * k, 1e4 * k));
+    return starts;
+  };
+  d.speaks_for = {{"frequency", 4}, {"force_scale", 3}, {"base_rotation", 1}};
+  d.tells_apart = "put a marker on the collar at the root";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,54 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Slow creep: relaxation (relaxation.cpp) with a time longer than the trials.
+EffectDefinition define_creep() {
+  EffectDefinition d;
+  d.name = "creep";
+  d.plain_name = "slow creep";
+  d.home = Home::joint;
+  d.family = Family::memory;
+  d.parameters = {{.name = "fraction",
+                   .bounds = io::fraction,
+                   .sentence = "of the stiffness that goes with time",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.2}},
+                  {.name = "time",
+                   .unit = "s",
+                   .bounds = io::positive,
+                   .sentence = "in which it goes by 63 %",
+                   .role = Role::shape,
+                   .first = {10.0}},
+                  {.name = "start",
+                   .sentence = "when its memory begins: settled (as drawn) or unloaded",
+                   .size = 0,
+                   .required = false,
+                   .offered = false,
+                   .words = {"settled", "unloaded"},
+                   .role = Role::shape}};
+  d.change = ModelChange{
+      Stage::laws, [](ModelTarget& t) {
+        const auto start = t.effect.words.find("start");
+        const bool unloaded = start != t.effect.words.end() && start->second == "unloaded";
+        t.each_law([&](int, cosserat::JointLaw& law) {
+          cosserat::add_relaxation(law, t.number("fraction"), t.number("time"), unloaded);
+        });
+      }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const double longest = c.scales.duration;
+    for (const char* from : {"settled", "unloaded"})
+      starts.push_back(Start("creep")
+                           .word("start", from)
+                           .positive("fraction", 0.2, 1e-3, 0.95)
+                           .positive("time", 2.0 * longest, longest, 50.0 * longest));
+    return starts;
+  };
+  d.speaks_for = {{"force_drift", 2}, {"clock_trend", 2}};
+  d.tells_apart = "hold a load for ten minutes, and watch the recovery for as long";
+  d.limits = {{"time", false, "relaxation"}};
+  return d;
+}
+
+}  // namespace pedicel::effects

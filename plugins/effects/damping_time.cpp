@@ -1,0 +1,31 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Time of the Kelvin-Voigt damping, as a factor on what the file says; part of every baseline.
+EffectDefinition define_damping_time() {
+  EffectDefinition d;
+  d.name = "damping_time";
+  d.plain_name = "another internal damping";
+  d.home = Home::material;
+  d.parameters = {{.name = "factor",
+                   .bounds = io::positive,
+                   .sentence = "times what the file says",
+                   .vanishes = Vanishes::at_one,
+                   .first = {1.0}}};
+  d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
+                           for (cosserat::Element& element : t.model.elements)
+                             element.damping_time *= t.number("factor");
+                         }};
+  d.starts = [](const StartContext&) -> std::vector<Start> {
+    // The prior is wide; it only keeps apart what some data leave entirely open (a free vibration
+    // sees modulus over density alone).
+    return {Start("damping_time").positive("factor", 1.0, 1.0 / 300.0, 300.0).prior(1.5, 1.0)};
+  };
+  d.speaks_for = {{"damping", 1}};
+  d.material = &plant::MaterialValues::damping_time;
+  d.material_unit = "s";
+  return d;
+}
+
+}  // namespace pedicel::effects

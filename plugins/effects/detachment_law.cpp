@@ -1,0 +1,73 @@
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/yaml.h"
+
+namespace pedicel::effects {
+
+// Another law of detachment, of every fruit or of those on one curve: scales of the loads, and the
+// exponents with which they add up (cosserat/solver/detachment.h).
+EffectDefinition define_detachment_law() {
+  EffectDefinition d;
+  d.name = "detachment_law";
+  d.plain_name = "another law of detachment";
+  d.home = Home::stalk;
+  d.parameters = {{.name = "force",
+                   .unit = "N",
+                   .bounds = io::positive,
+                   .sentence = "that breaks a stalk alone",
+                   .required = false,
+                   .role = Role::shape,
+                   .first = {5.0}},
+                  {.name = "moment",
+                   .unit = "N m",
+                   .bounds = io::positive,
+                   .sentence = "that breaks a stalk alone",
+                   .required = false,
+                   .offered = false,
+                   .role = Role::shape,
+                   .first = {0.01}},
+                  {.name = "torsion",
+                   .unit = "N m",
+                   .bounds = io::positive,
+                   .sentence = "that breaks a stalk alone",
+                   .required = false,
+                   .offered = false,
+                   .role = Role::shape,
+                   .first = {0.01}},
+                  {.name = "exponents",
+                   .bounds = io::positive,
+                   .sentence = "of force, moment and torsion",
+                   .size = 3,
+                   .required = false,
+                   .offered = false,
+                   .role = Role::shape}};
+  d.check = [](const io::YamlNode& node, const plant::Effect& effect) {
+    const auto gives = [&](const char* name) { return effect.numbers.contains(name); };
+    if (!gives("force") && !gives("moment") && !gives("torsion"))
+      node.error(
+          "detachment_law gives none of force, moment and torsion, expected at least one of them");
+    if (!gives("exponents")) return;
+    for (const double exponent : effect.numbers.at("exponents"))
+      if (!(exponent > 0.0))
+        node.error("exponents has " + std::to_string(exponent) + ", expected numbers above 0");
+  };
+  d.change =
+      ModelChange{Stage::constants, [](ModelTarget& t) {
+                    cosserat::DetachmentLaw law;
+                    const auto set = [&](double& scale, const char* parameter) {
+                      if (t.has(parameter)) scale = t.number(parameter);
+                    };
+                    set(law.force, "force");
+                    set(law.moment, "moment");
+                    set(law.torsion, "torsion");
+                    if (t.has("exponents")) {
+                      const std::vector<double>& e = t.effect.numbers.at("exponents");
+                      law.exponents = {e[0], e[1], e[2]};
+                    }
+                    for (std::size_t f = 0; f < t.model.fruits.size(); ++f)
+                      if (!t.effect.place || t.plant.fruits[f].place.curve == t.effect.place->curve)
+                        t.model.fruits[f].law = law;
+                  }};
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,36 @@
+#include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// A measuring frame that is turned about the world's origin.
+EffectDefinition define_frame_rotation() {
+  EffectDefinition d;
+  d.name = "frame_rotation";
+  d.plain_name = "a measuring frame that is turned";
+  d.file = EffectFile::experiment;
+  d.home = Home::sensor;
+  d.family = Family::frame;
+  d.parameters = {{.name = "rotation",
+                   .unit = "rad",
+                   .sentence = "a rotation vector, in the world",
+                   .size = 3,
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.0, 0.0, 1.0}}};
+  d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {
+    const Vec3 rotation(effect.numbers.at("rotation").data());
+    sensor.frame = cosserat::exp_map(rotation).toRotationMatrix() * sensor.frame;
+  }};
+  d.starts = [](const StartContext&) {
+    std::vector<Start> starts;
+    for (int axis = 0; axis < 3; ++axis)
+      starts.push_back(
+          Start("frame_rotation").vector("rotation", 1e-4 * Vec3::Unit(axis), 0.01, 0.7));
+    return starts;
+  };
+  d.speaks_for = {{"base_rotation", 2}, {"constant_offset", 3}, {"out_of_plane", 4}};
+  d.tells_apart = "record the unloaded plant with a plumb line in view";
+  return d;
+}
+
+}  // namespace pedicel::effects

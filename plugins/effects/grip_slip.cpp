@@ -1,0 +1,53 @@
+#include <algorithm>
+
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// A grip that slips along the stem, once.
+EffectDefinition define_grip_slip() {
+  EffectDefinition d;
+  d.name = "grip_slip";
+  d.plain_name = "a grip that slipped";
+  d.file = EffectFile::experiment;
+  d.home = Home::grip;
+  d.family = Family::grip;
+  d.parameters = {{.name = "distance",
+                   .unit = "m",
+                   .sentence = "along the stem, away from its foot",
+                   .vanishes = Vanishes::at_zero},
+                  {.name = "time",
+                   .unit = "s",
+                   .bounds = io::not_negative,
+                   .sentence = "of the slip",
+                   .role = Role::time,
+                   .first = {10.0}}};
+  d.change = GripChange{[](const plant::Effect& effect, GripState& grip) {
+    grip.slip_distance = effect.number("distance");
+    grip.slip_time = effect.number("time");
+  }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    // In the trial of that name (empty: in all), before `end`.
+    const auto add = [&](const std::string& trial, double end) {
+      for (const double part : {0.1, 0.25, 0.4, 0.55, 0.7, 0.85}) {
+        Start start("grip_slip");
+        if (!trial.empty()) start.word("trial", trial);
+        start.signed_number("distance", 0.01, 0.01, -0.1, 0.1)
+            .signed_number("time", part * end, 0.2 * end, 0.0, end);
+        starts.push_back(start);
+      }
+    };
+    if (c.holds.empty()) return starts;
+    double first_end = 1e300;
+    for (const StartContext::Hold& hold : c.holds) first_end = std::min(first_end, hold.end);
+    add("", first_end);
+    for (const StartContext::Hold& hold : c.holds) add(hold.trial, hold.end);
+    return starts;
+  };
+  d.speaks_for = {{"loop_area", 4}, {"force_drift", 3}, {"constant_offset", 4}};
+  d.tells_apart = "put a marker on the pad of the gripper";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,66 @@
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/yaml.h"
+
+namespace pedicel::effects {
+
+// Friction inside the stem: a slider (Jenkins) that carries a ratio of the stiffness up to a
+// moment. The formula is in internal_friction-inl.h.
+EffectDefinition define_internal_friction() {
+  EffectDefinition d;
+  d.name = "internal_friction";
+  d.plain_name = "friction inside the stem";
+  d.home = Home::joint;
+  d.family = Family::memory;
+  d.parameters = {{.name = "moment",
+                   .unit = "N m",
+                   .bounds = io::positive,
+                   .sentence = "at which it slips",
+                   .required = false,
+                   .offered = false,
+                   .role = Role::shape,
+                   .first = {0.01}},
+                  {.name = "curvature",
+                   .unit = "1/m",
+                   .bounds = io::positive,
+                   .sentence = "at which it slips, instead of moment",
+                   .required = false,
+                   .role = Role::shape,
+                   .first = {1.0}},
+                  {.name = "ratio",
+                   .bounds = io::fraction,
+                   .sentence = "of the stiffness that it carries",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.5}}};
+  d.check = [](const io::YamlNode& node, const plant::Effect& effect) {
+    const bool moment = effect.numbers.contains("moment");
+    if (moment == effect.numbers.contains("curvature"))
+      node.error("internal_friction gives " + std::string(moment ? "both" : "neither") +
+                 " of moment and curvature, expected one of them");
+  };
+  d.change = ModelChange{Stage::laws, [](ModelTarget& t) {
+                           t.each_law([&](int e, cosserat::JointLaw& law) {
+                             const double ratio = t.number("ratio");
+                             if (ratio == 0.0) return;
+                             cosserat::add_friction(law, ratio,
+                                                    t.has("moment") ? t.number("moment")
+                                                                    : ratio * t.softer_bending(e) *
+                                                                          t.number("curvature") *
+                                                                          t.joint_length(e));
+                           });
+                         }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const double k = c.scales.curvature;
+    for (const double slip : {0.03, 0.1, 0.3})
+      for (const double ratio : {0.1, 0.3})
+        starts.push_back(Start("internal_friction")
+                             .positive("curvature", slip * k, 1e-4 * k, 20 * k)
+                             .positive("ratio", ratio, 1e-3, 0.95));
+    return starts;
+  };
+  d.speaks_for = {{"loop_area", 1}, {"frequency_by_amplitude", 2}, {"damping_by_amplitude", 2}};
+  d.tells_apart = "push ten times as slowly";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,31 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Markers that come late: their clock lags behind the drive.
+EffectDefinition define_latency() {
+  EffectDefinition d;
+  d.name = "latency";
+  d.plain_name = "markers that come late";
+  d.file = EffectFile::experiment;
+  d.home = Home::sensor;
+  d.parameters = {{.name = "delay",
+                   .unit = "s",
+                   .sentence = "of the markers",
+                   .vanishes = Vanishes::at_zero,
+                   .role = Role::time}};
+  d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {
+    sensor.delay += effect.number("delay");
+  }};
+  d.starts = [](const StartContext&) {
+    std::vector<Start> starts;
+    for (const double delay : {0.01, -0.01})
+      starts.push_back(Start("latency").signed_number("delay", delay, 0.01, -1.0, 1.0));
+    return starts;
+  };
+  d.speaks_for = {{"time_shift", 1}};
+  d.tells_apart = "let the markers and the drive record one sharp tap";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,29 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// A measuring scale that is off, about the world's origin.
+EffectDefinition define_marker_scale() {
+  EffectDefinition d;
+  d.name = "marker_scale";
+  d.plain_name = "a measuring scale that is off";
+  d.file = EffectFile::experiment;
+  d.home = Home::sensor;
+  d.family = Family::frame;
+  d.parameters = {{.name = "factor",
+                   .bounds = io::positive,
+                   .sentence = "times the positions",
+                   .vanishes = Vanishes::at_one,
+                   .first = {1.0}}};
+  d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {
+    sensor.frame *= effect.number("factor");
+  }};
+  d.starts = [](const StartContext&) -> std::vector<Start> {
+    return {Start("marker_scale").positive("factor", 1.001, 0.3, 3.0)};
+  };
+  d.speaks_for = {{"length_scale", 1}};
+  d.tells_apart = "measure the distance of two markers with a ruler";
+  return d;
+}
+
+}  // namespace pedicel::effects

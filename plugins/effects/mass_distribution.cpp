@@ -1,0 +1,29 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Mass that is spread otherwise along the curves: m (1 + gradient (s/L - 1/2)), positive
+// everywhere.
+EffectDefinition define_mass_distribution() {
+  EffectDefinition d;
+  d.name = "mass_distribution";
+  d.plain_name = "mass spread otherwise along the curves";
+  d.home = Home::element;
+  d.family = Family::mass;
+  d.parameters = {{.name = "gradient",
+                   .bounds = (io::Bounds{-1.99, 1.99}),
+                   .sentence = "g of 1 + g (s/L - 1/2), s along the curve",
+                   .vanishes = Vanishes::at_zero}};
+  d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
+                           t.scale_mass([&](const plant::RodPlaces::Span& span) {
+                             return t.along(span, t.number("gradient"));
+                           });
+                         }};
+  d.starts = [](const StartContext&) -> std::vector<Start> {
+    return {Start("mass_distribution").signed_number("gradient", 0.2, 0.3, -1.95, 1.95),
+            Start("mass_distribution").signed_number("gradient", -0.2, 0.3, -1.95, 1.95)};
+  };
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,40 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// A material that hardens or softens: M = EI k (1 + coefficient k^2 / k0^2). The formula is in
+// material_nonlinearity-inl.h.
+EffectDefinition define_material_nonlinearity() {
+  EffectDefinition d;
+  d.name = "material_nonlinearity";
+  d.plain_name = "a material that is not linear";
+  d.home = Home::joint;
+  d.family = Family::nonlinearity;
+  d.parameters = {
+      {.name = "coefficient", .sentence = "above 0 it hardens", .vanishes = Vanishes::at_zero},
+      {.name = "k0",
+       .unit = "1/m",
+       .bounds = io::positive,
+       .sentence = "curvature that the coefficient refers to",
+       .role = Role::shape,
+       .first = {10.0}}};
+  d.change = ModelChange{Stage::laws, [](ModelTarget& t) {
+                           t.each_law([&](int e, cosserat::JointLaw& law) {
+                             const double bend = t.number("k0") * t.joint_length(e);
+                             law.term("material_nonlinearity") +=
+                                 t.number("coefficient") / (bend * bend);
+                           });
+                         }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    for (const double b : {0.1, -0.1})
+      starts.push_back(Start("material_nonlinearity")
+                           .fixed("k0", {c.scales.curvature})
+                           .signed_number("coefficient", b, 0.2, -20.0, 20.0));
+    return starts;
+  };
+  d.speaks_for = {{"frequency_by_amplitude", 1}, {"damping_by_amplitude", 3}};
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,21 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Samples that are wrong: found in the data before any physics, and left out.
+EffectDefinition define_outliers() {
+  EffectDefinition d;
+  d.name = "outliers";
+  d.plain_name = "samples that are wrong";
+  d.file = EffectFile::experiment;
+  d.home = Home::sensor;
+  d.parameters = {{.name = "fraction",
+                   .bounds = io::fraction,
+                   .sentence = "of the samples",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.2}}};
+  d.speaks_for = {{"bad_channel", 2}};
+  return d;
+}
+
+}  // namespace pedicel::effects

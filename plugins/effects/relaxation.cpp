@@ -1,0 +1,55 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Stress that relaxes: a dashpot in series with a share of the stiffness (standard linear solid).
+EffectDefinition define_relaxation() {
+  EffectDefinition d;
+  d.name = "relaxation";
+  d.plain_name = "stress that relaxes";
+  d.home = Home::joint;
+  d.family = Family::memory;
+  d.parameters = {{.name = "fraction",
+                   .bounds = io::fraction,
+                   .sentence = "of the stiffness that goes with time",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.2}},
+                  {.name = "time",
+                   .unit = "s",
+                   .bounds = io::positive,
+                   .sentence = "in which it goes by 63 %",
+                   .role = Role::shape,
+                   .first = {10.0}},
+                  {.name = "start",
+                   .sentence = "when its memory begins: settled (as drawn) or unloaded",
+                   .size = 0,
+                   .required = false,
+                   .offered = false,
+                   .words = {"settled", "unloaded"},
+                   .role = Role::shape}};
+  d.change = ModelChange{
+      Stage::laws, [](ModelTarget& t) {
+        const auto start = t.effect.words.find("start");
+        const bool unloaded = start != t.effect.words.end() && start->second == "unloaded";
+        t.each_law([&](int, cosserat::JointLaw& law) {
+          cosserat::add_relaxation(law, t.number("fraction"), t.number("time"), unloaded);
+        });
+      }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const double longest = c.scales.duration;
+    for (const char* from : {"settled", "unloaded"})
+      for (const double time : {0.02, 0.1, 0.4})
+        starts.push_back(Start("relaxation")
+                             .word("start", from)
+                             .positive("fraction", 0.1, 1e-3, 0.95)
+                             .positive("time", time * longest, 1e-3 * longest, longest));
+    return starts;
+  };
+  d.speaks_for = {{"loop_area", 2}, {"force_drift", 1}};
+  d.tells_apart = "hold a push for minutes, and watch the recovery for as long";
+  d.limits = {{"time", true, "creep"}};
+  return d;
+}
+
+}  // namespace pedicel::effects

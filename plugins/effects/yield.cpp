@@ -1,0 +1,52 @@
+#include <string>
+#include <string_view>
+
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/effects_list/joint_terms.h"
+
+namespace pedicel::effects {
+
+// Bending that stays: a slider that carries all that is elastic, from the unloaded shape on. It
+// slips as internal_friction-inl.h says.
+EffectDefinition define_yield() {
+  EffectDefinition d;
+  d.name = "yield";
+  d.plain_name = "bending that stays (yield)";
+  d.home = Home::joint;
+  d.family = Family::nonlinearity;
+  d.parameters = {{.name = "curvature",
+                   .unit = "1/m",
+                   .bounds = io::positive,
+                   .sentence = "beyond which it is plastic",
+                   .vanishes = Vanishes::at_infinity,
+                   .first = {10.0}}};
+  d.change = ModelChange{
+      Stage::last, [](ModelTarget& t) {
+        bool twice = false;
+        std::string_view beside;  // a law that is elastic, too, and would have nothing left
+        t.each_law([&](int e, cosserat::JointLaw& law) {
+          for (const JointTerm& term : joint_terms)
+            if (!law.terms.empty() && law.term(term.effect) != 0.0) beside = term.effect;
+          for (const cosserat::JointBranch& branch : law.branches) twice = twice || branch.plastic;
+          if (!beside.empty() || twice || law.elastic + law.deviation < 1.0e-6) return;
+          cosserat::add_yield(law, t.softer_bending(e) * t.number("curvature") * t.joint_length(e));
+        });
+        if (twice) t.error("yield twice on one curve, expected it once");
+        if (!beside.empty())
+          t.error("yield and " + std::string(beside) + " on one curve, expected one of them");
+      }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    // Near the largest curvature of the trials a threshold soon does nothing, or much.
+    const double k = c.scales.curvature;
+    for (double part = 0.3; part < 3.5; part *= 1.2)
+      starts.push_back(Start("yield").positive("curvature", part * k, 1e-2 * k, 20 * k));
+    return starts;
+  };
+  d.speaks_for = {{"loop_area", 3}, {"clock_trend", 3}};
+  d.tells_apart = "repeat the largest load: no further set follows a set that has settled";
+  d.has_threshold = true;
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,33 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Young's modulus of everything, as a factor on what the file says; part of every baseline.
+EffectDefinition define_youngs_modulus() {
+  EffectDefinition d;
+  d.name = "youngs_modulus";
+  d.plain_name = "another modulus";
+  d.home = Home::material;
+  d.parameters = {{.name = "factor",
+                   .bounds = io::positive,
+                   .sentence = "times what the file says",
+                   .vanishes = Vanishes::at_one,
+                   .first = {0.9}}};
+  d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
+                           for (cosserat::Element& element : t.model.elements) {
+                             element.stretch_stiffness *= t.number("factor");
+                             element.bend_stiffness *= t.number("factor");
+                           }
+                         }};
+  d.starts = [](const StartContext&) -> std::vector<Start> {
+    // The prior is wide; it only keeps apart what some data leave entirely open (a free vibration
+    // sees modulus over density alone).
+    return {Start("youngs_modulus").positive("factor", 1.0, 1.0 / 10.0, 10.0).prior(1.5, 1.0)};
+  };
+  d.speaks_for = {{"frequency", 1}, {"force_scale", 2}};
+  d.material = &plant::MaterialValues::youngs_modulus;
+  d.material_unit = "Pa";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,86 @@
+#include "pedicel/plant/effect_reader.h"
+
+#include <algorithm>
+
+namespace pedicel::plant {
+
+namespace {
+
+using effects::EffectDefinition;
+using effects::EffectFile;
+using effects::EffectParameter;
+
+std::string names_of(EffectFile file) {
+  std::string names;
+  for (const EffectDefinition& one : effects::effect_definitions())
+    if (one.file == file) names += (names.empty() ? "" : ", ") + one.name;
+  return names;
+}
+
+void read_word(const io::YamlNode& node, const EffectParameter& parameter, Effect& effect) {
+  const std::string word = node.text(parameter.name);
+  effect.words[parameter.name] = word;
+  const std::vector<std::string>& known = parameter.words;
+  if (known.empty() || std::find(known.begin(), known.end(), word) != known.end()) return;
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : " or ") + one;
+  node.error(parameter.name + " is \"" + word + "\", expected " + list);
+}
+
+void read_parameter(io::YamlMap& map, const EffectParameter& parameter, Effect& effect) {
+  const auto node =
+      parameter.required ? map.required(parameter.name) : map.optional(parameter.name);
+  if (!node) return;
+  if (parameter.size == 0) {
+    read_word(*node, parameter, effect);
+  } else if (parameter.size == 3) {
+    const Vec3 value = node->vector(parameter.name);
+    effect.numbers[parameter.name] = {value.x(), value.y(), value.z()};
+  } else {
+    effect.numbers[parameter.name] = {node->number(parameter.name, parameter.bounds)};
+  }
+}
+
+}  // namespace
+
+CurvePlace read_place(io::YamlMap& map) {
+  CurvePlace place;
+  if (const auto curve = map.required("curve")) {
+    place.curve = curve->text("curve");
+    place.where = curve->position();
+  }
+  place.at = map.number("at", io::fraction);
+  return place;
+}
+
+Effect read_effect(const io::YamlNode& node, EffectFile file) {
+  Effect effect;
+  effect.where = node.position();
+  io::YamlMap map(node, "an effect");
+  const auto name = map.required("name");
+  if (!name) return effect;
+  effect.name = name->text("name");
+  const EffectDefinition* definition = effects::find_effect(effect.name);
+  if (!definition) {
+    name->error("effect \"" + effect.name + "\" is unknown, expected one of: " + names_of(file));
+    return effect;
+  }
+  if (definition->file != file) {
+    name->error("effect \"" + effect.name + "\" is expected in " +
+                (definition->file == EffectFile::plant ? "the plant file" : "experiment.yaml") +
+                ", not here");
+    return effect;
+  }
+  for (const EffectParameter& parameter : definition->parameters)
+    read_parameter(map, parameter, effect);
+  if (const auto place = definition->needs_place ? map.required("where") : map.optional("where")) {
+    io::YamlMap place_map(*place, "where");
+    effect.place = read_place(place_map);
+    place_map.finish();
+  }
+  if (definition->check) definition->check(node, effect);
+  map.finish();
+  return effect;
+}
+
+}  // namespace pedicel::plant

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/yaml.h"
+
+namespace pedicel::plant {
+
+/// Reads `where: {curve, at}`-like keys out of a map that holds them directly.
+CurvePlace read_place(io::YamlMap& map);
+
+/// Reads one entry of an `effects:` list of a file of that kind, with its name and its parameters
+/// checked against the effect's definition. Faults go to the node's diagnostics.
+Effect read_effect(const io::YamlNode& node, effects::EffectFile file);
+
+}  // namespace pedicel::plant

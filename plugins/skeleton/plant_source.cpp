@@ -1,0 +1,83 @@
+#include "pedicel/skeleton/plant_source.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "pedicel/io/table_text.h"
+#include "pedicel/io/text_file.h"
+#include "pedicel/plant/plant_size.h"
+#include "pedicel/skeleton/mtg_reader.h"
+#include "pedicel/skeleton/skeleton_columns.h"
+
+namespace pedicel::plant {
+
+namespace {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::optional<PlantFile> read_nodes(const std::filesystem::path& path, SourceKind kind, double unit,
+                                    Diagnostics& diagnostics) {
+  MtgOptions options;
+  options.unit = unit;
+  options.keeps_thin = kind == SourceKind::skeleton_table;  // a fruit's stalk
+  const std::string text = io::read_text_file(path);
+  const auto nodes = kind == SourceKind::mtg
+                         ? parse_mtg(text, path.string(), diagnostics, unit)
+                         : parse_skeleton_csv(text, path.string(), diagnostics, unit);
+  auto plant = checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
+  if (!plant) return std::nullopt;
+  warn_of_size(*plant, diagnostics);
+  diagnostics.notice({path.string()}, size_text(*plant, nodes.size()));
+  return plant;
+}
+
+}  // namespace
+
+SourceKind source_kind(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".yaml" || extension == ".yml") return SourceKind::plant_file;
+  if (extension == ".mtg") return SourceKind::mtg;
+  if (extension == ".csv" || extension == ".tsv" || extension == ".txt")
+    return SourceKind::skeleton_table;
+  return SourceKind::unknown;
+}
+
+bool is_skeleton_table(const std::filesystem::path& path) {
+  try {
+    Diagnostics unused;
+    const std::string text = io::read_text_file(path);
+    const io::TableText table(text, path.string(), unused);
+    std::vector<std::string> names;
+    for (const io::TableColumn& column : table.columns()) names.push_back(column.name);
+    return looks_like_skeleton(names);
+  } catch (const InvalidFile&) {
+    return false;
+  }
+}
+
+std::optional<PlantFile> read_plant_source(const std::filesystem::path& path, double unit,
+                                           Diagnostics& diagnostics, SourceKind kind) {
+  if (kind == SourceKind::unknown) kind = source_kind(path);
+  try {
+    if (kind == SourceKind::skeleton_table || kind == SourceKind::mtg)
+      return read_nodes(path, kind, unit, diagnostics);
+    if (kind == SourceKind::plant_file && (unit == 0.0 || unit == 1.0))
+      return read_plant_file(path, diagnostics);
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+    return std::nullopt;
+  }
+  diagnostics.error({path.string()},
+                    kind == SourceKind::plant_file
+                        ? "is a plant file, whose lengths are in m: expected no other unit"
+                        : "cannot tell what this is, expected *.scene.yaml, *.plant.yaml, *.csv (a "
+                          "skeleton or cylinders) or *.mtg");
+  return std::nullopt;
+}
+
+}  // namespace pedicel::plant
