@@ -14,6 +14,7 @@
 #include "pedicel/app/run/channels.h"
 #include "pedicel/app/run/rough_spell.h"
 #include "pedicel/app/run/verbosity.h"
+#include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/core/timer.h"
 #include "pedicel/io/atomic_file.h"
@@ -21,8 +22,6 @@
 namespace pedicel::app {
 
 namespace {
-
-constexpr int exit_unstable = 4, exit_unmet = 5, exit_no_pictures = 77;
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;

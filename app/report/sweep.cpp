@@ -5,14 +5,13 @@
 
 #include "pedicel/app/report/scene_report.h"
 #include "pedicel/app/report/solver_comparison.h"
+#include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/world/settings.h"
 
 namespace pedicel::app {
 
 namespace {
-
-constexpr int exit_unmet = 5;
 
 /// Reads back as the same number.
 std::string text_of(double value) {
@@ -111,7 +110,7 @@ RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
     if (!result.verdicts.back().met && result.exit_code == 0) result.exit_code = exit_unmet;
   }
   for (const SweepRun& run : runs)
-    if (run.result.exit_code == 4) result.exit_code = 4;
+    if (run.result.exit_code == exit_unstable) result.exit_code = exit_unstable;
   std::optional<SolverComparison> comparison;
   if (!options.out.empty() && options.comparison && !stop_requested)
     comparison = whole_comparison(scene, runs, options);

@@ -15,12 +15,14 @@
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
 #include "pedicel/app/verbs/fit.h"
+#include "pedicel/app/verbs/manual.h"
 #include "pedicel/app/verbs/observe.h"
 #include "pedicel/app/verbs/parallel_worlds.h"
 #include "pedicel/app/verbs/param_sweep.h"
 #include "pedicel/app/verbs/run_arguments.h"
 #include "pedicel/app/verbs/validate.h"
 #include "pedicel/core/check.h"
+#include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
@@ -30,24 +32,6 @@
 namespace pedicel::app {
 
 namespace {
-
-enum Exit {
-  ok = 0,
-  failure = 1,
-  usage = 2,
-  invalid = 3,
-  unstable = 4,
-  unwritable = 6,
-  no_pictures = 77
-};
-
-constexpr const char* exit_codes =
-    "Exit codes: 0 ok, 1 runtime failure, 2 usage, 3 a file is invalid or missing, 4 the "
-    "simulation is unstable, 5 an expectation is not met or a comparison beyond its tolerance, 6 "
-    "output cannot be written, 77 pictures were asked for and there is no OpenGL, 128 plus the "
-    "signal where one stopped it (130 Ctrl-C, 143 SIGTERM, 129 SIGHUP, 152 SIGXCPU, 141 SIGPIPE). "
-    "diagnose: 0 the model is adequate, 10 a cause is named, 11 several fit alike, 12 an unknown "
-    "cause, 13 unusable data, 14 our own numerical error is too large.";
 
 constexpr const char* cache_place =
     "Distance grids of collision meshes are kept in the folder that PEDICEL_CACHE names (\"off\": "
@@ -66,7 +50,7 @@ int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   session.set_film_maker(films.get());
   if (!a.scene.empty() && !session.open(a.scene, unit_of_text(a.unit, "--unit"))) {
     std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
-    return invalid;
+    return exit_invalid;
   }
   for (const std::string& assignment : a.set) {
     const auto [key, value] = world::split_assignment(assignment);
@@ -99,7 +83,7 @@ int run_verb(const RunArguments& a, const MakeFilms& make_films) {
   const world::Scene scene = load_scene(a);
   if (a.print_scene) {
     std::cout << effective_scene(scene) << std::flush;
-    return ok;
+    return exit_ok;
   }
   if (a.param_sweep.empty()) return end_of_run(scene, a, options, run_with_sweep(scene, options));
   return end_of_run(scene, a, options,
@@ -224,7 +208,7 @@ int sweep_verb(RunArguments a) {
   scene.sweep = sweep;
   if (a.print_scene) {
     std::cout << effective_scene(scene) << std::flush;
-    return ok;
+    return exit_ok;
   }
   return end_of_run(scene, a, options, run_with_sweep(scene, options));
 }
@@ -304,7 +288,7 @@ WorldsResult bench_scene(const BenchArguments& a) {
 int bench_verb(const BenchArguments& a) {
   const auto print = [&a](const auto& result) {
     std::cout << (a.json ? to_json(result) : to_text(result)) << std::endl;
-    return ok;
+    return exit_ok;
   };
   if (a.options.name.ends_with(".scene.yaml")) return print(bench_scene(a));
   const BenchOptions options = bench_options(a);
@@ -320,25 +304,25 @@ int guarded(const std::function<int()>& verb) {
     return stop_exit_code();
   } catch (const InvalidFile& error) {
     say(Verbosity::errors, "%s", error.what());
-    return invalid;
+    return exit_invalid;
   } catch (const UsageError& error) {
     say(Verbosity::errors, "error: %s", error.what());
-    return usage;
+    return exit_usage;
   } catch (const UnstableWorld& error) {
     say(Verbosity::errors, "error: %s", error.what());
-    return unstable;
+    return exit_unstable;
   } catch (const io::WriteError& error) {
     say(Verbosity::errors, "error: %s", error.what());
-    return unwritable;
+    return exit_unwritable;
   } catch (const render::OutputError& error) {
     say(Verbosity::errors, "error: %s", error.what());
-    return unwritable;
+    return exit_unwritable;
   } catch (const NoPictures& error) {
     say(Verbosity::errors, "%s", error.what());
-    return no_pictures;
+    return exit_no_pictures;
   } catch (const std::exception& error) {
     say(Verbosity::errors, "error: %s", error.what());
-    return failure;
+    return exit_failure;
   }
 }
 
@@ -347,7 +331,7 @@ int guarded(const std::function<int()>& verb) {
 int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFilms& make_films) {
   hear_stop_signals();
   CLI::App app("Pedicel: a sandbox where robots handle plants.");
-  app.footer(std::string(exit_codes) + "\n" + cache_place);
+  app.footer(exit_codes_text() + "\n" + cache_place);
   app.set_version_flag("--version", "pedicel " + version() + " (" + git_hash() + ")");
 
   RunArguments run;
@@ -383,6 +367,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   add_bench_options(*bench, benched);
   const std::function<int()> diagnose = add_diagnose_verb(app);
   const std::function<int()> fit = add_fit_verb(app);
+  const std::function<int()> manual = add_manual_verb(app);
 
   ObserveArguments observed;
   CLI::App* observe =
@@ -393,7 +378,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ok : usage;
+    return app.exit(error) == 0 ? exit_ok : exit_usage;
   }
   if (*sweep) return guarded([&] { return sweep_verb(swept); });
   if (*validate)
@@ -402,6 +387,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (*bench) return guarded([&] { return bench_verb(benched); });
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);
+  if (app.got_subcommand("manual")) return guarded(manual);
   if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });
 }

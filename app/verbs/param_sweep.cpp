@@ -2,6 +2,7 @@
 
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/core/check.h"
+#include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/world/settings.h"
@@ -9,8 +10,6 @@
 namespace pedicel::app {
 
 namespace {
-
-constexpr int exit_ok = 0, exit_unstable = 4, exit_unmet = 5;
 
 /// "run_001"
 std::string folder_of(std::size_t row) {

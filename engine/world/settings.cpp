@@ -50,38 +50,25 @@ void apply_number(const Setting& setting, const std::string& section, const Para
     diagnostics.error(setting.where, section + "." + *refused);
 }
 
-/// A number of the scene itself: the one description of its bounds.
-struct SceneNumber {
-  std::string_view key;
-  double minimum, maximum;
-  bool whole;
-};
-constexpr SceneNumber scene_numbers[] = {{"duration", 1e-6, 1e6, false},
-                                         {"dt", 1e-7, 1.0, false},
-                                         {"log_rate", 1e-3, 1e6, false},
-                                         {"seed", 0, 1e9, true},
-                                         {"threads", 1, 256, true}};
-
 double checked(const SceneNumber& number, const std::string& text, const std::string& asked) {
   const std::optional<double> value = to_number(text);
   if (value && *value >= number.minimum && *value <= number.maximum &&
-      (!number.whole || *value == std::floor(*value)))
+      (!number.whole() || *value == std::floor(*value)))
     return *value;
   throw UsageError(asked + std::string(number.key) + " = \"" + text + "\": must be a " +
-                   (number.whole ? "whole " : "") + "number between " +
+                   (number.whole() ? "whole " : "") + "number between " +
                    io::format_number(number.minimum) + " and " + io::format_number(number.maximum));
 }
 
 bool set_scene_number(Scene& scene, const std::string& key, const std::string& text,
                       const std::string& asked) {
-  for (const SceneNumber& number : scene_numbers) {
+  for (const SceneNumber& number : scene_numbers()) {
     if (key != number.key) continue;
     const double value = checked(number, text, asked);
-    if (key == "duration") scene.duration = value;
-    if (key == "dt") scene.dt = value;
-    if (key == "log_rate") scene.log_rate = value;
-    if (key == "seed") scene.seed = static_cast<int>(value);
-    if (key == "threads") scene.threads = static_cast<int>(value);
+    if (number.whole())
+      scene.*std::get<int Scene::*>(number.member) = static_cast<int>(value);
+    else
+      scene.*std::get<double Scene::*>(number.member) = value;
     return true;
   }
   return false;
@@ -121,8 +108,8 @@ void set_on_robot(Scene& scene, const Setting& setting) {
   if (setting.key != "robot.gripper_force")
     throw UsageError(setting.where.file + ": expected robot.gripper_force");
   if (!scene.robot) throw UsageError(setting.where.file + ": the scene has no robot");
-  scene.robot->gripper_force =
-      checked({"", 0.0, largest_gripper_force, false}, setting.text, setting.where.file);
+  scene.robot->gripper_force = checked({"", "N", 0.0, largest_gripper_force, "", &Scene::duration},
+                                       setting.text, setting.where.file);
 }
 
 void set_on_plant(Scene& scene, const std::string& rest, Setting setting) {
@@ -137,9 +124,20 @@ void set_on_plant(Scene& scene, const std::string& rest, Setting setting) {
 
 }  // namespace
 
+std::span<const SceneNumber> scene_numbers() {
+  static const SceneNumber all[] = {
+      {"duration", "s", 1e-6, 1e6, "Simulated time; also --duration.", &Scene::duration},
+      {"dt", "s", 1e-7, 1.0, "Time step; also --dt.", &Scene::dt},
+      {"log_rate", "Hz", 1e-3, 1e6, "Rows of log.csv; also --log-rate.", &Scene::log_rate},
+      {"seed", "1", 0, 1e9, "Seed of everything random; also --seed.", &Scene::seed},
+      {"threads", "1", 1, 256, "Threads for the plants; also --threads.", &Scene::threads}};
+  return all;
+}
+
 io::Bounds scene_bounds(std::string_view key) {
-  const auto number = std::ranges::find(scene_numbers, key, &SceneNumber::key);
-  PEDICEL_ASSERT(number != std::end(scene_numbers));
+  const auto all = scene_numbers();
+  const auto number = std::ranges::find(all, key, &SceneNumber::key);
+  PEDICEL_ASSERT(number != all.end());
   return {number->minimum, number->maximum};
 }
 

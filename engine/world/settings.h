@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "pedicel/core/parameter.h"
@@ -34,8 +36,19 @@ inline constexpr io::Bounds video_rates{1.0, 240.0};
 /// m/s2, that a component of gravity may have, wherever that is said.
 inline constexpr double most_gravity = 100.0;
 
-/// What the scene's own numbers may be, wherever they come from: duration, dt, log_rate, seed,
-/// threads. Asserts that there is such a key.
+/// A number of the scene itself, wherever it comes from (its file, `--set`, an option): its one
+/// description.
+struct SceneNumber {
+  std::string_view key, unit;
+  double minimum, maximum;
+  std::string_view sentence;
+  std::variant<double Scene::*, int Scene::*> member;
+
+  bool whole() const { return member.index() == 1; }
+};
+std::span<const SceneNumber> scene_numbers();
+
+/// Its bounds. Asserts that there is such a key.
 io::Bounds scene_bounds(std::string_view key);
 
 /// Changes a scene as `--set key=value` does: dt, duration, gravity (x,y,z), seed, threads,

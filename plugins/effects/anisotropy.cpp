@@ -13,15 +13,16 @@ EffectDefinition define_anisotropy() {
   EffectDefinition d;
   d.name = "anisotropy";
   d.plain_name = "bending that is softer in one direction than across it";
+  d.sentence = "bending towards a direction is stiffer or softer than across it";
   d.home = Home::joint;
   d.family = Family::softness;
   d.parameters = {{.name = "ratio",
                    .bounds = io::positive,
-                   .sentence = "of the stiffness in the direction to that across it",
+                   .sentence = "stiffness towards the direction over that across it",
                    .vanishes = Vanishes::at_one,
                    .first = {0.5}},
                   {.name = "direction",
-                   .sentence = "in the frame of the plant",
+                   .sentence = "in the plant's frame",
                    .size = 3,
                    .role = Role::shape,
                    .first = {0.0, 0.0, 1.0}}};

@@ -9,13 +9,14 @@ EffectDefinition define_attachment_compliance() {
   EffectDefinition d;
   d.name = "attachment_compliance";
   d.plain_name = "a branch whose junction gives";
+  d.sentence = "a spring in series with the bending at a branch's junction";
   d.home = Home::joint;
   d.family = Family::softness;
   d.needs_place = true;
   d.parameters = {{.name = "stiffness",
                    .unit = "N m/rad",
                    .bounds = io::positive,
-                   .sentence = "of the junction against turning",
+                   .sentence = "of the spring",
                    .vanishes = Vanishes::at_infinity,
                    .first = {5.0}}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {

@@ -7,12 +7,13 @@ EffectDefinition define_base_compliance() {
   EffectDefinition d;
   d.name = "base_compliance";
   d.plain_name = "a root that turns elastically";
+  d.sentence = "a spring in series with the root's bending; it has no damper";
   d.home = Home::base;
   d.family = Family::softness;
   d.parameters = {{.name = "stiffness",
                    .unit = "N m/rad",
                    .bounds = io::positive,
-                   .sentence = "of the root against turning",
+                   .sentence = "of the spring",
                    .vanishes = Vanishes::at_infinity,
                    .first = {5.0}}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {

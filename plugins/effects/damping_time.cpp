@@ -7,10 +7,11 @@ EffectDefinition define_damping_time() {
   EffectDefinition d;
   d.name = "damping_time";
   d.plain_name = "another internal damping";
+  d.sentence = "multiplies the damping time of the plant";
   d.home = Home::material;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
-                   .sentence = "times what the file says",
+                   .sentence = "on the nominal value",
                    .vanishes = Vanishes::at_one,
                    .first = {1.0}}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {

@@ -7,10 +7,11 @@ EffectDefinition define_density() {
   EffectDefinition d;
   d.name = "density";
   d.plain_name = "another density";
+  d.sentence = "multiplies the density of the plant";
   d.home = Home::material;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
-                   .sentence = "times what the file says",
+                   .sentence = "on the nominal value",
                    .vanishes = Vanishes::at_one,
                    .first = {1.0}}};
   d.change =

@@ -9,27 +9,31 @@ EffectDefinition define_detachment_law() {
   EffectDefinition d;
   d.name = "detachment_law";
   d.plain_name = "another law of detachment";
+  d.sentence = "a law of breaking in place of the thresholds: [theory](theory_detachment.md)";
   d.home = Home::stalk;
   d.parameters = {{.name = "force",
                    .unit = "N",
                    .bounds = io::positive,
-                   .sentence = "that breaks a stalk alone",
+                   .sentence = "scale of the force",
                    .required = false,
+                   .otherwise = "one of three needed",
                    .role = Role::shape,
                    .first = {5.0}},
                   {.name = "moment",
                    .unit = "N m",
                    .bounds = io::positive,
-                   .sentence = "that breaks a stalk alone",
+                   .sentence = "scale of the bending moment",
                    .required = false,
+                   .otherwise = "one of three needed",
                    .offered = false,
                    .role = Role::shape,
                    .first = {0.01}},
                   {.name = "torsion",
                    .unit = "N m",
                    .bounds = io::positive,
-                   .sentence = "that breaks a stalk alone",
+                   .sentence = "scale of the torsion",
                    .required = false,
+                   .otherwise = "one of three needed",
                    .offered = false,
                    .role = Role::shape,
                    .first = {0.01}},
@@ -38,6 +42,7 @@ EffectDefinition define_detachment_law() {
                    .sentence = "of force, moment and torsion",
                    .size = 3,
                    .required = false,
+                   .otherwise = "`[2, 2, 2]`",
                    .offered = false,
                    .role = Role::shape}};
   d.check = [](const io::YamlNode& node, const plant::Effect& effect) {

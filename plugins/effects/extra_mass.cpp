@@ -7,6 +7,7 @@ EffectDefinition define_extra_mass() {
   EffectDefinition d;
   d.name = "extra_mass";
   d.plain_name = "a mass that the model lacks";
+  d.sentence = "a point mass";
   d.home = Home::element;
   d.family = Family::mass;
   d.needs_place = true;

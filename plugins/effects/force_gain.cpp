@@ -7,15 +7,19 @@ EffectDefinition define_force_gain() {
   EffectDefinition d;
   d.name = "force_gain";
   d.plain_name = "a force sensor that is off";
+  d.sentence = "the force sensor is off: measured force = gain F + offset";
   d.file = EffectFile::experiment;
   d.home = Home::sensor;
   d.family = Family::grip;
-  d.parameters = {{.name = "gain", .sentence = "times the force", .vanishes = Vanishes::at_one},
+  d.parameters = {{.name = "gain",
+                   .sentence = "measured force = gain F + offset",
+                   .vanishes = Vanishes::at_one},
                   {.name = "offset",
                    .unit = "N",
-                   .sentence = "in the world",
+                   .sentence = "the same",
                    .size = 3,
                    .required = false,
+                   .otherwise = "`[0, 0, 0]`",
                    .offered = false,
                    .vanishes = Vanishes::at_zero}};
   d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {

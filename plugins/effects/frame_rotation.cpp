@@ -8,12 +8,13 @@ EffectDefinition define_frame_rotation() {
   EffectDefinition d;
   d.name = "frame_rotation";
   d.plain_name = "a measuring frame that is turned";
+  d.sentence = "the frame of the markers is turned";
   d.file = EffectFile::experiment;
   d.home = Home::sensor;
   d.family = Family::frame;
   d.parameters = {{.name = "rotation",
                    .unit = "rad",
-                   .sentence = "a rotation vector, in the world",
+                   .sentence = "markers are turned about the world's origin",
                    .size = 3,
                    .vanishes = Vanishes::at_zero,
                    .first = {0.0, 0.0, 1.0}}};

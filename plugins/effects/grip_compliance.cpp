@@ -9,15 +9,18 @@ EffectDefinition define_grip_compliance() {
   EffectDefinition d;
   d.name = "grip_compliance";
   d.plain_name = "a soft grip";
+  d.sentence = "a hold keeps its point by a spring";
   d.file = EffectFile::experiment;
   d.home = Home::grip;
   d.family = Family::grip;
-  d.parameters = {{.name = "stiffness",
-                   .unit = "N/m",
-                   .bounds = io::positive,
-                   .sentence = "of the grip",
-                   .vanishes = Vanishes::at_infinity,
-                   .first = {5.0}}};
+  d.parameters = {
+      {.name = "stiffness",
+       .unit = "N/m",
+       .bounds = io::positive,
+       .sentence =
+           "spring between the commanded and the held point, in place of what the drive states",
+       .vanishes = Vanishes::at_infinity,
+       .first = {5.0}}};
   d.change = GripChange{[](const plant::Effect& effect, GripState& grip) {
     grip.stiffness = effect.number("stiffness");
   }};

@@ -9,17 +9,18 @@ EffectDefinition define_grip_slip() {
   EffectDefinition d;
   d.name = "grip_slip";
   d.plain_name = "a grip that slipped";
+  d.sentence = "a hold slips along the stem once";
   d.file = EffectFile::experiment;
   d.home = Home::grip;
   d.family = Family::grip;
   d.parameters = {{.name = "distance",
                    .unit = "m",
-                   .sentence = "along the stem, away from its foot",
+                   .sentence = "how much farther along its curve the held point is",
                    .vanishes = Vanishes::at_zero},
                   {.name = "time",
                    .unit = "s",
                    .bounds = io::not_negative,
-                   .sentence = "of the slip",
+                   .sentence = "from when on",
                    .role = Role::time,
                    .first = {10.0}}};
   d.change = GripChange{[](const plant::Effect& effect, GripState& grip) {

@@ -10,18 +10,19 @@ EffectDefinition define_gust() {
   EffectDefinition d;
   d.name = "gust";
   d.plain_name = "a gusting wind";
+  d.sentence = "wind with velocity times 1 + amplitude sin(2 pi frequency t)";
   d.home = Home::air;
   d.family = Family::air;
   d.parameters = {{.name = "velocity",
                    .unit = "m/s",
-                   .sentence = "of the air, in the world",
+                   .sentence = "of the air",
                    .size = 3,
                    .role = Role::shape,
                    .first = {2.0, 0.0, 0.0}},
                   {.name = "drag_area",
                    .unit = "m2/m",
                    .bounds = io::not_negative,
-                   .sentence = "C_d times breadth, a metre of stem",
+                   .sentence = "area per length, with Cd inside",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.005}},
                   {.name = "frequency",
@@ -32,7 +33,7 @@ EffectDefinition define_gust() {
                    .first = {0.5}},
                   {.name = "amplitude",
                    .bounds = io::not_negative,
-                   .sentence = "of the gusts, over the mean",
+                   .sentence = "of the gusts, relative to the velocity",
                    .role = Role::shape,
                    .first = {0.3}}};
   d.change = ModelChange{

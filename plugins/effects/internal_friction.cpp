@@ -9,26 +9,29 @@ EffectDefinition define_internal_friction() {
   EffectDefinition d;
   d.name = "internal_friction";
   d.plain_name = "friction inside the stem";
+  d.sentence = "a part of the stiffness goes through a slider that slips";
   d.home = Home::joint;
   d.family = Family::memory;
   d.parameters = {{.name = "moment",
                    .unit = "N m",
                    .bounds = io::positive,
-                   .sentence = "at which it slips",
+                   .sentence = "at which each joint slips",
                    .required = false,
+                   .otherwise = "this or the next",
                    .offered = false,
                    .role = Role::shape,
                    .first = {0.01}},
                   {.name = "curvature",
                    .unit = "1/m",
                    .bounds = io::positive,
-                   .sentence = "at which it slips, instead of moment",
+                   .sentence = "at which it slips",
                    .required = false,
+                   .otherwise = "this or the one before",
                    .role = Role::shape,
                    .first = {1.0}},
                   {.name = "ratio",
                    .bounds = io::fraction,
-                   .sentence = "of the stiffness that it carries",
+                   .sentence = "part of the stiffness in the slider",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.5}}};
   d.check = [](const io::YamlNode& node, const plant::Effect& effect) {

@@ -7,11 +7,12 @@ EffectDefinition define_latency() {
   EffectDefinition d;
   d.name = "latency";
   d.plain_name = "markers that come late";
+  d.sentence = "markers come late";
   d.file = EffectFile::experiment;
   d.home = Home::sensor;
   d.parameters = {{.name = "delay",
                    .unit = "s",
-                   .sentence = "of the markers",
+                   .sentence = "the markers come late by this",
                    .vanishes = Vanishes::at_zero,
                    .role = Role::time}};
   d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {

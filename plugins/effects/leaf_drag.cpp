@@ -7,12 +7,13 @@ EffectDefinition define_leaf_drag() {
   EffectDefinition d;
   d.name = "leaf_drag";
   d.plain_name = "air drag of the leaves";
+  d.sentence = "quadratic drag in still air";
   d.home = Home::air;
   d.family = Family::air;
   d.parameters = {{.name = "drag_area",
                    .unit = "m2/m",
                    .bounds = io::not_negative,
-                   .sentence = "C_d times breadth, a metre of stem",
+                   .sentence = "area per length, with Cd inside",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.005}}};
   d.change = ModelChange{

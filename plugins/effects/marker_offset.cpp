@@ -7,16 +7,18 @@ EffectDefinition define_marker_offset() {
   EffectDefinition d;
   d.name = "marker_offset";
   d.plain_name = "a marker that sits elsewhere";
+  d.sentence = "a marker sits aside of where it is said to be";
   d.file = EffectFile::experiment;
   d.home = Home::sensor;
   d.family = Family::frame;
-  d.parameters = {{.name = "marker", .sentence = "its name", .size = 0, .role = Role::shape},
-                  {.name = "offset",
-                   .unit = "m",
-                   .sentence = "in the frame in which the plant was drawn",
-                   .size = 3,
-                   .vanishes = Vanishes::at_zero,
-                   .first = {0.0, 0.0, 1.0}}};
+  d.parameters = {
+      {.name = "marker", .sentence = "which one sits aside", .size = 0, .role = Role::shape},
+      {.name = "offset",
+       .unit = "m",
+       .sentence = "by how much",
+       .size = 3,
+       .vanishes = Vanishes::at_zero,
+       .first = {0.0, 0.0, 1.0}}};
   d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {
     for (std::size_t m = 0; m < sensor.markers.size(); ++m)
       if (sensor.markers[m] == effect.words.at("marker"))

@@ -7,12 +7,13 @@ EffectDefinition define_marker_scale() {
   EffectDefinition d;
   d.name = "marker_scale";
   d.plain_name = "a measuring scale that is off";
+  d.sentence = "the scale of the markers is off";
   d.file = EffectFile::experiment;
   d.home = Home::sensor;
   d.family = Family::frame;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
-                   .sentence = "times the positions",
+                   .sentence = "marker places are multiplied, about the world's origin",
                    .vanishes = Vanishes::at_one,
                    .first = {1.0}}};
   d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {

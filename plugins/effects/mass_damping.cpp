@@ -7,12 +7,13 @@ EffectDefinition define_mass_damping() {
   EffectDefinition d;
   d.name = "mass_damping";
   d.plain_name = "damping proportional to mass";
+  d.sentence = "force -rate m v";
   d.home = Home::element;
   d.family = Family::memory;
   d.parameters = {{.name = "rate",
                    .unit = "1/s",
                    .bounds = io::not_negative,
-                   .sentence = "force = -rate mass velocity",
+                   .sentence = "of the force",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.5}}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {

@@ -8,11 +8,12 @@ EffectDefinition define_mass_distribution() {
   EffectDefinition d;
   d.name = "mass_distribution";
   d.plain_name = "mass spread otherwise along the curves";
+  d.sentence = "density times 1 + gradient (s/L - 1/2) along a curve";
   d.home = Home::element;
   d.family = Family::mass;
   d.parameters = {{.name = "gradient",
                    .bounds = (io::Bounds{-1.99, 1.99}),
-                   .sentence = "g of 1 + g (s/L - 1/2), s along the curve",
+                   .sentence = "over the whole curve",
                    .vanishes = Vanishes::at_zero}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
                            t.scale_mass([&](const plant::RodPlaces::Span& span) {

@@ -8,16 +8,18 @@ EffectDefinition define_material_nonlinearity() {
   EffectDefinition d;
   d.name = "material_nonlinearity";
   d.plain_name = "a material that is not linear";
+  d.sentence = "M = EI k (1 + coefficient (k/k0)^2)";
   d.home = Home::joint;
   d.family = Family::nonlinearity;
-  d.parameters = {
-      {.name = "coefficient", .sentence = "above 0 it hardens", .vanishes = Vanishes::at_zero},
-      {.name = "k0",
-       .unit = "1/m",
-       .bounds = io::positive,
-       .sentence = "curvature that the coefficient refers to",
-       .role = Role::shape,
-       .first = {10.0}}};
+  d.parameters = {{.name = "coefficient",
+                   .sentence = "above 0 stiffens, below 0 softens",
+                   .vanishes = Vanishes::at_zero},
+                  {.name = "k0",
+                   .unit = "1/m",
+                   .bounds = io::positive,
+                   .sentence = "scale of the curvature",
+                   .role = Role::shape,
+                   .first = {10.0}}};
   d.change = ModelChange{Stage::laws, [](ModelTarget& t) {
                            t.each_law([&](int e, cosserat::JointLaw& law) {
                              const double bend = t.number("k0") * t.joint_length(e);

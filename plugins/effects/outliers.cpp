@@ -7,11 +7,12 @@ EffectDefinition define_outliers() {
   EffectDefinition d;
   d.name = "outliers";
   d.plain_name = "samples that are wrong";
+  d.sentence = "single samples are wrong";
   d.file = EffectFile::experiment;
   d.home = Home::sensor;
   d.parameters = {{.name = "fraction",
                    .bounds = io::fraction,
-                   .sentence = "of the samples",
+                   .sentence = "of the samples is wild",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.2}}};
   d.speaks_for = {{"bad_channel", 2}};

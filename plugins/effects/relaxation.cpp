@@ -7,23 +7,25 @@ EffectDefinition define_relaxation() {
   EffectDefinition d;
   d.name = "relaxation";
   d.plain_name = "stress that relaxes";
+  d.sentence = "a part of the moment decays (standard linear solid)";
   d.home = Home::joint;
   d.family = Family::memory;
   d.parameters = {{.name = "fraction",
                    .bounds = io::fraction,
-                   .sentence = "of the stiffness that goes with time",
+                   .sentence = "of the moment that decays",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.2}},
                   {.name = "time",
                    .unit = "s",
                    .bounds = io::positive,
-                   .sentence = "in which it goes by 63 %",
+                   .sentence = "in which it decays",
                    .role = Role::shape,
                    .first = {10.0}},
                   {.name = "start",
-                   .sentence = "when its memory begins: settled (as drawn) or unloaded",
+                   .sentence = "from which shape it is counted",
                    .size = 0,
                    .required = false,
+                   .otherwise = "`settled`",
                    .offered = false,
                    .words = {"settled", "unloaded"},
                    .role = Role::shape}};

@@ -9,10 +9,11 @@ EffectDefinition define_stiffness_drift() {
   EffectDefinition d;
   d.name = "stiffness_drift";
   d.plain_name = "a stiffness that drifts with the clock";
+  d.sentence = "E times 1 + rate (clock + t), of the whole plant";
   d.home = Home::whole;
   d.parameters = {{.name = "rate",
                    .unit = "1/s",
-                   .sentence = "of the change",
+                   .sentence = "of the modulus over clock time",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.5}}};
   d.change =

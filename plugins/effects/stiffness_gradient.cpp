@@ -7,11 +7,12 @@ EffectDefinition define_stiffness_gradient() {
   EffectDefinition d;
   d.name = "stiffness_gradient";
   d.plain_name = "a modulus that changes along the curves";
+  d.sentence = "E times 1 + gradient (s/L - 1/2) along a curve";
   d.home = Home::joint;
   d.family = Family::softness;
   d.parameters = {{.name = "gradient",
                    .bounds = (io::Bounds{-1.99, 1.99}),
-                   .sentence = "g of 1 + g (s/L - 1/2), s along the curve",
+                   .sentence = "over the whole curve",
                    .vanishes = Vanishes::at_zero}};
   d.change = ModelChange{
       Stage::constants, [](ModelTarget& t) {

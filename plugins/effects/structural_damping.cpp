@@ -8,18 +8,20 @@ EffectDefinition define_structural_damping() {
   EffectDefinition d;
   d.name = "structural_damping";
   d.plain_name = "damping that does not depend on the rate";
+  d.sentence = "damping that hardly depends on the rate";
   d.home = Home::joint;
   d.family = Family::memory;
   d.parameters = {{.name = "loss_factor",
                    .bounds = io::not_negative,
-                   .sentence = "loss over storage modulus",
+                   .sentence = "twice the damping ratio",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.05}},
                   {.name = "frequency",
                    .unit = "Hz",
                    .bounds = io::positive,
-                   .sentence = "at which the modulus is the elastic one (2)",
+                   .sentence = "where the modulus is the file's",
                    .required = false,
+                   .otherwise = "2",
                    .offered = false,
                    .role = Role::shape,
                    .first = {1.0}}};

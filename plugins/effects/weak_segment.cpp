@@ -11,18 +11,19 @@ EffectDefinition define_weak_segment() {
   EffectDefinition d;
   d.name = "weak_segment";
   d.plain_name = "a weak stretch";
+  d.sentence = "multiplies EI and GJ over a stretch";
   d.home = Home::joint;
   d.family = Family::softness;
   d.needs_place = true;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
-                   .sentence = "times the stiffness",
+                   .sentence = "on EI and GJ",
                    .vanishes = Vanishes::at_one,
                    .first = {0.5}},
                   {.name = "length",
                    .unit = "m",
                    .bounds = io::positive,
-                   .sentence = "of the stretch, about its place",
+                   .sentence = "of the stretch",
                    .role = Role::shape,
                    .first = {0.02}}};
   d.change = ModelChange{

@@ -10,18 +10,19 @@ EffectDefinition define_wind() {
   EffectDefinition d;
   d.name = "wind";
   d.plain_name = "a steady wind";
+  d.sentence = "quadratic drag in moving air";
   d.home = Home::air;
   d.family = Family::air;
   d.parameters = {{.name = "velocity",
                    .unit = "m/s",
-                   .sentence = "of the air, in the world",
+                   .sentence = "of the air",
                    .size = 3,
                    .role = Role::shape,
                    .first = {2.0, 0.0, 0.0}},
                   {.name = "drag_area",
                    .unit = "m2/m",
                    .bounds = io::not_negative,
-                   .sentence = "C_d times breadth, a metre of stem",
+                   .sentence = "area per length, with Cd inside",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.005}}};
   d.change = ModelChange{Stage::laws, [](ModelTarget& t) {

@@ -12,12 +12,13 @@ EffectDefinition define_yield() {
   EffectDefinition d;
   d.name = "yield";
   d.plain_name = "bending that stays (yield)";
+  d.sentence = "perfectly plastic bending beyond a curvature";
   d.home = Home::joint;
   d.family = Family::nonlinearity;
   d.parameters = {{.name = "curvature",
                    .unit = "1/m",
                    .bounds = io::positive,
-                   .sentence = "beyond which it is plastic",
+                   .sentence = "at which permanent set begins",
                    .vanishes = Vanishes::at_infinity,
                    .first = {10.0}}};
   d.change = ModelChange{

@@ -7,10 +7,11 @@ EffectDefinition define_youngs_modulus() {
   EffectDefinition d;
   d.name = "youngs_modulus";
   d.plain_name = "another modulus";
+  d.sentence = "multiplies Young's modulus of the plant";
   d.home = Home::material;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
-                   .sentence = "times what the file says",
+                   .sentence = "on the nominal value",
                    .vanishes = Vanishes::at_one,
                    .first = {0.9}}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {

@@ -4,13 +4,14 @@ import re
 import subprocess
 import tempfile
 
-VERBS = ["sweep", "validate", "bench", "diagnose", "fit", "observe"]
+VERBS = ["sweep", "validate", "bench", "diagnose", "fit", "observe", "manual"]
 
 
 class Program:
     def __init__(self, path):
         self.path = str(path)
         self.options = {verb: self._options(verb) for verb in ["", *VERBS]}
+        self.rows = self.run("manual", "--rows").stdout
 
     def run(self, *arguments):
         return subprocess.run([self.path, *arguments], capture_output=True, text=True, timeout=300)

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "pedicel/core/exit_code.h"
 #include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
@@ -83,7 +84,7 @@ std::string to_string(Outcome outcome) {
 }
 
 int exit_code(Outcome outcome) {
-  return outcome == Outcome::adequate ? 0 : 9 + static_cast<int>(outcome);
+  return outcome == Outcome::adequate ? exit_ok : exit_cause_named - 1 + static_cast<int>(outcome);
 }
 
 std::string to_json(const Verdict& verdict) {

@@ -50,6 +50,7 @@ struct EffectParameter {
   std::string sentence;  ///< what it is
   int size = 1;          ///< numbers it has; 0: it is a word
   bool required = true;
+  std::string otherwise = {};           ///< what holds where it is left out, for the manual
   bool offered = true;                  ///< one that is not required: a new effect has it
   std::vector<std::string> words = {};  ///< that it may be; empty: any
   Vanishes vanishes = Vanishes::never;  ///< where the effect does nothing
@@ -100,6 +101,7 @@ struct Limit {
 struct EffectDefinition {
   std::string name;        ///< as files say it
   std::string plain_name;  ///< "a root that turns elastically", for sentences
+  std::string sentence;    ///< what it does, for the manual and the window
   EffectFile file = EffectFile::plant;
   Home home = Home::joint;
   Family family = Family::alone;

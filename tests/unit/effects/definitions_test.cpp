@@ -78,6 +78,7 @@ class Effects : public ::testing::TestWithParam<std::string> {
 TEST_P(Effects, SayAllThatOthersAskFor) {
   const EffectDefinition& d = definition();
   EXPECT_FALSE(d.plain_name.empty());
+  EXPECT_FALSE(d.sentence.empty());
   std::set<std::string> names;
   for (const EffectParameter& one : d.parameters) {
     EXPECT_TRUE(names.insert(one.name).second) << one.name;
@@ -127,8 +128,7 @@ TEST_P(Effects, OfNoSizeDoNothing) {
     const std::vector<Vec3> with = moved(file);
     ASSERT_EQ(with.size(), plain.size());
     double far = 0.0;
-    for (std::size_t e = 0; e < plain.size(); ++e)
-      far = std::max(far, (with[e] - plain[e]).norm());
+    for (std::size_t e = 0; e < plain.size(); ++e) far = std::max(far, (with[e] - plain[e]).norm());
     EXPECT_LT(far, 1e-6);  // it moves by centimetres; laws are solved to the solver's tolerance
   }
 }

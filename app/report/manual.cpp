@@ -1,0 +1,79 @@
+#include "pedicel/app/report/manual.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "pedicel/core/check.h"
+#include "pedicel/io/asset_folder.h"
+#include "pedicel/io/text_file.h"
+
+namespace pedicel::app {
+
+namespace {
+
+std::filesystem::path folder() {
+  const std::filesystem::path assets = io::asset_folder();
+  if (assets.empty() || !std::filesystem::exists(assets / "manual" / "index.md"))
+    throw std::runtime_error("the manual is not there, expected it in the folder assets/manual");
+  return assets / "manual";
+}
+
+bool has_screen() {
+  for (const char* name : {"WAYLAND_DISPLAY", "DISPLAY"})
+    if (const char* value = std::getenv(name); value && *value) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> manual_pages() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder()))
+    if (entry.path().extension() == ".md") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names, {},
+                    [](const std::string& name) { return std::pair(name != "index", name); });
+  return names;
+}
+
+std::string manual_text(const std::string& page) {
+  const std::vector<std::string> pages = manual_pages();
+  if (std::ranges::find(pages, page) != pages.end())
+    return io::read_text_file(folder() / (page + ".md"));
+  std::string all;
+  for (const std::string& name : pages) all += (all.empty() ? "" : ", ") + name;
+  throw UsageError("the manual has no page \"" + page + "\", expected one of: " + all);
+}
+
+std::filesystem::path manual_html(const std::string& page) {
+  // Installed beside the pages; in a tree that was built, where tools/manual puts it.
+  const std::filesystem::path pages = folder();
+  for (const auto& html : {pages / "html", pages.parent_path().parent_path() / "build" / "manual"})
+    if (std::filesystem::exists(html / (page + ".html"))) return html / (page + ".html");
+  return {};
+}
+
+bool open_in_browser(const std::filesystem::path& file) {
+  if (!has_screen()) return false;
+  const std::string path = file.string();
+  std::string program = "xdg-open", argument = path;
+  char* arguments[] = {program.data(), argument.data(), nullptr};
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t process = 0;
+  const int fault = posix_spawnp(&process, program.c_str(), &quiet, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  if (fault != 0) return false;
+  // xdg-open hands the file over and ends at once; what it cannot open it says by its exit code.
+  int status = 0;
+  return waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace pedicel::app
