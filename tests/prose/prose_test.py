@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from prose_checks import commands, examples, files, keys, links, sentences  # noqa: E402
+from prose_checks import commands, examples, files, keys, links, rooms, sentences  # noqa: E402
 from prose_checks.page import Page  # noqa: E402
 from prose_checks.program import Program  # noqa: E402
 
@@ -79,6 +79,26 @@ class Files(unittest.TestCase):
         text = "| law | source |\n|---|---|\n| `creep` | x |\n\n| file of `prose_checks/` | x |\n|---|---|\n| `pages` | x |\n"
         faults = files.check(page(text, ROOT / "tools/README.md"))
         self.assertEqual(faults, [(7, "`pages` is not in this folder")])
+
+
+class Rooms(unittest.TestCase):
+    ROOMS = {"app/run": {"engine/world"}, "engine/world": set()}
+
+    def check(self, rows):
+        return rooms.check(page("| room | holds | links |\n|---|---|---|\n" + rows), self.ROOMS)
+
+    def test_the_rooms_as_they_are(self):
+        self.assertEqual(self.check("| `app/run` | x | `engine/world` |\n| `engine/world` | x | |\n"), [])
+
+    def test_a_room_that_is_missing_one_that_is_gone_and_a_link_that_is_not(self):
+        self.assertEqual(self.check("| `app/run` | x | `engine/io` |\n| `app/old` | x | |\n"),
+                         [(1, "the room `engine/world` is missing"),
+                          (3, "`app/run` links `engine/world`"), (4, "`app/old` is no room")])
+
+    def test_every_library_of_the_tree_is_found(self):
+        found = rooms.rooms_of(ROOT)
+        self.assertGreater(len(found), 30)
+        self.assertIn("plugins/plant", found["plugins/skeleton"])
 
 
 class Keys(unittest.TestCase):
