@@ -7,6 +7,7 @@
 
 #include "pedicel/app/editors/add_menu.h"
 #include "pedicel/app/panels/layout.h"
+#include "pedicel/app/report/manual.h"
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/ui/file_list.h"
 #include "pedicel/app/ui/theme.h"
@@ -77,6 +78,13 @@ void help_section(Ui& ui, const std::string& title) {
     keys_table(title.c_str());
 }
 
+void manual_button(Ui& ui) {
+  if (!ImGui::Button("Open the manual")) return;
+  const std::filesystem::path page = manual_html("index");
+  if (page.empty() || !open_in_browser(page))
+    ui.say("No browser opens it here: \"pedicel manual\" prints it in a terminal");
+}
+
 void help(Ui& ui) {
   if (begin_dialog(ui, "Help", 1200, 640)) {
     constexpr std::array titles = {"Simulation", "File", "Edit",
@@ -92,6 +100,7 @@ void help(Ui& ui) {
       }
       ImGui::EndTable();
     }
+    manual_button(ui);
   }
   ImGui::End();
 }

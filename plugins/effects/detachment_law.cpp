@@ -44,7 +44,8 @@ EffectDefinition define_detachment_law() {
                    .required = false,
                    .otherwise = "`[2, 2, 2]`",
                    .offered = false,
-                   .role = Role::shape}};
+                   .role = Role::shape,
+                   .first = {2.0, 2.0, 2.0}}};
   d.check = [](const io::YamlNode& node, const plant::Effect& effect) {
     const auto gives = [&](const char* name) { return effect.numbers.contains(name); };
     if (!gives("force") && !gives("moment") && !gives("torsion"))

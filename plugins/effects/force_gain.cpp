@@ -21,7 +21,8 @@ EffectDefinition define_force_gain() {
                    .required = false,
                    .otherwise = "`[0, 0, 0]`",
                    .offered = false,
-                   .vanishes = Vanishes::at_zero}};
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.0, 0.0, 0.0}}};
   d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {
     const double gain = effect.number("gain");
     sensor.gain *= gain;

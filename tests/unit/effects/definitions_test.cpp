@@ -174,7 +174,7 @@ std::vector<std::string> all_names() {
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(All, Effects, ::testing::ValuesIn(all_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& named) { return named.param; });
 
 TEST(EffectList, HasEachNameOnce) {
   std::set<std::string> names;
