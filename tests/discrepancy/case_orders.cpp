@@ -40,11 +40,11 @@ std::vector<CaseOrder> nulls() {
   return list;
 }
 
-std::vector<CaseOrder> effects() {
+std::vector<CaseOrder> effects(const std::vector<EffectUse>& uses) {
   std::vector<CaseOrder> list;
   for (int v = 0; v < 8; ++v)
-    for (std::size_t e = 0; e < effect_uses().size(); ++e) {
-      const EffectUse& use = effect_uses()[e];
+    for (std::size_t e = 0; e < uses.size(); ++e) {
+      const EffectUse& use = uses[e];
       const int k = v + static_cast<int>(e);
       CaseOrder order =
           order_of(Kind::effect, k, plant_for(use, k), use.packs[v % use.packs.size()]);
@@ -141,8 +141,15 @@ std::vector<CaseOrder> spread(const std::vector<std::vector<CaseOrder>>& lists) 
 }  // namespace
 
 const std::vector<CaseOrder>& case_orders() {
-  static const std::vector<CaseOrder> orders =
-      spread({nulls(), effects(), pairs(), look_alikes(), outsiders()});
+  static const std::vector<CaseOrder> orders = [] {
+    std::vector<CaseOrder> list =
+        spread({nulls(), effects(effect_uses()), pairs(), look_alikes(), outsiders()});
+    for (CaseOrder& order : effects(later_uses())) {
+      order.number = static_cast<int>(list.size());
+      list.push_back(order);
+    }
+    return list;
+  }();
   return orders;
 }
 

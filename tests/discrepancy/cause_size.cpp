@@ -33,6 +33,7 @@ std::vector<std::string> parts_of(const std::string& cause) {
       {"stiffness_gradient", {"gradient"}},
       {"material_nonlinearity", {"coefficient", "k0"}},
       {"anisotropy", {"ratio"}},
+      {"asymmetry", {"coefficient", "k0"}},
       {"mass_damping", {"rate"}},
       {"structural_damping", {"loss_factor"}},
       {"internal_friction", {"ratio", "curvature"}},
@@ -62,6 +63,7 @@ Size size_of(const std::string& cause, const Numbers& numbers, double grip_stiff
   const double y = parts.size() > 1 ? numbers.at(parts[1]).front() : 1.0;
   if (cause == "weak_segment") return {(1.0 / x - 1.0) * y};
   if (parts.front() == "factor" || parts.front() == "gain") return {x - 1.0};
+  if (cause == "asymmetry") return {std::abs(x) / y};
   if (cause == "anisotropy") return {std::abs(std::log(x))};
   if (cause == "material_nonlinearity") return {x / (y * y)};
   if (cause == "internal_friction") return {x * y};

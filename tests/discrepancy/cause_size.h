@@ -15,6 +15,7 @@ namespace pedicel::hidden {
 /// | factors, `gain` | less 1 |
 /// | `anisotropy` | abs(ln ratio): one direction's ratio is the other's inverse |
 /// | `weak_segment` | (1/factor - 1) length, the turn that a moment adds |
+/// | `asymmetry` | abs(coefficient) / k0: either sign about one axis or its opposite |
 /// | `material_nonlinearity` | coefficient / k0^2 |
 /// | `internal_friction` | ratio curvature, the moment of slip over EI |
 /// | `creep` | fraction / time, the rate over a trial far shorter than it |

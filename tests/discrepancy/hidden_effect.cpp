@@ -108,6 +108,10 @@ class Draw {
       set(0.05, sign_ < 0 ? 0.3 : 2.0, [s = sign_, most](double u) {
         return Numbers{{"coefficient", {s * u}}, {"k0", {most}}};
       });
+    else if (name_ == "asymmetry")
+      set(0.05, 0.9, [s = sign_, most, d = across()](double u) {
+        return Numbers{{"coefficient", {s * u}}, {"axis", list(d)}, {"k0", {most}}};
+      });
     else if (name_ == "mass_damping")
       set(0.05, 3.0, [](double u) { return Numbers{{"rate", {u}}}; });
     else if (name_ == "structural_damping")
@@ -288,6 +292,12 @@ const std::vector<EffectUse>& effect_uses() {
       {"force_gain", {push, mix}},
       {"outliers", {release, mix, push}},
   };
+  return uses;
+}
+
+const std::vector<EffectUse>& later_uses() {
+  using enum PackKind;
+  static const std::vector<EffectUse> uses = {{"asymmetry", {push, mix, release, weights}}};
   return uses;
 }
 

@@ -40,6 +40,8 @@ struct EffectUse {
   bool needs_slender = false;  ///< not on a plant that its own weight bends much
 };
 const std::vector<EffectUse>& effect_uses();
+/// Effects that came later: their cases stand behind all others, whose numbers stay.
+const std::vector<EffectUse>& later_uses();
 const std::vector<EffectUse>& stranger_uses();
 
 }  // namespace pedicel::hidden

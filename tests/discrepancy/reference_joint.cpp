@@ -43,6 +43,11 @@ JointOutput evaluate(const Joint& joint, const JointLaw& law, const JointInput& 
     const double k = strain.head<2>().norm() / joint.length / law.k0;
     strain.head<2>() *= 1.0 + law.nonlinearity * k * k;
   }
+  if (law.asymmetry != 0.0) {
+    const Eigen::Vector2d side = joint.side.head<2>();
+    const double k = side.dot(out.phi.head<2>()) / joint.length;
+    strain.head<2>() += law.asymmetry * k * k / std::hypot(law.side_k0, k) * joint.length * side;
+  }
   if (law.slider_ratio > 0.0) {
     const Vec3 moved = out.phi - in.settled;
     if (in.stage > 0.0) {

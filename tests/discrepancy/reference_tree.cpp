@@ -244,6 +244,9 @@ class Builder {
     const bool first = s.parent < 0 || tree_.segments[s.parent].curve != s.curve;
     for (const Effect& e : effects) {
       if (e.name == "anisotropy" && concerns(e, name)) k = turn_stiffness(s, k, e);
+      if (e.name == "asymmetry" && concerns(e, name))
+        s.joint.side =
+            s.drawn.conjugate() * Eigen::Map<const Vec3>(e.numbers.at("axis").data()).normalized();
       if (e.name == "damping_time") s.joint.damping_time *= e.number("factor");
       if (e.name == "base_compliance" && s.parent < 0) hinge += 1.0 / e.number("stiffness");
       if (e.name == "attachment_compliance" && first && e.place->curve == name)
@@ -323,6 +326,10 @@ class Builder {
     if (e.name == "material_nonlinearity") {
       law.nonlinearity = e.number("coefficient");
       law.k0 = e.number("k0");
+    }
+    if (e.name == "asymmetry") {
+      law.asymmetry = e.number("coefficient");
+      law.side_k0 = e.number("k0");
     }
     if (e.name == "internal_friction") {
       law.slider_ratio = e.number("ratio");

@@ -22,8 +22,9 @@ struct MemoryTerm {
 
 /// How every joint answers its rotation phi (rad), beyond M = K (phi + damping_time phi').
 struct JointLaw {
-  double nonlinearity = 0.0, k0 = 1.0;  ///< 1, 1/m: bending times 1 + b (k/k0)^2
-  double slider_ratio = 0.0;            ///< share of K that slips
+  double nonlinearity = 0.0, k0 = 1.0;    ///< 1, 1/m: bending times 1 + b (k/k0)^2
+  double asymmetry = 0.0, side_k0 = 1.0;  ///< 1, 1/m: bending about Joint::side
+  double slider_ratio = 0.0;              ///< share of K that slips
   double slider_curvature = std::numeric_limits<double>::infinity();  ///< 1/m
   double slider_moment = std::numeric_limits<double>::infinity();     ///< N m
   double yield_curvature = std::numeric_limits<double>::infinity();   ///< 1/m, from the rest shape
@@ -36,6 +37,7 @@ struct Joint {
   Mat3 stiffness = Mat3::Zero();  ///< N m/rad, in the child's frame
   double damping_time = 0.0;      ///< s
   double length = 0.0;            ///< m of rod that it stands for
+  Vec3 side = Vec3::Zero();       ///< axis of JointLaw::asymmetry, in the child's frame
 };
 
 /// A rigid piece of stem; its joint is its near end, its third axis points to the far end.

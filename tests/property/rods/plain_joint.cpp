@@ -103,6 +103,27 @@ void add_radial(const Vec3& k, double share, const Vec2& y, const Curve& curve, 
   curved += share * curve.slope / softer(k) * elastic * elastic.transpose();
 }
 
+// asymmetry (plugins/effects): W = K c F(x), x = a.phi, F' = x^2 / sqrt(p^2 + x^2), K the stiffness
+// of a joint that is bent about a alone.
+void add_asymmetry(const Vec3& k, const cosserat::JointLaw& law, const Vec3& phi, JointAnswer& out,
+                   Mat2& curved) {
+  const int first = effects::first_number("asymmetry");
+  if (law.terms.empty() || law.terms[first] == 0.0) return;
+  const double c = law.terms[first], p = law.terms[first + 3];
+  const Vec2 a(law.terms[first + 1], law.terms[first + 2]);
+  if (a.isZero(0.0)) return;
+  const Vec2 along = a.normalized();
+  const double about = 1.0 / along.dot(along.cwiseQuotient(k.head<2>()));
+  const double size = law.elastic * about * c, x = a.dot(phi.head<2>()), s = std::hypot(p, x);
+  out.energy += 0.5 * size * (x * s - p * p * std::asinh(x / p));
+  out.moment.head<2>() += size * x * x / s * a;
+  const double slope = size * (2.0 * x / s - std::pow(x / s, 3));
+  // The steepest slope bounds the energy; the tangent has less.
+  const double most = 1.0887 * std::abs(size) * a.squaredNorm();
+  out.stiffness.diagonal().head<2>().array() += most;
+  curved += slope * a * a.transpose() - most * Mat2::Identity();
+}
+
 }  // namespace
 
 JointAnswer answer(const JointStep& joint, const Vec3& phi) {
@@ -121,6 +142,7 @@ JointAnswer answer(const JointStep& joint, const Vec3& phi) {
     const Vec2 y = (phi - joint.memory[j]).head<2>();
     add_radial(k, branch.share, y, slider_curve(reach_of(branch, k), measure(k, y)), out, curved);
   }
+  add_asymmetry(k, *joint.law, phi, out, curved);
   // Newton takes the tangent where it is positive definite, else the secant.
   auto bending = out.stiffness.topLeftCorner<2, 2>();
   bending.diagonal() = bending.diagonal().cwiseMax(1.0e-4 * k.head<2>());

@@ -124,6 +124,13 @@ void extend(Random& random, RodModel& model) {
     const double softer = std::min(k.x(), k.y());
     cosserat::JointLaw law;
     if (chance(random, 0.3)) law.term("material_nonlinearity") = random.uniform(-2.0, 10.0);
+    if (chance(random, 0.2)) {
+      const double turn = random.uniform(0.0, 6.28), tilt = random.uniform(0.0, 1.0);
+      law.term("asymmetry", 0) = random.uniform(-0.9, 0.9);
+      law.term("asymmetry", 1) = tilt * std::cos(turn);
+      law.term("asymmetry", 2) = tilt * std::sin(turn);
+      law.term("asymmetry", 3) = bend;
+    }
     if (chance(random, 0.2)) cosserat::add_structural_damping(law, random.uniform(0.02, 0.2));
     if (chance(random, 0.3))
       cosserat::add_relaxation(law, random.uniform(0.0, 0.3), draw_log(random, 0.01, 1.0),

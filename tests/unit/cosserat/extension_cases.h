@@ -15,6 +15,12 @@ inline void extend(RodModel& model, Random& random, double bend = 0.1) {
     const double softer = std::min(k.x(), k.y());
     JointLaw law;
     if (e % 3 == 0) law.term("material_nonlinearity") = random.uniform(-2.0, 10.0);
+    if (e % 7 == 3) {
+      law.term("asymmetry", 0) = random.uniform(-0.9, 0.9);
+      law.term("asymmetry", 1) = 0.6;
+      law.term("asymmetry", 2) = -0.5;
+      law.term("asymmetry", 3) = bend;
+    }
     if (e % 4 == 1) add_structural_damping(law, random.uniform(0.02, 0.2));
     add_relaxation(law, random.uniform(0.0, 0.3), random.uniform(0.01, 1.0), e % 2 == 0);
     add_friction(law, random.uniform(0.1, 0.3), 0.2 * softer * random.uniform(0.2, 1.0) * bend);
