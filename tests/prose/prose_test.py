@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from prose_checks import commands, examples, files, keys, links, rooms, sentences  # noqa: E402
+from prose_checks import commands, examples, files, keys, links, rooms, sentences, words  # noqa: E402
 from prose_checks.page import Page  # noqa: E402
 from prose_checks.program import Program  # noqa: E402
 
@@ -79,6 +79,19 @@ class Files(unittest.TestCase):
         text = "| law | source |\n|---|---|\n| `creep` | x |\n\n| file of `prose_checks/` | x |\n|---|---|\n| `pages` | x |\n"
         faults = files.check(page(text, ROOT / "tools/README.md"))
         self.assertEqual(faults, [(7, "`pages` is not in this folder")])
+
+
+class Words(unittest.TestCase):
+    def test_a_word_with_two_meanings(self):
+        text = "| word | meaning |\n|---|---|\n| gap | a |\n| margin, slack | b |\n\n| word | meaning |\n|---|---|\n| slack | c |\n"
+        self.assertEqual(words.check_glossary(page(text)), [(8, "slack has a meaning in line 4")])
+
+    def test_an_old_word_on_a_page(self):
+        old = words.old_words(Page(MANUAL / "glossary.md"))
+        self.assertIn("leftover", old)
+        self.assertNotIn("quiet", old)
+        text = "A quiet page with `leftover` in code.\n\nThe leftover.\n\n| a |\n|---|\n| two Rivals |\n"
+        self.assertEqual([line for line, _ in words.check(page(text), old)], [3, 7])
 
 
 class Rooms(unittest.TestCase):
