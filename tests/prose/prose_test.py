@@ -108,6 +108,10 @@ class Rooms(unittest.TestCase):
                          [(1, "the room `engine/world` is missing"),
                           (3, "`app/run` links `engine/world`"), (4, "`app/old` is no room")])
 
+    def test_a_room_without_a_readme(self):
+        self.assertEqual(rooms.check_readmes({"engine/core", "engine/nowhere"}, ROOT),
+                         [(1, "the room `engine/nowhere` has no README.md")])
+
     def test_every_library_of_the_tree_is_found(self):
         found = rooms.rooms_of(ROOT)
         self.assertGreater(len(found), 30)
