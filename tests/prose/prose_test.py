@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from prose_checks import commands, examples, files, keys, links, rooms, sentences, words  # noqa: E402
+from prose_checks import changelog, commands, examples, files, keys, links, rooms, sentences, words  # noqa: E402
 from prose_checks.page import Page  # noqa: E402
 from prose_checks.program import Program  # noqa: E402
 
@@ -79,6 +79,14 @@ class Files(unittest.TestCase):
         text = "| law | source |\n|---|---|\n| `creep` | x |\n\n| file of `prose_checks/` | x |\n|---|---|\n| `pages` | x |\n"
         faults = files.check(page(text, ROOT / "tools/README.md"))
         self.assertEqual(faults, [(7, "`pages` is not in this folder")])
+
+
+class ChangeLog(unittest.TestCase):
+    def test_its_form(self):
+        good = "# Change log\n\n## [Unreleased]\n\n### Added\n\n## [0.2.0] - 2026-11-27\n\n### Fixed\n\n## [0.1.0] - 2026-11-26\n"
+        self.assertEqual(changelog.check(page(good)), [])
+        bad = "## 0.1\n## [0.1.0] - 2026-11-26\n### Added\n### Added\n### Mended\n## [0.2.0] - 2026-11-27\n### Added\n"
+        self.assertEqual([line for line, _ in changelog.check(page(bad))], [1, 4, 5, 6])
 
 
 class Words(unittest.TestCase):
