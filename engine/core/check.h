@@ -5,7 +5,7 @@
 
 namespace pedicel {
 
-/// The interface was used wrongly at set-up (habit 9): thrown with a sentence that names field,
+/// The interface was used wrongly at set-up: thrown with a sentence that names field,
 /// value and broken bound.
 class UsageError : public std::invalid_argument {
  public:

@@ -12,7 +12,7 @@ EffectDefinition define_outliers() {
   d.home = Home::sensor;
   d.parameters = {{.name = "fraction",
                    .bounds = io::fraction,
-                   .sentence = "of the samples is wild",
+                   .sentence = "of the samples lies far off",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.2}}};
   d.speaks_for = {{"bad_channel", 2}};

@@ -9,10 +9,10 @@ namespace pedicel::hidden {
 
 /// One thing that can be hidden, as a function of one size: nothing at size 0, more with more.
 struct HiddenEffect {
-  std::string name;      ///< of formats.md, section 3, or string, stake, push, attraction
+  std::string name;      ///< of an effect, or string, stake, push, attraction
   double guess = 0.0;    ///< a first size to try
   double cap = 0.0;      ///< the largest that makes sense
-  bool outside = false;  ///< no name of the formats stands for it
+  bool outside = false;  ///< no effect stands for it
   bool sized = true;     ///< false: its size is not found by its change of the data (outliers)
   std::function<void(double size, reference::Subject& subject)> add;
 };

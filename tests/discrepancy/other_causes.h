@@ -15,7 +15,7 @@ struct OtherCause {
   std::vector<std::vector<plant::Effect>> ways;
 };
 
-/// Every cause of formats.md, section 3, that is neither `truth` nor has it as a special case (a
+/// Every effect of the page Effects that is neither `truth` nor has it as a special case (a
 /// wind of no speed is drag), for the plant and the trials of a case. Modulus, density and damping
 /// are not among them, which a refit may change anyway; nor are outliers, detachment, and a marker
 /// that sits elsewhere, which moves one marker for good and is like nothing else.

@@ -53,7 +53,7 @@ struct MarkerPlan {
   plant::CurvePlace place;
 };
 
-/// What no name of the formats stands for.
+/// What no effect stands for.
 struct Stranger {
   enum class Kind {
     string,  ///< pulls like a spring of `size` (N/m) beyond `slack` (m) from `point`, never pushes

@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from prose_checks import commands, examples, files, keys, links, rooms, sentences  # noqa: E402
+from prose_checks import changelog, commands, examples, files, keys, links, rooms, sentences, words  # noqa: E402
 from prose_checks.page import Page  # noqa: E402
 from prose_checks.program import Program  # noqa: E402
 
@@ -81,6 +81,27 @@ class Files(unittest.TestCase):
         self.assertEqual(faults, [(7, "`pages` is not in this folder")])
 
 
+class ChangeLog(unittest.TestCase):
+    def test_its_form(self):
+        good = "# Change log\n\n## [Unreleased]\n\n### Added\n\n## [0.2.0] - 2026-11-27\n\n### Fixed\n\n## [0.1.0] - 2026-11-26\n"
+        self.assertEqual(changelog.check(page(good)), [])
+        bad = "## 0.1\n## [0.1.0] - 2026-11-26\n### Added\n### Added\n### Mended\n## [0.2.0] - 2026-11-27\n### Added\n"
+        self.assertEqual([line for line, _ in changelog.check(page(bad))], [1, 4, 5, 6])
+
+
+class Words(unittest.TestCase):
+    def test_a_word_with_two_meanings(self):
+        text = "| word | meaning |\n|---|---|\n| gap | a |\n| margin, slack | b |\n\n| word | meaning |\n|---|---|\n| slack | c |\n"
+        self.assertEqual(words.check_glossary(page(text)), [(8, "slack has a meaning in line 4")])
+
+    def test_an_old_word_on_a_page(self):
+        old = words.old_words(Page(MANUAL / "glossary.md"))
+        self.assertIn("leftover", old)
+        self.assertNotIn("quiet", old)
+        text = "A quiet page with `leftover` in code.\n\nThe leftover.\n\n| a |\n|---|\n| two Rivals |\n"
+        self.assertEqual([line for line, _ in words.check(page(text), old)], [3, 7])
+
+
 class Rooms(unittest.TestCase):
     ROOMS = {"app/run": {"engine/world"}, "engine/world": set()}
 
@@ -94,6 +115,10 @@ class Rooms(unittest.TestCase):
         self.assertEqual(self.check("| `app/run` | x | `engine/io` |\n| `app/old` | x | |\n"),
                          [(1, "the room `engine/world` is missing"),
                           (3, "`app/run` links `engine/world`"), (4, "`app/old` is no room")])
+
+    def test_a_room_without_a_readme(self):
+        self.assertEqual(rooms.check_readmes({"engine/core", "engine/nowhere"}, ROOT),
+                         [(1, "the room `engine/nowhere` has no README.md")])
 
     def test_every_library_of_the_tree_is_found(self):
         found = rooms.rooms_of(ROOT)

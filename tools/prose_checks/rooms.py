@@ -21,6 +21,15 @@ def rooms_of(root):
     }
 
 
+def check_readmes(rooms, root):
+    """Every room has a README."""
+    return [
+        (1, f"the room `{room}` has no README.md")
+        for room in sorted(rooms)
+        if not (root / room / "README.md").exists()
+    ]
+
+
 def check(page, rooms):
     faults, told = [], {}
     for head, rows in tables(page):

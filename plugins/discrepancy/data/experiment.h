@@ -90,7 +90,7 @@ struct StatedNoise {
   std::optional<double> force_std;     ///< N
 };
 
-/// Section 2 of the formats, whole.
+/// An experiment folder, whole: the page Experiment folder of the manual.
 struct Experiment {
   std::filesystem::path folder;
   std::string title;

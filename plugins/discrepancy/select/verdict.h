@@ -46,7 +46,7 @@ struct CouldHide {
   std::string unit;
 };
 
-/// Section 3 of the formats.
+/// What verdict.json says: the page Verdict of the manual.
 struct Verdict {
   Outcome outcome = Outcome::adequate;
   std::vector<NamedCause> causes;

@@ -106,7 +106,7 @@ struct PlantMass {
   bool operator==(const PlantMass&) const = default;
 };
 
-/// A model extension by its name in section 3 of the formats: its numbers (scalars have one entry)
+/// A model extension by its name in plugins/effects: its numbers (scalars have one entry)
 /// and its words, by parameter name.
 struct Effect {
   std::string name;
@@ -119,7 +119,7 @@ struct Effect {
   double number(const std::string& parameter) const { return numbers.at(parameter).front(); }
 };
 
-/// A plant file: plain data that mirrors section 1 of the formats. P is the plant's own frame.
+/// A plant file: plain data that mirrors the manual's page Plant file. P is the plant's own frame.
 struct PlantFile {
   std::string name;
   Shape shape = Shape::drawn;

@@ -1,4 +1,4 @@
-// verdict.json against section 3 of the formats: its fields, null where there is no value, and the
+// verdict.json against the manual's page Verdict: its fields, null where there is no value, and the
 // exit codes.
 #include "pedicel/discrepancy/select/verdict.h"
 
