@@ -47,14 +47,14 @@ Hypothesis baseline() {
   return all;
 }
 
-Hypothesis mesh_freedom() {
+Hypothesis mesh_nuisance() {
   Hypothesis mesh =
       effects::Start(mesh_error).fixed("share", {0.3}).free_share(0.0, 2.0).prior(0.5, 0.3);
   mesh.name.clear();
   return mesh;
 }
 
-Hypothesis junction_freedom(const Experiment& experiment) {
+Hypothesis junction_nuisance(const Experiment& experiment) {
   Diagnostics diagnostics;
   const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
@@ -74,7 +74,7 @@ Hypothesis junction_freedom(const Experiment& experiment) {
   return all;
 }
 
-bool is_by_convention(const FitSummary& model, int count) {
+bool is_discretisation(const FitSummary& model, int count) {
   double weights = 0.0, sum = 0.0, squares = 0.0;
   for (int p = model.hypothesis.size() - count; p < model.hypothesis.size(); ++p) {
     const double share = most_give * model.hypothesis.free[p].low / model.hypothesis.value(p);

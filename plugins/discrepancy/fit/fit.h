@@ -117,7 +117,8 @@ Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& 
 
 /// Least-squares step of the unknowns that a change of the residual would make (pseudo-inverse of
 /// the Jacobian), and what is left of a residual after the parameters have taken their share.
-Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
-Eigen::VectorXd left_over(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
+Eigen::VectorXd least_squares_step(const Eigen::MatrixXd& jacobian,
+                                   const Eigen::VectorXd& residual);
+Eigen::VectorXd projected_out(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
 
 }  // namespace pedicel::discrepancy

@@ -13,7 +13,7 @@ namespace {
 // Of the noise, RMS, before it is corrected for: at most, and where nodes farther apart than in the
 // plant file, or longer steps than usual, save time.
 constexpr double allowed_error = 0.15, allowed_coarse = 0.06;
-constexpr double drowned = 0.05;          // of what the model leaves of the data, RMS
+constexpr double masked = 0.05;           // of what the model leaves of the data, RMS
 constexpr double usual_dt = 1.0 / 480.0;  // s
 constexpr int most_refinements = 4;
 
@@ -82,8 +82,8 @@ void FitSetup::correct_at(const FitSummary& model) {
   for (int round = 0;; ++round) {
     NumericsCheck check = check_numerics(*experiment_, data_, model, numerics_, options_, threads_,
                                          simulations_, stop_);
-    const bool is_drowned = check.largest < drowned * left;
-    if (is_fine_enough(check) || is_drowned || round == most_refinements || stopped()) {
+    const bool is_masked = check.largest < masked * left;
+    if (is_fine_enough(check) || is_masked || round == most_refinements || stopped()) {
       corrections_ = std::move(check.corrections);
       return;
     }

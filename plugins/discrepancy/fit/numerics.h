@@ -11,7 +11,7 @@ struct NumericsCheck {
   /// mesh coarser than the plant file's is not yet of that order near junctions: all of what the
   /// file's changes, and 4/3 of what half of that changes.
   Corrections corrections;
-  /// Whitened: the correction of the chosen trials, less what the free parameters can absorb.
+  /// Whitened: the correction of the chosen trials, less what the free parameters can take up.
   Eigen::VectorXd correction;
   double largest = 0.0;                 ///< RMS of it in units of the noise
   double by_step = 0.0, by_mesh = 0.0;  ///< RMS of its two parts

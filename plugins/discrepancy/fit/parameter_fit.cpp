@@ -178,7 +178,7 @@ class Run {
         {[this](int round) { say("checking our own numerical error", 0.1 + 0.05 * round); }, {}});
     result_.numerical_error = check.largest;
     asked_ = result_.summary.hypothesis.size();
-    result_.summary.hypothesis.add(mesh_freedom());
+    result_.summary.hypothesis.add(mesh_nuisance());
     Evaluator with = setup_.evaluator();
     result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
   }

@@ -29,7 +29,7 @@ Diagnosis Procedure::run() {
 
 void Procedure::decide() {
   look();
-  const bool wrong = result_.before.raised || is_pulled(result_.base.hypothesis);
+  const bool wrong = result_.before.raised || has_prior_shift(result_.base.hypothesis);
   if (!wrong && !stopped()) look_at_check_trials();
   if (objecting_ >= 0) {
     Experiment other = given_;

@@ -38,7 +38,7 @@ struct Diagnosis {
   Numerics numerics;
   double numerical_error = 0.0;  ///< RMS over the noise, before it was corrected for
   std::vector<int> fit_trials, check_trials;
-  std::string exchanged;  ///< a trial that was to be kept back, and was fitted because it objects
+  std::string exchanged;  ///< a trial that was to be held out, and was fitted because it objects
   std::vector<std::string> unseen;  ///< parameters that these data cannot see
   FitSummary base, best;            ///< refitted and extended
   std::vector<Candidate> ranking;   ///< first round, best first

@@ -13,7 +13,7 @@ namespace {
 constexpr double numerical_limit = 0.5;  // of the noise, RMS
 constexpr double loud = 30.0;            // noise units: what such alarms are about no mesh hides
 constexpr int junction_iterations = 15;  // a small change converges in a few, or is no small one
-// Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
+// Of a held-out trial: deviations, and a share of the noise's square, above which it is missed.
 constexpr double least_objection = 6.0, small_objection = 0.1;
 
 }  // namespace
@@ -71,7 +71,7 @@ void Procedure::refine() {
   result_.numerical_error = check.largest;
   numerical_ = left_uncorrected * check.correction;
   findings_.parameter_shift = check.parameter_shift;
-  if (check.largest > numerical_limit && !is_drowned(check)) {
+  if (check.largest > numerical_limit && !is_masked(check)) {
     result_.verdict.outcome = Outcome::numerical;
     result_.verdict.remainder =
         text("half the step and half the mesh still move the prediction by %.2g times the noise",
@@ -82,12 +82,12 @@ void Procedure::refine() {
             text(": the numerical error was %.2g of the noise and was corrected for.",
                  result_.numerical_error));
   setup_->renew();
-  result_.base.hypothesis.add(mesh_freedom());
+  result_.base.hypothesis.add(mesh_nuisance());
   refit_base();
 }
 
 // Against a residual many times larger a numerical error above the noise does not matter.
-bool Procedure::is_drowned(const NumericsCheck& check) const {
+bool Procedure::is_masked(const NumericsCheck& check) const {
   const double rms = std::sqrt(2.0 * result_.base.cost / std::max(1, setup_->samples()));
   return check.largest < 0.1 * rms;
 }
@@ -98,7 +98,7 @@ void Procedure::look() {
   result_.directions = directions_at(result_.base);
   if (stopped()) return;
   result_.before = judged(result_.directions, result_.base);
-  if (quiet_with_junctions(result_.before, result_.base)) {
+  if (explained_by_junctions(result_.before, result_.base)) {
     // The base has more numbers now; a search for what pulled it starts from there.
     anchor_at(result_.base);
     result_.directions = directions_at(result_.base);
@@ -109,7 +109,7 @@ void Procedure::look() {
   log_.directions(result_.directions, result_.before);
 }
 
-// What acts in a trial kept back alone is not seen in those that are fitted.
+// What acts in a held-out trial alone is not seen in those that are fitted.
 void Procedure::look_at_check_trials() {
   Evaluator evaluator = setup_->evaluator();
   const double dispersion = std::max(1.0, 2.0 * result_.base.cost / setup_->samples());
@@ -119,10 +119,10 @@ void Procedure::look_at_check_trials() {
     check.trials = {t};
     const int samples = setup_->data().samples(check.trials);
     const double excess =
-        kept_back_excess(kept_back(evaluator, result_.base, check), samples, dispersion) - 1.0;
+        held_out_excess(held_out_model(evaluator, result_.base, check), samples, dispersion) - 1.0;
     const double deviations = excess / std::sqrt(2.0 / std::max(1, samples));
     log_.note("What is left of trial " + experiment().trials[t].name +
-              text(", kept back, is %.3g deviations above the noise.", deviations));
+              text(", held out, is %.3g deviations above the noise.", deviations));
     if (deviations < least_objection || excess < small_objection || excess < most) continue;
     most = excess;
     objecting_ = t;
@@ -133,15 +133,15 @@ void Procedure::look_at_check_trials() {
 Alarm Procedure::judged(std::vector<Direction>& directions, const FitSummary& model) const {
   if (stopped()) return {};
   Alarm alarm = judge(directions, model, numerical_, options_.seed);
-  alarm.leftover = leftover(setup_->data(), fit_options().trials, model, numerical_);
-  alarm.raised = alarm.raised || alarm.leftover.shows();
+  alarm.residual_power = residual_power(setup_->data(), fit_options().trials, model, numerical_);
+  alarm.raised = alarm.raised || alarm.residual_power.shows();
   return alarm;
 }
 
 // Whether nothing is left once the junctions may give a little; then they do.
-bool Procedure::quiet_with_junctions(const Alarm& before, FitSummary& model) {
+bool Procedure::explained_by_junctions(const Alarm& before, FitSummary& model) {
   if (!before.raised || before.statistic > loud) return false;
-  const Hypothesis junctions = junction_freedom(experiment());
+  const Hypothesis junctions = junction_nuisance(experiment());
   if (junctions.size() == 0) return false;
   Hypothesis with = model.hypothesis;
   with.add(junctions);
@@ -157,7 +157,7 @@ bool Procedure::quiet_with_junctions(const Alarm& before, FitSummary& model) {
   const Alarm alarm = judged(directions, found);
   log_.fit("With junctions that give a little", found, setup_->samples());
   log_.directions(directions, alarm);
-  if (alarm.raised || !is_by_convention(found, junctions.size())) return false;
+  if (alarm.raised || !is_discretisation(found, junctions.size())) return false;
   log_.note("What is left is below what the plant file's mesh resolves at the junctions.");
   model = std::move(found);
   return true;

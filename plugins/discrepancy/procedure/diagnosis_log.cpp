@@ -38,7 +38,7 @@ void DiagnosisLog::fit(const std::string& what, const FitSummary& fit, int sampl
 
 void DiagnosisLog::directions(std::vector<Direction> directions, const Alarm& alarm) {
   note(text("Largest directed statistic %.3g, level %.3g.", alarm.statistic, alarm.level));
-  const Leftover& left = alarm.leftover;
+  const ResidualPower& left = alarm.residual_power;
   if (left.trial >= 0)
     note(text("Left in the plant's shapes of motion: %.3g deviations,", left.deviations) +
          left.frequency() +

@@ -22,7 +22,7 @@ class DiagnosisLog {
   void noise(const DataSet& data);
   /// A fit's parameters; `samples` were fitted.
   void fit(const std::string& what, const FitSummary& fit, int samples);
-  /// The loudest directions.
+  /// The strongest directions.
   void directions(std::vector<Direction> directions, const Alarm& alarm);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 // Of the gain of a cause, what another of its family must bring to be one.
 constexpr double family_share = 0.5;
-constexpr double beyond_linear = 4.0;  // times that a cause may gain what its direction promises
+constexpr double beyond_linear = 4.0;  // times that a cause may gain what its direction predicts
 constexpr int most_causes = 3;
 // Where the best known cause leaves so much (mean square in noise units) a force from outside the
 // list is asked for. It takes the place of known causes where it leaves so much less.
@@ -95,12 +95,12 @@ void Procedure::extend() {
     const std::vector<Direction> directions = look_again();
     log_.directions(directions, result_.after);
     if (!result_.after.raised || is_small(result_.after)) return;
-    if (quiet_with_junctions(result_.after, result_.best)) {
+    if (explained_by_junctions(result_.after, result_.best)) {
       result_.after.raised = false;
       return;
     }
     const double from = 0.5 + 0.15 * static_cast<double>(findings_.chain.size());
-    const std::vector<Cause> likely = promising(causes_, directions);
+    const std::vector<Cause> likely = screened(causes_, directions);
     const std::vector<Candidate> next =
         refit_all(simulators_->workers(), result_.best, likely, directions,
                   refit_options(from, from + 0.15, "looking for another cause"));
@@ -110,9 +110,9 @@ void Procedure::extend() {
              setup_->samples());
     log_.note(text("It gains %.4g nats, of %.4g that another cause must; ", first.gain,
                    least_gain_beside(findings_.chain)) +
-              text("for the trials kept back %.4g.", first.held_out.gain));
+              text("for the held-out trials %.4g.", first.held_out.gain));
     if (!is_another_cause(first)) return;
-    if (stands_alone(first)) continue;
+    if (eliminates_first(first)) continue;
     findings_.chain.push_back(first);
     result_.best = first.fit;
   }
@@ -161,13 +161,14 @@ std::vector<Direction> Procedure::directions_at(const FitSummary& model) {
   return simulators_->directions_of(model, causes_, result_.directions);
 }
 
-// Whether what is left alarms, but promises too little for another cause.
+// Whether what is left alarms, but scores too little for another cause.
 bool Procedure::is_small(const Alarm& alarm) const {
-  const double promised = 0.5 * alarm.statistic * alarm.statistic;  // were the model linear
-  return !alarm.leftover.shows() && beyond_linear * promised < least_gain_beside(findings_.chain);
+  const double predicted = 0.5 * alarm.statistic * alarm.statistic;  // were the model linear
+  return !alarm.residual_power.shows() &&
+         beyond_linear * predicted < least_gain_beside(findings_.chain);
 }
 
-// The trials kept back may ask for what those fitted to hardly show: that is no finding.
+// The held-out trials may ask for what those fitted to hardly show: that is no finding.
 bool Procedure::is_another_cause(const Candidate& next) const {
   if (next.evidence < worth_naming || next.gain < least_gain_beside(findings_.chain) ||
       !next.held_out.carries_over())
@@ -181,7 +182,7 @@ bool Procedure::is_another_cause(const Candidate& next) const {
 // What was found first may have stood in for this cause, whose own fit did not get so far from its
 // starts; from where it stands beside the first one it does. Then the first one must bring as much
 // beside it as any other cause, or is none.
-bool Procedure::stands_alone(const Candidate& next) {
+bool Procedure::eliminates_first(const Candidate& next) {
   if (findings_.chain.size() != 1 || stopped()) return false;
   const auto known = std::ranges::find(result_.ranking, next.cause, &Candidate::cause);
   if (known == result_.ranking.end()) return false;

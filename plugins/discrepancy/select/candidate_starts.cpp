@@ -50,7 +50,8 @@ std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& 
   Hypothesis both = base.hypothesis;
   // A change of full size is too large to move along with.
   if (!direction.has_threshold)
-    both.set_unknowns(base.hypothesis.unknowns() + allowed_step(base, -share * direction.absorbed));
+    both.set_unknowns(base.hypothesis.unknowns() +
+                      allowed_step(base, -share * direction.nuisance_step));
   both.add(direction.start.shrunk(share).bounded());
   both.name = direction.cause;
   return both;
@@ -173,7 +174,7 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
   std::ranges::stable_sort(own, [](const Direction* a, const Direction* b) {
     return std::abs(a->statistic) > std::abs(b->statistic);
   });
-  // A place may be softer or stiffer than drawn: the loudest of both.
+  // A place may be softer or stiffer than drawn: the strongest of both.
   std::vector<Hypothesis> starts;
   std::array<std::size_t, 2> of_sign{};
   std::size_t thresholds = 0;

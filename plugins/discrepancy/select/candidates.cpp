@@ -39,8 +39,8 @@ struct Look {
 constexpr std::size_t all_starts = std::numeric_limits<std::size_t>::max();
 constexpr Look look_at_size{2, 2}, look_at_place{6, all_starts}, look_at_extended{3, 1};
 constexpr double far_behind = 0.3;  // of the first one's gain or statistic
-// Nats, and of the best one's gain: of what could be a rival, and with a few iterations of the fine
-// simulator, because of the coarse one's errors.
+// Nats, and of the best one's gain: of what could be a competing model, and with a few iterations
+// of the fine simulator, because of the coarse one's errors.
 constexpr double near_by = 50.0, near_share = 0.05;
 constexpr int few_fine = 4;
 // Nats that the best one must gain for any to be left early: where it gains little, a fit on its
@@ -153,7 +153,7 @@ class Refits {
         causes_(causes),
         directions_(directions),
         options_(options),
-        promise_(promise_of(causes, directions)),
+        score_(score_statistics(causes, directions)),
         samples_(workers.fine.front().data().samples(options.fit.trials)),
         candidates_(causes.size()) {}
 
@@ -162,12 +162,12 @@ class Refits {
     if (2.0 * base_.cost > small_residual * samples_)
       fit_first_parts();
     else
-      promise_gains();
-    choose_whole(promise_);
+      set_score_gains();
+    choose_whole(score_);
     const std::string foremost_cause = std::ranges::max(candidates_, {}, &Candidate::gain).cause;
     for (Candidate& candidate : candidates_)
       if (effects::same_family(candidate.cause, foremost_cause) ||
-          !ways_back(candidate.cause).empty())
+          !continuations(candidate.cause).empty())
         candidate.whole = true;
     std::vector<int> whole;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
@@ -203,7 +203,7 @@ class Refits {
     const double early_cost =
         0.5 * coarse_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
     std::vector<std::size_t> starts(causes_.size(), 1);
-    for (const int i : first_by(promise_, most_whole)) starts[i] = 2;
+    for (const int i : first_by(score_, most_whole)) starts[i] = 2;
     std::vector<int> all(causes_.size());
     std::iota(all.begin(), all.end(), 0);
     longest_first(all);
@@ -236,12 +236,12 @@ class Refits {
   }
 
   // Of a linear model the gain is half the squared statistic.
-  void promise_gains() {
+  void set_score_gains() {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      candidates_[i].gain = 0.5 * promise_[i] * promise_[i];
+      candidates_[i].gain = 0.5 * score_[i] * score_[i];
       candidates_[i].fit.hypothesis = base_.hypothesis;
       candidates_[i].fit.hypothesis.add(causes_[i].starts.front());
-      candidates_[i].fit.why = "not fitted: its directions promise too little";
+      candidates_[i].fit.why = "not fitted: its directions score too little";
     }
   }
 
@@ -270,7 +270,7 @@ class Refits {
     if (plain) starts.push_back(std::move(*plain));
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
-    const std::vector<Direction> back = ways_back(candidate.cause);
+    const std::vector<Direction> back = continuations(candidate.cause);
     candidate.fit =
         best_fit(evaluator, base_, starts, few, placed ? look_at_place : look_at_size, limits);
     if (candidate.fit.cost > limits.at(lost_early) && back.empty()) return;
@@ -278,14 +278,14 @@ class Refits {
     if (const auto twin = twin_of(candidate.fit.hypothesis))
       keep_better(candidate.fit, fit(evaluator, *twin, few, base_.jacobian));
     for (const Direction& start : back)
-      if (auto found = walk_back(evaluator, base_, start, few))
+      if (auto found = continue_to_prior(evaluator, base_, start, few))
         keep_better(candidate.fit, std::move(*found));
   }
 
   // What a base that misses the data is pulled by says nothing.
-  std::vector<Direction> ways_back(const std::string& cause) const {
+  std::vector<Direction> continuations(const std::string& cause) const {
     if (2.0 * base_.cost > small_residual * samples_) return {};
-    return likest_way_back(base_, cause, directions_);
+    return likest_continuations(base_, cause, directions_);
   }
 
   // A cause that has another one as a special case does at least as well: it goes on from there.
@@ -388,34 +388,34 @@ class Refits {
   void rank(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers) {
     if (stopped()) return;
     const double dispersion = dispersion_of(candidates_, base_, samples_);
-    ask_kept_back(changed, workers, dispersion);
+    judge_held_out(changed, workers, dispersion);
     weigh(candidates_, base_, samples_, dispersion);
   }
 
   // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
-  void ask_kept_back(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers,
-                     double dispersion) {
+  void judge_held_out(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers,
+                      double dispersion) {
     if (options_.check_trials.empty()) return;
     FitOptions check = options_.fit;
     check.trials = options_.check_trials;
     if (kept_.empty()) {
-      base_kept_ = kept_back(fine_.front(), base_, check);
+      base_held_out_ = held_out_model(fine_.front(), base_, check);
       for (const Candidate* candidate : changed) kept_[candidate->cause] = {};
     }
     share_out(workers, static_cast<int>(changed.size()), options_, 1.0, 1.0,
               [&](Evaluator& evaluator, int i) {
-                kept_.at(changed[i]->cause) = kept_back(evaluator, changed[i]->fit, check);
+                kept_.at(changed[i]->cause) = held_out_model(evaluator, changed[i]->fit, check);
               });
     if (stopped()) return;
     std::vector<Candidate*> whole;
-    std::vector<KeptBack> models;
+    std::vector<HeldOutModel> models;
     for (Candidate& candidate : candidates_) {
       if (!candidate.whole) continue;
       whole.push_back(&candidate);
       models.push_back(kept_.at(candidate.cause));
     }
     const int samples = fine_.front().data().samples(check.trials);
-    const std::vector<HeldOut> found = held_out(base_kept_, models, samples, dispersion);
+    const std::vector<HeldOut> found = held_out(base_held_out_, models, samples, dispersion);
     for (std::size_t i = 0; i < whole.size(); ++i) whole[i]->held_out = found[i];
   }
 
@@ -424,11 +424,12 @@ class Refits {
   const std::vector<Cause>& causes_;
   const std::vector<Direction>& directions_;
   const RefitOptions& options_;
-  const std::vector<double> promise_;
+  const std::vector<double> score_;
   const int samples_;
   std::vector<Candidate> candidates_;
-  KeptBack base_kept_;  // on the trials kept back, as those of the causes that were fitted whole
-  std::map<std::string, KeptBack> kept_;
+  HeldOutModel
+      base_held_out_;  // on the held-out trials, as those of the causes that were fitted whole
+  std::map<std::string, HeldOutModel> kept_;
 };
 
 }  // namespace

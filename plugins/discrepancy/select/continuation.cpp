@@ -9,10 +9,10 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double believed = 2.0;       // deviations
-constexpr double beyond_belief = 4.0;  // likewise
-constexpr double least_way = 0.5;      // deviations that are worth going back
-constexpr double most_unlike = 0.1;    // of the change that a factor's way back makes
+constexpr double believed = 2.0;        // deviations
+constexpr double prior_conflict = 4.0;  // likewise
+constexpr double least_way = 0.5;       // deviations that are worth going back
+constexpr double most_unlike = 0.1;     // of the change that a factor's way back makes
 constexpr std::size_t most_starts = 2;
 constexpr double largest_step = 0.1;  // of a logarithm
 constexpr double held_to = 0.02;      // deviation of a factor on its way
@@ -51,7 +51,7 @@ struct TakenOver {
 
 TakenOver taken_over(const FitSummary& base, const Direction& direction,
                      const Eigen::VectorXd& change) {
-  const Eigen::VectorXd own = direction.change + base.jacobian * direction.absorbed;
+  const Eigen::VectorXd own = direction.change + base.jacobian * direction.nuisance_step;
   const double square = own.squaredNorm();
   if (direction.has_threshold || square < no_change) return {};
   const double size = -own.dot(change) / square;
@@ -90,25 +90,25 @@ Hypothesis grown(const Hypothesis& model, const FitSummary& base, double factor)
 
 }  // namespace
 
-bool is_pulled(const Hypothesis& model) {
+bool has_prior_shift(const Hypothesis& model) {
   return (way_of(model, believed).array() != 0.0).any();
 }
 
-bool is_beyond_belief(const FitSummary& model) {
+bool conflicts_with_prior(const FitSummary& model) {
   const Hypothesis& numbers = model.hypothesis;
-  return (way_of(numbers, beyond_belief).array() != 0.0).any() ||
+  return (way_of(numbers, prior_conflict).array() != 0.0).any() ||
          std::ranges::any_of(model.at_bound, [&](int p) {
            return p == numbers.factor_on("youngs_modulus") || p == numbers.factor_on("density");
          });
 }
 
-Hypothesis as_believed(Hypothesis model) {
+Hypothesis at_prior(Hypothesis model) {
   model.set_unknowns(model.unknowns() + way_of(model, 0.0));
   return model;
 }
 
-std::vector<Direction> likest_way_back(const FitSummary& base, const std::string& cause,
-                                       const std::vector<Direction>& directions) {
+std::vector<Direction> likest_continuations(const FitSummary& base, const std::string& cause,
+                                            const std::vector<Direction>& directions) {
   const Eigen::VectorXd way = way_of(base.hypothesis, least_way);
   if ((way.array() == 0.0).all()) return {};
   const Eigen::VectorXd change = change_of(base, way, 1.0);
@@ -125,8 +125,8 @@ std::vector<Direction> likest_way_back(const FitSummary& base, const std::string
   return first;
 }
 
-std::optional<FitSummary> walk_back(Evaluator& evaluator, const FitSummary& base,
-                                    const Direction& cause, const FitOptions& options) {
+std::optional<FitSummary> continue_to_prior(Evaluator& evaluator, const FitSummary& base,
+                                            const Direction& cause, const FitOptions& options) {
   const Eigen::VectorXd way = way_of(base.hypothesis, least_way);
   const int steps = std::clamp(
       static_cast<int>(std::ceil(way.cwiseAbs().maxCoeff() / largest_step)), 1, most_steps);

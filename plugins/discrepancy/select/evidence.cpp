@@ -107,11 +107,11 @@ double said_by_data(const Candidate& candidate) {
 }
 
 double least_gain_beside(const std::vector<Candidate>& found) {
-  double loudest = 0.0;
+  double strongest = 0.0;
   for (const Candidate& candidate : found)
     if (!is_of_sensor({candidate.cause, {}, {}, {}, {}}))
-      loudest = std::max(loudest, candidate.gain);
-  const double change = std::sqrt(2.0 * worth_naming) + agreed * std::sqrt(2.0 * loudest);
+      strongest = std::max(strongest, candidate.gain);
+  const double change = std::sqrt(2.0 * worth_naming) + agreed * std::sqrt(2.0 * strongest);
   return 0.5 * change * change;
 }
 

@@ -12,17 +12,17 @@ namespace pedicel::discrepancy {
 double said_by_data(const Candidate& candidate);
 inline constexpr double as_well = 1.0;
 
-/// Nats by which a rival must lose: odds of 20 to 1.
+/// Nats by which a competing model must lose: odds of 20 to 1.
 inline constexpr double clear_odds = 3.0;
 
 /// Nats that a named cause must be worth: an effect of twice the size that could just be seen (10
 /// noise units in all) is worth 50 less up to 20 for its parameters, and a third of it may lie in
-/// the trials kept back; two honest solvers differ by up to 15.
+/// the held-out trials; two honest solvers differ by up to 15.
 inline constexpr double worth_naming = 18.0;
 
 /// Nats that another cause must bring beside those found: it must change the data by more than what
-/// two honest solvers differ by, some units of the noise and a part of what the loudest one changes
-/// (none, of what a sensor does). A gain is half the square of a change.
+/// two honest solvers differ by, some units of the noise and a part of what the strongest one
+/// changes (none, of what a sensor does). A gain is half the square of a change.
 double least_gain_beside(const std::vector<Candidate>& found);
 
 /// The least cost of the base and of the whole fits.

@@ -276,8 +276,8 @@ struct Against {
   bool broke = false;
 };
 
-// Thresholds are known, and our loads right, to a common factor.
-struct Thresholds {
+// ThresholdModel are known, and our loads right, to a common factor.
+struct ThresholdModel {
   double scatter = least_scatter, factor = 1.0;
   double likelihood(const Against& one) const {
     return log_likelihood(factor * one.borne, factor * one.reached, one.broke, scatter);
@@ -290,12 +290,12 @@ struct Thresholds {
 };
 
 // The likeliest scatter and factor.
-Thresholds likeliest(const std::vector<Against>& all) {
-  Thresholds best;
+ThresholdModel likeliest(const std::vector<Against>& all) {
+  ThresholdModel best;
   double most = best.likelihood(all);
   for (double scatter = least_scatter; scatter < 3.0; scatter *= 1.1)
     for (double factor = 0.7; factor < 1.45; factor *= 1.01) {
-      const Thresholds tried{scatter, factor};
+      const ThresholdModel tried{scatter, factor};
       const double found = tried.likelihood(all);
       if (found > most) most = found, best = tried;
     }
@@ -407,7 +407,7 @@ StalkStrength judge_strength(std::vector<StalkLoads> stalks, std::vector<BreakLa
     if (is_broken(stalk)) ++strength.broken;
   }
   if (strength.broken < least_broken) return strength;
-  const Thresholds thresholds_at_best = likeliest(against);
+  const ThresholdModel thresholds_at_best = likeliest(against);
   strength.scatter = thresholds_at_best.scatter;
   const double without =
       thresholds_at_best.likelihood(against) - 0.5 * std::log(double(readings.size()));

@@ -13,7 +13,7 @@ namespace {
 constexpr int most_shapes = 4;
 constexpr double least_shape = 1.0e-8;   // of the largest one's square
 constexpr int least_neighbourhood = 10;  // frequencies to either side, for the noise
-constexpr double tame = 4.0;             // noise units; a wild sample has power at all frequencies
+constexpr double winsorised_at = 4.0;    // noise units; an outlier has power at all frequencies
 constexpr double mistrust = 2.0;         // of the amplitude of our own error
 
 /// One trial's markers in a vector over the trials' entries.
@@ -135,23 +135,23 @@ Powers powers_of(const Block& block, const Shapes& shapes, const Eigen::VectorXd
 
 }  // namespace
 
-std::string Leftover::frequency() const {
+std::string ResidualPower::frequency() const {
   return low_hz == high_hz ? text(" at %.3g Hz", low_hz)
                            : text(" at %.3g to %.3g Hz", low_hz, high_hz);
 }
 
-Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSummary& model,
-                  const Eigen::VectorXd& numerical) {
-  Leftover loudest;
+ResidualPower residual_power(const DataSet& data, std::span<const int> trials,
+                             const FitSummary& model, const Eigen::VectorXd& numerical) {
+  ResidualPower strongest;
   const std::vector<Block> blocks = blocks_of(data, trials);
-  if (blocks.empty() || model.jacobian.rows() != model.residual.size()) return loudest;
+  if (blocks.empty() || model.jacobian.rows() != model.residual.size()) return strongest;
   const Eigen::Index channels = blocks.front().channels;
   const bool same =
       std::ranges::all_of(blocks, [&](const Block& block) { return block.channels == channels; });
-  if (channels < 3 || !same) return loudest;
-  const Eigen::VectorXd residual = model.residual.cwiseMax(-tame).cwiseMin(tame);
+  if (channels < 3 || !same) return strongest;
+  const Eigen::VectorXd residual = model.residual.cwiseMax(-winsorised_at).cwiseMin(winsorised_at);
   const Shapes shapes = shapes_of(model.jacobian, blocks);
-  if (shapes.count < 1) return loudest;
+  if (shapes.count < 1) return strongest;
   std::vector<Powers> all;
   for (const Block& block : blocks)
     if (block.rows >= 4 * least_neighbourhood)
@@ -163,7 +163,8 @@ Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSum
       const double low = static_cast<double>(first + 1) / longest.duration;
       const double high = static_cast<double>(first + count) / longest.duration;
       const double found = deviations(some, low, high);
-      if (found > loudest.deviations) loudest = {found, longest.trial, some.size() > 1, low, high};
+      if (found > strongest.deviations)
+        strongest = {found, longest.trial, some.size() > 1, low, high};
     };
     const Eigen::Index frequencies = longest.along.size();
     for (Eigen::Index f = 0; f < frequencies; ++f) look(f, 1);
@@ -173,9 +174,10 @@ Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSum
     }
   };
   for (const Powers& powers : all) look_at({&powers, 1});
-  // What acts in every trial, as a thing that was forgotten does, is louder in all together.
+  // What acts in every trial, as a thing that was forgotten does, is more significant in all
+  // together.
   if (all.size() > 1) look_at(all);
-  return loudest;
+  return strongest;
 }
 
 }  // namespace pedicel::discrepancy

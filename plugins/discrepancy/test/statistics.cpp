@@ -40,7 +40,7 @@ void measure_changes(Evaluator& evaluator, const FitSummary& base, const FitOpti
 }
 
 // The parameters take of each change what they can, as far as that goes with what is known of them.
-void absorb(const FitSummary& base, std::vector<Direction>& directions) {
+void project_out_nuisance(const FitSummary& base, std::vector<Direction>& directions) {
   const Eigen::Index rows = base.jacobian.rows(), n = base.jacobian.cols();
   const Eigen::VectorXd weight = prior_rows(base).weight;
   Eigen::MatrixXd stacked(rows + n, n);
@@ -50,10 +50,10 @@ void absorb(const FitSummary& base, std::vector<Direction>& directions) {
   for (Direction& direction : directions) {
     if (n > 0) {
       change.head(rows) = direction.change;
-      direction.absorbed = all.solve(change);
+      direction.nuisance_step = all.solve(change);
     }
-    direction.change -= base.jacobian * direction.absorbed;
-    direction.against = -weight.cwiseProduct(direction.absorbed);
+    direction.change -= base.jacobian * direction.nuisance_step;
+    direction.against = -weight.cwiseProduct(direction.nuisance_step);
   }
 }
 
@@ -98,7 +98,7 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
     again.push_back(d);
   }
   measure_changes(evaluator, base, options, again, directions);
-  absorb(base, directions);
+  project_out_nuisance(base, directions);
   return directions;
 }
 
@@ -124,11 +124,11 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
     if (beyond <= most) continue;
     most = beyond;
     alarm.statistic = std::abs(direction.statistic);
-    alarm.loudest = static_cast<int>(d);
+    alarm.strongest = static_cast<int>(d);
   }
   // Where nothing is wrong the statistics are jointly normal with the directions' own correlations:
   // noise through them is the bootstrap of the whole linear pipeline, the refit included, because
-  // the directions hold nothing that the parameters can absorb.
+  // the directions hold nothing that the parameters can take up.
   const auto count = static_cast<Eigen::Index>(unit.size());
   Eigen::MatrixXd correlation(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
@@ -150,7 +150,7 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
   return alarm;
 }
 
-double smallest_seen(const Direction& direction, double sigma, std::string& parameter) {
+double detectable_limit(const Direction& direction, double sigma, std::string& parameter) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const std::vector<FreeParameter>& free = direction.start.free;
   const auto sized = std::ranges::find_if(

@@ -78,7 +78,7 @@ TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
       directions_of(hidden.workers[0], hidden.base, hidden.causes, hidden.options);
   const Alarm alarm = judge(directions, hidden.base, {}, 1);
   EXPECT_TRUE(alarm.raised);
-  // Directions hold nothing that the baseline can absorb, what is known beforehand counted.
+  // Directions hold nothing that the baseline can take up, what is known beforehand counted.
   const Eigen::VectorXd weight = prior_rows(hidden.base).weight;
   for (const Direction& direction : directions)
     EXPECT_LT((hidden.base.jacobian.transpose() * direction.change +
@@ -108,26 +108,26 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
   std::vector<Direction> directions =
       directions_of(nothing.workers[0], nothing.base, nothing.causes, nothing.options);
   EXPECT_FALSE(judge(directions, nothing.base, {}, 1).raised);
-  EXPECT_LT(std::ranges::max(promise_of(nothing.causes, directions)), 5.0);
+  EXPECT_LT(std::ranges::max(score_statistics(nothing.causes, directions)), 5.0);
 }
 
 // A threshold just below the sharpest bend lies between one that does nothing and one that does too
 // much: with either as it stands the fit has nowhere to go.
 TEST(Candidates, FindAThresholdBetweenTwoStarts) {
-  Hidden quiet({});
+  Hidden plain({});
   Cause yield;
-  for (Cause& cause : candidate_causes(quiet.experiment, scales_of(quiet.experiment)))
+  for (Cause& cause : candidate_causes(plain.experiment, scales_of(plain.experiment)))
     if (cause.name == "yield") yield = std::move(cause);
   const auto with = [&](double curvature) {
-    Hypothesis model = quiet.base.hypothesis;
+    Hypothesis model = plain.base.hypothesis;
     model.add(yield.starts[0]);
     model.set_value(model.size() - 1, curvature);
     return model;
   };
   const auto change = [&](double curvature) {
     const Hypothesis model = with(curvature);
-    const Eigen::MatrixXd r = quiet.workers[0].residuals(std::span(&model, 1), quiet.options);
-    return (r.col(0) - quiet.base.residual).norm();
+    const Eigen::MatrixXd r = plain.workers[0].residuals(std::span(&model, 1), plain.options);
+    return (r.col(0) - plain.base.residual).norm();
   };
   std::size_t still = 0;  // the first start that does nothing
   while (still < yield.starts.size() && change(yield.starts[still].value(0)) > 1e-3) ++still;
@@ -145,7 +145,7 @@ TEST(Candidates, FindAThresholdBetweenTwoStarts) {
   // About a model that has taken up nothing of it.
   FitOptions none = hidden.options;
   none.iterations = 0;
-  const FitSummary base = fit(hidden.workers[0], quiet.base.hypothesis, none);
+  const FitSummary base = fit(hidden.workers[0], plain.base.hypothesis, none);
   const auto start = best_plain_start(hidden.workers[0], base, yield, hidden.options);
   ASSERT_TRUE(start);
   EXPECT_NEAR(start->value(start->size() - 1) / hidden_at, 1.0, 0.01);

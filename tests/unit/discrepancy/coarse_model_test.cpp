@@ -25,7 +25,7 @@ struct Fitted {
     setup.refine(model, {[](int) {}, {}});
     setup.renew();
     Evaluator corrected = setup.evaluator();
-    model.hypothesis.add(mesh_freedom());
+    model.hypothesis.add(mesh_nuisance());
     model = fit(corrected, model.hypothesis, setup.options());
   }
   Eigen::MatrixXd seen(Evaluator evaluator, const Hypothesis& of) const {
