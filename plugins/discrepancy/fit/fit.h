@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/discrepancy/simulate/data_set.h"
 #include "pedicel/discrepancy/simulate/hypothesis.h"
 
@@ -14,11 +15,12 @@ namespace pedicel::discrepancy {
 
 struct FitOptions {
   std::vector<int> trials;
-  double horizon = 1.0;  ///< share of each trial's duration that counts
-  int iterations = 60;   ///< at most
+  double horizon = 1.0;                  ///< share of each trial's duration that counts
+  int iterations = Budget{}.iterations;  ///< at most
   /// It stops when a step gains less (nats; where the model leaves more than noise, in units of
   /// what it leaves).
-  double least_step = 0.05;
+  double least_step = Budget{}.least_step;
+  const DiagnosisSettings* settings = &default_settings();  ///< must outlive it
 };
 
 /// What a fit found. Starts as "not run".

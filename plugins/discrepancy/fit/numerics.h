@@ -18,9 +18,6 @@ struct NumericsCheck {
   Eigen::VectorXd parameter_shift;      ///< of the unknowns, that the correction makes
 };
 
-/// Of our own error, and of the data's own, what a correction by Richardson may leave.
-inline constexpr double left_uncorrected = 0.1;
-
 /// Simulates the fitted model with half the step and with half the mesh (of the plant file's, where
 /// the model's is coarser).
 NumericsCheck check_numerics(const Experiment& experiment, const DataSet& data,

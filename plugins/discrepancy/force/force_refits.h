@@ -59,6 +59,7 @@ class ForceRefits {
   std::span<const ForcePlace> places_;
   const LibraryScales& scales_;
   const MissingForceOptions& options_;
+  const Budget& budget_;
   std::vector<ForceTerm> linear_, refitted_;
   double best_evidence_ = 0.0;
   FitSummary best_;

@@ -18,11 +18,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double enough_evidence = 8.0;  // nats, for a force to be told of
-constexpr double clear_margin = 5.0;     // nats, of a sensor over a force
-constexpr double as_well_within = 3.0;   // nats: odds of 20 to 1
-constexpr std::size_t most_places = 14;
-constexpr std::ptrdiff_t most_strong = 3;  // places where laws are tried, besides two of each curve
 constexpr std::size_t kinds = 11;
 
 class Inference {
@@ -31,6 +26,7 @@ class Inference {
       : evaluator_(evaluator),
         model_(model),
         options_(options),
+        levels_(options.fit.settings->levels),
         experiment_(evaluator.data().experiment()) {
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
@@ -79,6 +75,7 @@ class Inference {
     for (const MarkerChain& chain : chains_of(experiment_))
       for (std::size_t m = 0; m < chain.markers.size(); ++m)
         if (chain.arc[m] > 0.02 * chain.length) all.push_back(chain.markers[m]);
+    const auto most_places = static_cast<std::size_t>(options_.fit.settings->budget.force_places);
     if (all.size() <= most_places) return all;
     std::vector<int> chosen;
     for (std::size_t i = 0; i < most_places; ++i)
@@ -92,8 +89,8 @@ class Inference {
   // plant as it was believed to be answers more like the real one then.
   void choose_centre() {
     centre_ = model_;
-    if (conflicts_with_prior(model_)) {
-      note("The refitted plant is beyond belief: forces act on the one that was believed in.");
+    if (conflicts_with_prior(model_, *options_.fit.settings)) {
+      note("The refitted plant contradicts what is known of it: forces act on the nominal one.");
       FitOptions none = options_.fit;
       none.iterations = 0;
       centre_ = fit(evaluator_, at_prior(model_.hypothesis), none);
@@ -146,7 +143,7 @@ class Inference {
     }
     const double force = places_.empty() ? 0.0 : places_.front().free.evidence;
     note(text("A free displacement of markers: evidence %.4g", sensor_evidence_));
-    return sensor_evidence_ > std::max(force, enough_evidence) + clear_margin;
+    return sensor_evidence_ > std::max(force, levels_.outside_evidence) + levels_.clear_margin;
   }
 
   void conclude_sensor() {
@@ -168,7 +165,7 @@ class Inference {
     std::map<std::string, std::size_t> tried;  // places of each curve
     for (const ForcePlace& place : places_) {
       if (stopped()) return;
-      const bool strong = &place - places_.data() < most_strong;
+      const bool strong = &place - places_.data() < options_.fit.settings->budget.strong_places;
       if (++tried[place.space.place.curve] > 2 && !strong) continue;
       const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
       for (const ForceTerm& term : terms)
@@ -182,7 +179,7 @@ class Inference {
 
   void conclude() {
     const ForcePlace& strongest = places_.front();
-    if (result_.evidence >= enough_evidence) {
+    if (result_.evidence >= levels_.outside_evidence) {
       const plant::Effect& force = result_.terms.front().force;
       result_.found = true;
       result_.kind = plain_kind(force);
@@ -195,7 +192,7 @@ class Inference {
       find_elsewhere();
       find_other_kinds();
       check();
-    } else if (strongest.free.evidence - (centre_.cost - model_.cost) >= enough_evidence) {
+    } else if (strongest.free.evidence - (centre_.cost - model_.cost) >= levels_.outside_evidence) {
       result_.found = true;
       result_.kind = "force of no known law";
       result_.place = strongest.space.place;
@@ -217,7 +214,7 @@ class Inference {
             std::hypot(model.free[p].scale * result_.fit.standard_error[p], node_share());
     std::set<std::string> known{result_.place->curve};
     for (const ForceTerm& term : result_.terms)
-      if (term.evidence > result_.evidence - as_well_within &&
+      if (term.evidence > result_.evidence - levels_.clear_odds &&
           known.insert(term.force.place->curve).second)
         result_.elsewhere.push_back(*term.force.place);
   }
@@ -236,8 +233,8 @@ class Inference {
     std::set<std::string> known{result_.kind};
     for (const ForceTerm& term : result_.terms) {
       const bool near_end = kind_of(term.force) == kind_with_near_end(kind_of(best.force));
-      const bool as_well = near_end ? term.gain > best.gain - as_well_within
-                                    : term.evidence > best.evidence - as_well_within;
+      const bool as_well = near_end ? term.gain > best.gain - levels_.clear_odds
+                                    : term.evidence > best.evidence - levels_.clear_odds;
       if (as_well && known.insert(plain_kind(term.force)).second)
         result_.other_kinds.push_back(plain_kind(term.force));
     }
@@ -282,6 +279,7 @@ class Inference {
   Evaluator& evaluator_;
   const FitSummary& model_;
   const MissingForceOptions& options_;
+  const Levels& levels_;
   const Experiment& experiment_;
   FitSummary centre_;  ///< the model about which forces act: `model_`, or what it was pulled from
   std::unique_ptr<ForceResponses> responses_;

@@ -14,26 +14,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Of the noise variance, an excess that is no sign of a missing effect.
-constexpr double small_excess = 0.01;
-constexpr double most_missed = 0.1;  // of what all causes found gain on all trials, by what is left
-// And of the gain, with which our model errors scale: of 230 single effects of the bench (gains up
-// to 3,900 nats) the true one was at most 3.7 nats behind, at a gain of 800.
-constexpr double margin_share = 0.002;
-constexpr double most_margin = 10.0;  // nats, of that
-constexpr double turned = 5.0;        // nats for a competing model when a trial is left out
-// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
-// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
-// offsets of a force sensor) a cause follows others.
-constexpr double most_margins = 3.0;
-constexpr int most_more_numbers = 2;
-// Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
-constexpr double least_parameter_change = 0.0015;
-// Outliers that are worth a name: so many, and of all samples (a swing that starts within a
-// sample makes a few).
-constexpr int least_outliers = 12;
-constexpr double least_outlier_share = 0.0045;
-
 // How far a factor that is needed is from 1 in its deviations; 0 where our own errors may have
 // moved it so far.
 double deviations(const Findings& findings, const FitSummary& base, const std::string& name) {
@@ -42,10 +22,12 @@ double deviations(const Findings& findings, const FitSummary& base, const std::s
   const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
   const int shifted = base.hypothesis.factor_on(name);
   const double shift = shifted >= 0 && shifted < findings.parameter_shift.size()
-                           ? left_uncorrected * std::abs(findings.parameter_shift[shifted])
+                           ? findings.settings->accuracy.left_uncorrected *
+                                 std::abs(findings.parameter_shift[shifted])
                            : 0.0;
-  // Three parameters share the few false alarms that are allowed.
-  const bool may_be_nominal = std::abs(u) < 3.5 * error + shift + least_parameter_change;
+  const Levels& levels = findings.settings->levels;
+  const bool may_be_nominal =
+      std::abs(u) < levels.needed_deviations * error + shift + levels.least_factor_change;
   return may_be_nominal ? 0.0 : u / error;
 }
 
@@ -64,12 +46,12 @@ NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
 
 // Likeliest first, without what loses: a law against another one by the odds of all others, the
 // plain parameter only where the law is worth a name beside it.
-void keep_likely(const std::string& parameter, Verdict& verdict) {
+void keep_likely(const std::string& parameter, const Levels& levels, Verdict& verdict) {
   std::ranges::stable_sort(verdict.causes, std::ranges::greater{}, &NamedCause::evidence);
   const double best = verdict.causes.front().evidence;
   std::erase_if(verdict.causes, [&](const NamedCause& other) {
     const double behind = best - other.evidence;
-    const bool loses = behind > (other.name == parameter ? worth_naming : clear_odds);
+    const bool loses = behind > (other.name == parameter ? levels.worth_naming : levels.clear_odds);
     if (loses) verdict.competing.push_back({other.name, behind});
     return loses;
   });
@@ -110,7 +92,7 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
       verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
     }
   }
-  keep_likely(needed.names.front(), verdict);
+  keep_likely(needed.names.front(), findings.settings->levels, verdict);
   if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
 }
 
@@ -138,10 +120,14 @@ bool contains(const Candidate& competitor, const Candidate& best, bool turns) {
              gain_by_chance(more_numbers(competitor, best));
 }
 
-bool explains_as_well(const Candidate& competitor, const Candidate& best, double margin) {
-  return more_numbers(competitor, best) <= most_more_numbers &&
-         said_by_data(best) - said_by_data(competitor) < as_well &&
-         best.evidence - competitor.evidence < most_margins * margin;
+// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
+// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
+// offsets of a force sensor) a cause follows others.
+bool explains_as_well(const Candidate& competitor, const Candidate& best, double margin,
+                      const DiagnosisSettings& settings) {
+  return more_numbers(competitor, best) <= settings.evidence.more_numbers &&
+         said_by_data(best) - said_by_data(competitor) < settings.levels.as_well &&
+         best.evidence - competitor.evidence < settings.evidence.most_margins * margin;
 }
 
 // Whether the competing model stands before the best where one of the trials is left out. Both as
@@ -159,7 +145,7 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
     const Eigen::Index size = findings.data->size(std::span(&t, 1));
     const double here = 0.5 * (competitor.fit.residual.segment(row, size).squaredNorm() -
                                best.fit.residual.segment(row, size).squaredNorm());
-    if (all - here < -turned - chance) return true;
+    if (all - here < -findings.settings->levels.clear_margin - chance) return true;
     row += size;
   }
   return false;
@@ -182,8 +168,10 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   const double missed =
       0.5 *
       std::pow(std::max(diagnosis.after.statistic, other.shows() ? other.deviations : 0.0), 2);
-  const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
-  if (!much && missed <= most_missed * gain) return;
+  const Levels& levels = findings.settings->levels;
+  const bool much =
+      left > levels.remainder_share && findings.excess(diagnosis.best) > levels.small_excess;
+  if (!much && missed <= levels.missed_share * gain) return;
   verdict.outcome = Outcome::unknown;
   verdict.remainder = "known causes leave " + verdict.remainder;
 }
@@ -192,13 +180,18 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
 void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
   Verdict& verdict = diagnosis.verdict;
   const Candidate& best = diagnosis.ranking.front();
-  const double margin = clear_odds + std::min(margin_share * best.gain, most_margin);
+  // Our model errors scale with the gain.
+  const DiagnosisSettings& settings = *findings.settings;
+  const double margin =
+      settings.levels.clear_odds +
+      std::min(settings.evidence.margin_share * best.gain, settings.evidence.most_margin);
   for (std::size_t i = 1; i < diagnosis.ranking.size(); ++i) {
     const Candidate& competitor = diagnosis.ranking[i];
     const double behind = best.evidence - competitor.evidence;
     if (!competitor.whole || competitor.evidence < 0.0) break;
     const bool turns = wins_without_a_trial(findings, competitor, best);
-    const bool beaten = behind > margin && !explains_as_well(competitor, best, margin) && !turns;
+    const bool beaten =
+        behind > margin && !explains_as_well(competitor, best, margin, settings) && !turns;
     diagnosis.steps.push_back(text("Of %.4g nats that a competing model must lose by, ", margin) +
                               competitor.cause +
                               text(" loses by %.4g; the data say %.4g less for it, and it has",
@@ -222,13 +215,14 @@ void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
   const Eigen::VectorXd& with = findings.chain.front().fit.residual;
   if (without.size() != with.size() || with.size() == 0) return;
   const Decoys decoys =
-      decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with));
+      decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with),
+                findings.settings->evidence.too_alike);
   Verdict& verdict = diagnosis.verdict;
   verdict.causes.front().because +=
       text(" Decoys of it gain less: %.3g nats backwards in time, %.3g at other markers,",
            decoys.reversed, decoys.exchanged) +
       text(" of %.3g.", decoys.own);
-  if (decoys.lose()) return;
+  if (decoys.lose(findings.settings->levels.clear_margin)) return;
   verdict.outcome = Outcome::unknown;
   verdict.remainder =
       "the same change backwards in time, or at other markers, explains the data as well";
@@ -267,7 +261,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   // judged while the others were missing there.
   const HeldOut& held_out =
       findings.chain.size() > 1 ? findings.held_out : findings.chain.front().held_out;
-  if (verdict.outcome == Outcome::named && !held_out.carries_over()) {
+  if (verdict.outcome == Outcome::named && !held_out.carries_over(findings.settings->evidence)) {
     verdict.outcome = Outcome::unknown;
     verdict.remainder = "what was fitted does not carry over to the held-out trials";
   }
@@ -295,7 +289,7 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
   if (!diagnosis.before.raised && findings.chain.empty()) {
     conclude_parameters(findings, diagnosis);
   } else if (findings.chain.empty() && !diagnosis.before.residual_power.shows() &&
-             findings.excess(diagnosis.base) < small_excess) {
+             findings.excess(diagnosis.base) < findings.settings->levels.small_excess) {
     conclude_parameters(findings, diagnosis);
     verdict.remainder = text(
         "a steady difference of %.3g noise units in all, which no cause explains and no single "
@@ -326,7 +320,9 @@ void name_nothing(Verdict& verdict) {
 
 void conclude_outliers(Diagnosis& diagnosis) {
   const Admission& admission = diagnosis.admission;
-  if (admission.outliers < std::max<double>(least_outliers, least_outlier_share * admission.points))
+  const Levels& levels = diagnosis.settings.levels;
+  if (admission.outliers <
+      std::max<double>(levels.outlier_count, levels.outlier_share * admission.points))
     return;
   Verdict& verdict = diagnosis.verdict;
   // Among competing models, or where nothing is known, they would read as one more explanation.

@@ -16,6 +16,15 @@ void DiagnosisLog::note(const std::string& sentence) {
   if (found_) found_(sentence);
 }
 
+void DiagnosisLog::settings(DiagnosisSettings settings) {
+  DiagnosisSettings defaults;
+  const std::vector<DiagnosisSetting> own = described(settings), usual = described(defaults);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i].get() != usual[i].get())
+      note("Setting " + own[i].name +
+           text(" is %.6g in place of %.6g.", own[i].get(), usual[i].get()));
+}
+
 void DiagnosisLog::noise(const DataSet& data) {
   const auto said = [](const Noise& noise) {
     return text("%.3g, lag-one correlation %.2g", noise.std, noise.correlation());

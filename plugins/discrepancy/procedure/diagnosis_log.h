@@ -19,6 +19,8 @@ class DiagnosisLog {
 
   void say(const std::string& what, double share) const;
   void note(const std::string& sentence);
+  /// Those that are not the defaults.
+  void settings(DiagnosisSettings settings);
   void noise(const DataSet& data);
   /// A fit's parameters; `samples` were fitted.
   void fit(const std::string& what, const FitSummary& fit, int samples);

@@ -10,15 +10,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr std::size_t most_competing_models = 4;  // that another trial should part
-// Nats that one cause, and several together, do not explain to the last by chance.
-constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
-// What one force may gain less than several causes: nats, or a share of theirs.
-constexpr double force_margin = 5.0, force_share = 0.05;
-// Of the causes' gain, what a free force must predict, by its linear response, for its law to be
-// looked for.
-constexpr double worthwhile_force = 0.5;
-
 bool stands_at_bound(const Candidate& found) {
   const Hypothesis& model = found.fit.hypothesis;
   return std::ranges::any_of(found.fit.at_bound, [&](int p) {
@@ -85,16 +76,17 @@ HeldOut Procedure::held_out_by(const FitSummary& model) {
 // is none where a force explains clearly more. That holds for the held-out trials, too. What is
 // explained to the last, and with a large gain, is not by chance.
 void Procedure::ask_for_one_force() {
+  const Evidence& weights = options_.settings.evidence;
   const bool several = findings_.chain.size() > 1;
   const bool alone = !several && !stands_at_bound(findings_.chain.front());
   const Candidate& first = findings_.chain.front();
   double explained = first.evidence - first.held_out.gain;
   for (std::size_t c = 1; c < findings_.chain.size(); ++c) explained += findings_.chain[c].gain;
   if ((!result_.after.raised || is_small(result_.after)) &&
-      explained > (several ? beyond_doubt_together : beyond_doubt))
+      explained > (several ? weights.beyond_doubt_together : weights.beyond_doubt))
     return;
   const MissingForce& force =
-      missing_force(0.96, worthwhile_force * (result_.base.cost - result_.best.cost));
+      missing_force(0.96, weights.worthwhile_force * (result_.base.cost - result_.best.cost));
   if (!force.found || force.fit.why == "not run") return;
   // With the noise as it was read last.
   Evaluator evaluator = setup_->evaluator();
@@ -104,10 +96,11 @@ void Procedure::ask_for_one_force() {
       0.5 * evaluator.residuals(models, fit_options()).colwise().squaredNorm();
   const double by_causes = cost[0] - cost[1], by_force = cost[0] - cost[2];
   log_.note(text("One force gains %.4g nats, what was found %.4g.", by_force, by_causes));
-  const double margin = std::max(force_margin, force_share * by_causes);
+  const double margin =
+      std::max(options_.settings.levels.clear_margin, weights.force_share * by_causes);
   if (by_force < by_causes + (alone ? margin : -margin)) return;
   const std::optional<double>& gain = result_.verdict.gain;
-  if (gain && force.gain && *force.gain < *gain - (alone ? 0.0 : force_share)) return;
+  if (gain && force.gain && *force.gain < *gain - (alone ? 0.0 : weights.force_share)) return;
   result_.verdict.outcome = Outcome::unknown;
   result_.verdict.remainder =
       several ? "one force explains as much as several known causes together"
@@ -185,7 +178,8 @@ void Procedure::judge_stalks() {
   std::ranges::nth_element(intervals, intervals.begin() + intervals.size() / 2);
   // Seen with the next sample.
   const double window = intervals[intervals.size() / 2];
-  result_.strength = judge_strength(std::move(stalks), std::move(thresholds), window);
+  result_.strength =
+      judge_strength(std::move(stalks), std::move(thresholds), window, options_.settings);
   log_.note(result_.strength.summary());
   conclude_detachment(result_);
 }
@@ -196,10 +190,12 @@ void Procedure::choose_next() {
     log_.say("choosing the next experiment", 0.97);
     std::vector<Hypothesis> models;
     for (const NamedCause& cause : verdict.causes)
-      if (models.size() < most_competing_models) models.push_back(model_of(cause.name));
+      if (std::ssize(models) < options_.settings.budget.competing_models)
+        models.push_back(model_of(cause.name));
     result_.next =
         next_experiment(experiment(), setup_->data(), models,
-                        {result_.numerics, options_.threads, options_.stop}, verdict.simulations);
+                        {result_.numerics, options_.threads, options_.stop, options_.settings},
+                        verdict.simulations);
   } else if (verdict.outcome == Outcome::unknown) {
     result_.next = next_look(experiment(), setup_->data(), result_.predictions[refitted]);
   }

@@ -14,11 +14,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Noise units in all: below it a trial would leave the question open.
-constexpr double enough = 6.0;
-// The choice needs no more accuracy than the competing models' own; a coarse step makes it cheap.
-constexpr double longest_step = 1.0 / 240.0;
-
 /// The competing models as they would act in another trial: what happened in one trial alone stays
 /// out.
 std::vector<Variant> variants_of(const std::vector<Hypothesis>& models) {
@@ -192,8 +187,11 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
                                const std::vector<Hypothesis>& models,
                                const NextExperimentOptions& given, long& simulations) {
   if (models.size() < 2) return {};
+  const double enough = given.settings.levels.separating;
   NextExperimentOptions options = given;
-  options.numerics.dt = std::max(options.numerics.dt, longest_step);
+  // The choice needs no more accuracy than the competing models' own; a coarse step makes it
+  // cheap.
+  options.numerics.dt = std::max(options.numerics.dt, options.settings.accuracy.design_dt);
   options.numerics.distance = std::max(options.numerics.distance, experiment.plant.distance);
   const std::vector<Variant> variants = variants_of(models);
   DesignScales scales = design_scales(experiment);
@@ -222,8 +220,7 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
   NextExperiment next = described(experiment, data, best, models);
   if (next.separation < enough)
     next.sentence = "No trial of those that were tried out separates " + next.names[0] + " from " +
-                    next.names[best.other] + " (the best one by " +
-                    short_number(next.separation) +
+                    next.names[best.other] + " (the best one by " + short_number(next.separation) +
                     " times the noise in all). What can: " + tie_breaker(models) + ".";
   return next;
 }

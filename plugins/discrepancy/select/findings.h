@@ -15,6 +15,7 @@ inline constexpr double interval95 = 1.96;  ///< standard deviations
 /// What a verdict is drawn from, and how its entries are made of it.
 struct Findings {
   const DataSet* data = nullptr;
+  const DiagnosisSettings* settings = &default_settings();
   std::vector<int> fit_trials;
   std::vector<Candidate> chain;     ///< causes found so far, in the order they were added
   HeldOut held_out;                 ///< of all of them together, where they are several

@@ -9,12 +9,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double least_change = 3.0;  // noise units in all
-// Of the expected gain: with a change d and a residual d a + noise, the gain over the expected one
-// is 2 a - 1, so 0.2 stands for an amplitude a of 0.6. Its standard deviation is 2 / |d|.
-constexpr double least_share = 0.2;
-constexpr double deviations = 2.0;
-
 // A model with its unknowns moved as far as the held-out trials ask for and the fit allows.
 struct Moved {
   Eigen::VectorXd residual;
@@ -40,10 +34,12 @@ Moved moved(const HeldOutModel& model, double fitted_dispersion, double dispersi
 
 }  // namespace
 
-bool HeldOut::carries_over() const {
+// With a change d and a residual d a + noise the gain over the expected one is 2 a - 1, so a share
+// of 0.2 stands for an amplitude a of 0.6. Its standard deviation is 2 / |d|.
+bool HeldOut::carries_over(const Evidence& evidence) const {
   const double change = std::sqrt(2.0 * expected);
-  if (change < least_change) return true;
-  return gain > (least_share - deviations * 2.0 / change) * expected;
+  if (change < evidence.held_out_change) return true;
+  return gain > (evidence.held_out_share - evidence.held_out_chance * 2.0 / change) * expected;
 }
 
 HeldOutModel held_out_model(Evaluator& evaluator, const FitSummary& model,

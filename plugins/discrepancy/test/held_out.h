@@ -15,7 +15,7 @@ struct HeldOut {
 
   /// Whether what was found shows there, too: the amplitude that the data give to the change is at
   /// least 0.6 of the one predicted, but for noise. A change too small to show refutes nothing.
-  bool carries_over() const;
+  bool carries_over(const Evidence& evidence) const;
 };
 
 /// What a fitted model says of held-out trials, and how sure it is of it.

@@ -5,12 +5,6 @@
 
 namespace pedicel::discrepancy {
 
-namespace {
-
-constexpr std::size_t most_screened = 12;
-
-}  // namespace
-
 std::vector<double> score_statistics(const std::vector<Cause>& causes,
                                      const std::vector<Direction>& directions) {
   std::vector<double> score(causes.size(), 0.0);
@@ -22,13 +16,13 @@ std::vector<double> score_statistics(const std::vector<Cause>& causes,
 }
 
 std::vector<Cause> screened(const std::vector<Cause>& causes,
-                            const std::vector<Direction>& directions) {
+                            const std::vector<Direction>& directions, int most) {
   const std::vector<double> score = score_statistics(causes, directions);
   std::vector<std::size_t> order(causes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order,
                            [&](std::size_t a, std::size_t b) { return score[a] > score[b]; });
-  order.resize(std::min(most_screened, order.size()));
+  order.resize(std::min(static_cast<std::size_t>(most), order.size()));
   std::vector<Cause> chosen;
   for (const std::size_t i : order) chosen.push_back(causes[i]);
   return chosen;

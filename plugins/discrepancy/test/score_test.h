@@ -11,8 +11,8 @@ namespace pedicel::discrepancy {
 std::vector<double> score_statistics(const std::vector<Cause>& causes,
                                      const std::vector<Direction>& directions);
 
-/// Causes whose direction shows in what is left; the strongest dozen, strongest first.
+/// Causes whose direction shows in what is left; the `most` strongest, strongest first.
 std::vector<Cause> screened(const std::vector<Cause>& causes,
-                            const std::vector<Direction>& directions);
+                            const std::vector<Direction>& directions, int most);
 
 }  // namespace pedicel::discrepancy

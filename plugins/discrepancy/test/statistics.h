@@ -38,7 +38,7 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
 /// noise reaches through the same projections.
 struct Alarm {
   double statistic = 0.0;  ///< the largest
-  double level = 0.0;      ///< that noise alone exceeds once in 200 times
+  double level = 0.0;      ///< that noise alone hardly exceeds
   int strongest = -1;      ///< direction
   bool raised = false;
   ResidualPower residual_power = {};  ///< what no direction looks for
@@ -47,7 +47,8 @@ struct Alarm {
 /// Fills in the directions' statistics for a residual and judges them. `numerical` is the whitened
 /// error of our own predictions (may be empty).
 Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
-            const Eigen::VectorXd& numerical, std::uint64_t seed);
+            const Eigen::VectorXd& numerical, std::uint64_t seed,
+            const DiagnosisSettings& settings);
 
 /// The smallest size of a cause that these data would show: where the directed statistic is
 /// expected to be `sigma`; of a vector its length. Of a law with a threshold the start's own, where

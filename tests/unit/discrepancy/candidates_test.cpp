@@ -76,7 +76,7 @@ TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
   Hidden hidden({testing::effect("base_compliance", "stiffness", {stiffness})});
   std::vector<Direction> directions =
       directions_of(hidden.workers[0], hidden.base, hidden.causes, hidden.options);
-  const Alarm alarm = judge(directions, hidden.base, {}, 1);
+  const Alarm alarm = judge(directions, hidden.base, {}, 1, {});
   EXPECT_TRUE(alarm.raised);
   // Directions hold nothing that the baseline can take up, what is known beforehand counted.
   const Eigen::VectorXd weight = prior_rows(hidden.base).weight;
@@ -107,7 +107,7 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
   Hidden nothing({});
   std::vector<Direction> directions =
       directions_of(nothing.workers[0], nothing.base, nothing.causes, nothing.options);
-  EXPECT_FALSE(judge(directions, nothing.base, {}, 1).raised);
+  EXPECT_FALSE(judge(directions, nothing.base, {}, 1, {}).raised);
   EXPECT_LT(std::ranges::max(score_statistics(nothing.causes, directions)), 5.0);
 }
 
@@ -192,13 +192,13 @@ TEST(Candidates, StartsLeaveToOthersWhatABoundForbids) {
   const double bound = model.hypothesis.high()[modulus];
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(3);
   wanted[modulus] = bound + 0.7;
-  Eigen::VectorXd step = allowed_step(model, wanted);
+  Eigen::VectorXd step = allowed_step(model, wanted, {});
   EXPECT_NEAR(step[modulus], bound, 1e-9);
   EXPECT_NEAR(step[damping], 0.7, 1e-3);
   wanted << 0.0, 0.0, 0.0;
   wanted[modulus] = 0.3;
   wanted[damping] = -0.1;
-  step = allowed_step(model, wanted);
+  step = allowed_step(model, wanted, {});
   EXPECT_NEAR(step[modulus] + step[damping], 0.2, 1e-6);
   EXPECT_NEAR(step[damping], -0.1, 1e-3);
 }

@@ -19,7 +19,7 @@ struct Fitted {
 
   explicit Fitted(double noise)
       : experiment(testing::released_beam(noise, 0.04, {0.04, 1.0 / 480.0})),
-        setup(experiment, 1, {}, nullptr) {
+        setup(experiment, 1, {}, nullptr, default_settings()) {
     Evaluator evaluator = setup.evaluator();
     model = fit(evaluator, baseline(), setup.options());
     setup.refine(model, {[](int) {}, {}});

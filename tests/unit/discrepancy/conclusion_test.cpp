@@ -92,7 +92,6 @@ TEST(Conclusion, NamesTheBestWithItsNumbers) {
   EXPECT_EQ(stiffness.unit, "N m/rad");
 }
 
-// The margin is 3 nats and 0.2 % of the gain of 640: 4.28.
 // A delay that the data alone would give to 0.01 ms, from fits with steps of 2 ms: uniformly within
 // one, with a deviation of 2 ms / sqrt(12). A time that is no moment stays as sharp as the data.
 TEST(Conclusion, KnowsAMomentToAStepAtBest) {
@@ -124,6 +123,7 @@ TEST(Conclusion, KnowsAMomentToAStepAtBest) {
   EXPECT_NEAR(time.high - time.value, 1.96 * 1.0e-5, 1e-9);
 }
 
+// The margin is 3 nats and 0.2 % of the gain of 640: 4.28.
 TEST(Conclusion, IsAmbiguousWithinTheMargin) {
   Case c;
   c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 631.0 - 4.2));
@@ -134,6 +134,17 @@ TEST(Conclusion, IsAmbiguousWithinTheMargin) {
   ASSERT_EQ(v.competing.size(), 1u);
   EXPECT_EQ(v.competing[0].name, "creep");
   EXPECT_NEAR(v.competing[0].behind, 4.4, 1e-9);
+}
+
+// By 6 nats and 1.28 both others are too near.
+TEST(Conclusion, TakesTheMarginFromItsSettings) {
+  Case c;
+  DiagnosisSettings settings;
+  settings.levels.clear_odds = 6.0;
+  c.findings.settings = &settings;
+  c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 631.0 - 4.2));
+  c.diagnosis.ranking.push_back(c.candidate("creep", "fraction", 630.0, 631.0 - 4.4));
+  EXPECT_THAT(names(c.concluded()), ElementsAre("base_compliance", "weak_segment", "creep"));
 }
 
 // A soft foot has three numbers where a soft root has one; where both leave the same, the data tell
@@ -377,7 +388,7 @@ TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
   EXPECT_NEAR(v.causes[0].evidence, 0.5 * std::pow(std::log(1.2) / 0.01, 2), 1e-6);
   // ln 1.2 = 0.182 against 3.5 deviations of 0.04, 0.002 that solvers differ by, and what is left
   // of our own error's shift.
-  const double limit = (std::log(1.2) - 0.142) / left_uncorrected;
+  const double limit = (std::log(1.2) - 0.142) / Accuracy{}.left_uncorrected;
   for (const double shift : {0.95 * limit, -1.05 * limit}) {
     Case d;
     d.diagnosis.before.raised = false;

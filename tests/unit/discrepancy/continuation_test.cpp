@@ -71,9 +71,9 @@ struct Weighted {
 
 TEST(Continuation, FindsTheMassThatPulledDensity) {
   Weighted weighted;
-  ASSERT_TRUE(has_prior_shift(weighted.base.hypothesis));
-  EXPECT_TRUE(likest_continuations(weighted.base, "latency", weighted.directions).empty());
-  const auto starts = likest_continuations(weighted.base, "extra_mass", weighted.directions);
+  ASSERT_TRUE(has_prior_shift(weighted.base.hypothesis, {}));
+  EXPECT_TRUE(likest_continuations(weighted.base, "latency", weighted.directions, {}).empty());
+  const auto starts = likest_continuations(weighted.base, "extra_mass", weighted.directions, {});
   ASSERT_FALSE(starts.empty());
   const auto found =
       continue_to_prior(weighted.evaluator, weighted.base, starts.front(), weighted.options);
@@ -97,12 +97,12 @@ TEST(Continuation, BeyondBelief) {
   numbers.set_value(modulus, 9.0);
   numbers.set_value(density, 1.4);
   model.at_bound = {numbers.factor_on("damping_time")};
-  EXPECT_FALSE(conflicts_with_prior(model));
+  EXPECT_FALSE(conflicts_with_prior(model, {}));
   model.at_bound = {modulus};
-  EXPECT_TRUE(conflicts_with_prior(model));
+  EXPECT_TRUE(conflicts_with_prior(model, {}));
   model.at_bound.clear();
   numbers.set_value(density, 1.6);
-  EXPECT_TRUE(conflicts_with_prior(model));
+  EXPECT_TRUE(conflicts_with_prior(model, {}));
   const Hypothesis believed = at_prior(numbers);
   for (int p = 0; p < believed.size(); ++p) EXPECT_NEAR(believed.value(p), 1.0, 1e-12);
 }
@@ -110,8 +110,8 @@ TEST(Continuation, BeyondBelief) {
 TEST(Continuation, IsNotGoneWhereNothingIsPulled) {
   Weighted weighted;
   weighted.base.hypothesis.set_value(weighted.base.hypothesis.factor_on("density"), 1.04);
-  EXPECT_FALSE(has_prior_shift(weighted.base.hypothesis));
-  EXPECT_TRUE(likest_continuations(weighted.base, "extra_mass", weighted.directions).empty());
+  EXPECT_FALSE(has_prior_shift(weighted.base.hypothesis, {}));
+  EXPECT_TRUE(likest_continuations(weighted.base, "extra_mass", weighted.directions, {}).empty());
 }
 
 }  // namespace

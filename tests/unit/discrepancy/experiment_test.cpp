@@ -166,7 +166,7 @@ TEST(Experiment, FindsTheLeavesOfItsPlantAndTakesThemAlong) {
   ASSERT_TRUE(read) << diagnostics.text();
   ASSERT_EQ(read->plant.leaves.size(), 1u);
   EXPECT_GT(scales_of(*read).mass, scales_of(full_experiment()).mass);
-  EXPECT_NO_THROW(junction_nuisance(*read));
+  EXPECT_NO_THROW(junction_nuisance(*read, {}));
   EXPECT_NO_THROW(PlantMaker(*read, read->plant.distance, 0.0));
 }
 

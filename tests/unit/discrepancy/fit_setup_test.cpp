@@ -29,7 +29,7 @@ struct Refined {
   NumericsCheck check;
 
   explicit Refined(double noise, double distance = file_distance)
-      : experiment(stated(noise, distance)), setup(experiment, 1, {}, nullptr) {
+      : experiment(stated(noise, distance)), setup(experiment, 1, {}, nullptr, default_settings()) {
     Evaluator evaluator = setup.evaluator();
     model = fit(evaluator, baseline(), setup.options());
     check = setup.refine(model, {[](int) {}, {}});

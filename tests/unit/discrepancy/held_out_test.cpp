@@ -37,9 +37,9 @@ TEST(HeldOut, GainsHalfTheSquareOfWhatItExplains) {
   const std::vector<HeldOut> found = held_out(base, models, samples, 1.0);
   EXPECT_NEAR(found[0].gain, 32.0, 1e-3);
   EXPECT_NEAR(found[0].expected, 32.0, 1e-3);
-  EXPECT_TRUE(found[0].carries_over());
+  EXPECT_TRUE(found[0].carries_over({}));
   EXPECT_NEAR(found[1].gain, -96.0, 1e-3);
-  EXPECT_FALSE(found[1].carries_over());
+  EXPECT_FALSE(found[1].carries_over({}));
 }
 
 // Off by five deviations of noise along what the unknown moves. Known to a hundredth of that, it

@@ -38,7 +38,7 @@ struct Left {
   }
 
   ResidualPower found(const Eigen::VectorXd& numerical = {}) const {
-    return residual_power(data_of(0.0), trials, model, numerical);
+    return residual_power(data_of(0.0), trials, model, numerical, {});
   }
 
  private:

@@ -45,7 +45,7 @@ TEST(Directions, OfWhiteNoiseAreStandardNormalAndRaiseNoAlarm) {
   for (int i = 0; i < draws; ++i) {
     FitSummary base;
     base.residual = drawn(random, samples);
-    alarms += judge(directions, base, {}, 3).raised ? 1 : 0;
+    alarms += judge(directions, base, {}, 3, {}).raised ? 1 : 0;
     for (int d = 0; d < count; ++d) {
       mean[d] += directions[d].statistic / draws;
       square[d] += std::pow(directions[d].statistic, 2) / draws;
@@ -62,7 +62,7 @@ TEST(Directions, ShowWhatIsLaidAlongThem) {
   Random random(5);
   FitSummary base;
   base.residual = drawn(random, samples) - 9.0 * directions[7].change.normalized();
-  const Alarm alarm = judge(directions, base, {}, 3);
+  const Alarm alarm = judge(directions, base, {}, 3, {});
   EXPECT_TRUE(alarm.raised);
   EXPECT_EQ(alarm.strongest, 7);
   EXPECT_NEAR(directions[7].statistic, -9.0, 4.0);  // a standard normal number on top
@@ -76,7 +76,7 @@ TEST(Directions, DoNotBlameWhatOurOwnErrorMayBe) {
   const Eigen::VectorXd along = directions[7].change.normalized();
   FitSummary base;
   base.residual = drawn(random, samples) - 9.0 * along;
-  EXPECT_FALSE(judge(directions, base, 8.0 * along, 3).raised);
+  EXPECT_FALSE(judge(directions, base, 8.0 * along, 3, {}).raised);
   EXPECT_NEAR(directions[7].systematic, 8.0, 1e-9);
 }
 
@@ -86,7 +86,7 @@ TEST(Directions, WithoutLengthSayNothing) {
   directions[0].change.setZero();
   FitSummary base;
   base.residual = Eigen::VectorXd::Constant(samples, 100.0);
-  const Alarm alarm = judge(directions, base, {}, 3);
+  const Alarm alarm = judge(directions, base, {}, 3, {});
   EXPECT_FALSE(alarm.raised);
   EXPECT_EQ(directions[0].statistic, 0.0);
 }
