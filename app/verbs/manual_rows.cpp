@@ -9,7 +9,7 @@
 #include "pedicel/coupling/coupling_settings.h"
 #include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/number_text.h"
+#include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_numbers.h"
 #include "pedicel/world/settings.h"
 
@@ -31,7 +31,7 @@ std::string phrase(std::string sentence) {
   return sentence;
 }
 
-std::string bounds_text(const io::Bounds& bounds) {
+std::string range_text(const io::Bounds& bounds) {
   const bool low = std::isfinite(bounds.minimum), high = std::isfinite(bounds.maximum);
   if (low && high)
     return bounds.open_minimum
@@ -43,12 +43,12 @@ std::string bounds_text(const io::Bounds& bounds) {
   return "any number";
 }
 
-std::string bounds_text(const effects::EffectParameter& parameter) {
+std::string range_text(const effects::EffectParameter& parameter) {
   if (parameter.size == 3)
     return std::isfinite(parameter.bounds.minimum)
-               ? "three numbers " + bounds_text(parameter.bounds)
+               ? "three numbers " + range_text(parameter.bounds)
                : "`[x, y, z]`";
-  if (parameter.size > 0) return bounds_text(parameter.bounds);
+  if (parameter.size > 0) return range_text(parameter.bounds);
   std::string words;
   for (const std::string& word : parameter.words) words += (words.empty() ? "" : ", ") + code(word);
   return words.empty() ? "a name" : words;
@@ -62,7 +62,7 @@ void add_effects(std::vector<ManualRow>& rows) {
           {"effects",
            2,
            {code(one.name), code(parameter.name), parameter.size == 0 ? "" : parameter.unit,
-            parameter.required ? "needed" : parameter.otherwise, bounds_text(parameter),
+            parameter.required ? "needed" : parameter.otherwise, range_text(parameter),
             parameter.sentence}});
   }
 }
@@ -96,7 +96,7 @@ void add_settings(std::vector<ManualRow>& rows) {
     rows.push_back({"settings",
                     1,
                     {code(std::string(one.key)), std::string(one.unit), "the plant's",
-                     bounds_text(one.bounds), phrase(std::string(one.sentence))}});
+                     range_text(one.bounds), phrase(std::string(one.sentence))}});
 }
 
 void add_diagnosis_settings(std::vector<ManualRow>& rows) {

@@ -90,8 +90,8 @@ std::optional<double> value_of(const PlantFile& plant, const PlantNumber& number
 void set_number(PlantFile& plant, const PlantNumber& number, double value) {
   if (const auto* of = std::get_if<std::optional<double> MaterialValues::*>(&number.member))
     set_material(plant, *of, value);
-  else if (const auto* of = std::get_if<double PlantFile::*>(&number.member))
-    plant.*(*of) = value;
+  else if (const auto* own = std::get_if<double PlantFile::*>(&number.member))
+    plant.*(*own) = value;
   else
     for (PlantFruit& fruit : plant.fruits)
       fruit.detach.*std::get<std::optional<double> DetachLimits::*>(number.member) = value;

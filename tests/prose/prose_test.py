@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from prose_checks import commands, examples, keys, links, sentences  # noqa: E402
+from prose_checks import commands, examples, files, keys, links, rooms, sentences  # noqa: E402
 from prose_checks.page import Page  # noqa: E402
 from prose_checks.program import Program  # noqa: E402
 
@@ -46,6 +46,10 @@ class Sentences(unittest.TestCase):
         text = "| a | b |\n|---|---|\n| " + "word " * 60 + "| b |\n\n```\n" + "word " * 60 + "\n```\n\n$$\n" + "x " * 60 + "\n$$\n"
         self.assertEqual(sentences.check(page(text)), [])
 
+    def test_code_begins_a_sentence(self):
+        counts = sentences.sentences(page("This is one. `tools/run` is another. $x$ is a third.\n"))
+        self.assertEqual([words for _, words in counts], [3, 3, 4])
+
     def test_a_list_item_counts_by_itself(self):
         item = "- " + "word " * 15 + "end\n"
         self.assertEqual(sentences.check(page(item * 5)), [])
@@ -57,6 +61,44 @@ class Links(unittest.TestCase):
         self.assertEqual([text for _, text in links.check(page(text), ROOT)],
                          ["nowhere.md is not there", "effects.md#no-such: no heading of that name",
                           "`engine/no_such.h` is not in the tree"])
+
+
+class Files(unittest.TestCase):
+    def check(self, rows):
+        text = "| file | holds |\n|---|---|\n" + rows
+        return files.check(page(text, ROOT / "tools/prose_checks/README.md"))
+
+    def test_files_that_are_there(self):
+        rows = "| `page`, `page.py`, `*.py`, `NAME.py` | x |\n| [`.`](../README.md), `../prose` | `not_there` |\n"
+        self.assertEqual(self.check(rows), [])
+
+    def test_a_file_that_is_not(self):
+        self.assertEqual(self.check("| `page` | x |\n| `pages` | x |\n"), [(4, "`pages` is not in this folder")])
+
+    def test_other_tables_are_left_alone(self):
+        text = "| law | source |\n|---|---|\n| `creep` | x |\n\n| file of `prose_checks/` | x |\n|---|---|\n| `pages` | x |\n"
+        faults = files.check(page(text, ROOT / "tools/README.md"))
+        self.assertEqual(faults, [(7, "`pages` is not in this folder")])
+
+
+class Rooms(unittest.TestCase):
+    ROOMS = {"app/run": {"engine/world"}, "engine/world": set()}
+
+    def check(self, rows):
+        return rooms.check(page("| room | holds | links |\n|---|---|---|\n" + rows), self.ROOMS)
+
+    def test_the_rooms_as_they_are(self):
+        self.assertEqual(self.check("| `app/run` | x | `engine/world` |\n| `engine/world` | x | |\n"), [])
+
+    def test_a_room_that_is_missing_one_that_is_gone_and_a_link_that_is_not(self):
+        self.assertEqual(self.check("| `app/run` | x | `engine/io` |\n| `app/old` | x | |\n"),
+                         [(1, "the room `engine/world` is missing"),
+                          (3, "`app/run` links `engine/world`"), (4, "`app/old` is no room")])
+
+    def test_every_library_of_the_tree_is_found(self):
+        found = rooms.rooms_of(ROOT)
+        self.assertGreater(len(found), 30)
+        self.assertIn("plugins/plant", found["plugins/skeleton"])
 
 
 class Keys(unittest.TestCase):

@@ -16,7 +16,7 @@ NAMED = re.compile(r"\{\"([a-z_]+)\",\s*(?:\w+::|&)")  # {"fruit", Anchor::Kind:
 EITHER = re.compile(r"const char\* key = [^;]*\"(\w+)\" : \"(\w+)\"")
 PARAMETER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*&s\.")
 WORD = re.compile(r"\{\"(\w+)\",\s*\{\"")
-NUMBER = re.compile(r"\{\"(\w+)\",\s*[-\d.e]+,\s*[-\d.e]+,\s*(?:true|false)\}")
+NUMBER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*[-\d.e]+,\s*[-\d.e]+,")
 DOTTED = re.compile(r"\{\"((?:material|detach|sampling)\.\w+)\"")
 EFFECT = re.compile(r"\bd\.name = \"(\w+)\"")
 EFFECT_NUMBER = re.compile(r"\{\.name = \"([a-z_0-9]+)\"")

@@ -10,11 +10,11 @@ END = re.compile(r"(?<=[.!?])\s+(?=[A-Z0-9\"*`\[(])")
 
 
 def plain(text):
-    """What is read aloud: code and formulas are one word each."""
+    """What is read aloud: code and formulas are one word each, and may begin a sentence."""
     text = re.sub(r"!\[[^\]]*\]\([^)]*\)", "", text)
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
-    text = re.sub(r"`[^`]+`", "code", text)
-    return re.sub(r"\$[^$]+\$", "formula", text)
+    text = re.sub(r"`[^`]+`", "Code", text)
+    return re.sub(r"\$[^$]+\$", "Formula", text)
 
 
 def sentences(page):
