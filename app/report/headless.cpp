@@ -225,7 +225,7 @@ class Run {
         result_.verdicts.push_back(world::judge(expectation, measured));
     }
     const bool unmet = std::any_of(result_.verdicts.begin(), result_.verdicts.end(),
-                                   [](const world::Verdict& v) { return !v.met; });
+                                   [](const world::ExpectationResult& v) { return !v.met; });
     if (result_.exit_code == 0 && unmet) result_.exit_code = exit_unmet;
     if (options_.comparison_with) compare_with_measured();
     if (result_.exit_code == 0 && pictures_ && !pictures_->available())
@@ -307,7 +307,7 @@ class Run {
         result_.ms_per_step_p95, result_.real_time_factor(), result_.largest_stretch,
         result_.events.size(), result_.events.size() == 1 ? "" : "s",
         static_cast<unsigned long long>(result_.state_hash));
-    for (const world::Verdict& verdict : result_.verdicts)
+    for (const world::ExpectationResult& verdict : result_.verdicts)
       std::fprintf(stderr, "%s\n", world::to_string(verdict).c_str());
     if (!result_.comparison) return;
     for (const ColumnComparison& column : result_.comparison->columns)
@@ -403,7 +403,7 @@ std::string to_json(const world::Scene& scene, const RunResult& result) {
                               {"bend_rad", e.bend},
                               {"force_N", e.force}});
   json["expectations"] = nlohmann::ordered_json::array();
-  for (const world::Verdict& v : result.verdicts)
+  for (const world::ExpectationResult& v : result.verdicts)
     json["expectations"].push_back(
         {{"what", world::to_string(v.expectation)}, {"met", v.met}, {"measured", v.measured}});
   if (result.comparison) json["comparison"] = comparison_json(*result.comparison);

@@ -47,7 +47,7 @@ struct RunResult {
   std::uint64_t state_hash = 0;
   std::string residual;  ///< Simulation::worst_residual()
   std::string error;     ///< why it ended early; empty: it did not
-  std::vector<world::Verdict> verdicts;
+  std::vector<world::ExpectationResult> verdicts;
   std::optional<Comparison> comparison;  ///< with measured values
   std::vector<world::Event> events;
   std::vector<StalkLimits> limits;              ///< of every fruit, for the plots

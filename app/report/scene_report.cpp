@@ -24,7 +24,7 @@ std::string joined(const std::vector<double>& values) {
 
 std::vector<ReportExpectation> expectations_of(const RunResult& result) {
   std::vector<ReportExpectation> all;
-  for (const world::Verdict& verdict : result.verdicts)
+  for (const world::ExpectationResult& verdict : result.verdicts)
     all.push_back({world::to_string(verdict.expectation), joined(verdict.measured), verdict.met});
   if (result.comparison)
     for (const ColumnComparison& one : result.comparison->columns)

@@ -22,7 +22,7 @@ std::string text_of(double value) {
 // "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
 void say(const std::string& label, const RunResult& result) {
   std::string text = "sweep " + label + ":";
-  for (const world::Verdict& verdict : result.verdicts)
+  for (const world::ExpectationResult& verdict : result.verdicts)
     text +=
         " " + verdict.expectation.quantity + " " +
         (verdict.measured.empty() ? "nothing" : io::format_number(verdict.measured.front(), 4)) +
@@ -86,7 +86,7 @@ const world::Expectation* measured_by(const world::Scene& scene) {
 }
 
 double measured_in(const world::Expectation& wanted, const RunResult& run) {
-  for (const world::Verdict& verdict : run.verdicts) {
+  for (const world::ExpectationResult& verdict : run.verdicts) {
     const world::Expectation& e = verdict.expectation;
     if (e.quantity == wanted.quantity && e.fruit == wanted.fruit && e.plant == wanted.plant &&
         e.body == wanted.body && e.link == wanted.link && !verdict.measured.empty())

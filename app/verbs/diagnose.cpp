@@ -17,6 +17,7 @@ namespace pedicel::app {
 namespace {
 
 struct DiagnoseArguments : ExperimentArguments {
+  std::vector<std::string> settings;  // NAME=VALUE
   bool verbose = false;
 };
 
@@ -34,9 +35,10 @@ void write_results(const std::filesystem::path& folder, const discrepancy::Exper
 }
 
 int run(const DiagnoseArguments& a) {
+  discrepancy::DiagnosisOptions options;
+  for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
   const discrepancy::Experiment experiment = load_experiment(a);
   ProgressLine progress;
-  discrepancy::DiagnosisOptions options;
   options.threads = a.thread_count();
   options.seed = static_cast<std::uint64_t>(a.seed);
   options.stop = &stop_requested;
@@ -67,6 +69,11 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
       *verb, *a,
       {"folder for report.html, verdict.json, extended.plant.yaml", "of the bootstrap",
        "the verdict as JSON, and nothing else, on standard output"});
+  verb->add_option("--set", a->settings,
+                   "NAME=VALUE, repeatable: a setting of `pedicel manual diagnosis_settings`, as "
+                   "levels.clear_odds=4")
+      ->type_size(1)
+      ->allow_extra_args(false);
   verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
   return [a] { return run(*a); };
 }

@@ -7,6 +7,7 @@
 #include "pedicel/core/parameter.h"
 #include "pedicel/cosserat/solver/rod_solver.h"
 #include "pedicel/coupling/coupling_settings.h"
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_numbers.h"
@@ -98,6 +99,16 @@ void add_settings(std::vector<ManualRow>& rows) {
                      range_text(one.bounds), phrase(std::string(one.sentence))}});
 }
 
+void add_diagnosis_settings(std::vector<ManualRow>& rows) {
+  discrepancy::DiagnosisSettings defaults;
+  for (const discrepancy::DiagnosisSetting& one : discrepancy::described(defaults))
+    rows.push_back({"diagnosis_settings",
+                    1,
+                    {code(one.name), one.unit, number_text(one.get()),
+                     std::string(discrepancy::to_string(one.kind)), phrase(one.sentence),
+                     one.source, phrase(one.doubled)}});
+}
+
 void add_commands(std::vector<ManualRow>& rows) {
   for (const CommandDescription& one : command_table()) {
     std::string arguments;
@@ -114,6 +125,7 @@ std::vector<ManualRow> manual_rows() {
   std::vector<ManualRow> rows;
   add_effects(rows);
   add_settings(rows);
+  add_diagnosis_settings(rows);
   add_commands(rows);
   for (const ExitCodeDescription& one : exit_codes())
     rows.push_back({"command_line", 1, {one.code, one.meaning}});

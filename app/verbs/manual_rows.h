@@ -13,7 +13,7 @@ struct ManualRow {
 };
 
 /// Every row that comes from a description: effects and their parameters, settings of rods,
-/// contact, plants and the scene, commands of scripts, exit codes.
+/// contact, plants, the scene and the diagnosis, commands of scripts, exit codes.
 std::vector<ManualRow> manual_rows();
 
 }  // namespace pedicel::app

@@ -45,7 +45,7 @@ int code_of(const RunResult& run) {
 std::string line_of(const io::CsvTable& table, std::size_t row, const RunResult& run) {
   std::string text = std::to_string(row + 1) + "," + std::to_string(code_of(run));
   for (const double value : table.rows[row]) text += "," + io::exact_number(value);
-  for (const world::Verdict& verdict : run.verdicts)
+  for (const world::ExpectationResult& verdict : run.verdicts)
     text += "," + (verdict.measured.empty() ? "nan" : io::format_number(verdict.measured.front()));
   return text + "," + std::to_string(run.events.size()) + "," +
          io::format_number(run.largest_stretch) + "\n";

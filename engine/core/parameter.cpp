@@ -36,9 +36,9 @@ double Parameter::get() const {
 }
 
 std::span<const std::string_view> known_units() {
-  static constexpr std::array<std::string_view, 20> units = {
-      "1",   "m",     "s",   "kg",  "N",     "Pa",    "rad",  "1/s",  "1/m",     "Hz",
-      "m/s", "rad/s", "N/m", "N m", "N s/m", "kg/m3", "m/s2", "m2/m", "N m/rad", "px"};
+  static constexpr std::array<std::string_view, 21> units = {
+      "1",     "m",   "s",   "kg",    "N",     "Pa",   "rad",  "1/s",     "1/m", "Hz",  "m/s",
+      "rad/s", "N/m", "N m", "N s/m", "kg/m3", "m/s2", "m2/m", "N m/rad", "px",  "nats"};
   return units;
 }
 

@@ -104,18 +104,18 @@ std::string to_string(const Expectation& e) {
   return text + " " + test_text(e);
 }
 
-Verdict judge(const Expectation& expectation, double measured) {
+ExpectationResult judge(const Expectation& expectation, double measured) {
   PEDICEL_ASSERT(!expectation.over_sweep());
   return {expectation, {measured}, holds(expectation, measured)};
 }
 
-Verdict judge_sweep(const Expectation& expectation, std::span<const double> measured) {
+ExpectationResult judge_sweep(const Expectation& expectation, std::span<const double> measured) {
   PEDICEL_ASSERT(expectation.over_sweep());
   const bool met = measured.size() >= 2 && holds_over_sweep(expectation, measured);
   return {expectation, {measured.begin(), measured.end()}, met};
 }
 
-std::string to_string(const Verdict& verdict) {
+std::string to_string(const ExpectationResult& verdict) {
   std::string values;
   for (double value : verdict.measured)
     values += (values.empty() ? "" : ", ") + (std::isfinite(value) ? number(value) : "nothing");

@@ -43,20 +43,20 @@ struct Expectation {
 /// "detach_time_s of truss/fruit_3 between 1 and 3"
 std::string to_string(const Expectation& expectation);
 
-struct Verdict {
+struct ExpectationResult {
   Expectation expectation;
   std::vector<double> measured;  ///< one value; one a value of the sweep where over_sweep()
   bool met = false;
 };
 
 /// A value that could not be measured (a fruit that never came off) is NaN and meets nothing.
-Verdict judge(const Expectation& expectation, double measured);
+ExpectationResult judge(const Expectation& expectation, double measured);
 
 /// The values in the order of the sweep, two at least; they must rise (fall) strictly, or be
 /// steady.
-Verdict judge_sweep(const Expectation& expectation, std::span<const double> measured);
+ExpectationResult judge_sweep(const Expectation& expectation, std::span<const double> measured);
 
 /// "met     detached_count is 1: 1"
-std::string to_string(const Verdict& verdict);
+std::string to_string(const ExpectationResult& verdict);
 
 }  // namespace pedicel::world

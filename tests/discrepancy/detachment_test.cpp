@@ -44,8 +44,8 @@ plant::PlantFile twig() {
 }
 
 // The fruit is drawn away along a line, faster and faster for a second.
-Path drawn_away(double angle) {
-  Path path;
+DrivenPath drawn_away(double angle) {
+  DrivenPath path;
   for (double t = 0.0; t < duration; t += 0.01) {
     const double u = std::min(t, 1.0);
     const double way = 0.05 * (0.5 * (u - std::sin(M_PI * u) / M_PI) + std::max(0.0, t - 1.0));

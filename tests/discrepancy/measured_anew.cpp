@@ -26,7 +26,7 @@ double interval_of(const Trial& trial) {
   return step;
 }
 
-reference::Rows rows_of(const discrepancy::Path& path) {
+reference::Rows rows_of(const discrepancy::DrivenPath& path) {
   return {path.time, path.position, path.rotation};
 }
 

@@ -26,7 +26,7 @@ TEST_P(ShippedScene, MeetsItsOwnCriteria) {
   const app::RunResult result = app::run_with_sweep(*scene, options);
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_EQ(result.verdicts.size(), scene->expectations.size());
-  for (const world::Verdict& verdict : result.verdicts)
+  for (const world::ExpectationResult& verdict : result.verdicts)
     EXPECT_TRUE(verdict.met) << world::to_string(verdict);
 }
 

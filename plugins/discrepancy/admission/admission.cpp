@@ -15,7 +15,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr int reach = 20;                // samples on either side that say what scatter is usual
-constexpr double wild = 10.0;            // times that scatter
+constexpr double outlying = 10.0;        // times that scatter
 constexpr double normal_scale = 1.4826;  // deviation of a normal distribution over its median
 constexpr int stuck_samples = 20;
 
@@ -32,7 +32,7 @@ double from_neighbours(const Eigen::Ref<const Eigen::VectorXd>& x, int i) {
 }
 
 // The usual scatter around sample i, which it and those next to it take no part in, nor stretches
-// of one value: beside a force that is zero after its release, noise would look wild.
+// of one value: beside a force that is zero after its release, noise would look outlying.
 double scatter_near(const std::vector<double>& distance, int i) {
   std::vector<double> near;
   const int last = static_cast<int>(distance.size()) - 1;
@@ -55,19 +55,19 @@ std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& ti
   return beside;
 }
 
-// A marker's points, of which wild ones are taken out one by one. How wild a point is: the squares
-// of those distances over the scatter, summed over the axes, since it is far out in some direction,
-// which need not be an axis. One axis may scatter little by chance, being judged by a few
-// neighbours; no instrument sees one twice as well as the other two.
+// A marker's points, of which outliers are taken out one by one. How outlying a point is: the
+// squares of those distances over the scatter, summed over the axes, since it is far out in some
+// direction, which need not be an axis. One axis may scatter little by chance, being judged by a
+// few neighbours; no instrument sees one twice as well as the other two.
 class Points {
  public:
-  explicit Points(Eigen::Ref<Eigen::MatrixXd> xyz) : xyz_(xyz), wildness_(xyz.rows(), 0.0) {
+  explicit Points(Eigen::Ref<Eigen::MatrixXd> xyz) : xyz_(xyz), excess_(xyz.rows(), 0.0) {
     distance_.fill(std::vector<double>(xyz.rows(), nothing));
     judge(0, size() - 1);
   }
 
   int size() const { return static_cast<int>(xyz_.rows()); }
-  double wildness(int i) const { return wildness_[i]; }
+  double excess(int i) const { return excess_[i]; }
 
   // All its numbers go, and what lies next to it is judged anew.
   void take_out(int i) {
@@ -86,28 +86,27 @@ class Points {
       std::array<double, 3> sorted = scatter;
       std::ranges::sort(sorted);
       const double least = std::isfinite(sorted[1]) ? 0.5 * sorted[1] : 0.0;
-      wildness_[i] = 0.0;
+      excess_[i] = 0.0;
       for (int c = 0; c < 3; ++c)
         if (std::isfinite(distance_[c][i]) && distance_[c][i] > 0.0)
-          wildness_[i] +=
-              std::pow(distance_[c][i] / (normal_scale * std::max(scatter[c], least)), 2);
+          excess_[i] += std::pow(distance_[c][i] / (normal_scale * std::max(scatter[c], least)), 2);
     }
   }
 
   Eigen::Ref<Eigen::MatrixXd> xyz_;
   std::array<std::vector<double>, 3> distance_;
-  std::vector<double> wildness_;
+  std::vector<double> excess_;
 };
 
-// The worst first: a wild point makes its neighbours look wild. `spared` stay.
-int take_out_wild_points(Eigen::Ref<Eigen::MatrixXd> xyz, const std::vector<char>& spared) {
+// The worst first: an outlying point makes its neighbours look outlying. `spared` stay.
+int take_out_outliers(Eigen::Ref<Eigen::MatrixXd> xyz, const std::vector<char>& spared) {
   Points points(xyz);
   for (int count = 0;; ++count) {
     int worst = -1;
-    double most = wild * wild;
+    double most = outlying * outlying;
     for (int i = 0; i < points.size(); ++i) {
-      if (spared[i] || !(points.wildness(i) > most) || !std::isfinite(points.wildness(i))) continue;
-      most = points.wildness(i);
+      if (spared[i] || !(points.excess(i) > most) || !std::isfinite(points.excess(i))) continue;
+      most = points.excess(i);
       worst = i;
     }
     if (worst < 0) return count;
@@ -210,7 +209,7 @@ Admission admit(const Experiment& experiment) {
       }
       for (Eigen::Index c = 0; c + 3 <= samples->value.cols(); c += 3) {
         admission.points += count_points(samples->value.middleCols(c, 3));
-        admission.outliers += take_out_wild_points(samples->value.middleCols(c, 3), spared);
+        admission.outliers += take_out_outliers(samples->value.middleCols(c, 3), spared);
       }
     }
     if (count_finite(trial.markers.value) + count_finite(trial.force.value) == 0)

@@ -13,7 +13,7 @@ struct Admission {
   Experiment experiment;  ///< wrong samples taken out, swapped labels put back
   int samples = 0, stuck = 0, filled = 0, swaps = 0, missing = 0;
   int points = 0,
-      outliers = 0;  ///< a marker's place or a force at one time: all of them, wild ones
+      outliers = 0;  ///< a marker's place or a force at one time, far from its neighbours
   std::vector<std::string> remarks;  ///< one sentence each
   std::string refusal;               ///< why the data cannot be used; empty: they can
   /// What the refusal is about; empty where it is about all of them.
@@ -24,9 +24,9 @@ struct Admission {
   }
 };
 
-/// Looks for single wild points (far from the cubic through their neighbours, against the scatter
-/// around them), channels that stand still to the last digit, gaps that were filled by lines,
-/// labels that two markers exchange, trials without data, and what the data contradict
+/// Looks for single outlying points (far from the cubic through their neighbours, against the
+/// scatter around them), channels that stand still to the last digit, gaps that were filled by
+/// lines, labels that two markers exchange, trials without data, and what the data contradict
 /// (contradiction.h).
 Admission admit(const Experiment& experiment);
 

@@ -8,7 +8,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr std::size_t looks = 5;  // samples whose median a single wild one does not move
+constexpr std::size_t looks = 5;  // samples whose median a single outlier does not move
 
 // Axis by axis the median of the first samples that were seen; NaN where there is none.
 Vec3 first_seen(const Samples& markers, int m) {

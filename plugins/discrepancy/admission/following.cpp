@@ -17,14 +17,14 @@ constexpr double slow = 0.4;
 constexpr double least_share = 1.0e-3;  // of the drive's main square: below, it has no direction
 
 Drive hold_drive(const TrialView& view, const Hold& hold) {
-  const Path* path = &hold.path;
+  const DrivenPath* path = &hold.path;
   const Vec3 start = path->position.front();
   return {Drive::Kind::hold, path, view.layout->spot(hold.place),
           [path, start](double t) { return Vec3(path->position_at(t) - start); }, hold.release};
 }
 
 Drive base_drive(const TrialView& view) {
-  const Path* path = &*view.trial.base;
+  const DrivenPath* path = &*view.trial.base;
   const Vec3 start = path->position.front();
   Spot root;
   root.drawn = root.settled = view.layout->root();
@@ -46,7 +46,7 @@ Drive load_drive(const TrialView& view) {
 }
 
 // 1/s2, of the mean speed of a path over its mean way.
-double frequency_square(const Path& path, double until) {
+double frequency_square(const DrivenPath& path, double until) {
   Vec3 mean = Vec3::Zero();
   double speed = 0.0, way = 0.0;
   for (const Vec3& x : path.position) mean += x / static_cast<double>(path.position.size());

@@ -12,8 +12,8 @@ namespace pedicel::discrepancy {
 struct Drive {
   enum class Kind { hold, base, load };
   Kind kind = Kind::hold;
-  const Path* path = nullptr;  ///< of the trial; null: it has none
-  Spot spot;                   ///< where it acts
+  const DrivenPath* path = nullptr;  ///< of the trial; null: it has none
+  Spot spot;                         ///< where it acts
   std::function<Vec3(double t)> value;
   double until = 0.0;  ///< s: when a hold ends
 };

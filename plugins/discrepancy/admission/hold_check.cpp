@@ -99,7 +99,7 @@ double angle(const Quat& q) {
 }
 
 // Rotations are by how much the point has turned since the plant was drawn: little, at first.
-std::optional<Fault> turned_quaternion(const Path& path) {
+std::optional<Fault> turned_quaternion(const DrivenPath& path) {
   if (path.rotation.empty()) return std::nullopt;
   const Quat& first = path.rotation.front();
   // Read as qw, qx, qy, qz.

@@ -8,7 +8,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double quiet = 10.0;       // times the noise: the range of a marker at rest
+constexpr double at_rest = 10.0;     // times the noise: the range of a marker at rest
 constexpr double leaves = 6.0;       // times the noise, from the mean of its rest
 constexpr double least_rest = 0.25;  // s
 constexpr int least_samples = 5;     // at rest
@@ -61,7 +61,7 @@ std::vector<Rest> rests_of(const Track& track, double noise) {
     for (; row < count; ++row) {
       const Vec3 next_low = low.cwiseMin(track.place[row]);
       const Vec3 next_high = high.cwiseMax(track.place[row]);
-      if ((next_high - next_low).maxCoeff() > quiet * noise) break;
+      if ((next_high - next_low).maxCoeff() > at_rest * noise) break;
       const double rows = static_cast<double>(row - first);
       if (row - first >= least_samples &&
           (track.place[row] - sum / rows).norm() > leaves * noise * std::sqrt(1.0 + 1.0 / rows) &&

@@ -25,7 +25,7 @@ constexpr double beyond_lag = 1.3;
 constexpr int least_rows = 60, terms = 7;
 constexpr double at_first = 0.1;  // s: what is moved from rest swings first
 
-Vec3 speed(const Path& path, double t) {
+Vec3 speed(const DrivenPath& path, double t) {
   constexpr double step = 1.0e-2;  // s
   const double from = std::max(t - step, path.time.front());
   const double to = std::min(t + step, path.time.back());
@@ -49,7 +49,7 @@ struct Regression {
 
 Regression regression(const Beside& beside, const Vec3& along) {
   const Track& track = beside.track();
-  const Path& path = *beside.drive().path;
+  const DrivenPath& path = *beside.drive().path;
   const double end = std::min(beside.drive().until, path.time.back());
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < track.time.size(); ++i)

@@ -47,7 +47,7 @@ Vec3 place_at(const Track& track, double time) {
 }
 
 // From when on a path rests at its end.
-double rests_from(const Path& path, double reach) {
+double rests_from(const DrivenPath& path, double reach) {
   double way = 0.0;
   for (const Vec3& x : path.position) way = std::max(way, (x - path.position.front()).norm());
   const double least = std::max(still_path * reach, 0.02 * way);
@@ -133,7 +133,7 @@ std::optional<Fault> leaves_late(const Beside& beside) {
 
 // Nearly all of a path lies after its release.
 std::optional<Fault> path_of_another_clock(const Beside& beside) {
-  const Path& path = *beside.drive().path;
+  const DrivenPath& path = *beside.drive().path;
   const double until = beside.drive().until;
   const auto before = std::ranges::count_if(path.time, [&](double t) { return t < until; });
   if (path.time.size() < 10 || before > 2 || path.time.back() < 20.0 * until) return std::nullopt;

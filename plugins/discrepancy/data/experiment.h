@@ -20,7 +20,7 @@ struct Marker {
 };
 
 /// A known motion: linear between its rows, the first and last row kept before and after.
-struct Path {
+struct DrivenPath {
   std::vector<double> time;    ///< s, increasing
   std::vector<Vec3> position;  ///< m, W
   /// By how much what moves has turned since it was drawn (W; identity: as drawn); empty where the
@@ -36,7 +36,7 @@ struct Path {
 /// without `release` the end of its path where the trial goes on longer.
 struct Hold {
   plant::CurvePlace place;
-  Path path;
+  DrivenPath path;
   double release = std::numeric_limits<double>::infinity();  ///< s
   std::optional<double> stiffness;                           ///< N/m; absent: rigid
 };
@@ -74,7 +74,7 @@ struct Trial {
   std::vector<plant::PlantMass> masses;
   std::vector<Hold> holds;
   std::vector<TimedLoad> loads;
-  std::optional<Path> base;
+  std::optional<DrivenPath> base;
   std::vector<plant::Effect> effects;  ///< at the sensor or the grip, known in this trial
 
   Samples markers;  ///< m, W; 3 columns a marker, in the experiment's order

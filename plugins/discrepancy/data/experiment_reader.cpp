@@ -193,12 +193,12 @@ class Reader {
     if (none && count > 1) list.error("kind none beside another drive, expected it alone");
   }
 
-  Path path(YamlMap& map, const std::filesystem::path& folder) {
+  DrivenPath path(YamlMap& map, const std::filesystem::path& folder) {
     const auto node = map.required("path");
     if (!node) return {};
     const std::string file = node->text("path");
     if (file.empty()) return {};
-    Path path = read_path(folder / file, diagnostics_);
+    DrivenPath path = read_path(folder / file, diagnostics_);
     path.file = file;
     return path;
   }

@@ -33,7 +33,7 @@ std::string rows_text(const Samples& samples) {
 
 }  // namespace
 
-Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
+DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
   SampleTable source(file, false, diagnostics);
   if (!source.good()) return {};
   const io::CsvTable& table = source.table();
@@ -43,7 +43,7 @@ Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
   const std::vector<int> at =
       source.find(expected, io::Quantity::length, "time,x,y,z or time,x,y,z,qx,qy,qz,qw");
   if (!source.good()) return {};
-  Path path;
+  DrivenPath path;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const std::vector<double>& row = table.rows[r];
     path.time.push_back(source.time(r));
@@ -54,7 +54,7 @@ Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
       source.row_error("quaternion", r, at[3], "the quaternion has length 0, expected a rotation");
     path.rotation.push_back(q.normalized());
   }
-  return source.good() ? path : Path{};
+  return source.good() ? path : DrivenPath{};
 }
 
 Samples read_markers(const std::filesystem::path& file, std::span<const Marker> markers,
@@ -135,7 +135,7 @@ std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
   return events;
 }
 
-std::string path_text(const Path& path) {
+std::string path_text(const DrivenPath& path) {
   std::string text = path.rotation.empty() ? "time,x,y,z\n" : "time,x,y,z,qx,qy,qz,qw\n";
   for (std::size_t r = 0; r < path.time.size(); ++r) {
     std::vector<double> values(path.position[r].begin(), path.position[r].end());

@@ -14,7 +14,7 @@
 namespace pedicel::discrepancy {
 
 /// time,x,y,z[,qx,qy,qz,qw]
-Path read_path(const std::filesystem::path& file, Diagnostics& diagnostics);
+DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics);
 
 /// time,<marker>.x,<marker>.y,<marker>.z,...: every marker once, in any order; empty cells where it
 /// was not seen.
@@ -34,7 +34,7 @@ std::vector<MeasuredEvent> read_event_rows(const std::filesystem::path& file,
 std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
                                        const plant::PlantFile& plant, Diagnostics& diagnostics);
 
-std::string path_text(const Path& path);
+std::string path_text(const DrivenPath& path);
 std::string markers_text(const Samples& samples, std::span<const Marker> markers);
 std::string force_text(const Samples& samples);
 std::string events_text(const std::vector<MeasuredEvent>& events);

@@ -22,13 +22,13 @@ Between between(const std::vector<double>& time, double t) {
 
 }  // namespace
 
-Vec3 Path::position_at(double t) const {
+Vec3 DrivenPath::position_at(double t) const {
   const auto [row, share] = between(time, t);
   if (share == 0.0) return position[row];
   return (1.0 - share) * position[row] + share * position[row + 1];
 }
 
-Quat Path::rotation_at(double t) const {
+Quat DrivenPath::rotation_at(double t) const {
   if (rotation.empty()) return Quat::Identity();
   const auto [row, share] = between(time, t);
   if (share == 0.0) return rotation[row];

@@ -44,7 +44,7 @@ double drawn_length(const plant::PlantCurve& curve) {
   return curve_of(curve).length();
 }
 
-std::vector<Chain> chains_of(const Experiment& experiment) {
+std::vector<MarkerChain> chains_of(const Experiment& experiment) {
   const plant::PlantFile& plant = experiment.plant;
   std::vector<geometry::Curve> curves;
   for (const plant::PlantCurve& curve : plant.curves) curves.push_back(curve_of(curve));
@@ -53,10 +53,10 @@ std::vector<Chain> chains_of(const Experiment& experiment) {
     for (const Vec3& end : {curve.points.front(), curve.points.back()})
       nearest_root = std::min(nearest_root, (end - plant.root).norm());
 
-  std::vector<Chain> chains;
+  std::vector<MarkerChain> chains;
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const Vec3 ends[2] = {plant.curves[c].points.front(), plant.curves[c].points.back()};
-    Chain chain;
+    MarkerChain chain;
     chain.curve = static_cast<int>(c);
     chain.length = curves[c].length();
     double best = std::numeric_limits<double>::infinity();
@@ -94,9 +94,9 @@ std::vector<Chain> chains_of(const Experiment& experiment) {
     chains.push_back(chain);
   }
   // Arcs of junctions count from the parent's own foot.
-  for (Chain& chain : chains)
+  for (MarkerChain& chain : chains)
     if (chain.parent >= 0) {
-      const Chain& parent = chains[chain.parent];
+      const MarkerChain& parent = chains[chain.parent];
       const Vec3 first = plant.curves[parent.curve].points.front();
       if ((parent.foot - first).norm() > 1e-12) chain.parent_arc = parent.length - chain.parent_arc;
     }

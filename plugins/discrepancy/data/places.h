@@ -8,7 +8,7 @@
 namespace pedicel::discrepancy {
 
 /// A curve of the plant with the markers on it, in their order away from the root or the junction.
-struct Chain {
+struct MarkerChain {
   int curve = 0;             ///< index in the plant file
   std::vector<int> markers;  ///< by experiment.markers
   std::vector<double> arc;   ///< m from the chain's foot, of each marker
@@ -20,7 +20,7 @@ struct Chain {
 };
 
 /// One chain a curve of the plant, in their order; a chain may have no markers.
-std::vector<Chain> chains_of(const Experiment& experiment);
+std::vector<MarkerChain> chains_of(const Experiment& experiment);
 
 /// m, W, as drawn.
 Vec3 drawn_point(const plant::PlantCurve& curve, double at);

@@ -28,7 +28,7 @@ class Collector {
   }
 
   // From the first to the last row between which it moves, and no later than `until`.
-  void path(const Path& path, double until) {
+  void path(const DrivenPath& path, double until) {
     double way = 0.0;
     for (const Vec3& x : path.position) way = std::max(way, (x - path.position.front()).norm());
     if (way == 0.0) return;

@@ -4,9 +4,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double first_horizon = 0.3;  // share of the records in which periods do not slip
-constexpr double seen = 0.1, plainly_seen = 0.3;  // noise units, for a change by a tenth
-
 Hypothesis parameter(const std::string& name) {
   const Hypothesis all = baseline();
   const int p = all.factor_on(name);
@@ -44,7 +41,8 @@ Hypothesis take_seen(Evaluator& evaluator, const FitOptions& options, const Hypo
 Hypothesis baseline_start(Evaluator& evaluator, const FitOptions& options,
                           std::vector<std::string>& unseen) {
   for (const plant::Effect& effect : baseline().effects) unseen.push_back(effect.name);
-  const Hypothesis found = take_seen(evaluator, options, {}, seen, unseen);
+  const Hypothesis found =
+      take_seen(evaluator, options, {}, options.settings->accuracy.seen, unseen);
   if (found.size() == 0) return found;
   std::vector<Hypothesis> starts;
   for (const double factor : {1.0, 0.4, 0.55, 0.7, 0.85, 1.2, 1.5, 2.2}) {
@@ -52,14 +50,15 @@ Hypothesis baseline_start(Evaluator& evaluator, const FitOptions& options,
     starts.back().set_value(0, factor);
   }
   FitOptions early = options;
-  early.horizon = first_horizon;
+  early.horizon = options.settings->budget.baseline_horizon;
   return starts[scan(evaluator, starts, early).best];
 }
 
 bool add_plainly_seen(Evaluator& evaluator, const FitOptions& options,
                       std::vector<std::string>& unseen, Hypothesis& base) {
   if (unseen.empty()) return false;
-  const Hypothesis found = take_seen(evaluator, options, base, plainly_seen, unseen);
+  const Hypothesis found =
+      take_seen(evaluator, options, base, options.settings->accuracy.plainly_seen, unseen);
   base.add(found);
   return found.size() > 0;
 }

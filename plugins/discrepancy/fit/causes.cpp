@@ -11,11 +11,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Shares of the compliance of a branch's first half segment, of what the joint below it has more:
-// with a solver that gives it the branch's whole segment, on a mesh of half the file's spacing (and
-// 10 %); and the most that a fit may find.
-constexpr double most_by_convention = 0.55, most_give = 1.5;
-
 // What starts of effects depend on.
 effects::StartContext context_of(const Experiment& experiment, const Scales& scales) {
   effects::StartContext context{experiment.plant, scales, 0.0, {}, {}, false};
@@ -47,14 +42,14 @@ Hypothesis baseline() {
   return all;
 }
 
-Hypothesis mesh_freedom() {
+Hypothesis mesh_nuisance() {
   Hypothesis mesh =
       effects::Start(mesh_error).fixed("share", {0.3}).free_share(0.0, 2.0).prior(0.5, 0.3);
   mesh.name.clear();
   return mesh;
 }
 
-Hypothesis junction_freedom(const Experiment& experiment) {
+Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evidence) {
   Diagnostics diagnostics;
   const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
@@ -64,7 +59,8 @@ Hypothesis junction_freedom(const Experiment& experiment) {
     const cosserat::Element& element = built->model.elements[span.element];
     if (std::exchange(seen[span.curve], 1) || element.parent < 0) continue;
     const cosserat::Section& section = element.section;
-    const double softest = (section.bend1 + section.bend2) / (most_give * element.length);
+    const double softest =
+        (section.bend1 + section.bend2) / (evidence.most_discretisation * element.length);
     all.add(effects::Start("attachment_compliance")
                 .place(experiment.plant.curves[span.curve].name, 0.0)
                 .positive("stiffness", 4.0 * softest, softest, 1e3 * softest)
@@ -74,10 +70,13 @@ Hypothesis junction_freedom(const Experiment& experiment) {
   return all;
 }
 
-bool is_by_convention(const FitSummary& model, int count) {
+// A solver that gives the joint the branch's whole segment, on a mesh of half the file's spacing,
+// makes half of that compliance.
+bool is_discretisation(const FitSummary& model, int count, const Evidence& evidence) {
   double weights = 0.0, sum = 0.0, squares = 0.0;
   for (int p = model.hypothesis.size() - count; p < model.hypothesis.size(); ++p) {
-    const double share = most_give * model.hypothesis.free[p].low / model.hypothesis.value(p);
+    const double share =
+        evidence.most_discretisation * model.hypothesis.free[p].low / model.hypothesis.value(p);
     // The unknown is a logarithm.
     const double weight = std::pow(share * model.standard_error[p], -2);
     weights += weight;
@@ -85,7 +84,7 @@ bool is_by_convention(const FitSummary& model, int count) {
     squares += weight * share * share;
   }
   const double mean = sum / weights, freedom = count - 1.0;
-  return mean - 2.0 / std::sqrt(weights) <= most_by_convention &&
+  return mean - 2.0 / std::sqrt(weights) <= evidence.discretisation &&
          (count < 2 || squares - sum * mean <= freedom + 3.0 * std::sqrt(2.0 * freedom));
 }
 

@@ -21,17 +21,17 @@ struct Cause {
 Hypothesis baseline();
 
 /// The share of the mesh's error, free (hypothesis.h).
-Hypothesis mesh_freedom();
+Hypothesis mesh_nuisance();
 
 /// A little give at every branch's junction, for what two ways to lead a branch into its stem
 /// differ by. Empty where there are no branches.
-Hypothesis junction_freedom(const Experiment& experiment);
+Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evidence);
 
 /// Whether what such junctions give, the last `count` numbers of a model that was fitted with them,
 /// may come from another solver's way: the same share of the branch's own first segment at all of
 /// them, and no more than a mesh of half the plant file's spacing makes of it. Softer joints, or
 /// one of several, are a finding.
-bool is_by_convention(const FitSummary& model, int count);
+bool is_discretisation(const FitSummary& model, int count, const Evidence& evidence);
 
 /// Every known effect that the experiment could show.
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales);

@@ -10,26 +10,21 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// What is carried along may be wrong by as much as a model changes: a small part of the noise, or
-// of what is left anyway.
-constexpr double allowed_error = 0.4, allowed_share = 0.05;
-
-// Of the plant file's distance. On a coarser one a weak stretch is shorter than a segment, and its
-// place has ridges between nodes.
-constexpr double coarsest_mesh = 2.0;
-
 double rms(const Eigen::VectorXd& whitened, int samples) {
   return whitened.norm() / std::sqrt(std::max(1.0, static_cast<double>(samples)));
 }
 
 }  // namespace
 
+// What is carried along may be wrong by as much as a model changes: it is a small part of the
+// noise, or of what is left anyway.
 CoarseModel::CoarseModel(FitSetup& setup, const FitSummary& anchor) : setup_(setup) {
+  const Accuracy& accuracy = setup.options().settings->accuracy;
   const double left = std::sqrt(2.0 * anchor.cost / std::max(1, setup.samples()));
-  const double allowed = std::max(allowed_error, allowed_share * left);
+  const double allowed = std::max(accuracy.coarse_error, accuracy.coarse_share * left);
   const Numerics fine = setup.numerics();
   const double coarsest =
-      std::max(fine.distance, coarsest_mesh * setup.experiment().plant.distance);
+      std::max(fine.distance, accuracy.coarsest_mesh * setup.experiment().plant.distance);
   constexpr std::array<std::array<double, 2>, 3> by_mesh_and_step{{{2, 2}, {1, 2}, {1, 1}}};
   for (const auto [mesh, step] : by_mesh_and_step) {
     const double distance = std::min(mesh * fine.distance, coarsest);

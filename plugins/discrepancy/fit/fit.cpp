@@ -301,14 +301,15 @@ Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& 
   return stacked.colPivHouseholderQr().solve(wanted);
 }
 
-Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
+Eigen::VectorXd least_squares_step(const Eigen::MatrixXd& jacobian,
+                                   const Eigen::VectorXd& residual) {
   if (jacobian.cols() == 0) return Eigen::VectorXd();
   return jacobian.colPivHouseholderQr().solve(residual);
 }
 
-Eigen::VectorXd left_over(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
+Eigen::VectorXd projected_out(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
   if (jacobian.cols() == 0) return residual;
-  return residual - jacobian * absorbed(jacobian, residual);
+  return residual - jacobian * least_squares_step(jacobian, residual);
 }
 
 }  // namespace pedicel::discrepancy

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/discrepancy/simulate/data_set.h"
 #include "pedicel/discrepancy/simulate/hypothesis.h"
 
@@ -14,11 +15,12 @@ namespace pedicel::discrepancy {
 
 struct FitOptions {
   std::vector<int> trials;
-  double horizon = 1.0;  ///< share of each trial's duration that counts
-  int iterations = 60;   ///< at most
+  double horizon = 1.0;                  ///< share of each trial's duration that counts
+  int iterations = Budget{}.iterations;  ///< at most
   /// It stops when a step gains less (nats; where the model leaves more than noise, in units of
   /// what it leaves).
-  double least_step = 0.05;
+  double least_step = Budget{}.least_step;
+  const DiagnosisSettings* settings = &default_settings();  ///< must outlive it
 };
 
 /// What a fit found. Starts as "not run".
@@ -117,7 +119,8 @@ Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& 
 
 /// Least-squares step of the unknowns that a change of the residual would make (pseudo-inverse of
 /// the Jacobian), and what is left of a residual after the parameters have taken their share.
-Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
-Eigen::VectorXd left_over(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
+Eigen::VectorXd least_squares_step(const Eigen::MatrixXd& jacobian,
+                                   const Eigen::VectorXd& residual);
+Eigen::VectorXd projected_out(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual);
 
 }  // namespace pedicel::discrepancy

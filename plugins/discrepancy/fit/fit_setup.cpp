@@ -8,29 +8,22 @@
 
 namespace pedicel::discrepancy {
 
-namespace {
-
-// Of the noise, RMS, before it is corrected for: at most, and where nodes farther apart than in the
-// plant file, or longer steps than usual, save time.
-constexpr double allowed_error = 0.15, allowed_coarse = 0.06;
-constexpr double drowned = 0.05;          // of what the model leaves of the data, RMS
-constexpr double usual_dt = 1.0 / 480.0;  // s
-constexpr int most_refinements = 4;
-
-}  // namespace
-
 FitSetup::FitSetup(const Experiment& experiment, int threads, const NoiseRule& rule,
-                   const std::atomic<bool>* stop)
+                   const std::atomic<bool>* stop, const DiagnosisSettings& settings)
     : experiment_(&experiment),
+      settings_(&settings),
       data_(experiment),
       rule_(rule),
-      numerics_{2.0 * experiment.plant.distance, 2.0 * usual_dt},
+      numerics_{2.0 * experiment.plant.distance, 2.0 * accuracy().usual_dt},
       threads_(threads),
       stop_(stop) {
   std::vector<Series> position, force;
   measured_series(experiment, position, force);
   data_.choose_noise(position, force, rule_);
   const TrialSplit split = split_trials(experiment);
+  options_.settings = settings_;
+  options_.iterations = settings.budget.iterations;
+  options_.least_step = settings.budget.least_step;
   options_.trials = split.fit;
   check_ = split.check;
   renew();
@@ -65,7 +58,7 @@ NumericsCheck FitSetup::refine(FitSummary& model, const Watch& watch) {
     watch.begin(round);
     NumericsCheck check = check_numerics(*experiment_, data_, model, numerics_, options_, threads_,
                                          simulations_, stop_);
-    if (is_fine_enough(check) || round == most_refinements || stopped()) {
+    if (is_fine_enough(check) || round == settings_->budget.refinements || stopped()) {
       corrections_ = check.corrections;
       return check;
     }
@@ -82,8 +75,8 @@ void FitSetup::correct_at(const FitSummary& model) {
   for (int round = 0;; ++round) {
     NumericsCheck check = check_numerics(*experiment_, data_, model, numerics_, options_, threads_,
                                          simulations_, stop_);
-    const bool is_drowned = check.largest < drowned * left;
-    if (is_fine_enough(check) || is_drowned || round == most_refinements || stopped()) {
+    const bool is_masked = check.largest < accuracy().masked_error * left;
+    if (is_fine_enough(check) || is_masked || round == settings_->budget.refinements || stopped()) {
       corrections_ = std::move(check.corrections);
       return;
     }
@@ -93,16 +86,17 @@ void FitSetup::correct_at(const FitSummary& model) {
 }
 
 bool FitSetup::is_coarse(const Numerics& numerics) const {
-  return numerics.dt > usual_dt || numerics.distance > experiment_->plant.distance;
+  return numerics.dt > accuracy().usual_dt || numerics.distance > experiment_->plant.distance;
 }
 
 bool FitSetup::is_fine_enough(const NumericsCheck& check) const {
-  return check.largest <= (is_coarse(check.numerics) ? allowed_coarse : allowed_error);
+  return check.largest <=
+         (is_coarse(check.numerics) ? accuracy().allowed_coarse : accuracy().allowed_error);
 }
 
 // Nodes as in the file and usual steps come before anything finer than either.
 Numerics FitSetup::finer(const NumericsCheck& check) const {
-  const Numerics next = refined(check), usual{experiment_->plant.distance, usual_dt};
+  const Numerics next = refined(check), usual{experiment_->plant.distance, accuracy().usual_dt};
   const bool beyond = next.dt < usual.dt || next.distance < usual.distance;
   return is_coarse(check.numerics) && beyond ? usual : next;
 }

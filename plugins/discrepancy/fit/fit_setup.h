@@ -14,10 +14,11 @@ namespace pedicel::discrepancy {
 /// a mesh and a step, with the corrections of their error once that is known.
 class FitSetup {
  public:
-  /// Keeps a reference to the experiment, which has been admitted. Everything that is simulated
-  /// ends early once `stop` (may be null) is set. The noise is estimated from the data themselves.
+  /// Keeps references to the experiment, which has been admitted, and to the settings. Everything
+  /// that is simulated ends early once `stop` (may be null) is set. The noise is estimated from the
+  /// data themselves.
   FitSetup(const Experiment& experiment, int threads, const NoiseRule& rule,
-           const std::atomic<bool>* stop);
+           const std::atomic<bool>* stop, const DiagnosisSettings& settings);
 
   const Experiment& experiment() const { return *experiment_; }
   const DataSet& data() const { return data_; }
@@ -55,11 +56,13 @@ class FitSetup {
   void correct_at(const FitSummary& model);
 
  private:
+  const Accuracy& accuracy() const { return settings_->accuracy; }
   bool is_coarse(const Numerics& numerics) const;
   bool is_fine_enough(const NumericsCheck& check) const;
   Numerics finer(const NumericsCheck& check) const;
 
   const Experiment* experiment_;
+  const DiagnosisSettings* settings_;
   DataSet data_;
   NoiseRule rule_;
   FitOptions options_;

@@ -86,8 +86,8 @@ class Comparison {
     check.corrections = made_;
     const Eigen::VectorXd by_step = whitened(step_.rest), by_mesh = whitened(mesh_.rest);
     const int samples = data_.samples(options_.trials, options_.horizon);
-    check.by_step = rms(left_over(base_.jacobian, by_step), samples);
-    check.by_mesh = rms(left_over(base_.jacobian, by_mesh), samples);
+    check.by_step = rms(projected_out(base_.jacobian, by_step), samples);
+    check.by_mesh = rms(projected_out(base_.jacobian, by_mesh), samples);
     check.parameter_shift = believable_step(base_, by_step + by_mesh);
     for (int p = 0; p < check.parameter_shift.size(); ++p)
       for (std::size_t i = 0; i < Shift::names.size(); ++i) {
@@ -95,7 +95,7 @@ class Comparison {
         if (free.name == "factor" && base_.hypothesis.effects[free.effect].name == Shift::names[i])
           check.parameter_shift[p] += made_.own.shift.logarithm[i];
       }
-    check.correction = left_over(base_.jacobian, by_step + by_mesh);
+    check.correction = projected_out(base_.jacobian, by_step + by_mesh);
     check.largest = rms(check.correction, samples);
     return check;
   }

@@ -11,15 +11,12 @@ struct NumericsCheck {
   /// mesh coarser than the plant file's is not yet of that order near junctions: all of what the
   /// file's changes, and 4/3 of what half of that changes.
   Corrections corrections;
-  /// Whitened: the correction of the chosen trials, less what the free parameters can absorb.
+  /// Whitened: the correction of the chosen trials, less what the free parameters can take up.
   Eigen::VectorXd correction;
   double largest = 0.0;                 ///< RMS of it in units of the noise
   double by_step = 0.0, by_mesh = 0.0;  ///< RMS of its two parts
   Eigen::VectorXd parameter_shift;      ///< of the unknowns, that the correction makes
 };
-
-/// Of our own error, and of the data's own, what a correction by Richardson may leave.
-inline constexpr double left_uncorrected = 0.1;
 
 /// Simulates the fitted model with half the step and with half the mesh (of the plant file's, where
 /// the model's is coarser).

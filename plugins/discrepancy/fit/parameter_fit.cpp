@@ -19,10 +19,8 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double early = 0.3;  // share of the records in which periods do not slip
 constexpr int drawn_starts = 4, carried_on = 3, most_rounds = 3;
-constexpr double probe = 0.1;         // of an unknown
-constexpr double least_change = 0.1;  // noise units
+constexpr double probe = 0.1;  // of an unknown
 
 struct Nominal {
   double value = 1.0;
@@ -63,7 +61,8 @@ class Run {
       : options_(options),
         admission_(admitted(experiment)),
         starts_(starts),
-        setup_(admission_.experiment, options.threads, noise_rule, options.stop) {
+        setup_(admission_.experiment, options.threads, noise_rule, options.stop,
+               default_settings()) {
     for (const std::string& remark : admission_.remarks) result_.remarks.push_back(remark + ".");
   }
 
@@ -123,7 +122,7 @@ class Run {
     if (starts_.front().size() > 0) draw_starts();
     result_.starts = static_cast<int>(starts_.size());
     FitOptions first = setup_.options();
-    first.horizon = early;
+    first.horizon = first.settings->budget.baseline_horizon;
     Evaluator with = setup_.evaluator();
     const Scan looked = scan(with, starts_, first);
     std::vector<int> order(starts_.size());
@@ -156,7 +155,8 @@ class Run {
     Evaluator with = setup_.evaluator();
     const Eigen::MatrixXd r = with.residuals(models, setup_.options());
     const auto moves = [&](int model) {
-      return (r.col(model) - r.col(0)).cwiseAbs().maxCoeff() >= least_change;
+      return (r.col(model) - r.col(0)).cwiseAbs().maxCoeff() >=
+             setup_.options().settings->accuracy.seen;
     };
     Hypothesis& kept = result_.summary.hypothesis;
     kept = found;
@@ -178,7 +178,7 @@ class Run {
         {[this](int round) { say("checking our own numerical error", 0.1 + 0.05 * round); }, {}});
     result_.numerical_error = check.largest;
     asked_ = result_.summary.hypothesis.size();
-    result_.summary.hypothesis.add(mesh_freedom());
+    result_.summary.hypothesis.add(mesh_nuisance());
     Evaluator with = setup_.evaluator();
     result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
   }

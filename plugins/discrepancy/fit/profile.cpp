@@ -23,7 +23,7 @@ class Held {
     Eigen::MatrixXd jacobian(fit.jacobian.rows(), u.size() - 1);
     for (int p = 0, column = 0; p < u.size(); ++p)
       if (p != parameter) jacobian.col(column++) = fit.jacobian.col(p);
-    slope_ = -absorbed(jacobian, fit.jacobian.col(parameter));
+    slope_ = -least_squares_step(jacobian, fit.jacobian.col(parameter));
     if (!slope_.allFinite()) slope_.setZero();
   }
 

@@ -2,13 +2,6 @@
 
 namespace pedicel::discrepancy {
 
-namespace {
-
-constexpr double parameter_step = 0.005;  // of a logarithm
-constexpr double usual_shift = 0.02;      // of a logarithm, by our own errors
-
-}  // namespace
-
 void add_difference(Predictions& sum, double share, const Predictions& to,
                     const Predictions& from) {
   const bool first = sum.empty();
@@ -41,14 +34,14 @@ std::vector<Predictions> run_shifted(Simulator& simulator, const Hypothesis& mod
 ShiftFit::ShiftFit(Simulator& simulator, const DataSet& data, const Hypothesis& model,
                    const Shift& own, const FitOptions& options)
     : data_(data), options_(options) {
+  const double step = options.settings->accuracy.shift_step;
   std::vector<Shift> shifts(Shift::names.size() + 1, own);
-  for (std::size_t i = 0; i < Shift::names.size(); ++i)
-    shifts[i + 1].logarithm[i] += parameter_step;
+  for (std::size_t i = 0; i < Shift::names.size(); ++i) shifts[i + 1].logarithm[i] += step;
   std::vector<Predictions> moved = run_shifted(simulator, model, shifts);
   now_ = std::move(moved.front());
   by_parameter_.resize(data.size(options.trials), static_cast<Eigen::Index>(Shift::names.size()));
   for (std::size_t i = 0; i < Shift::names.size(); ++i)
-    by_parameter_.col(static_cast<Eigen::Index>(i)) = change(moved[i + 1], now_) / parameter_step;
+    by_parameter_.col(static_cast<Eigen::Index>(i)) = change(moved[i + 1], now_) / step;
 }
 
 Eigen::VectorXd ShiftFit::change(const Predictions& to, const Predictions& from) const {
@@ -66,8 +59,9 @@ Eigen::VectorXd ShiftFit::change(const Predictions& to, const Predictions& from)
 }
 
 Shift ShiftFit::stands_for(const Predictions& to, const Predictions& from) const {
-  const Eigen::Matrix3d information = by_parameter_.transpose() * by_parameter_ +
-                                      Eigen::Matrix3d::Identity() / (usual_shift * usual_shift);
+  const double usual = options_.settings->accuracy.usual_shift;
+  const Eigen::Matrix3d information =
+      by_parameter_.transpose() * by_parameter_ + Eigen::Matrix3d::Identity() / (usual * usual);
   const Eigen::Vector3d found =
       information.ldlt().solve(by_parameter_.transpose() * change(to, from));
   Shift shift;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/select/evidence.h"
@@ -12,19 +13,6 @@
 namespace pedicel::discrepancy {
 
 namespace {
-
-constexpr std::size_t most_refits = 5;
-// Nats of linear response that a law must have, by which it may be behind the best one, and that in
-// shares of the best one's: large forces are not linear.
-constexpr double least_evidence = 4.0, refit_within = 30.0, refit_share = 0.3;
-// A string's numbers stand for one another: a refit could go along its valley for long.
-constexpr int most_iterations = 30;
-constexpr double close_share = 0.05;  // of the best law's evidence
-constexpr double place_share = 0.5;   // of the evidence, by which another place may be worse
-constexpr std::size_t most_looks = 6;
-constexpr int look_iterations = 5;
-constexpr double least_across = 0.05;  // of a unit vector, that has a direction across the curve
-constexpr double far_end = 0.6;  // m a length of the plant: where a near end is looked for first
 
 // What refits of one kind find for the other, too. (A spring does not find a pull that grows
 // weaker with distance: its refit goes where the pull is constant.)
@@ -51,7 +39,7 @@ plant::Effect near_end(plant::Effect force, const ForcePlace& place, double dist
 }
 
 // A stop pushes across the curve, where a string may lean along it.
-plant::Effect as_stop(plant::Effect string) {
+plant::Effect as_stop(plant::Effect string, double least_across) {
   const Vec3 axis = Vec3(string.numbers.at("axis").data()).normalized();
   const Vec3 pull = direction_of(string);
   const Vec3 across = pull - axis.dot(pull) * axis;
@@ -83,7 +71,8 @@ ForceRefits::ForceRefits(Evaluator& evaluator, const FitSummary& model, const Fi
       centre_(centre),
       places_(places),
       scales_(scales),
-      options_(options) {}
+      options_(options),
+      budget_(options.fit.settings->budget) {}
 
 void ForceRefits::run(std::vector<ForceTerm> laws) {
   linear_ = std::move(laws);
@@ -109,12 +98,13 @@ std::vector<ForceTerm> ForceRefits::worth_refitting() const {
   if (linear_.empty()) return {};
   const plant::Effect& first = linear_.front().force;
   const double best = linear_.front().evidence;
-  const double least =
-      std::max(least_evidence, std::min(best - refit_within, (1.0 - refit_share) * best));
+  const double least = std::max(
+      budget_.law_evidence, std::min(best - budget_.law_within, (1.0 - budget_.law_share) * best));
   std::vector<ForceTerm> chosen;
   const auto take = [&](const ForceTerm& law, std::set<std::string>& known,
                         const std::string& what) {
-    if (law.evidence > least && chosen.size() < most_refits && known.insert(what).second)
+    if (law.evidence > least && std::cmp_less(chosen.size(), budget_.law_refits) &&
+        known.insert(what).second)
       chosen.push_back(law);
   };
   std::set<std::string> families, curves{first.place->curve};
@@ -140,16 +130,17 @@ void ForceRefits::refit(ForceTerm law) {
 // stiff has ridges between places. A few iterations tell which one goes on.
 FitSummary ForceRefits::fitted(const ForceTerm& law) {
   FitOptions few = options_.fit;
-  few.iterations = std::min(most_iterations, few.iterations);
+  few.iterations = std::min(budget_.law_iterations, few.iterations);
   std::vector<plant::Effect> places{law.force};
   for (const ForceTerm& other : linear_)
     if (kind_of(other.force) == kind_of(law.force) && !(other.force.place == law.force.place) &&
         other.force.place->curve == law.force.place->curve &&
-        other.evidence > (1.0 - place_share) * law.evidence && places.size() < most_looks)
+        other.evidence > (1.0 - budget_.law_place_share) * law.evidence &&
+        std::cmp_less(places.size(), budget_.law_looks))
       places.push_back(other.force);
   if (places.size() == 1) return fit(evaluator_, best_start(law.force), few);
   FitOptions look = few;
-  look.iterations = std::min(look_iterations, few.iterations);
+  look.iterations = std::min(budget_.look_iterations, few.iterations);
   FitSummary best;
   for (const plant::Effect& force : places) {
     FitSummary found = fit(evaluator_, best_start(force), look);
@@ -203,7 +194,7 @@ void ForceRefits::judge(const FitSummary& found, ForceTerm& law) const {
 
 // A law that was left in a side valley may come out first by its other end.
 std::vector<ForceTerm> ForceRefits::close_ones() const {
-  const double least = (1.0 - close_share) * refitted_.front().evidence;
+  const double least = (1.0 - budget_.law_close_share) * refitted_.front().evidence;
   std::vector<ForceTerm> close;
   for (const ForceTerm& law : refitted_)
     if (law.evidence >= least) close.push_back(law);
@@ -221,9 +212,9 @@ std::optional<ForceTerm> ForceRefits::with_other_end(const ForceTerm& law) const
   };
   if (kind.empty() || std::ranges::any_of(refitted_, tried)) return {};
   ForceTerm other = law;
-  other.force = is_string
-                    ? as_stop(law.force)
-                    : near_end(law.force, nearest(*law.force.place), far_end * scales_.length);
+  other.force = is_string ? as_stop(law.force, options_.fit.settings->accuracy.least_across)
+                          : near_end(law.force, nearest(*law.force.place),
+                                     options_.fit.settings->accuracy.far_end * scales_.length);
   other.parameters = kind == "string" ? 5 : 3;
   return other;
 }

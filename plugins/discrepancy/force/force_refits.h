@@ -24,7 +24,7 @@ std::string place_text(const plant::CurvePlace& place);
 std::string kind_with_near_end(const std::string& kind);
 
 /// Laws that the linear response found, refitted together with the model's parameters by the
-/// simulator itself, because loud forces are not linear.
+/// simulator itself, because large forces are not linear.
 class ForceRefits {
  public:
   /// `model`: without a force; gains are counted from it. `centre`: the model about which the
@@ -59,6 +59,7 @@ class ForceRefits {
   std::span<const ForcePlace> places_;
   const LibraryScales& scales_;
   const MissingForceOptions& options_;
+  const Budget& budget_;
   std::vector<ForceTerm> linear_, refitted_;
   double best_evidence_ = 0.0;
   FitSummary best_;

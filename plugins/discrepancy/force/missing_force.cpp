@@ -18,11 +18,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double enough_evidence = 8.0;  // nats, for a force to be told of
-constexpr double clear_margin = 5.0;     // nats, of a sensor over a force
-constexpr double as_well_within = 3.0;   // nats: odds of 20 to 1
-constexpr std::size_t most_places = 14;
-constexpr std::ptrdiff_t most_loud = 3;  // places where laws are tried, besides two of each curve
 constexpr std::size_t kinds = 11;
 
 class Inference {
@@ -31,6 +26,7 @@ class Inference {
       : evaluator_(evaluator),
         model_(model),
         options_(options),
+        levels_(options.fit.settings->levels),
         experiment_(evaluator.data().experiment()) {
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
@@ -76,9 +72,10 @@ class Inference {
   // Markers spread over the plant.
   std::vector<int> markers() const {
     std::vector<int> all;
-    for (const Chain& chain : chains_of(experiment_))
+    for (const MarkerChain& chain : chains_of(experiment_))
       for (std::size_t m = 0; m < chain.markers.size(); ++m)
         if (chain.arc[m] > 0.02 * chain.length) all.push_back(chain.markers[m]);
+    const auto most_places = static_cast<std::size_t>(options_.fit.settings->budget.force_places);
     if (all.size() <= most_places) return all;
     std::vector<int> chosen;
     for (std::size_t i = 0; i < most_places; ++i)
@@ -92,11 +89,11 @@ class Inference {
   // plant as it was believed to be answers more like the real one then.
   void choose_centre() {
     centre_ = model_;
-    if (is_beyond_belief(model_)) {
-      note("The refitted plant is beyond belief: forces act on the one that was believed in.");
+    if (conflicts_with_prior(model_, *options_.fit.settings)) {
+      note("The refitted plant contradicts what is known of it: forces act on the nominal one.");
       FitOptions none = options_.fit;
       none.iterations = 0;
-      centre_ = fit(evaluator_, as_believed(model_.hypothesis), none);
+      centre_ = fit(evaluator_, at_prior(model_.hypothesis), none);
       if (options_.correct_at) options_.correct_at(centre_);
     }
     const Simulator& simulator = evaluator_.simulator();
@@ -146,7 +143,7 @@ class Inference {
     }
     const double force = places_.empty() ? 0.0 : places_.front().free.evidence;
     note(text("A free displacement of markers: evidence %.4g", sensor_evidence_));
-    return sensor_evidence_ > std::max(force, enough_evidence) + clear_margin;
+    return sensor_evidence_ > std::max(force, levels_.outside_evidence) + levels_.clear_margin;
   }
 
   void conclude_sensor() {
@@ -168,8 +165,8 @@ class Inference {
     std::map<std::string, std::size_t> tried;  // places of each curve
     for (const ForcePlace& place : places_) {
       if (stopped()) return;
-      const bool loud = &place - places_.data() < most_loud;
-      if (++tried[place.space.place.curve] > 2 && !loud) continue;
+      const bool strong = &place - places_.data() < options_.fit.settings->budget.strong_places;
+      if (++tried[place.space.place.curve] > 2 && !strong) continue;
       const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
       for (const ForceTerm& term : terms)
         note("  " + kind_of(term.force) + " at " + place_text(*term.force.place) +
@@ -181,8 +178,8 @@ class Inference {
   }
 
   void conclude() {
-    const ForcePlace& loudest = places_.front();
-    if (result_.evidence >= enough_evidence) {
+    const ForcePlace& strongest = places_.front();
+    if (result_.evidence >= levels_.outside_evidence) {
       const plant::Effect& force = result_.terms.front().force;
       result_.found = true;
       result_.kind = plain_kind(force);
@@ -195,14 +192,14 @@ class Inference {
       find_elsewhere();
       find_other_kinds();
       check();
-    } else if (loudest.free.evidence - (centre_.cost - model_.cost) >= enough_evidence) {
+    } else if (strongest.free.evidence - (centre_.cost - model_.cost) >= levels_.outside_evidence) {
       result_.found = true;
       result_.kind = "force of no known law";
-      result_.place = loudest.space.place;
-      result_.evidence = loudest.free.evidence - (centre_.cost - model_.cost);
-      result_.share = share_of(loudest.free.gain - (centre_.cost - model_.cost));
+      result_.place = strongest.space.place;
+      result_.evidence = strongest.free.evidence - (centre_.cost - model_.cost);
+      result_.share = share_of(strongest.free.gain - (centre_.cost - model_.cost));
       result_.what = "No law of the library follows it";
-      describe_course(course_of_history(loudest.space, loudest.path, loudest.free.value), "");
+      describe_course(course_of_history(strongest.space, strongest.path, strongest.free.value), "");
     }
     if (result_.found) result_.where = where_text();
   }
@@ -217,13 +214,13 @@ class Inference {
             std::hypot(model.free[p].scale * result_.fit.standard_error[p], node_share());
     std::set<std::string> known{result_.place->curve};
     for (const ForceTerm& term : result_.terms)
-      if (term.evidence > result_.evidence - as_well_within &&
+      if (term.evidence > result_.evidence - levels_.clear_odds &&
           known.insert(term.force.place->curve).second)
         result_.elsewhere.push_back(*term.force.place);
   }
 
-  // The deviation of a place that is only known to a node, of its curve's length: loud data would
-  // know it better, were the law and the mesh exact.
+  // The deviation of a place that is only known to a node, of its curve's length: precise data
+  // would know it better, were the law and the mesh exact.
   double node_share() const {
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
       if (curve.name == result_.place->curve)
@@ -236,8 +233,8 @@ class Inference {
     std::set<std::string> known{result_.kind};
     for (const ForceTerm& term : result_.terms) {
       const bool near_end = kind_of(term.force) == kind_with_near_end(kind_of(best.force));
-      const bool as_well = near_end ? term.gain > best.gain - as_well_within
-                                    : term.evidence > best.evidence - as_well_within;
+      const bool as_well = near_end ? term.gain > best.gain - levels_.clear_odds
+                                    : term.evidence > best.evidence - levels_.clear_odds;
       if (as_well && known.insert(plain_kind(term.force)).second)
         result_.other_kinds.push_back(plain_kind(term.force));
     }
@@ -257,7 +254,7 @@ class Inference {
     result_.how = what_it_does(course);
   }
 
-  // RMS error in noise units over the trials kept back, without and with the force.
+  // RMS error in noise units over the held-out trials, without and with the force.
   void check() {
     if (options_.check.empty()) return;
     FitOptions kept = options_.fit;
@@ -275,13 +272,14 @@ class Inference {
       }
       error[m] = std::sqrt(sum / std::max(count, 1.0));
     }
-    note(text("Trials kept back: %.4g of the noise without it, %.4g with it", error[0], error[1]));
+    note(text("Held-out trials: %.4g of the noise without it, %.4g with it", error[0], error[1]));
     if (error[0] > 1.0) result_.gain = (error[0] - error[1]) / (error[0] - 1.0);
   }
 
   Evaluator& evaluator_;
   const FitSummary& model_;
   const MissingForceOptions& options_;
+  const Levels& levels_;
   const Experiment& experiment_;
   FitSummary centre_;  ///< the model about which forces act: `model_`, or what it was pulled from
   std::unique_ptr<ForceResponses> responses_;
@@ -311,8 +309,8 @@ std::string MissingForce::sentence() const {
     all += " " + course + ".";
   }
   if (gain)
-    all += " On trials kept back it removes " + share_removed(*gain) +
-           " of the error above the noise.";
+    all +=
+        " On held-out trials it removes " + share_removed(*gain) + " of the error above the noise.";
   return all + " Do not extrapolate.";
 }
 

@@ -28,7 +28,7 @@ struct MissingForce {
   std::string where, when, how, what;  ///< sentences
   double evidence = 0.0;               ///< nats above the model, less what its numbers cost
   double share = 0.0;            ///< of what the model left above the noise on the fitted trials
-  std::optional<double> gain;    ///< the same of the RMS error on the trials kept back
+  std::optional<double> gain;    ///< the same of the RMS error on the held-out trials
   std::vector<ForceTerm> terms;  ///< the laws that were refitted, best first
   FitSummary fit;                ///< the model with the force, refitted; "not run" without a law
   long simulations = 0;
@@ -39,7 +39,7 @@ struct MissingForce {
 
 struct MissingForceOptions {
   FitOptions fit;          ///< its trials are those that `model` was fitted to
-  std::vector<int> check;  ///< trials kept back
+  std::vector<int> check;  ///< held-out trials
   int threads = 1;
   /// m between nodes where linear responses are simulated, which are many and are differences; 0:
   /// as in the evaluator.

@@ -14,26 +14,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Of the noise variance, an excess that is no sign of a missing effect.
-constexpr double small_excess = 0.01;
-constexpr double most_missed = 0.1;  // of what all causes found gain on all trials, by what is left
-// And of the gain, with which our model errors scale: of 230 single effects of the bench (gains up
-// to 3,900 nats) the true one was at most 3.7 nats behind, at a gain of 800.
-constexpr double margin_share = 0.002;
-constexpr double most_margin = 10.0;  // nats, of that
-constexpr double turned = 5.0;        // nats for a rival when a trial is left out
-// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
-// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
-// offsets of a force sensor) a cause follows others.
-constexpr double most_margins = 3.0;
-constexpr int most_more_numbers = 2;
-// Logarithm of a factor: two honest solvers' moduli differ by up to 0.1 % on the same data.
-constexpr double least_parameter_change = 0.0015;
-// Wild samples that are worth a name: so many, and of all samples (a swing that starts within a
-// sample makes a few).
-constexpr int least_outliers = 12;
-constexpr double least_outlier_share = 0.0045;
-
 // How far a factor that is needed is from 1 in its deviations; 0 where our own errors may have
 // moved it so far.
 double deviations(const Findings& findings, const FitSummary& base, const std::string& name) {
@@ -42,10 +22,12 @@ double deviations(const Findings& findings, const FitSummary& base, const std::s
   const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
   const int shifted = base.hypothesis.factor_on(name);
   const double shift = shifted >= 0 && shifted < findings.parameter_shift.size()
-                           ? left_uncorrected * std::abs(findings.parameter_shift[shifted])
+                           ? findings.settings->accuracy.left_uncorrected *
+                                 std::abs(findings.parameter_shift[shifted])
                            : 0.0;
-  // Three parameters share the few false alarms that are allowed.
-  const bool may_be_nominal = std::abs(u) < 3.5 * error + shift + least_parameter_change;
+  const Levels& levels = findings.settings->levels;
+  const bool may_be_nominal =
+      std::abs(u) < levels.needed_deviations * error + shift + levels.least_factor_change;
   return may_be_nominal ? 0.0 : u / error;
 }
 
@@ -62,19 +44,19 @@ NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
   return cause;
 }
 
-// Likeliest first, without what loses: a law against another one by the odds of all rivals, the
+// Likeliest first, without what loses: a law against another one by the odds of all others, the
 // plain parameter only where the law is worth a name beside it.
-void keep_likely(const std::string& parameter, Verdict& verdict) {
+void keep_likely(const std::string& parameter, const Levels& levels, Verdict& verdict) {
   std::ranges::stable_sort(verdict.causes, std::ranges::greater{}, &NamedCause::evidence);
   const double best = verdict.causes.front().evidence;
   std::erase_if(verdict.causes, [&](const NamedCause& other) {
     const double behind = best - other.evidence;
-    const bool loses = behind > (other.name == parameter ? worth_naming : clear_odds);
-    if (loses) verdict.rivals.push_back({other.name, behind});
+    const bool loses = behind > (other.name == parameter ? levels.worth_naming : levels.clear_odds);
+    if (loses) verdict.competing.push_back({other.name, behind});
     return loses;
   });
-  const auto lost = std::ranges::find(verdict.rivals, parameter, &Rival::name);
-  if (lost != verdict.rivals.end())
+  const auto lost = std::ranges::find(verdict.competing, parameter, &CompetingModel::name);
+  if (lost != verdict.competing.end())
     verdict.causes.front().because += " Another " + parameter + " alone would explain the data " +
                                       text("%.3g nats worse.", lost->behind);
 }
@@ -110,7 +92,7 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
       verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
     }
   }
-  keep_likely(needed.names.front(), verdict);
+  keep_likely(needed.names.front(), findings.settings->levels, verdict);
   if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
 }
 
@@ -124,40 +106,46 @@ double gain_by_chance(int more_numbers) {
   return nats[std::clamp<int>(more_numbers, 0, nats.size() - 1)];
 }
 
-int more_numbers(const Candidate& rival, const Candidate& best) {
-  return rival.fit.hypothesis.size() - best.fit.hypothesis.size();
+int more_numbers(const Candidate& competitor, const Candidate& best) {
+  return competitor.fit.hypothesis.size() - best.fit.hypothesis.size();
 }
 
-// A rival that has the best one as a special case, and needs more parameters to do no better than
-// by chance, is no other explanation: a wind of no speed is drag. Nor is one whose fit turned into
-// the best one. (What would win without one of the trials does better there.)
-bool contains(const Candidate& rival, const Candidate& best, bool turns) {
-  if (rival.limit_of == best.cause) return true;
-  return !turns && is_special_case(best, rival) && rival.evidence < best.evidence &&
-         said_by_data(rival) - said_by_data(best) <= gain_by_chance(more_numbers(rival, best));
+// A competing model that has the best one as a special case, and needs more parameters to do no
+// better than by chance, is no other explanation: a wind of no speed is drag. Nor is one whose fit
+// turned into the best one. (What would win without one of the trials does better there.)
+bool contains(const Candidate& competitor, const Candidate& best, bool turns) {
+  if (competitor.limit_of == best.cause) return true;
+  return !turns && is_special_case(best, competitor) && competitor.evidence < best.evidence &&
+         said_by_data(competitor) - said_by_data(best) <=
+             gain_by_chance(more_numbers(competitor, best));
 }
 
-bool explains_as_well(const Candidate& rival, const Candidate& best, double margin) {
-  return more_numbers(rival, best) <= most_more_numbers &&
-         said_by_data(best) - said_by_data(rival) < as_well &&
-         best.evidence - rival.evidence < most_margins * margin;
+// What a cause that has one or two more numbers explains as well, but for a nat, the data do not
+// refute: fewer numbers make the other one likelier, up to so many margins. With three more (the
+// offsets of a force sensor) a cause follows others.
+bool explains_as_well(const Candidate& competitor, const Candidate& best, double margin,
+                      const DiagnosisSettings& settings) {
+  return more_numbers(competitor, best) <= settings.evidence.more_numbers &&
+         said_by_data(best) - said_by_data(competitor) < settings.levels.as_well &&
+         best.evidence - competitor.evidence < settings.evidence.most_margins * margin;
 }
 
-// Whether the rival stands before the best where one of the trials is left out. Both as they were
-// fitted to all: a rival that is far off goes farther without a trial than first order tells. One
-// that has the best as a special case is never behind, and ahead by what its numbers gain by
-// chance.
-bool wins_without_a_trial(const Findings& findings, const Candidate& rival, const Candidate& best) {
+// Whether the competing model stands before the best where one of the trials is left out. Both as
+// they were fitted to all: a competing model that is far off goes farther without a trial than
+// first order tells. One that has the best as a special case is never behind, and ahead by what its
+// numbers gain by chance.
+bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
+                          const Candidate& best) {
   if (findings.fit_trials.size() < 3) return false;
   const double chance =
-      is_special_case(best, rival) ? gain_by_chance(more_numbers(rival, best)) : 0.0;
-  const double all = rival.fit.cost - best.fit.cost;
+      is_special_case(best, competitor) ? gain_by_chance(more_numbers(competitor, best)) : 0.0;
+  const double all = competitor.fit.cost - best.fit.cost;
   Eigen::Index row = 0;
   for (const int t : findings.fit_trials) {
     const Eigen::Index size = findings.data->size(std::span(&t, 1));
-    const double here = 0.5 * (rival.fit.residual.segment(row, size).squaredNorm() -
+    const double here = 0.5 * (competitor.fit.residual.segment(row, size).squaredNorm() -
                                best.fit.residual.segment(row, size).squaredNorm());
-    if (all - here < -turned - chance) return true;
+    if (all - here < -findings.settings->levels.clear_margin - chance) return true;
     row += size;
   }
   return false;
@@ -175,41 +163,48 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   double gain = 0.0;
   for (const Candidate& found : findings.chain)
     gain += found.gain + std::max(0.0, found.held_out.gain);
-  // What the loudest direction would still gain, or a cause of what none looks for.
-  const Leftover& other = diagnosis.after.leftover;
+  // What the strongest direction would still gain, or a cause of what none looks for.
+  const ResidualPower& other = diagnosis.after.residual_power;
   const double missed =
       0.5 *
       std::pow(std::max(diagnosis.after.statistic, other.shows() ? other.deviations : 0.0), 2);
-  const bool much = left > 0.05 && findings.excess(diagnosis.best) > small_excess;
-  if (!much && missed <= most_missed * gain) return;
+  const Levels& levels = findings.settings->levels;
+  const bool much =
+      left > levels.remainder_share && findings.excess(diagnosis.best) > levels.small_excess;
+  if (!much && missed <= levels.missed_share * gain) return;
   verdict.outcome = Outcome::unknown;
   verdict.remainder = "known causes leave " + verdict.remainder;
 }
 
-// Those that the data cannot tell from the best are causes, too; the others are rivals.
-void weigh_rivals(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
+// Those that the data cannot tell from the best are causes, too; the others are competing models.
+void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
   Verdict& verdict = diagnosis.verdict;
   const Candidate& best = diagnosis.ranking.front();
-  const double margin = clear_odds + std::min(margin_share * best.gain, most_margin);
+  // Our model errors scale with the gain.
+  const DiagnosisSettings& settings = *findings.settings;
+  const double margin =
+      settings.levels.clear_odds +
+      std::min(settings.evidence.margin_share * best.gain, settings.evidence.most_margin);
   for (std::size_t i = 1; i < diagnosis.ranking.size(); ++i) {
-    const Candidate& rival = diagnosis.ranking[i];
-    const double behind = best.evidence - rival.evidence;
-    if (!rival.whole || rival.evidence < 0.0) break;
-    const bool turns = wins_without_a_trial(findings, rival, best);
-    const bool beaten = behind > margin && !explains_as_well(rival, best, margin) && !turns;
-    diagnosis.steps.push_back(text("Of %.4g nats that a rival must lose by, ", margin) +
-                              rival.cause +
+    const Candidate& competitor = diagnosis.ranking[i];
+    const double behind = best.evidence - competitor.evidence;
+    if (!competitor.whole || competitor.evidence < 0.0) break;
+    const bool turns = wins_without_a_trial(findings, competitor, best);
+    const bool beaten =
+        behind > margin && !explains_as_well(competitor, best, margin, settings) && !turns;
+    diagnosis.steps.push_back(text("Of %.4g nats that a competing model must lose by, ", margin) +
+                              competitor.cause +
                               text(" loses by %.4g; the data say %.4g less for it, and it has",
-                                   behind, said_by_data(best) - said_by_data(rival)) +
-                              text(" %g more numbers", more_numbers(rival, best)) +
+                                   behind, said_by_data(best) - said_by_data(competitor)) +
+                              text(" %g more numbers", more_numbers(competitor, best)) +
                               (turns ? "; one trial alone decides between them." : "."));
-    if (beaten || findings.chain.size() > 1 || contains(rival, best, turns)) {
+    if (beaten || findings.chain.size() > 1 || contains(competitor, best, turns)) {
       const bool found = std::ranges::any_of(
-          findings.chain, [&](const Candidate& named) { return named.cause == rival.cause; });
-      if (!found) verdict.rivals.push_back({rival.cause, behind});
+          findings.chain, [&](const Candidate& named) { return named.cause == competitor.cause; });
+      if (!found) verdict.competing.push_back({competitor.cause, behind});
       continue;
     }
-    verdict.causes.push_back(findings.named(rival, rival.fit, base_effects, verdict.fit));
+    verdict.causes.push_back(findings.named(competitor, competitor.fit, base_effects, verdict.fit));
     verdict.outcome = Outcome::ambiguous;
   }
 }
@@ -220,13 +215,14 @@ void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
   const Eigen::VectorXd& with = findings.chain.front().fit.residual;
   if (without.size() != with.size() || with.size() == 0) return;
   const Decoys decoys =
-      decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with));
+      decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with),
+                findings.settings->evidence.too_alike);
   Verdict& verdict = diagnosis.verdict;
   verdict.causes.front().because +=
       text(" Decoys of it gain less: %.3g nats backwards in time, %.3g at other markers,",
            decoys.reversed, decoys.exchanged) +
       text(" of %.3g.", decoys.own);
-  if (decoys.lose()) return;
+  if (decoys.lose(findings.settings->levels.clear_margin)) return;
   verdict.outcome = Outcome::unknown;
   verdict.remainder =
       "the same change backwards in time, or at other markers, explains the data as well";
@@ -257,7 +253,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
     verdict.causes.push_back(findings.named(findings.chain[c], diagnosis.best,
                                             base_effects + static_cast<int>(c), verdict.fit));
   verdict.outcome = Outcome::named;
-  weigh_rivals(findings, diagnosis, base_effects);
+  weigh_competing_models(findings, diagnosis, base_effects);
   judge_remainder(findings, diagnosis);
   show_decoys(findings, diagnosis);
   show_trials_left_out(findings, verdict.causes.front());
@@ -265,9 +261,9 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   // judged while the others were missing there.
   const HeldOut& held_out =
       findings.chain.size() > 1 ? findings.held_out : findings.chain.front().held_out;
-  if (verdict.outcome == Outcome::named && !held_out.carries_over()) {
+  if (verdict.outcome == Outcome::named && !held_out.carries_over(findings.settings->evidence)) {
     verdict.outcome = Outcome::unknown;
-    verdict.remainder = "what was fitted does not carry over to the trials kept back";
+    verdict.remainder = "what was fitted does not carry over to the held-out trials";
   }
 }
 
@@ -292,8 +288,8 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   if (!diagnosis.before.raised && findings.chain.empty()) {
     conclude_parameters(findings, diagnosis);
-  } else if (findings.chain.empty() && !diagnosis.before.leftover.shows() &&
-             findings.excess(diagnosis.base) < small_excess) {
+  } else if (findings.chain.empty() && !diagnosis.before.residual_power.shows() &&
+             findings.excess(diagnosis.base) < findings.settings->levels.small_excess) {
     conclude_parameters(findings, diagnosis);
     verdict.remainder = text(
         "a steady difference of %.3g noise units in all, which no cause explains and no single "
@@ -301,7 +297,7 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
         diagnosis.before.statistic);
   } else if (findings.chain.empty()) {
     verdict.outcome = Outcome::unknown;
-    const Leftover& left = diagnosis.before.leftover;
+    const ResidualPower& left = diagnosis.before.residual_power;
     if (left.shows())
       verdict.remainder =
           "the plant moves in its own shapes in " +
@@ -324,10 +320,12 @@ void name_nothing(Verdict& verdict) {
 
 void conclude_outliers(Diagnosis& diagnosis) {
   const Admission& admission = diagnosis.admission;
-  if (admission.outliers < std::max<double>(least_outliers, least_outlier_share * admission.points))
+  const Levels& levels = diagnosis.settings.levels;
+  if (admission.outliers <
+      std::max<double>(levels.outlier_count, levels.outlier_share * admission.points))
     return;
   Verdict& verdict = diagnosis.verdict;
-  // Among rivals, or where nothing is known, they would read as one more explanation.
+  // Among competing models, or where nothing is known, they would read as one more explanation.
   if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) return;
   NamedCause cause;
   cause.name = "outliers";
@@ -392,23 +390,23 @@ void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
   }
 }
 
-void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis) {
+void report_detectable_limits(const std::vector<Cause>& causes, Diagnosis& diagnosis) {
   for (const Cause& cause : causes) {
-    CouldHide least;
+    DetectableLimit least;
     least.name = cause.name;
     double best = 0.0;
     for (const Direction& direction : diagnosis.directions) {
       if (direction.cause != cause.name) continue;
-      // The start that says most: the loudest, and of thresholds the highest that is seen.
+      // The start that says most: the strongest, and of thresholds the highest that is seen.
       const double size = length(direction);
       const double seen = diagnosis.before.level + std::abs(direction.systematic);
       const double worth = !direction.has_threshold ? size : size < seen ? 0.0 : 1.0 / size;
       if (worth < best) continue;
       best = worth;
-      least.smallest_seen = smallest_seen(direction, seen, least.parameter);
+      least.smallest = detectable_limit(direction, seen, least.parameter);
     }
     least.unit = effects::unit_of(cause.name, least.parameter);
-    diagnosis.verdict.could_hide.push_back(least);
+    diagnosis.verdict.detectable_limits.push_back(least);
   }
 }
 

@@ -11,14 +11,14 @@ namespace pedicel::discrepancy {
 /// RMS residuals of the three models and the gain, from the diagnosis's predictions.
 void measure_errors(const Findings& findings, Diagnosis& diagnosis);
 
-/// Outcome, causes, rivals and remainder.
+/// Outcome, causes, competing models and remainder.
 void conclude(const Findings& findings, Diagnosis& diagnosis);
 
 /// Where the outcome is `unknown`: what was fitted but does not explain the data is told in words,
 /// not as a cause.
 void name_nothing(Verdict& verdict);
 
-/// Wild samples were left out before the fit; they are named beside what else was found.
+/// Outliers were left out before the fit; they are named beside what else was found.
 void conclude_outliers(Diagnosis& diagnosis);
 
 /// A law of detachment in place of the file's thresholds, where the diagnosis's `strength` needs
@@ -29,6 +29,6 @@ void conclude_detachment(Diagnosis& diagnosis);
 void report_parameters(const Findings& findings, Diagnosis& diagnosis);
 
 /// The size from which each cause would have been seen, from the diagnosis's directions.
-void report_hidden(const std::vector<Cause>& causes, Diagnosis& diagnosis);
+void report_detectable_limits(const std::vector<Cause>& causes, Diagnosis& diagnosis);
 
 }  // namespace pedicel::discrepancy

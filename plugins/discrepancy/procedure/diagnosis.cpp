@@ -12,6 +12,9 @@ Procedure::Procedure(const Experiment& experiment, const DiagnosisOptions& optio
       options_(options),
       start_(std::chrono::steady_clock::now()),
       log_(options.progress, options.note, result_.steps) {
+  result_.settings = options.settings;
+  findings_.settings = &options_.settings;
+  log_.settings(options.settings);
   result_.admission = admit(experiment);
 }
 
@@ -29,7 +32,8 @@ Diagnosis Procedure::run() {
 
 void Procedure::decide() {
   look();
-  const bool wrong = result_.before.raised || is_pulled(result_.base.hypothesis);
+  const bool wrong =
+      result_.before.raised || has_prior_shift(result_.base.hypothesis, options_.settings);
   if (!wrong && !stopped()) look_at_check_trials();
   if (objecting_ >= 0) {
     Experiment other = given_;

@@ -24,6 +24,7 @@ struct DiagnosisOptions {
   std::function<void(const std::string&, double)> progress;
   std::function<void(const std::string&)> note;  ///< each finding, as a sentence
   const std::atomic<bool>* stop = nullptr;
+  DiagnosisSettings settings;
 };
 
 /// The three models that a diagnosis compares.
@@ -33,12 +34,13 @@ inline constexpr int model_count = 3;
 /// Everything that a diagnosis found out, for its report.
 struct Diagnosis {
   Verdict verdict;
+  DiagnosisSettings settings;  ///< that it was made with
   Admission admission;
   Noise position_noise, force_noise;
   Numerics numerics;
   double numerical_error = 0.0;  ///< RMS over the noise, before it was corrected for
   std::vector<int> fit_trials, check_trials;
-  std::string exchanged;  ///< a trial that was to be kept back, and was fitted because it objects
+  std::string exchanged;  ///< a trial that was to be held out, and was fitted because it objects
   std::vector<std::string> unseen;  ///< parameters that these data cannot see
   FitSummary base, best;            ///< refitted and extended
   std::vector<Candidate> ranking;   ///< first round, best first

@@ -8,22 +8,13 @@
 
 namespace pedicel::discrepancy {
 
-namespace {
-
-constexpr double numerical_limit = 0.5;  // of the noise, RMS
-constexpr double loud = 30.0;            // noise units: what such alarms are about no mesh hides
-constexpr int junction_iterations = 15;  // a small change converges in a few, or is no small one
-// Of a trial kept back: deviations, and a share of the noise's square, above which it is missed.
-constexpr double least_objection = 6.0, small_objection = 0.1;
-
-}  // namespace
-
 void Procedure::prepare() {
   log_.say("reading the noise", 0.0);
   for (const std::string& remark : result_.admission.remarks) log_.note(remark + ".");
   // A marker that stands still scatters less than one that moves: what is stated is a lower
   // bound, too.
-  setup_ = std::make_unique<FitSetup>(experiment(), options_.threads, NoiseRule{}, options_.stop);
+  setup_ = std::make_unique<FitSetup>(experiment(), options_.threads, NoiseRule{}, options_.stop,
+                                      options_.settings);
   simulators_ = std::make_unique<SearchSimulators>(*setup_);
   findings_.data = &setup_->data();
   findings_.fit_trials = result_.fit_trials = fit_options().trials;
@@ -40,7 +31,7 @@ void Procedure::fit_baseline() {
   log_.say("refitting modulus, density and damping", 0.02);
   Evaluator evaluator = setup_->evaluator();
   const Hypothesis start = baseline_start(evaluator, fit_options(), result_.unseen);
-  constexpr std::array horizons{0.3, 1.0};
+  const std::array horizons{options_.settings.budget.baseline_horizon, 1.0};
   log_.noise(setup_->data());
   result_.base = fit_growing(evaluator, start, fit_options(), horizons);
   log_.fit("Baseline", result_.base, setup_->samples());
@@ -69,9 +60,9 @@ void Procedure::refine() {
        }});
   result_.numerics = setup_->numerics();
   result_.numerical_error = check.largest;
-  numerical_ = left_uncorrected * check.correction;
+  numerical_ = options_.settings.accuracy.left_uncorrected * check.correction;
   findings_.parameter_shift = check.parameter_shift;
-  if (check.largest > numerical_limit && !is_drowned(check)) {
+  if (check.largest > options_.settings.accuracy.numerical_limit && !is_masked(check)) {
     result_.verdict.outcome = Outcome::numerical;
     result_.verdict.remainder =
         text("half the step and half the mesh still move the prediction by %.2g times the noise",
@@ -82,14 +73,14 @@ void Procedure::refine() {
             text(": the numerical error was %.2g of the noise and was corrected for.",
                  result_.numerical_error));
   setup_->renew();
-  result_.base.hypothesis.add(mesh_freedom());
+  result_.base.hypothesis.add(mesh_nuisance());
   refit_base();
 }
 
 // Against a residual many times larger a numerical error above the noise does not matter.
-bool Procedure::is_drowned(const NumericsCheck& check) const {
+bool Procedure::is_masked(const NumericsCheck& check) const {
   const double rms = std::sqrt(2.0 * result_.base.cost / std::max(1, setup_->samples()));
-  return check.largest < 0.1 * rms;
+  return check.largest < options_.settings.accuracy.masked_verdict * rms;
 }
 
 void Procedure::look() {
@@ -98,7 +89,7 @@ void Procedure::look() {
   result_.directions = directions_at(result_.base);
   if (stopped()) return;
   result_.before = judged(result_.directions, result_.base);
-  if (quiet_with_junctions(result_.before, result_.base)) {
+  if (explained_by_junctions(result_.before, result_.base)) {
     // The base has more numbers now; a search for what pulled it starts from there.
     anchor_at(result_.base);
     result_.directions = directions_at(result_.base);
@@ -109,7 +100,7 @@ void Procedure::look() {
   log_.directions(result_.directions, result_.before);
 }
 
-// What acts in a trial kept back alone is not seen in those that are fitted.
+// What acts in a held-out trial alone is not seen in those that are fitted.
 void Procedure::look_at_check_trials() {
   Evaluator evaluator = setup_->evaluator();
   const double dispersion = std::max(1.0, 2.0 * result_.base.cost / setup_->samples());
@@ -119,11 +110,13 @@ void Procedure::look_at_check_trials() {
     check.trials = {t};
     const int samples = setup_->data().samples(check.trials);
     const double excess =
-        kept_back_excess(kept_back(evaluator, result_.base, check), samples, dispersion) - 1.0;
+        held_out_excess(held_out_model(evaluator, result_.base, check), samples, dispersion) - 1.0;
     const double deviations = excess / std::sqrt(2.0 / std::max(1, samples));
     log_.note("What is left of trial " + experiment().trials[t].name +
-              text(", kept back, is %.3g deviations above the noise.", deviations));
-    if (deviations < least_objection || excess < small_objection || excess < most) continue;
+              text(", held out, is %.3g deviations above the noise.", deviations));
+    if (deviations < options_.settings.levels.held_out_deviations ||
+        excess < options_.settings.levels.held_out_excess || excess < most)
+      continue;
     most = excess;
     objecting_ = t;
   }
@@ -132,22 +125,23 @@ void Procedure::look_at_check_trials() {
 // The directed tests, and what they do not look for.
 Alarm Procedure::judged(std::vector<Direction>& directions, const FitSummary& model) const {
   if (stopped()) return {};
-  Alarm alarm = judge(directions, model, numerical_, options_.seed);
-  alarm.leftover = leftover(setup_->data(), fit_options().trials, model, numerical_);
-  alarm.raised = alarm.raised || alarm.leftover.shows();
+  Alarm alarm = judge(directions, model, numerical_, options_.seed, options_.settings);
+  alarm.residual_power =
+      residual_power(setup_->data(), fit_options().trials, model, numerical_, options_.settings);
+  alarm.raised = alarm.raised || alarm.residual_power.shows();
   return alarm;
 }
 
 // Whether nothing is left once the junctions may give a little; then they do.
-bool Procedure::quiet_with_junctions(const Alarm& before, FitSummary& model) {
-  if (!before.raised || before.statistic > loud) return false;
-  const Hypothesis junctions = junction_freedom(experiment());
+bool Procedure::explained_by_junctions(const Alarm& before, FitSummary& model) {
+  if (!before.raised || before.statistic > options_.settings.levels.beyond_mesh) return false;
+  const Hypothesis junctions = junction_nuisance(experiment(), options_.settings.evidence);
   if (junctions.size() == 0) return false;
   Hypothesis with = model.hypothesis;
   with.add(junctions);
   Evaluator evaluator = setup_->evaluator();
   FitOptions few = fit_options();
-  few.iterations = std::min(junction_iterations, few.iterations);
+  few.iterations = std::min(options_.settings.budget.junction_iterations, few.iterations);
   FitSummary found = fit(evaluator, with, few);
   CoarseModel coarse(*setup_, found);
   Evaluator there = coarse.evaluator();
@@ -157,7 +151,8 @@ bool Procedure::quiet_with_junctions(const Alarm& before, FitSummary& model) {
   const Alarm alarm = judged(directions, found);
   log_.fit("With junctions that give a little", found, setup_->samples());
   log_.directions(directions, alarm);
-  if (alarm.raised || !is_by_convention(found, junctions.size())) return false;
+  if (alarm.raised || !is_discretisation(found, junctions.size(), options_.settings.evidence))
+    return false;
   log_.note("What is left is below what the plant file's mesh resolves at the junctions.");
   model = std::move(found);
   return true;

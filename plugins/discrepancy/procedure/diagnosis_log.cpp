@@ -16,6 +16,15 @@ void DiagnosisLog::note(const std::string& sentence) {
   if (found_) found_(sentence);
 }
 
+void DiagnosisLog::settings(DiagnosisSettings settings) {
+  DiagnosisSettings defaults;
+  const std::vector<DiagnosisSetting> own = described(settings), usual = described(defaults);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i].get() != usual[i].get())
+      note("Setting " + own[i].name +
+           text(" is %.6g in place of %.6g.", own[i].get(), usual[i].get()));
+}
+
 void DiagnosisLog::noise(const DataSet& data) {
   const auto said = [](const Noise& noise) {
     return text("%.3g, lag-one correlation %.2g", noise.std, noise.correlation());
@@ -38,7 +47,7 @@ void DiagnosisLog::fit(const std::string& what, const FitSummary& fit, int sampl
 
 void DiagnosisLog::directions(std::vector<Direction> directions, const Alarm& alarm) {
   note(text("Largest directed statistic %.3g, level %.3g.", alarm.statistic, alarm.level));
-  const Leftover& left = alarm.leftover;
+  const ResidualPower& left = alarm.residual_power;
   if (left.trial >= 0)
     note(text("Left in the plant's shapes of motion: %.3g deviations,", left.deviations) +
          left.frequency() +

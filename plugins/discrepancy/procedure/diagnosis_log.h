@@ -19,10 +19,12 @@ class DiagnosisLog {
 
   void say(const std::string& what, double share) const;
   void note(const std::string& sentence);
+  /// Those that are not the defaults.
+  void settings(DiagnosisSettings settings);
   void noise(const DataSet& data);
   /// A fit's parameters; `samples` were fitted.
   void fit(const std::string& what, const FitSummary& fit, int samples);
-  /// The loudest directions.
+  /// The strongest directions.
   void directions(std::vector<Direction> directions, const Alarm& alarm);
 
  private:

@@ -23,7 +23,7 @@ class Procedure {
   /// Once.
   Diagnosis run();
 
-  /// With another trial kept back, where the diagnosis should begin anew.
+  /// With another trial held out, where the diagnosis should begin anew.
   const std::optional<Experiment>& exchanged() const { return exchanged_; }
 
  private:
@@ -38,11 +38,11 @@ class Procedure {
   void fit_baseline();
   void refit_base();
   void refine();
-  bool is_drowned(const NumericsCheck& check) const;
+  bool is_masked(const NumericsCheck& check) const;
   void look();
   void look_at_check_trials();
   Alarm judged(std::vector<Direction>& directions, const FitSummary& model) const;
-  bool quiet_with_junctions(const Alarm& alarm, FitSummary& model);
+  bool explained_by_junctions(const Alarm& alarm, FitSummary& model);
 
   // Steps 4 to 7 (diagnosis_search.cpp).
   void search();
@@ -57,7 +57,7 @@ class Procedure {
   std::vector<Direction> directions_at(const FitSummary& model);
   bool is_small(const Alarm& alarm) const;
   bool is_another_cause(const Candidate& next) const;
-  bool stands_alone(const Candidate& next);
+  bool eliminates_first(const Candidate& next);
 
   // Steps 8 and 9 (diagnosis_verdict.cpp).
   void conclude_all();
@@ -82,7 +82,7 @@ class Procedure {
   Findings findings_;
   std::optional<MissingForce> force_;  // once it was asked for
   std::string instead_of_;             // the known cause whose place it takes, in words
-  int objecting_ = -1;                 // the trial kept back that the refitted model misses most
+  int objecting_ = -1;                 // the held-out trial that the refitted model misses most
   std::optional<Experiment> exchanged_;
 };
 

@@ -10,15 +10,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Of the gain of a cause, what another of its family must bring to be one.
-constexpr double family_share = 0.5;
-constexpr double beyond_linear = 4.0;  // times that a cause may gain what its direction promises
-constexpr int most_causes = 3;
-// Where the best known cause leaves so much (mean square in noise units) a force from outside the
-// list is asked for. It takes the place of known causes where it leaves so much less.
-constexpr double much_left = 4.0, left_by_force = 1.0 / 3.0;
-constexpr double far_from_data = 2.0;  // mean square in noise units
-
 // The base with the effects of `both` that stand behind those of `first`, from their numbers there.
 Hypothesis without_first(const Hypothesis& base, const Hypothesis& first, const Hypothesis& both) {
   const int effects = static_cast<int>(first.effects.size());
@@ -63,14 +54,16 @@ void Procedure::search() {
     if (result_.ranking[i].whole)
       log_.fit(text("Evidence %.5g", result_.ranking[i].evidence), result_.ranking[i].fit,
                setup_->samples());
-  if (result_.ranking.empty() || result_.ranking.front().evidence < worth_naming) return;
+  if (result_.ranking.empty() ||
+      result_.ranking.front().evidence < options_.settings.levels.worth_naming)
+    return;
   if (leaves_much(result_.ranking.front().fit) && one_force_does_more()) return;
   result_.best = result_.ranking.front().fit;
   findings_.chain = {result_.ranking.front()};
 }
 
 bool Procedure::leaves_much(const FitSummary& model) const {
-  return 2.0 * model.cost > much_left * setup_->samples();
+  return 2.0 * model.cost > options_.settings.evidence.much_left * setup_->samples();
 }
 
 // More known causes would but imitate what none of them is, slowly.
@@ -82,7 +75,8 @@ bool Procedure::one_force_does_more() {
                                text(", leaves %.2g %% of what is wrong", 100.0 * left);
   log_.note("One force is asked for: " + sentence + ".");
   const MissingForce& force = missing_force(0.6);
-  if (!force.found || force.fit.why == "not run" || 1.0 - force.share > left_by_force * left)
+  if (!force.found || force.fit.why == "not run" ||
+      1.0 - force.share > options_.settings.evidence.left_by_force * left)
     return false;
   instead_of_ = sentence;
   return true;
@@ -90,17 +84,18 @@ bool Procedure::one_force_does_more() {
 
 // Adds causes while something is left.
 void Procedure::extend() {
-  while (!findings_.chain.empty() && static_cast<int>(findings_.chain.size()) < most_causes &&
-         !stopped()) {
+  while (!findings_.chain.empty() &&
+         static_cast<int>(findings_.chain.size()) < options_.settings.budget.causes && !stopped()) {
     const std::vector<Direction> directions = look_again();
     log_.directions(directions, result_.after);
     if (!result_.after.raised || is_small(result_.after)) return;
-    if (quiet_with_junctions(result_.after, result_.best)) {
+    if (explained_by_junctions(result_.after, result_.best)) {
       result_.after.raised = false;
       return;
     }
     const double from = 0.5 + 0.15 * static_cast<double>(findings_.chain.size());
-    const std::vector<Cause> likely = promising(causes_, directions);
+    const std::vector<Cause> likely =
+        screened(causes_, directions, options_.settings.budget.screened);
     const std::vector<Candidate> next =
         refit_all(simulators_->workers(), result_.best, likely, directions,
                   refit_options(from, from + 0.15, "looking for another cause"));
@@ -109,10 +104,10 @@ void Procedure::extend() {
     log_.fit(text("Beside what was found, evidence %.4g", first.evidence), first.fit,
              setup_->samples());
     log_.note(text("It gains %.4g nats, of %.4g that another cause must; ", first.gain,
-                   least_gain_beside(findings_.chain)) +
-              text("for the trials kept back %.4g.", first.held_out.gain));
+                   least_gain_beside(findings_.chain, options_.settings)) +
+              text("for the held-out trials %.4g.", first.held_out.gain));
     if (!is_another_cause(first)) return;
-    if (stands_alone(first)) continue;
+    if (eliminates_first(first)) continue;
     findings_.chain.push_back(first);
     result_.best = first.fit;
   }
@@ -131,7 +126,7 @@ void Procedure::correct_at(const FitSummary& model) {
 
 // So that a model which explains them is far from it.
 bool Procedure::base_misses_the_data() const {
-  return 2.0 * result_.base.cost > far_from_data * setup_->samples();
+  return 2.0 * result_.base.cost > options_.settings.evidence.far_from_data * setup_->samples();
 }
 
 // What the model with all causes so far leaves. Where that is far from the base, our own error
@@ -161,27 +156,30 @@ std::vector<Direction> Procedure::directions_at(const FitSummary& model) {
   return simulators_->directions_of(model, causes_, result_.directions);
 }
 
-// Whether what is left alarms, but promises too little for another cause.
+// Whether what is left alarms, but scores too little for another cause.
 bool Procedure::is_small(const Alarm& alarm) const {
-  const double promised = 0.5 * alarm.statistic * alarm.statistic;  // were the model linear
-  return !alarm.leftover.shows() && beyond_linear * promised < least_gain_beside(findings_.chain);
+  const double predicted = 0.5 * alarm.statistic * alarm.statistic;  // were the model linear
+  return !alarm.residual_power.shows() && options_.settings.evidence.beyond_linear * predicted <
+                                              least_gain_beside(findings_.chain, options_.settings);
 }
 
-// The trials kept back may ask for what those fitted to hardly show: that is no finding.
+// The held-out trials may ask for what those fitted to hardly show: that is no finding.
 bool Procedure::is_another_cause(const Candidate& next) const {
-  if (next.evidence < worth_naming || next.gain < least_gain_beside(findings_.chain) ||
-      !next.held_out.carries_over())
+  if (next.evidence < options_.settings.levels.worth_naming ||
+      next.gain < least_gain_beside(findings_.chain, options_.settings) ||
+      !next.held_out.carries_over(options_.settings.evidence))
     return false;
   if (!has_a_size(next.fit, static_cast<int>(result_.best.hypothesis.effects.size()))) return false;
   return std::ranges::all_of(findings_.chain, [&](const Candidate& found) {
-    return !effects::same_family(found.cause, next.cause) || next.gain > family_share * found.gain;
+    return !effects::same_family(found.cause, next.cause) ||
+           next.gain > options_.settings.evidence.family_share * found.gain;
   });
 }
 
 // What was found first may have stood in for this cause, whose own fit did not get so far from its
 // starts; from where it stands beside the first one it does. Then the first one must bring as much
 // beside it as any other cause, or is none.
-bool Procedure::stands_alone(const Candidate& next) {
+bool Procedure::eliminates_first(const Candidate& next) {
   if (findings_.chain.size() != 1 || stopped()) return false;
   const auto known = std::ranges::find(result_.ranking, next.cause, &Candidate::cause);
   if (known == result_.ranking.end()) return false;
@@ -196,14 +194,14 @@ bool Procedure::stands_alone(const Candidate& next) {
   const double brought = (alone.fit.cost - next.fit.cost) / dispersion;
   log_.note(findings_.chain.front().cause + " beside " + next.cause +
             text(" brings %.4g nats, of %.4g that another cause must.", brought,
-                 least_gain_beside({alone})));
-  if (brought >= least_gain_beside({alone})) return false;
+                 least_gain_beside({alone}, options_.settings)));
+  if (brought >= least_gain_beside({alone}, options_.settings)) return false;
   alone.held_out = held_out_by(alone.fit);
   alone.whole = alone.fine = true;
   std::vector<Candidate> ranking = result_.ranking;
   ranking[known - result_.ranking.begin()] = std::move(alone);
   weigh(ranking, result_.base, setup_->samples(),
-        dispersion_of(ranking, result_.base, setup_->samples()));
+        dispersion_of(ranking, result_.base, setup_->samples()), options_.settings);
   if (ranking.front().cause != next.cause) return false;
   result_.ranking = std::move(ranking);
   findings_.chain = {result_.ranking.front()};

@@ -10,15 +10,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr std::size_t most_rivals = 4;  // that another trial should part
-// Nats that one cause, and several together, do not explain to the last by chance.
-constexpr double beyond_doubt = 300.0, beyond_doubt_together = 3000.0;
-// What one force may gain less than several causes: nats, or a share of theirs.
-constexpr double force_margin = 5.0, force_share = 0.05;
-// Of the causes' gain, what a free force must promise, by its linear response, for its law to be
-// looked for.
-constexpr double promising_force = 0.5;
-
 bool stands_at_bound(const Candidate& found) {
   const Hypothesis& model = found.fit.hypothesis;
   return std::ranges::any_of(found.fit.at_bound, [&](int p) {
@@ -54,7 +45,7 @@ void Procedure::conclude_all() {
     result_.verdict.outcome = Outcome::unknown;
     result_.verdict.remainder = "the refitted model explains the fitted trials, but not trial " +
                                 experiment().trials[objecting_].name +
-                                ", which is kept back: fit it, too";
+                                ", which is held out: fit it, too";
   } else if (result_.verdict.outcome == Outcome::unknown) {
     if (!instead_of_.empty()) result_.verdict.remainder = instead_of_ + ", one force far less";
     tell_of_force();
@@ -64,37 +55,38 @@ void Procedure::conclude_all() {
   conclude_outliers(result_);
   judge_stalks();
   report_parameters(findings_, result_);
-  report_hidden(causes_, result_);
+  report_detectable_limits(causes_, result_);
   choose_next();
 }
 
-// What several causes do together for the trials kept back.
+// What several causes do together for the held-out trials.
 HeldOut Procedure::held_out_by(const FitSummary& model) {
   if (result_.check_trials.empty()) return {};
   Evaluator evaluator = setup_->evaluator();
   FitOptions check = fit_options();
   check.trials = result_.check_trials;
-  const KeptBack base = kept_back(evaluator, result_.base, check);
-  const std::array extended{kept_back(evaluator, model, check)};
+  const HeldOutModel base = held_out_model(evaluator, result_.base, check);
+  const std::array extended{held_out_model(evaluator, model, check)};
   const double dispersion = std::max(1.0, 2.0 * model.cost / setup_->samples());
   return held_out(base, extended, setup_->data().samples(check.trials), dispersion).front();
 }
 
 // Several causes are none where one force from outside the list explains as much of the fitted
 // trials, nor is one that does so at the end of what its numbers may be; any other single cause
-// is none where a force explains clearly more. That holds for the trials kept back, too. What is
-// explained to the last, and loudly, is not by chance.
+// is none where a force explains clearly more. That holds for the held-out trials, too. What is
+// explained to the last, and with a large gain, is not by chance.
 void Procedure::ask_for_one_force() {
+  const Evidence& weights = options_.settings.evidence;
   const bool several = findings_.chain.size() > 1;
   const bool alone = !several && !stands_at_bound(findings_.chain.front());
   const Candidate& first = findings_.chain.front();
   double explained = first.evidence - first.held_out.gain;
   for (std::size_t c = 1; c < findings_.chain.size(); ++c) explained += findings_.chain[c].gain;
   if ((!result_.after.raised || is_small(result_.after)) &&
-      explained > (several ? beyond_doubt_together : beyond_doubt))
+      explained > (several ? weights.beyond_doubt_together : weights.beyond_doubt))
     return;
   const MissingForce& force =
-      missing_force(0.96, promising_force * (result_.base.cost - result_.best.cost));
+      missing_force(0.96, weights.worthwhile_force * (result_.base.cost - result_.best.cost));
   if (!force.found || force.fit.why == "not run") return;
   // With the noise as it was read last.
   Evaluator evaluator = setup_->evaluator();
@@ -104,10 +96,11 @@ void Procedure::ask_for_one_force() {
       0.5 * evaluator.residuals(models, fit_options()).colwise().squaredNorm();
   const double by_causes = cost[0] - cost[1], by_force = cost[0] - cost[2];
   log_.note(text("One force gains %.4g nats, what was found %.4g.", by_force, by_causes));
-  const double margin = std::max(force_margin, force_share * by_causes);
+  const double margin =
+      std::max(options_.settings.levels.clear_margin, weights.force_share * by_causes);
   if (by_force < by_causes + (alone ? margin : -margin)) return;
   const std::optional<double>& gain = result_.verdict.gain;
-  if (gain && force.gain && *force.gain < *gain - (alone ? 0.0 : force_share)) return;
+  if (gain && force.gain && *force.gain < *gain - (alone ? 0.0 : weights.force_share)) return;
   result_.verdict.outcome = Outcome::unknown;
   result_.verdict.remainder =
       several ? "one force explains as much as several known causes together"
@@ -118,7 +111,7 @@ void Procedure::ask_for_one_force() {
 }
 
 // Where, when and of what kind the force is that no cause stands for; none where even a free one
-// promises too little.
+// scores too little.
 const MissingForce& Procedure::missing_force(double from, double least_evidence) {
   if (force_) return *force_;
   log_.say("looking for a force that is missing", from);
@@ -185,7 +178,8 @@ void Procedure::judge_stalks() {
   std::ranges::nth_element(intervals, intervals.begin() + intervals.size() / 2);
   // Seen with the next sample.
   const double window = intervals[intervals.size() / 2];
-  result_.strength = judge_strength(std::move(stalks), std::move(thresholds), window);
+  result_.strength =
+      judge_strength(std::move(stalks), std::move(thresholds), window, options_.settings);
   log_.note(result_.strength.summary());
   conclude_detachment(result_);
 }
@@ -194,12 +188,14 @@ void Procedure::choose_next() {
   Verdict& verdict = result_.verdict;
   if (verdict.outcome == Outcome::ambiguous) {
     log_.say("choosing the next experiment", 0.97);
-    std::vector<Hypothesis> rivals;
+    std::vector<Hypothesis> models;
     for (const NamedCause& cause : verdict.causes)
-      if (rivals.size() < most_rivals) rivals.push_back(model_of(cause.name));
+      if (std::ssize(models) < options_.settings.budget.competing_models)
+        models.push_back(model_of(cause.name));
     result_.next =
-        next_experiment(experiment(), setup_->data(), rivals,
-                        {result_.numerics, options_.threads, options_.stop}, verdict.simulations);
+        next_experiment(experiment(), setup_->data(), models,
+                        {result_.numerics, options_.threads, options_.stop, options_.settings},
+                        verdict.simulations);
   } else if (verdict.outcome == Outcome::unknown) {
     result_.next = next_look(experiment(), setup_->data(), result_.predictions[refitted]);
   }

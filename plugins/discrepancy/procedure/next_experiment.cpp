@@ -14,16 +14,12 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Noise units in all: below it a trial would leave the question open.
-constexpr double enough = 6.0;
-// The choice needs no more accuracy than the rivals' own; a coarse step makes it cheap.
-constexpr double longest_step = 1.0 / 240.0;
-
-/// The rivals as they would act in another trial: what happened in one trial alone stays out.
-std::vector<Variant> variants_of(const std::vector<Hypothesis>& rivals) {
+/// The competing models as they would act in another trial: what happened in one trial alone stays
+/// out.
+std::vector<Variant> variants_of(const std::vector<Hypothesis>& models) {
   std::vector<Variant> variants;
-  for (const Hypothesis& rival : rivals) {
-    variants.push_back(rival.variant());
+  for (const Hypothesis& model : models) {
+    variants.push_back(model.variant());
     std::erase_if(variants.back().effects,
                   [](const plant::Effect& effect) { return effect.words.contains("trial"); });
   }
@@ -88,12 +84,12 @@ Separation separation_of(const DataSet& data, int trial, const Prediction& a, co
   return result;
 }
 
-/// A design that was simulated for every rival.
+/// A design that was simulated for every competing model.
 struct Tried {
   const TrialDesign* design = nullptr;
   std::vector<Prediction> predictions;
-  Separation nearest;  // of the first rival from the one least far from it
-  int rival = 1;
+  Separation nearest;  // of the first competing model from the one least far from it
+  int other = 1;
   double worth() const { return nearest.total / design->minutes; }
 };
 
@@ -125,7 +121,7 @@ std::vector<Tried> try_designs(Experiment designs, const DataSet& data,
           separation_of(measured, static_cast<int>(t), one.predictions[0], one.predictions[v]);
       if (s.total >= one.nearest.total) continue;
       one.nearest = s;
-      one.rival = static_cast<int>(v);
+      one.other = static_cast<int>(v);
     }
     tried.push_back(std::move(one));
   }
@@ -133,22 +129,22 @@ std::vector<Tried> try_designs(Experiment designs, const DataSet& data,
 }
 
 // What tells a cause from its look-alikes where no trial that can be simulated does.
-std::string tie_breaker(const std::vector<Hypothesis>& rivals) {
-  for (const Hypothesis& rival : rivals)
-    if (const effects::EffectDefinition* known = effects::find_effect(rival.name))
+std::string tie_breaker(const std::vector<Hypothesis>& models) {
+  for (const Hypothesis& model : models)
+    if (const effects::EffectDefinition* known = effects::find_effect(model.name))
       if (!known->tells_apart.empty()) return known->tells_apart;
   return "repeat the trials at twice the amplitude with one more marker";
 }
 
-std::string name_of(const Hypothesis& rival) {
-  return rival.name.empty() ? "the refitted model" : rival.name;
+std::string name_of(const Hypothesis& model) {
+  return model.name.empty() ? "the refitted model" : model.name;
 }
 
 // Where no design could be simulated.
-NextExperiment by_hand(const std::vector<Hypothesis>& rivals) {
+NextExperiment by_hand(const std::vector<Hypothesis>& models) {
   NextExperiment next;
-  next.sentence = "To tell " + name_of(rivals[0]) + " from " + name_of(rivals[1]) + ": " +
-                  tie_breaker(rivals) + ".";
+  next.sentence = "To tell " + name_of(models[0]) + " from " + name_of(models[1]) + ": " +
+                  tie_breaker(models) + ".";
   return next;
 }
 
@@ -159,7 +155,7 @@ std::string channel_of(const Experiment& experiment, int column) {
 }
 
 NextExperiment described(const Experiment& experiment, const DataSet& data, const Tried& best,
-                         const std::vector<Hypothesis>& rivals) {
+                         const std::vector<Hypothesis>& models) {
   const auto markers = static_cast<int>(3 * experiment.markers.size());
   const Separation& s = best.nearest;
   const bool force = s.column >= markers;
@@ -171,13 +167,13 @@ NextExperiment described(const Experiment& experiment, const DataSet& data, cons
   next.time = force ? trial.force.time : trial.markers.time;
   next.separation = s.total;
   next.minutes = best.design->minutes;
-  for (std::size_t v = 0; v < rivals.size(); ++v) {
+  for (std::size_t v = 0; v < models.size(); ++v) {
     const Eigen::MatrixXd& value = force ? best.predictions[v].force : best.predictions[v].markers;
     const Eigen::VectorXd column = value.col(force ? s.column - markers : s.column);
-    next.names.push_back(name_of(rivals[v]));
+    next.names.push_back(name_of(models[v]));
     next.series.emplace_back(column.begin(), column.end());
   }
-  next.sentence = best.design->action + ": " + next.names[0] + " and " + next.names[best.rival] +
+  next.sentence = best.design->action + ": " + next.names[0] + " and " + next.names[best.other] +
                   " then differ by " + short_number(s.total) + " times the noise in all, most (" +
                   short_number(s.largest) + " times) at " + next.channel + " after " +
                   short_number(next.time[s.sample]) + " s. It takes about " +
@@ -188,13 +184,16 @@ NextExperiment described(const Experiment& experiment, const DataSet& data, cons
 }  // namespace
 
 NextExperiment next_experiment(const Experiment& experiment, const DataSet& data,
-                               const std::vector<Hypothesis>& rivals,
+                               const std::vector<Hypothesis>& models,
                                const NextExperimentOptions& given, long& simulations) {
-  if (rivals.size() < 2) return {};
+  if (models.size() < 2) return {};
+  const double enough = given.settings.levels.separating;
   NextExperimentOptions options = given;
-  options.numerics.dt = std::max(options.numerics.dt, longest_step);
+  // The choice needs no more accuracy than the competing models' own; a coarse step makes it
+  // cheap.
+  options.numerics.dt = std::max(options.numerics.dt, options.settings.accuracy.design_dt);
   options.numerics.distance = std::max(options.numerics.distance, experiment.plant.distance);
-  const std::vector<Variant> variants = variants_of(rivals);
+  const std::vector<Variant> variants = variants_of(models);
   DesignScales scales = design_scales(experiment);
   Experiment upright = empty_copy(experiment), turned = upright;
   turned.plant = turned_plant(experiment.plant);
@@ -204,25 +203,25 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
                  scales.rest) ||
       !find_rest(turned, variants[0], scales, options.numerics, gravity, simulations,
                  scales.turned_rest))
-    return by_hand(rivals);
+    return by_hand(models);
   const std::vector<TrialDesign> designs = trial_designs(experiment, scales);
   std::vector<const TrialDesign*> plain, around;
   for (const TrialDesign& design : designs) (design.turned ? around : plain).push_back(&design);
   std::vector<Tried> tried = try_designs(upright, data, plain, variants, options, simulations);
   for (Tried& one : try_designs(turned, data, around, variants, options, simulations))
     tried.push_back(std::move(one));
-  if (tried.empty()) return by_hand(rivals);
+  if (tried.empty()) return by_hand(models);
   const auto better = [](const Tried& a, const Tried& b) {
     const bool ea = a.nearest.total >= enough, eb = b.nearest.total >= enough;
     if (ea != eb) return eb;
     return ea ? a.worth() < b.worth() : a.nearest.total < b.nearest.total;
   };
   const Tried& best = *std::ranges::max_element(tried, better);
-  NextExperiment next = described(experiment, data, best, rivals);
+  NextExperiment next = described(experiment, data, best, models);
   if (next.separation < enough)
     next.sentence = "No trial of those that were tried out separates " + next.names[0] + " from " +
-                    next.names[best.rival] + " (the best one by " + short_number(next.separation) +
-                    " times the noise in all). What can: " + tie_breaker(rivals) + ".";
+                    next.names[best.other] + " (the best one by " + short_number(next.separation) +
+                    " times the noise in all). What can: " + tie_breaker(models) + ".";
   return next;
 }
 
@@ -250,12 +249,12 @@ NextExperiment next_look(const Experiment& experiment, const DataSet& data,
     }
   }
   if (trial < 0) return next;
-  const Trial& loud = experiment.trials[trial];
+  const Trial& worst = experiment.trials[trial];
   const bool force = column >= markers;
   next.channel = channel_of(experiment, column);
-  const double time = (force ? loud.force : loud.markers).time[sample];
+  const double time = (force ? worst.force : worst.markers).time[sample];
   next.sentence =
-      "Repeat " + loud.name + " at half and at twice its amplitude" +
+      "Repeat " + worst.name + " at half and at twice its amplitude" +
       (force ? std::string()
              : ", with one more marker beside " + experiment.markers[column / 3].name) +
       ": there the residual is largest (" + short_number(most) + " times the noise at " +

@@ -8,7 +8,7 @@
 
 namespace pedicel::discrepancy {
 
-/// A trial that would tell rival explanations apart, and what each of them predicts for it.
+/// A trial that would tell competing explanations apart, and what each of them predicts for it.
 struct NextExperiment {
   std::string sentence;            ///< what to do and what will be seen; empty: nothing found
   std::string channel;             ///< "m3.x" or "force.x", where they differ most
@@ -25,13 +25,14 @@ struct NextExperimentOptions {
   Numerics numerics;
   int threads = 1;
   const std::atomic<bool>* stop = nullptr;  ///< what is found is not to be used once it is set
+  DiagnosisSettings settings;
 };
 
 /// Simulates a handful of trials that can be done on the same plant for each of the hypotheses
-/// (likeliest first), and chooses the one that separates the first one best from its nearest rival
-/// for the time it takes. `simulations` counts what was simulated.
+/// (likeliest first), and chooses the one that separates the first one best from its nearest
+/// competing model for the time it takes. `simulations` counts what was simulated.
 NextExperiment next_experiment(const Experiment& experiment, const DataSet& data,
-                               const std::vector<Hypothesis>& rivals,
+                               const std::vector<Hypothesis>& models,
                                const NextExperimentOptions& options, long& simulations);
 
 /// Where none of the known causes explains the data: which trial to repeat with other amplitudes,

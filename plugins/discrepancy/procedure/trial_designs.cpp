@@ -115,7 +115,7 @@ class Designs {
     TrialDesign& design = add("Shake the root along x by " + millimetres(amplitude) +
                                   " from 0.3 to 5 Hz in " + short_number(duration) + " s",
                               duration, 10.0, false);
-    Path path;
+    DrivenPath path;
     for (double t = 0.0; t <= duration; t += 0.01) {
       const double phase = 2.0 * std::numbers::pi * (0.3 * t + 0.5 * 4.7 * t * t / duration);
       path.time.push_back(t);
@@ -147,14 +147,14 @@ class Designs {
 };
 
 // m, between the farthest poses of a path; a held pull has but one pose, and counts by force.
-double travel(const Path& path) {
+double travel(const DrivenPath& path) {
   double most = 0.0;
   for (const Vec3& p : path.position) most = std::max(most, (p - path.position.front()).norm());
   return most;
 }
 
-const Chain& longest(const std::vector<Chain>& chains) {
-  return *std::ranges::max_element(chains, {}, &Chain::length);
+const MarkerChain& longest(const std::vector<MarkerChain>& chains) {
+  return *std::ranges::max_element(chains, {}, &MarkerChain::length);
 }
 
 // How far the markers went in a trial, the largest.
@@ -176,8 +176,8 @@ Vec3 turned(const Vec3& v) {
 }  // namespace
 
 DesignScales design_scales(const Experiment& experiment) {
-  const std::vector<Chain> chains = chains_of(experiment);
-  const Chain& main = longest(chains);
+  const std::vector<MarkerChain> chains = chains_of(experiment);
+  const MarkerChain& main = longest(chains);
   DesignScales scales;
   scales.grip = {experiment.plant.curves[main.curve].name, 0.8, {}};
   for (const Trial& trial : experiment.trials) {

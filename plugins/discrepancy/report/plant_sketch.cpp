@@ -20,9 +20,9 @@ constexpr double margin = 56.0, foot = 44.0;  // px
 constexpr int pieces = 40;                    // of a curve
 constexpr double font = 12.0;
 
-struct Box {
+struct LabelBox {
   double left, top, right, bottom;
-  bool meets(const Box& other) const {
+  bool meets(const LabelBox& other) const {
     return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
   }
 };
@@ -172,7 +172,7 @@ class Sketch {
   // Each text goes to the first side of its point where it covers nothing; names of markers that
   // find no room are left out, marks take the least bad side.
   void labels(SvgCanvas& canvas) {
-    std::vector<Box> curves;
+    std::vector<LabelBox> curves;
     for (const auto& line : lines_)
       for (const Vec3& p : line) curves.push_back({x(p) - 1.5, y(p) - 1.5, x(p) + 1.5, y(p) + 1.5});
     for (const Wanted& w : wanted_) {
@@ -187,13 +187,13 @@ class Sketch {
                                                    {px - 0.5 * tw, py - gap - 15},
                                                    {px - 0.5 * tw, py + gap}};
       double best_cost = 1e300;
-      Box best{};
+      LabelBox best{};
       for (const auto& [left, top] : corners) {
         const double moved = std::clamp(left, 4.0, std::max(4.0, width - 4.0 - tw));
-        const Box box{moved, top, moved + tw, top + 15};
+        const LabelBox box{moved, top, moved + tw, top + 15};
         double cost = box.top < 2 || box.bottom > height_ - 2 ? 1000.0 : 0.0;
-        for (const Box& other : taken_) cost += box.meets(other) ? 100.0 : 0.0;
-        for (const Box& other : curves) cost += box.meets(other) ? 3.0 : 0.0;
+        for (const LabelBox& other : taken_) cost += box.meets(other) ? 100.0 : 0.0;
+        for (const LabelBox& other : curves) cost += box.meets(other) ? 3.0 : 0.0;
         if (cost >= best_cost) continue;
         best_cost = cost;
         best = box;
@@ -238,7 +238,7 @@ class Sketch {
   const Experiment& experiment_;
   const std::vector<SketchMark>& marks_;
   std::vector<std::vector<Vec3>> lines_;
-  std::vector<Box> taken_;
+  std::vector<LabelBox> taken_;
   std::vector<Wanted> wanted_;
   Vec3 side_ = Vec3::UnitX();
   double scale_ = 1.0, middle_ = 0.0, base_ = 0.0, bottom_ = 0.0;
@@ -246,7 +246,7 @@ class Sketch {
 };
 
 plant::CurvePlace root_place(const Experiment& experiment) {
-  for (const Chain& chain : chains_of(experiment)) {
+  for (const MarkerChain& chain : chains_of(experiment)) {
     if (!chain.rooted) continue;
     const plant::PlantCurve& curve = experiment.plant.curves[chain.curve];
     const bool first = (curve.points.front() - chain.foot).norm() < 1e-12;

@@ -33,9 +33,10 @@ void add_paths(io::HtmlReport& page, const ReportData& report) {
       std::string(report.extended ? " Extended: with what was found." : ""));
   for (int t = 0; t < static_cast<int>(report.experiment.trials.size()); ++t) {
     const auto moving = liveliest(report, t);
-    const auto loud = worst(report, t, refitted);
+    const auto largest = worst(report, t, refitted);
     if (moving) page.plot(path_plot(report, *moving));
-    if (loud && (!moving || loud->column != moving->column)) page.plot(path_plot(report, *loud));
+    if (largest && (!moving || largest->column != moving->column))
+      page.plot(path_plot(report, *largest));
   }
 }
 
@@ -43,8 +44,8 @@ void add_maps(io::HtmlReport& page, const ReportData& report) {
   page.heading("The residual over markers and time");
   std::vector<std::pair<double, int>> order;
   for (int t = 0; t < static_cast<int>(report.experiment.trials.size()); ++t) {
-    const auto loud = worst(report, t, refitted);
-    order.emplace_back(loud ? -loud->size : 0.0, t);
+    const auto largest = worst(report, t, refitted);
+    order.emplace_back(largest ? -largest->size : 0.0, t);
   }
   std::ranges::stable_sort(order);
   if (order.size() > most_mapped) {
@@ -103,7 +104,7 @@ void add_ranking(io::HtmlReport& page, const Diagnosis& d) {
   page.heading("All candidates, refitted in full");
   page.paragraph(
       "Gain: log-likelihood (nats) that the cause adds to the refitted model. Evidence: "
-      "that and the gain on the trials kept back, less what its parameters and the number of "
+      "that and the gain on the held-out trials, less what its parameters and the number of "
       "candidates cost. What fell far behind was not fitted to the end.");
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : d.ranking) {
@@ -121,7 +122,7 @@ void add_gain(io::HtmlReport& page, const Diagnosis& d) {
   if (!words.empty()) page.paragraph(words);
   std::vector<std::string> plots;
   if (d.verdict.fit.nominal) plots.push_back(error_bars(d.verdict.fit, "Fitted trials"));
-  if (d.verdict.check.nominal) plots.push_back(error_bars(d.verdict.check, "Trials kept back"));
+  if (d.verdict.check.nominal) plots.push_back(error_bars(d.verdict.check, "Held-out trials"));
   if (!plots.empty()) page.plots(plots);
 }
 
@@ -136,13 +137,13 @@ void add_data(io::HtmlReport& page, const Experiment& given, const Diagnosis& d)
     rows.push_back({trial.name, io::format_number(trial.duration(), 4),
                     std::to_string(trial.markers.size()), std::to_string(trial.force.size()),
                     fitted ? "fitted"
-                    : kept ? "kept back"
+                    : kept ? "held out"
                            : "not used"});
   }
   page.table({"trial", "length (s)", "marker samples", "force samples", "used as"}, rows);
   page.key_values({{"samples", std::to_string(a.samples)},
                    {"not seen", std::to_string(a.missing)},
-                   {"wild samples taken out", std::to_string(a.outliers)},
+                   {"outliers taken out", std::to_string(a.outliers)},
                    {"stuck samples taken out", std::to_string(a.stuck)},
                    {"swapped labels put back", std::to_string(a.swaps)}});
   if (!a.refusal.empty()) page.note(a.refusal, false);

@@ -13,7 +13,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr std::array<const char*, 4> mark_colours = {"#d1495b", "#c77d0a", "#8a5fbf", "#2e8b57"};
-constexpr std::size_t most_rivals = 5;
+constexpr std::size_t most_competing_models = 5;
 
 bool concluded(const Verdict& v) {
   return v.outcome != Outcome::bad_data && v.outcome != Outcome::numerical;
@@ -41,13 +41,13 @@ std::vector<SketchMark> marks_of_unknown(const ReportData& report) {
     }
     return marks;
   }
-  const auto loud = worst(report, extended);
+  const auto largest = worst(report, extended);
   const auto markers = static_cast<int>(report.experiment.markers.size());
-  if (loud && loud->column < 3 * markers) {
+  if (largest && largest->column < 3 * markers) {
     SketchMark mark;
     mark.label = "largest residual";
     mark.colour = mark_colours[0];
-    mark.places = {report.experiment.markers[loud->column / 3].place};
+    mark.places = {report.experiment.markers[largest->column / 3].place};
     marks.push_back(mark);
   }
   return marks;
@@ -85,7 +85,8 @@ void add_symptom(io::HtmlReport& page, const ReportData& report,
     page.paragraph("No single symptom leaves the noise.");
   }
   std::vector<std::string> plots;
-  if (const auto loud = worst(report, refitted)) plots.push_back(residual_plot(report, *loud, 440));
+  if (const auto largest = worst(report, refitted))
+    plots.push_back(residual_plot(report, *largest, 440));
   plots.push_back(plant_sketch(report.experiment, marks_of(report)));
   page.plots(plots);
 }
@@ -113,11 +114,11 @@ void add_rivals(io::HtmlReport& page, const Diagnosis& d) {
   for (const Candidate& candidate : d.ranking) {
     const bool named = std::ranges::any_of(
         d.verdict.causes, [&](const NamedCause& cause) { return cause.name == candidate.cause; });
-    if (named || rows.size() == most_rivals) continue;
+    if (named || rows.size() == most_competing_models) continue;
     rows.push_back({candidate.cause, short_number(d.ranking.front().evidence - candidate.evidence),
                     why_it_lost(candidate, d)});
   }
-  if (!rows.empty()) page.table({"rival", "behind (nats)", "why it lost"}, rows);
+  if (!rows.empty()) page.table({"competing model", "behind (nats)", "why it lost"}, rows);
 }
 
 std::string listed(const std::vector<std::string>& words) {
@@ -169,16 +170,16 @@ void add_next(io::HtmlReport& page, const Diagnosis& d) {
 
 const SymptomPair* leading_symptom(const ReportData& report,
                                    const std::vector<SymptomPair>& pairs) {
-  const SymptomPair* loudest = nullptr;
+  const SymptomPair* strongest = nullptr;
   const auto& causes = report.diagnosis.verdict.causes;
   for (const SymptomPair& pair : pairs) {
     if (!pair.before.shows()) continue;
-    if (!loudest) loudest = &pair;
+    if (!strongest) strongest = &pair;
     if (causes.empty()) break;
     const auto& speaks = pair.before.speaks_for;
     if (std::ranges::find(speaks, causes.front().name) != speaks.end()) return &pair;
   }
-  return loudest;
+  return strongest;
 }
 
 void add_card(io::HtmlReport& page, const ReportData& report,
@@ -190,8 +191,8 @@ void add_card(io::HtmlReport& page, const ReportData& report,
   page.paragraph(certainty_text(d));
   if (!d.exchanged.empty())
     page.paragraph("Nothing is wrong in the trials that were to be fitted; \"" + d.exchanged +
-                   "\", which was to be kept back, is not explained by them. So it was fitted, and "
-                   "another one kept back.");
+                   "\", which was to be held out, is not explained by them. So it was fitted, and "
+                   "another one held out.");
   const std::string remainder = remainder_text(v);
   if (concluded(v) && !remainder.empty()) page.paragraph(remainder);
   if (report.predicted && concluded(v)) add_symptom(page, report, pairs);

@@ -47,9 +47,9 @@ std::string residual_plot(const ReportData& report, const ReportChannel& channel
 std::string residual_map(const ReportData& report, int trial, Model model);
 /// Empty where the symptom has no plot.
 std::string symptom_plot(const Symptom& symptom, const std::string& model);
-/// RMS residual over the noise floor of the models, as bars; fitted and kept-back trials.
+/// RMS residual over the noise floor of the models, as bars; fitted and held-out trials.
 std::string error_bars(const Errors& errors, const std::string& title);
-/// What the rivals predict for the experiment that would separate them.
+/// What the competing models predict for the experiment that would separate them.
 std::string prediction_plot(const NextExperiment& next);
 
 }  // namespace pedicel::discrepancy

@@ -125,8 +125,8 @@ std::string gain_text(const Diagnosis& d) {
   const bool taken_back = d.verdict.outcome == Outcome::unknown && d.verdict.causes.empty();
   const bool found =
       !taken_back && d.best.hypothesis.effects.size() > d.base.hypothesis.effects.size();
-  std::string text = check.refitted ? "On the trials kept back (" + joined(names, " and ") + ") "
-                                    : "No trial was kept back; on the fitted ones ";
+  std::string text = check.refitted ? "On the held-out trials (" + joined(names, " and ") + ") "
+                                    : "No trial was held out; on the fitted ones ";
   text += "the residual is " + short_number(*errors.refitted) +
           " times the noise with the refitted model";
   if (found && errors.extended)
@@ -140,8 +140,8 @@ std::string gain_text(const Diagnosis& d) {
 
 std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const Verdict& verdict) {
   std::pair<std::vector<std::string>, std::vector<std::string>> lists;
-  for (const CouldHide& hide : verdict.could_hide) {
-    const bool seen = std::isfinite(hide.smallest_seen) && !hide.parameter.empty();
+  for (const DetectableLimit& hide : verdict.detectable_limits) {
+    const bool seen = std::isfinite(hide.smallest) && !hide.parameter.empty();
     if (!seen) {
       lists.second.push_back(hide.name);
       continue;
@@ -150,13 +150,12 @@ std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const
     const effects::EffectParameter* size = effects::find_parameter(hide.name, hide.parameter);
     const bool stiff = size && size->vanishes == effects::Vanishes::at_infinity;
     const bool factor = size && size->vanishes == effects::Vanishes::at_one;
-    lists.first.push_back(
-        hide.name + ": " + hide.parameter +
-        (stiff    ? " above "
-         : factor ? " off 1 by less than "
-                  : " below ") +
-        short_number(factor ? std::abs(hide.smallest_seen - 1.0) : hide.smallest_seen) +
-        unit_text(hide.unit));
+    lists.first.push_back(hide.name + ": " + hide.parameter +
+                          (stiff    ? " above "
+                           : factor ? " off 1 by less than "
+                                    : " below ") +
+                          short_number(factor ? std::abs(hide.smallest - 1.0) : hide.smallest) +
+                          unit_text(hide.unit));
   }
   return lists;
 }
@@ -167,7 +166,7 @@ std::string certainty_text(const Diagnosis& d) {
     return "Nothing was concluded about the plant.";
   std::string text =
       d.before.raised
-          ? "The loudest of the directed tests stands at " + short_number(d.before.statistic) +
+          ? "The strongest of the directed tests stands at " + short_number(d.before.statistic) +
                 " (pure noise exceeds " + short_number(d.before.level) + " once in 200 times)."
           : "None of the directed tests of motion and force leaves what noise alone does "
             "(largest " +
@@ -175,9 +174,9 @@ std::string certainty_text(const Diagnosis& d) {
   if (v.outcome == Outcome::named && !v.causes.empty()) {
     text += " The evidence for " + v.causes.front().name + " is " +
             short_number(v.causes.front().evidence) + " nats";
-    if (!v.rivals.empty())
-      text += "; the nearest rival, " + v.rivals.front().name + ", is " +
-              short_number(v.rivals.front().behind) + " behind";
+    if (!v.competing.empty())
+      text += "; the nearest competing model, " + v.competing.front().name + ", is " +
+              short_number(v.competing.front().behind) + " behind";
     text += ".";
   }
   if (v.outcome == Outcome::ambiguous)
@@ -203,7 +202,7 @@ std::string symptom_title(const std::string& name) {
       {"force_scale", "size of the force"},
       {"force_drift", "drift of a held force"},
       {"clock_trend", "stiffness by the clock"},
-      {"bad_channel", "one loud marker"},
+      {"bad_channel", "one deviating marker"},
       {"constant_offset", "constant offset of a marker"},
       {"length_scale", "lengths between markers"}};
   const auto found = titles.find(name);

@@ -25,7 +25,7 @@ std::string why_it_lost(const Candidate& candidate, const Diagnosis& diagnosis);
 /// What is still unexplained, or what is known of something unknown, as sentences; may be empty.
 std::string remainder_text(const Verdict& verdict);
 
-/// The gain on the trials kept back against the noise floor, one or two sentences.
+/// The gain on the held-out trials against the noise floor, one or two sentences.
 std::string gain_text(const Diagnosis& diagnosis);
 
 /// "extra_mass: mass from 0.004 kg on", for causes that could hide; those that nothing would show

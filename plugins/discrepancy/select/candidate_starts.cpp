@@ -11,15 +11,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr std::size_t linear_starts = 2;    // looked at, of a cause and either sign
-constexpr std::size_t most_thresholds = 4;  // likewise, of laws with one
-constexpr double small_amplitude = 0.2;     // of a gust, of its mean
-constexpr double least_statistic = 1.0;     // below it a direction says nothing of the size
-constexpr double no_change = 1.0e-12;       // a direction without length
-constexpr double believed = 2.0;            // of an unknown's width
-constexpr std::size_t rungs = 4;            // starts of one number in its order make a ladder
-constexpr int finer_by = 5, finer_rounds = 3;
-constexpr double as_well = 0.5;  // nats
+constexpr double no_change = 1.0e-12;  // a direction without length
 
 // Of matrix step = right, with those that are held where they are.
 Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
@@ -38,9 +30,11 @@ Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
 
 // Where the linear model about the baseline puts a cause, the baseline's numbers moved along with
 // it; nothing where the data ask for the sign that the cause cannot have.
-std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction) {
+std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction,
+                                       const DiagnosisSettings& settings) {
   const double size = length(direction);
-  if (size < no_change || std::abs(direction.statistic) < least_statistic) return {};
+  if (size < no_change || std::abs(direction.statistic) < settings.budget.least_statistic)
+    return {};
   const double share = direction.has_threshold ? 1.0 : direction.statistic / size;
   for (const FreeParameter& free : direction.start.free) {
     const bool one_sided = free.vanishes == Vanishes::at_infinity ||
@@ -50,33 +44,35 @@ std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& 
   Hypothesis both = base.hypothesis;
   // A change of full size is too large to move along with.
   if (!direction.has_threshold)
-    both.set_unknowns(base.hypothesis.unknowns() + allowed_step(base, -share * direction.absorbed));
+    both.set_unknowns(base.hypothesis.unknowns() +
+                      allowed_step(base, -share * direction.nuisance_step, settings));
   both.add(direction.start.shrunk(share).bounded());
   both.name = direction.cause;
   return both;
 }
 
-bool is_ladder(const Cause& cause) {
-  return cause.starts.size() >= rungs && std::ranges::all_of(cause.starts, [](const Hypothesis& s) {
+bool is_ladder(const Cause& cause, const Budget& budget) {
+  return cause.starts.size() >= static_cast<std::size_t>(budget.ladder_rungs) &&
+         std::ranges::all_of(cause.starts, [](const Hypothesis& s) {
            return s.size() == 1 && s.free[0].logarithmic;
          });
 }
 
 // Of those that do as well as the best one, as all thresholds that do nothing.
-int lowest_of_best(const Scan& found) {
+int lowest_of_best(const Scan& found, double tie) {
   int lowest = 0;
-  while (found.cost[lowest] > found.cost[found.best] + as_well) ++lowest;
+  while (found.cost[lowest] > found.cost[found.best] + tie) ++lowest;
   return lowest;
 }
 
 // From a start's one neighbour to the other, in steps that are several times shorter.
-std::vector<Hypothesis> finer_ladder(const std::vector<Hypothesis>& ladder, int at) {
+std::vector<Hypothesis> finer_ladder(const std::vector<Hypothesis>& ladder, int at, int parts) {
   const int first = std::max(0, at - 1);
   const int last = std::min(at + 1, static_cast<int>(ladder.size()) - 1);
   std::vector<Hypothesis> finer;
   for (int i = first; i < last; ++i)
-    for (int k = 0; k < finer_by; ++k) {
-      const double share = static_cast<double>(k) / finer_by;
+    for (int k = 0; k < parts; ++k) {
+      const double share = static_cast<double>(k) / parts;
       finer.push_back(ladder[i]);
       finer.back().set_unknowns((1.0 - share) * ladder[i].unknowns() +
                                 share * ladder[i + 1].unknowns());
@@ -106,7 +102,7 @@ std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base
       starts.push_back(joined(base.hypothesis, start.shrunk(share), false));
   for (const Hypothesis& start : cause.starts)
     starts.push_back(joined(base.hypothesis, start, true));
-  options.horizon = first_horizon;
+  options.horizon = options.settings->budget.candidate_horizon;
   const Scan found = scan(evaluator, starts, options);
   std::vector<std::size_t> order(starts.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -117,7 +113,8 @@ std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base
   return best;
 }
 
-Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wanted) {
+Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wanted,
+                             const DiagnosisSettings& settings) {
   const int n = model.hypothesis.size();
   const Eigen::VectorXd u = model.hypothesis.unknowns();
   const Eigen::VectorXd low = model.hypothesis.low() - u, high = model.hypothesis.high() - u;
@@ -138,7 +135,7 @@ Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wan
   const int modulus = model.hypothesis.factor_on("youngs_modulus"),
             density = model.hypothesis.factor_on("density");
   if (modulus < 0 || density < 0) return step;
-  const double most = believed * model.hypothesis.free[density].width();
+  const double most = settings.levels.believed * model.hypothesis.free[density].width();
   const double beyond = step[density] - std::clamp(step[density], -most, most);
   step[density] -= beyond;
   step[modulus] = std::clamp(step[modulus] - beyond, low[modulus], high[modulus]);
@@ -173,14 +170,16 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
   std::ranges::stable_sort(own, [](const Direction* a, const Direction* b) {
     return std::abs(a->statistic) > std::abs(b->statistic);
   });
-  // A place may be softer or stiffer than drawn: the loudest of both.
+  // A place may be softer or stiffer than drawn: the strongest of both.
   std::vector<Hypothesis> starts;
-  std::array<std::size_t, 2> of_sign{};
-  std::size_t thresholds = 0;
+  const int linear = options.settings->budget.linear_starts;
+  const int with_threshold = options.settings->budget.threshold_starts;
+  std::array<int, 2> of_sign{};
+  int thresholds = 0;
   for (const Direction* direction : own) {
-    auto start = linear_start(base, *direction);
-    if (start && (direction->has_threshold ? thresholds++ < most_thresholds
-                                           : of_sign[direction->statistic > 0.0]++ < linear_starts))
+    auto start = linear_start(base, *direction, *options.settings);
+    if (start && (direction->has_threshold ? thresholds++ < with_threshold
+                                           : of_sign[direction->statistic > 0.0]++ < linear))
       starts.push_back(std::move(*start));
   }
   if (starts.size() < 2 || has_place(starts.front())) return starts;
@@ -188,7 +187,7 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
 }
 
 std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitted,
-                                  const Cause& cause) {
+                                  const Cause& cause, double amplitude) {
   const plant::Effect& special = fitted.effects.back();
   std::vector<Hypothesis> starts;
   for (const Hypothesis& start : cause.starts) {
@@ -196,7 +195,7 @@ std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitt
     for (const auto& [name, numbers] : special.numbers)
       if (own.effects[0].numbers.contains(name)) own.effects[0].numbers[name] = numbers;
     if (own.effects[0].numbers.contains("amplitude"))
-      own.effects[0].numbers["amplitude"] = {small_amplitude};
+      own.effects[0].numbers["amplitude"] = {amplitude};
     Hypothesis both = base;
     both.set_unknowns(fitted.unknowns().head(base.size()));
     both.add(own.bounded());
@@ -208,13 +207,14 @@ std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitt
 
 std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummary& base,
                                            const Cause& cause, const FitOptions& options) {
+  const Budget& budget = options.settings->budget;
   std::vector<Hypothesis> starts;
   for (const Hypothesis& start : cause.starts)
     starts.push_back(joined(base.hypothesis, start, false));
   Scan found = scan(evaluator, starts, options);
   // One threshold does nothing, and the next one too much.
-  for (int round = 0; round < finer_rounds && is_ladder(cause); ++round) {
-    starts = finer_ladder(starts, lowest_of_best(found));
+  for (int round = 0; round < budget.ladder_rounds && is_ladder(cause, budget); ++round) {
+    starts = finer_ladder(starts, lowest_of_best(found, budget.ladder_tie), budget.ladder_parts);
     found = scan(evaluator, starts, options);
   }
   if (!(found.cost[found.best] < base.cost)) return {};
@@ -223,7 +223,8 @@ std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummar
 
 Hypothesis with_threshold_by(Evaluator& evaluator, const Hypothesis& fitted, const Cause& cause,
                              const FitOptions& options) {
-  if (!is_ladder(cause)) return fitted;
+  const Budget& budget = options.settings->budget;
+  if (!is_ladder(cause, budget)) return fitted;
   const Eigen::Index last = fitted.size() - 1;
   const double rung = cause.starts[1].unknowns()[0] - cause.starts[0].unknowns()[0];
   std::vector<Hypothesis> ladder(3, fitted);
@@ -234,10 +235,10 @@ Hypothesis with_threshold_by(Evaluator& evaluator, const Hypothesis& fitted, con
     ladder[i] = ladder[i].bounded();
   }
   Scan found;
-  for (int round = 0, at = 1; round < finer_rounds; ++round) {
-    ladder = finer_ladder(ladder, at);
+  for (int round = 0, at = 1; round < budget.ladder_rounds; ++round) {
+    ladder = finer_ladder(ladder, at, budget.ladder_parts);
     found = scan(evaluator, ladder, options);
-    at = lowest_of_best(found);
+    at = lowest_of_best(found, budget.ladder_tie);
   }
   return ladder[found.best];
 }

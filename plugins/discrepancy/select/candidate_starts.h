@@ -12,9 +12,6 @@ namespace pedicel::discrepancy {
 
 /// Where refits of a candidate start. `base` is the model that it extends.
 
-/// Share of the records in which periods do not slip.
-inline constexpr double first_horizon = 0.35;
-
 /// The base with a cause's start; `from_nominal`: with the parameters' factors at 1.
 Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nominal);
 
@@ -24,7 +21,8 @@ bool has_place(const Hypothesis& hypothesis);
 /// The step of a model's unknowns that changes the prediction as `wanted` does, as far as bounds
 /// and what is known beforehand allow: along a valley (modulus and density of a free vibration) the
 /// data would let it go anywhere.
-Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wanted);
+Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wanted,
+                             const DiagnosisSettings& settings);
 
 /// The best `keep` of a cause's own starts (sizes, places, from the refitted and from the nominal
 /// parameters), by a look at the first part of the records.
@@ -40,9 +38,9 @@ std::vector<Hypothesis> best_linear_starts(Evaluator& evaluator, const FitSummar
                                            const FitOptions& options);
 
 /// The starts of a cause with the values of one that is a special case of it, as `fitted` on top of
-/// the base; with little of what the cause has more.
+/// the base; with little of what the cause has more (a gust's `amplitude`).
 std::vector<Hypothesis> continued(const Hypothesis& base, const Hypothesis& fitted,
-                                  const Cause& cause);
+                                  const Cause& cause, double amplitude);
 
 /// What a fit may miss because it says nearly the same in other words: an anisotropy of an upright
 /// stem turned by a right angle, its ratio the other way round and the modulus stiffer by it. Of

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "pedicel/core/thread_pool.h"
 #include "pedicel/discrepancy/fit/profile.h"
@@ -23,35 +24,13 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr int first_iterations = 6, whole_iterations = 10;
-constexpr double rough_step = 1.0;   // nats, of fits that only tell who leads
-constexpr std::size_t foremost = 2;  // that tell, fitted whole, how far behind the others are
-constexpr std::size_t leaders = 6;
-constexpr std::size_t most_whole = 8;     // of each of the two lists
-constexpr std::size_t most_extended = 3;  // starts from a special case
-constexpr std::array growing_horizons{0.5 * first_horizon, first_horizon, 1.0};
 // Iterations of every start, and how many starts go on. Between places there are ridges, on which
 // many steps are tried in vain.
 struct Look {
   int iterations;
-  std::size_t leading;
+  int leading;
 };
-constexpr std::size_t all_starts = std::numeric_limits<std::size_t>::max();
-constexpr Look look_at_size{2, 2}, look_at_place{6, all_starts}, look_at_extended{3, 1};
-constexpr double far_behind = 0.3;  // of the first one's gain or statistic
-// Nats, and of the best one's gain: of what could be a rival, and with a few iterations of the fine
-// simulator, because of the coarse one's errors.
-constexpr double near_by = 50.0, near_share = 0.05;
-constexpr int few_fine = 4;
-// Nats that the best one must gain for any to be left early: where it gains little, a fit on its
-// way from a start that does worse than the base is soon as many behind.
-constexpr double loud = 2000.0;
-// Nats, and of the best one's gain, by which a fit is too far behind to go on: one that has
-// converged, one after a few iterations, and after twice as many; and by which no other start would
-// make up for it.
-constexpr double lost_by = 200.0, lost_share = 0.05, lost_early = 0.6, lost_late = 0.3;
-constexpr double lost_at_once = 0.9;
-constexpr double small_residual = 2.0;  // mean square in noise units, see refit_all()
+constexpr int all_starts = std::numeric_limits<int>::max();
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.
 void keep_better(FitSummary& best, FitSummary&& found) {
@@ -60,32 +39,34 @@ void keep_better(FitSummary& best, FitSummary&& found) {
 
 FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
                           FitOptions options, std::size_t count) {
+  const Budget& budget = options.settings->budget;
   FitSummary best;
   const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
-  options.horizon = first_horizon;
-  options.iterations = std::min(first_iterations, options.iterations);
-  options.least_step = rough_step;
+  options.horizon = budget.candidate_horizon;
+  options.iterations = std::min(budget.first_iterations, options.iterations);
+  options.least_step = budget.rough_step;
   for (const Hypothesis& start : starts)
     keep_better(best, fit(evaluator, start, options, base.jacobian));
   return best;
 }
 
 // Ranks by value, largest first: the first `count` of them.
-std::vector<int> first_by(const std::vector<double>& value, std::size_t count) {
+std::vector<int> first_by(const std::vector<double>& value, int count) {
   std::vector<int> order(value.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   std::ranges::stable_sort(order, [&](int a, int b) { return value[a] > value[b]; });
-  order.resize(std::min(count, order.size()));
+  order.resize(std::min(static_cast<std::size_t>(count), order.size()));
   return order;
 }
 
 // Costs above which a fit is too far behind those that were made before it.
 struct Limits {
+  const Budget* budget;
   double least = std::numeric_limits<double>::infinity();  // of those
   double base = 0.0;
   double at(double share) const {
-    if (base - least < loud) return std::numeric_limits<double>::infinity();
-    return least + std::max(lost_by, share * (base - least));
+    if (base - least < budget->large_gain) return std::numeric_limits<double>::infinity();
+    return least + std::max(budget->lost_by, share * (base - least));
   }
 };
 
@@ -94,7 +75,8 @@ std::vector<Hypothesis> by_cost(const std::vector<Hypothesis>& starts, const Sca
   std::vector<double> closeness;
   for (const double cost : scanned.cost) closeness.push_back(-cost);
   std::vector<Hypothesis> sorted;
-  for (const int i : first_by(closeness, starts.size())) sorted.push_back(starts[i]);
+  for (const int i : first_by(closeness, static_cast<int>(starts.size())))
+    sorted.push_back(starts[i]);
   return sorted;
 }
 
@@ -107,20 +89,22 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
   FitOptions few = options, rest = options;
   few.iterations = std::min(look.iterations, options.iterations);
   rest.iterations = options.iterations - few.iterations;
-  const double most = limits.at(lost_early);
+  const Budget& budget = options.settings->budget;
+  const double most = limits.at(budget.lost_early);
   std::vector<FitSummary> found;
   std::vector<double> closeness;
   const Scan scanned = scan(evaluator, starts, options);
   for (const Hypothesis& start : by_cost(starts, scanned)) {
     found.push_back(fit(evaluator, start, few, base.jacobian));
     closeness.push_back(-objective(found.back()));
-    if (found.front().cost > limits.at(lost_at_once)) break;
+    if (found.front().cost > limits.at(budget.lost_at_once)) break;
   }
   FitSummary best;
   for (const int i : first_by(closeness, look.leading)) {
     const bool goes_on = rest.iterations > 0 && found[i].cost <= most;
     keep_better(best, goes_on ? refit(evaluator, found[i], rest) : std::move(found[i]));
   }
+  const std::array growing_horizons{0.5 * budget.candidate_horizon, budget.candidate_horizon, 1.0};
   if (best.cost <= most && scanned.cost[scanned.best] >= base.cost)
     keep_better(best, fit_growing(evaluator, starts[scanned.best], options, growing_horizons));
   return best;
@@ -153,38 +137,40 @@ class Refits {
         causes_(causes),
         directions_(directions),
         options_(options),
-        promise_(promise_of(causes, directions)),
+        budget_(options.fit.settings->budget),
+        score_(score_statistics(causes, directions)),
         samples_(workers.fine.front().data().samples(options.fit.trials)),
         candidates_(causes.size()) {}
 
   std::vector<Candidate> run() {
     for (std::size_t i = 0; i < causes_.size(); ++i) candidates_[i].cause = causes_[i].name;
-    if (2.0 * base_.cost > small_residual * samples_)
+    if (2.0 * base_.cost > options_.fit.settings->evidence.far_from_data * samples_)
       fit_first_parts();
     else
-      promise_gains();
-    choose_whole(promise_);
+      set_score_gains();
+    choose_whole(score_);
     const std::string foremost_cause = std::ranges::max(candidates_, {}, &Candidate::gain).cause;
     for (Candidate& candidate : candidates_)
       if (effects::same_family(candidate.cause, foremost_cause) ||
-          !ways_back(candidate.cause).empty())
+          !continuations(candidate.cause).empty())
         candidate.whole = true;
     std::vector<int> whole;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
     // A few iterations tell who is behind; only the leaders are worth the rest.
     std::ranges::stable_sort(whole, std::greater(), [&](int i) { return candidates_[i].gain; });
-    const auto others = whole.begin() + std::min(foremost, whole.size());
+    const auto others =
+        whole.begin() + std::min<std::ptrdiff_t>(budget_.foremost, std::ssize(whole));
     std::vector<int> first(whole.begin(), others), behind(others, whole.end());
     longest_first(behind);
-    fit_whole(first, {}, 0.5, 0.6);
-    Limits limits{base_.cost, base_.cost};
+    fit_whole(first, Limits{&budget_}, 0.5, 0.6);
+    Limits limits{&budget_, base_.cost, base_.cost};
     for (const int i : first) limits.least = std::min(limits.least, candidates_[i].fit.cost);
     fit_whole(behind, limits, 0.6, 0.7);
     extend_special_cases();
-    const std::vector<int> near = leading(whole, lost_early);
-    refit_coarse(near, whole_iterations, 0.7);
-    std::vector<int> moving = leading(near, lost_late);
+    const std::vector<int> near = leading(whole, budget_.lost_early);
+    refit_coarse(near, budget_.whole_iterations, 0.7);
+    std::vector<int> moving = leading(near, budget_.lost_late);
     std::erase_if(moving, [&](int i) { return candidates_[i].fit.converged; });
     refit_coarse(moving, options_.fit.iterations, 0.75);
     std::erase_if(candidates_, [](const Candidate& c) { return c.fit.why == "not run"; });
@@ -199,11 +185,11 @@ class Refits {
  private:
   void fit_first_parts() {
     FitOptions early = options_.fit;
-    early.horizon = first_horizon;
+    early.horizon = budget_.candidate_horizon;
     const double early_cost =
         0.5 * coarse_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
     std::vector<std::size_t> starts(causes_.size(), 1);
-    for (const int i : first_by(promise_, most_whole)) starts[i] = 2;
+    for (const int i : first_by(score_, budget_.whole_candidates)) starts[i] = 2;
     std::vector<int> all(causes_.size());
     std::iota(all.begin(), all.end(), 0);
     longest_first(all);
@@ -229,19 +215,20 @@ class Refits {
 
   // The first few, and others that are not far behind.
   void choose_whole(const std::vector<double>& worth) {
-    const std::vector<int> order = first_by(worth, most_whole);
+    const std::vector<int> order = first_by(worth, budget_.whole_candidates);
     for (std::size_t i = 0; i < order.size(); ++i)
-      if (i < leaders || worth[order[i]] > far_behind * worth[order[0]])
+      if (std::cmp_less(i, budget_.leaders) ||
+          worth[order[i]] > budget_.far_behind * worth[order[0]])
         candidates_[order[i]].whole = true;
   }
 
   // Of a linear model the gain is half the squared statistic.
-  void promise_gains() {
+  void set_score_gains() {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      candidates_[i].gain = 0.5 * promise_[i] * promise_[i];
+      candidates_[i].gain = 0.5 * score_[i] * score_[i];
       candidates_[i].fit.hypothesis = base_.hypothesis;
       candidates_[i].fit.hypothesis.add(causes_[i].starts.front());
-      candidates_[i].fit.why = "not fitted: its directions promise too little";
+      candidates_[i].fit.why = "not fitted: its directions score too little";
     }
   }
 
@@ -253,13 +240,13 @@ class Refits {
   FitOptions rough(int iterations) const {
     FitOptions few = options_.fit;
     few.iterations = iterations;
-    few.least_step = rough_step;
+    few.least_step = budget_.rough_step;
     return few;
   }
 
   void fit_whole(Evaluator& evaluator, int i, const Limits& limits) {
     const bool placed = has_place(causes_[i].starts.front());
-    const FitOptions few = rough((placed ? 2 : 1) * whole_iterations);
+    const FitOptions few = rough((placed ? 2 : 1) * budget_.whole_iterations);
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
     if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
@@ -270,22 +257,24 @@ class Refits {
     if (plain) starts.push_back(std::move(*plain));
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
-    const std::vector<Direction> back = ways_back(candidate.cause);
-    candidate.fit =
-        best_fit(evaluator, base_, starts, few, placed ? look_at_place : look_at_size, limits);
-    if (candidate.fit.cost > limits.at(lost_early) && back.empty()) return;
+    const std::vector<Direction> back = continuations(candidate.cause);
+    candidate.fit = best_fit(evaluator, base_, starts, few,
+                             placed ? Look{budget_.place_iterations, all_starts}
+                                    : Look{budget_.size_iterations, budget_.size_starts},
+                             limits);
+    if (candidate.fit.cost > limits.at(budget_.lost_early) && back.empty()) return;
     candidate.fit = slide_along(evaluator, std::move(candidate.fit), few);
     if (const auto twin = twin_of(candidate.fit.hypothesis))
       keep_better(candidate.fit, fit(evaluator, *twin, few, base_.jacobian));
     for (const Direction& start : back)
-      if (auto found = walk_back(evaluator, base_, start, few))
+      if (auto found = continue_to_prior(evaluator, base_, start, few))
         keep_better(candidate.fit, std::move(*found));
   }
 
   // What a base that misses the data is pulled by says nothing.
-  std::vector<Direction> ways_back(const std::string& cause) const {
-    if (2.0 * base_.cost > small_residual * samples_) return {};
-    return likest_way_back(base_, cause, directions_);
+  std::vector<Direction> continuations(const std::string& cause) const {
+    if (2.0 * base_.cost > options_.fit.settings->evidence.far_from_data * samples_) return {};
+    return likest_continuations(base_, cause, directions_, budget_);
   }
 
   // A cause that has another one as a special case does at least as well: it goes on from there.
@@ -293,14 +282,16 @@ class Refits {
     for (const auto& [special, general] : effects::special_cases()) {
       Candidate* from = whole_one(special);
       Candidate* to = whole_one(general);
-      if (!from || !to || stopped() || is_lost(*from, lost_early)) continue;
+      if (!from || !to || stopped() || is_lost(*from, budget_.lost_early)) continue;
       const Cause& cause = causes_[to - candidates_.data()];
-      std::vector<Hypothesis> starts = continued(base_.hypothesis, from->fit.hypothesis, cause);
+      std::vector<Hypothesis> starts =
+          continued(base_.hypothesis, from->fit.hypothesis, cause, budget_.gust_start);
       Evaluator& evaluator = coarse_.front();
       starts = by_cost(starts, scan(evaluator, starts, options_.fit));
-      starts.resize(std::min(most_extended, starts.size()));
-      keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * whole_iterations),
-                                    look_at_extended, Limits{}));
+      starts.resize(std::min(static_cast<std::size_t>(budget_.special_starts), starts.size()));
+      keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * budget_.whole_iterations),
+                                    Look{budget_.extended_iterations, budget_.extended_starts},
+                                    Limits{&budget_}));
     }
   }
 
@@ -313,9 +304,10 @@ class Refits {
 
   // Whether it is too far behind the best one for the rest of its iterations to matter.
   bool is_lost(const Candidate& candidate, double early_or_late) const {
-    const double share = candidate.fit.converged ? lost_share : early_or_late;
+    const double share = candidate.fit.converged ? budget_.lost_share : early_or_late;
     return candidate.fit.why == "not run" ||
-           candidate.fit.cost > Limits{least_cost(candidates_, base_), base_.cost}.at(share);
+           candidate.fit.cost >
+               Limits{&budget_, least_cost(candidates_, base_), base_.cost}.at(share);
   }
 
   // The closest ones of those that may still lead.
@@ -324,7 +316,7 @@ class Refits {
     for (const int i : of)
       if (!is_lost(candidates_[i], early_or_late)) found.push_back(i);
     std::ranges::stable_sort(found, {}, [&](int i) { return candidates_[i].fit.cost; });
-    found.resize(std::min(leaders, found.size()));
+    found.resize(std::min(static_cast<std::size_t>(budget_.leaders), found.size()));
     return found;
   }
 
@@ -339,14 +331,14 @@ class Refits {
   }
 
   bool is_near_the_best(const Candidate& candidate) const {
-    return candidates_.front().evidence - candidate.evidence <= near_by;
+    return candidates_.front().evidence - candidate.evidence <= budget_.near_by;
   }
 
   // Whether it may be near once the fine simulator has its say.
   bool could_be_near(const Candidate& candidate) const {
     const Candidate& best = candidates_.front();
     return is_near_the_best(candidate) ||
-           best.evidence - candidate.evidence <= near_share * best.gain;
+           best.evidence - candidate.evidence <= budget_.near_share * best.gain;
   }
 
   // The first few stand in their final order once all of them were refitted: those that are not
@@ -355,7 +347,7 @@ class Refits {
     std::set<std::string> begun;
     while (!stopped()) {
       std::vector<Candidate*> open;
-      for (std::size_t i = 0; i < std::min(leaders, candidates_.size()); ++i) {
+      for (int i = 0; i < std::min<int>(budget_.leaders, std::ssize(candidates_)); ++i) {
         Candidate& candidate = candidates_[i];
         const bool near = begun.contains(candidate.cause) ? is_near_the_best(candidate)
                                                           : could_be_near(candidate);
@@ -366,7 +358,8 @@ class Refits {
                 [&](Evaluator& evaluator, int i) {
                   const bool to_the_end = is_near_the_best(*open[i]);
                   FitOptions options = options_.fit;
-                  if (!to_the_end) options.iterations = std::min(few_fine, options.iterations);
+                  if (!to_the_end)
+                    options.iterations = std::min(budget_.fine_iterations, options.iterations);
                   if (!begun.contains(open[i]->cause)) start_with_fine(evaluator, *open[i]);
                   open[i]->fit = refit(evaluator, open[i]->fit, options);
                   open[i]->fine = to_the_end || open[i]->fit.converged;
@@ -388,34 +381,34 @@ class Refits {
   void rank(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers) {
     if (stopped()) return;
     const double dispersion = dispersion_of(candidates_, base_, samples_);
-    ask_kept_back(changed, workers, dispersion);
-    weigh(candidates_, base_, samples_, dispersion);
+    judge_held_out(changed, workers, dispersion);
+    weigh(candidates_, base_, samples_, dispersion, *options_.fit.settings);
   }
 
   // The parameters were not fitted to these trials, so that nothing is to be paid for them there.
-  void ask_kept_back(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers,
-                     double dispersion) {
+  void judge_held_out(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers,
+                      double dispersion) {
     if (options_.check_trials.empty()) return;
     FitOptions check = options_.fit;
     check.trials = options_.check_trials;
     if (kept_.empty()) {
-      base_kept_ = kept_back(fine_.front(), base_, check);
+      base_held_out_ = held_out_model(fine_.front(), base_, check);
       for (const Candidate* candidate : changed) kept_[candidate->cause] = {};
     }
     share_out(workers, static_cast<int>(changed.size()), options_, 1.0, 1.0,
               [&](Evaluator& evaluator, int i) {
-                kept_.at(changed[i]->cause) = kept_back(evaluator, changed[i]->fit, check);
+                kept_.at(changed[i]->cause) = held_out_model(evaluator, changed[i]->fit, check);
               });
     if (stopped()) return;
     std::vector<Candidate*> whole;
-    std::vector<KeptBack> models;
+    std::vector<HeldOutModel> models;
     for (Candidate& candidate : candidates_) {
       if (!candidate.whole) continue;
       whole.push_back(&candidate);
       models.push_back(kept_.at(candidate.cause));
     }
     const int samples = fine_.front().data().samples(check.trials);
-    const std::vector<HeldOut> found = held_out(base_kept_, models, samples, dispersion);
+    const std::vector<HeldOut> found = held_out(base_held_out_, models, samples, dispersion);
     for (std::size_t i = 0; i < whole.size(); ++i) whole[i]->held_out = found[i];
   }
 
@@ -424,11 +417,13 @@ class Refits {
   const std::vector<Cause>& causes_;
   const std::vector<Direction>& directions_;
   const RefitOptions& options_;
-  const std::vector<double> promise_;
+  const Budget& budget_;
+  const std::vector<double> score_;
   const int samples_;
   std::vector<Candidate> candidates_;
-  KeptBack base_kept_;  // on the trials kept back, as those of the causes that were fitted whole
-  std::map<std::string, KeptBack> kept_;
+  HeldOutModel
+      base_held_out_;  // on the held-out trials, as those of the causes that were fitted whole
+  std::map<std::string, HeldOutModel> kept_;
 };
 
 }  // namespace

@@ -18,22 +18,22 @@ struct Candidate {
   FitSummary fit;
   double gain = 0.0;  ///< log-likelihood above the model that it extends
   /// Gain less what its parameters and the number of candidates cost, and of a whole fit what it
-  /// gains on the trials kept back.
+  /// gains on the held-out trials.
   double evidence = 0.0;
-  HeldOut held_out;  ///< on the trials kept back, of a whole fit
+  HeldOut held_out;  ///< on the held-out trials, of a whole fit
   /// The cause that it turned into, because its fit ended where that one begins (limits()); empty
   /// otherwise.
   std::string limit_of;
   /// False: it fell so far behind over the first part of the records, and its direction shows so
   /// little, that it was not refitted over the whole; its gain is that of the first part, or what
-  /// its direction promises.
+  /// its direction predicts.
   bool whole = false;
   bool fine = false;  ///< whether the fit was ended with the fine simulator
 };
 
 struct RefitOptions {
   FitOptions fit;
-  std::vector<int> check_trials;  ///< kept back from the fits; may be empty
+  std::vector<int> check_trials;  ///< held out from the fits; may be empty
   /// Called now and then, from any thread, with the share that is done.
   std::function<void(double)> progress;
   const std::atomic<bool>* stop = nullptr;
@@ -47,12 +47,12 @@ struct Workers {
 };
 
 /// Refits every cause on top of `base`. Where the base leaves little more than noise, the linear
-/// model about it says from where: the sizes that the data give to the cause's loudest directions,
-/// the base's parameters moved along. Where it leaves much, all starts are looked at over the first
-/// third of the records and the best one or two fitted there, too. Over the whole records go the
-/// causes that did best there and those whose directions are loudest. All that with the coarse
-/// simulators; the first few are refitted with the fine ones. Sorted by evidence, those that were
-/// not fitted over the whole last.
+/// model about it says from where: the sizes that the data give to the cause's strongest
+/// directions, the base's parameters moved along. Where it leaves much, all starts are looked at
+/// over the first third of the records and the best one or two fitted there, too. Over the whole
+/// records go the causes that did best there and those whose directions are strongest. All that
+/// with the coarse simulators; the first few are refitted with the fine ones. Sorted by evidence,
+/// those that were not fitted over the whole last.
 std::vector<Candidate> refit_all(const Workers& workers, const FitSummary& base,
                                  const std::vector<Cause>& causes,
                                  const std::vector<Direction>& directions,

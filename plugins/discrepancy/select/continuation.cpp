@@ -9,15 +9,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double believed = 2.0;       // deviations
-constexpr double beyond_belief = 4.0;  // likewise
-constexpr double least_way = 0.5;      // deviations that are worth going back
-constexpr double most_unlike = 0.1;    // of the change that a factor's way back makes
-constexpr std::size_t most_starts = 2;
-constexpr double largest_step = 0.1;  // of a logarithm
-constexpr double held_to = 0.02;      // deviation of a factor on its way
-constexpr int step_iterations = 3, most_steps = 10;
-constexpr double lost = 1.5;  // times the base's cost
 constexpr double no_change = 1.0e-12;
 
 // How far back it is for each unknown; 0 for those that are within so many deviations.
@@ -51,7 +42,7 @@ struct TakenOver {
 
 TakenOver taken_over(const FitSummary& base, const Direction& direction,
                      const Eigen::VectorXd& change) {
-  const Eigen::VectorXd own = direction.change + base.jacobian * direction.absorbed;
+  const Eigen::VectorXd own = direction.change + base.jacobian * direction.nuisance_step;
   const double square = own.squaredNorm();
   if (direction.has_threshold || square < no_change) return {};
   const double size = -own.dot(change) / square;
@@ -60,7 +51,7 @@ TakenOver taken_over(const FitSummary& base, const Direction& direction,
 
 // With the factors held to a part of their way.
 Hypothesis at_part(const Hypothesis& model, const FitSummary& base, const Eigen::VectorXd& way,
-                   double part) {
+                   double part, double held_to) {
   Hypothesis held = model;
   Eigen::VectorXd u = held.unknowns();
   for (int p = 0; p < way.size(); ++p) {
@@ -90,59 +81,65 @@ Hypothesis grown(const Hypothesis& model, const FitSummary& base, double factor)
 
 }  // namespace
 
-bool is_pulled(const Hypothesis& model) {
-  return (way_of(model, believed).array() != 0.0).any();
+bool has_prior_shift(const Hypothesis& model, const DiagnosisSettings& settings) {
+  return (way_of(model, settings.levels.believed).array() != 0.0).any();
 }
 
-bool is_beyond_belief(const FitSummary& model) {
+bool conflicts_with_prior(const FitSummary& model, const DiagnosisSettings& settings) {
   const Hypothesis& numbers = model.hypothesis;
-  return (way_of(numbers, beyond_belief).array() != 0.0).any() ||
+  return (way_of(numbers, settings.levels.prior_conflict).array() != 0.0).any() ||
          std::ranges::any_of(model.at_bound, [&](int p) {
            return p == numbers.factor_on("youngs_modulus") || p == numbers.factor_on("density");
          });
 }
 
-Hypothesis as_believed(Hypothesis model) {
+Hypothesis at_prior(Hypothesis model) {
   model.set_unknowns(model.unknowns() + way_of(model, 0.0));
   return model;
 }
 
-std::vector<Direction> likest_way_back(const FitSummary& base, const std::string& cause,
-                                       const std::vector<Direction>& directions) {
-  const Eigen::VectorXd way = way_of(base.hypothesis, least_way);
+std::vector<Direction> likest_continuations(const FitSummary& base, const std::string& cause,
+                                            const std::vector<Direction>& directions,
+                                            const Budget& budget) {
+  const Eigen::VectorXd way = way_of(base.hypothesis, budget.continuation_way);
   if ((way.array() == 0.0).all()) return {};
   const Eigen::VectorXd change = change_of(base, way, 1.0);
   std::vector<std::pair<double, const Direction*>> like;
   for (const Direction& direction : directions) {
     if (direction.cause != cause) continue;
     const TakenOver found = taken_over(base, direction, change);
-    if (found.size > 0.0 && found.left < most_unlike) like.emplace_back(found.left, &direction);
+    if (found.size > 0.0 && found.left < budget.continuation_unlike)
+      like.emplace_back(found.left, &direction);
   }
   std::ranges::stable_sort(like, {}, &std::pair<double, const Direction*>::first);
   std::vector<Direction> first;
-  for (std::size_t i = 0; i < std::min(most_starts, like.size()); ++i)
+  for (std::size_t i = 0;
+       i < std::min(static_cast<std::size_t>(budget.continuation_starts), like.size()); ++i)
     first.push_back(*like[i].second);
   return first;
 }
 
-std::optional<FitSummary> walk_back(Evaluator& evaluator, const FitSummary& base,
-                                    const Direction& cause, const FitOptions& options) {
-  const Eigen::VectorXd way = way_of(base.hypothesis, least_way);
-  const int steps = std::clamp(
-      static_cast<int>(std::ceil(way.cwiseAbs().maxCoeff() / largest_step)), 1, most_steps);
+std::optional<FitSummary> continue_to_prior(Evaluator& evaluator, const FitSummary& base,
+                                            const Direction& cause, const FitOptions& options) {
+  const Budget& budget = options.settings->budget;
+  const Eigen::VectorXd way = way_of(base.hypothesis, budget.continuation_way);
+  const int steps =
+      std::clamp(static_cast<int>(std::ceil(way.cwiseAbs().maxCoeff() / budget.continuation_step)),
+                 1, budget.continuation_steps);
   const auto change_at = [&](int step) {
     return change_of(base, way, static_cast<double>(step) / steps);
   };
   FitOptions few = options;
-  few.iterations = std::min(step_iterations, options.iterations);
+  few.iterations = std::min(budget.continuation_iterations, options.iterations);
   Hypothesis model = base.hypothesis;
   model.add(cause.start.shrunk(taken_over(base, cause, change_at(1)).size).bounded());
   model.name = cause.cause;
   for (int step = 1; step <= steps; ++step) {
     if (step > 1) model = grown(model, base, change_at(step).norm() / change_at(step - 1).norm());
-    const Hypothesis held = at_part(model, base, way, static_cast<double>(step) / steps);
+    const Hypothesis held =
+        at_part(model, base, way, static_cast<double>(step) / steps, budget.continuation_hold);
     const FitSummary found = fit(evaluator, held, few, base.jacobian);
-    if (!(found.cost < lost * base.cost)) return {};
+    if (!(found.cost < budget.continuation_lost * base.cost)) return {};
     model.set_unknowns(found.hypothesis.unknowns());
   }
   return slide_along(evaluator, fit(evaluator, model, options, base.jacobian), options);

@@ -7,8 +7,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double too_alike = 0.95;  // cosine
-
 // Half the squared length of the residual along a direction.
 double gain_along(const Eigen::VectorXd& residual, const Eigen::VectorXd& direction) {
   const double square = direction.squaredNorm();
@@ -16,7 +14,7 @@ double gain_along(const Eigen::VectorXd& residual, const Eigen::VectorXd& direct
 }
 
 double decoy_gain(const Eigen::VectorXd& residual, const Eigen::VectorXd& change,
-                  const Eigen::VectorXd& decoy) {
+                  const Eigen::VectorXd& decoy, double too_alike) {
   const double cosine = change.dot(decoy) / std::max(change.norm() * decoy.norm(), 1e-300);
   return std::abs(cosine) > too_alike ? 0.0 : gain_along(residual, decoy);
 }
@@ -24,7 +22,7 @@ double decoy_gain(const Eigen::VectorXd& residual, const Eigen::VectorXd& change
 }  // namespace
 
 Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::VectorXd& residual,
-                 const Eigen::VectorXd& change) {
+                 const Eigen::VectorXd& change, double too_alike) {
   Eigen::VectorXd reversed = change, exchanged = change;
   Eigen::Index first = 0;
   for (const int t : trials) {
@@ -40,8 +38,8 @@ Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::
     for (Eigen::Index c = 0; c < trial.force.value.cols(); ++c, first += forces)
       reversed.segment(first, forces) = change.segment(first, forces).reverse();
   }
-  return {gain_along(residual, change), decoy_gain(residual, change, reversed),
-          decoy_gain(residual, change, exchanged)};
+  return {gain_along(residual, change), decoy_gain(residual, change, reversed, too_alike),
+          decoy_gain(residual, change, exchanged, too_alike)};
 }
 
 }  // namespace pedicel::discrepancy

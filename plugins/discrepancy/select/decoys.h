@@ -14,13 +14,13 @@ namespace pedicel::discrepancy {
 struct Decoys {
   double own = 0.0, reversed = 0.0, exchanged = 0.0;
   /// Where a decoy is like the change itself, noise alone may put it ahead by some nats.
-  bool lose() const { return std::max(reversed, exchanged) < own + 5.0; }
+  bool lose(double margin) const { return std::max(reversed, exchanged) < own + margin; }
 };
 
 /// `residual` is the base's over these trials, whitened; `change` what the cause adds to the
 /// prediction, in the same layout. A decoy that is nearly the change itself (a marker's constant
-/// offset, reversed) shows nothing and gains nothing.
+/// offset, reversed; its cosine above `too_alike`) shows nothing and gains nothing.
 Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::VectorXd& residual,
-                 const Eigen::VectorXd& change);
+                 const Eigen::VectorXd& change, double too_alike);
 
 }  // namespace pedicel::discrepancy

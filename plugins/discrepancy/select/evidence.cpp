@@ -10,13 +10,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double at_the_end = 0.02;    // of an unknown, from its bound
-constexpr double one_deviation = 0.5;  // nats
-// Of what a cause changes, the part to which two honest solvers agree, beside what any cause must
-// be worth. Measured: of a weak segment that changes all by 245 noise units 7 are left, of a soft
-// foot that changes it by 474, 6.
-constexpr double agreed = 0.02;
-
 // Of an effect with sizes of more than one name (a sensor's gain and offset), those that vanish at
 // zero, which the effect can do without.
 std::vector<int> further_sizes(const Hypothesis& model) {
@@ -75,26 +68,29 @@ const std::vector<effects::Limit>& limits_of(const std::string& cause) {
   return known ? known->limits : none;
 }
 
-bool ends_at(const Candidate& candidate, const effects::Limit& limit) {
+bool ends_at(const Candidate& candidate, const effects::Limit& limit,
+             const DiagnosisSettings& settings) {
   const Hypothesis& model = candidate.fit.hypothesis;
   const int p = index_of(model, candidate.cause, limit.parameter);
   if (p < 0) return false;
   const double bound = (limit.high ? model.high() : model.low())[p];
-  return std::abs(model.unknowns()[p] - bound) < at_the_end;
+  return std::abs(model.unknowns()[p] - bound) < settings.evidence.limit_reach;
 }
 
 // A cause that does no better where it turns into another one is no other explanation than that;
 // unless that one goes on beyond the limit with a parameter that is within a deviation of it.
-void find_limits(std::vector<Candidate>& candidates) {
+void find_limits(std::vector<Candidate>& candidates, const DiagnosisSettings& settings) {
   for (Candidate& candidate : candidates) candidate.limit_of.clear();
   for (Candidate& from : candidates)
     for (const effects::Limit& limit : limits_of(from.cause))
       for (const Candidate& to : candidates) {
-        if (to.cause != limit.becomes || !from.whole || !to.whole || !ends_at(from, limit))
+        if (to.cause != limit.becomes || !from.whole || !to.whole ||
+            !ends_at(from, limit, settings))
           continue;
         const double less = said_by_data(to) - said_by_data(from);
         const bool goes_on = index_of(to.fit.hypothesis, to.cause, limit.parameter) >= 0;
-        if (less < -as_well || (goes_on && less < one_deviation)) continue;
+        if (less < -settings.levels.as_well || (goes_on && less < settings.levels.one_deviation))
+          continue;
         from.limit_of = to.cause;
         from.evidence = std::min(from.evidence, to.evidence);
       }
@@ -106,12 +102,13 @@ double said_by_data(const Candidate& candidate) {
   return candidate.gain + candidate.held_out.gain;
 }
 
-double least_gain_beside(const std::vector<Candidate>& found) {
-  double loudest = 0.0;
+double least_gain_beside(const std::vector<Candidate>& found, const DiagnosisSettings& settings) {
+  double strongest = 0.0;
   for (const Candidate& candidate : found)
     if (!is_of_sensor({candidate.cause, {}, {}, {}, {}}))
-      loudest = std::max(loudest, candidate.gain);
-  const double change = std::sqrt(2.0 * worth_naming) + agreed * std::sqrt(2.0 * loudest);
+      strongest = std::max(strongest, candidate.gain);
+  const double change = std::sqrt(2.0 * settings.levels.worth_naming) +
+                        settings.evidence.solvers_agree * std::sqrt(2.0 * strongest);
   return 0.5 * change * change;
 }
 
@@ -129,7 +126,7 @@ double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary&
 }
 
 void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples,
-           double dispersion) {
+           double dispersion, const DiagnosisSettings& settings) {
   const double cost = cost_of_numbers(base, dispersion);
   for (Candidate& candidate : candidates) {
     if (candidate.whole) {
@@ -142,7 +139,7 @@ void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int sampl
       candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
     }
   }
-  find_limits(candidates);
+  find_limits(candidates, settings);
   sort_by_evidence(candidates);
 }
 

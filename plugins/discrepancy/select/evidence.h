@@ -7,23 +7,13 @@
 
 namespace pedicel::discrepancy {
 
-/// What all data say for a candidate (nats), whatever its numbers cost, and by how much less
-/// another one still explains them as well.
+/// What all data say for a candidate (nats), whatever its numbers cost.
 double said_by_data(const Candidate& candidate);
-inline constexpr double as_well = 1.0;
-
-/// Nats by which a rival must lose: odds of 20 to 1.
-inline constexpr double clear_odds = 3.0;
-
-/// Nats that a named cause must be worth: an effect of twice the size that could just be seen (10
-/// noise units in all) is worth 50 less up to 20 for its parameters, and a third of it may lie in
-/// the trials kept back; two honest solvers differ by up to 15.
-inline constexpr double worth_naming = 18.0;
 
 /// Nats that another cause must bring beside those found: it must change the data by more than what
-/// two honest solvers differ by, some units of the noise and a part of what the loudest one changes
-/// (none, of what a sensor does). A gain is half the square of a change.
-double least_gain_beside(const std::vector<Candidate>& found);
+/// two honest solvers differ by, some units of the noise and a part of what the strongest one
+/// changes (none, of what a sensor does). A gain is half the square of a change.
+double least_gain_beside(const std::vector<Candidate>& found, const DiagnosisSettings& settings);
 
 /// The least cost of the base and of the whole fits.
 double least_cost(const std::vector<Candidate>& candidates, const FitSummary& base);
@@ -35,7 +25,7 @@ double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary&
 /// Sets the gains and the evidence of the whole fits and their limits, and sorts by evidence: the
 /// whole fits first.
 void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples,
-           double dispersion);
+           double dispersion, const DiagnosisSettings& settings);
 
 /// What a model's numbers cost (nats): how much narrower the data make them than what is known
 /// beforehand, by Laplace's approximation (MacKay 2003, chapter 28). A number that the data leave

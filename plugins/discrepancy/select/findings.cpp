@@ -15,7 +15,7 @@ Estimate Findings::estimate(const FitSummary& fit, int parameter) const {
   const double u = free.to_unknown(fit.hypothesis.value(parameter));
   double error = interval95 * fit.standard_error[parameter] * spread(fit);
   if (parameter < parameter_shift.size())
-    error += left_uncorrected * std::abs(parameter_shift[parameter]);
+    error += settings->accuracy.left_uncorrected * std::abs(parameter_shift[parameter]);
   Estimate estimate{free.to_value(u), free.to_value(u - error), free.to_value(u + error),
                     free.unit};
   if (effects::is_time(fit.hypothesis.effects[free.effect].name, free.name)) {

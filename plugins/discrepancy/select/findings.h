@@ -15,6 +15,7 @@ inline constexpr double interval95 = 1.96;  ///< standard deviations
 /// What a verdict is drawn from, and how its entries are made of it.
 struct Findings {
   const DataSet* data = nullptr;
+  const DiagnosisSettings* settings = &default_settings();
   std::vector<int> fit_trials;
   std::vector<Candidate> chain;     ///< causes found so far, in the order they were added
   HeldOut held_out;                 ///< of all of them together, where they are several
@@ -27,8 +28,8 @@ struct Findings {
   int samples() const { return data->samples(fit_trials); }
 
   /// A free parameter with its 95 % interval, wider where more than noise is left and where our own
-  /// error moves it. A moment is known to a step at best, however loud the data: when in a step a
-  /// grip lets go, or a sample is taken, two honest solvers do differently.
+  /// error moves it. A moment is known to a step at best, however precise the data: when in a step
+  /// a grip lets go, or a sample is taken, two honest solvers do differently.
   Estimate estimate(const FitSummary& fit, int parameter) const;
   /// Mean square of what is left beyond the noise, in units of it.
   double excess(const FitSummary& model) const;

@@ -10,10 +10,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Nats: 3.5 standard deviations, because three parameters share the few false alarms allowed.
-constexpr double needed_cost = 0.5 * 3.5 * 3.5;
-constexpr double objection = 3.0;  // nats
-
 // At its nominal value for good.
 Hypothesis without(const Hypothesis& model, int parameter) {
   Hypothesis less = model;
@@ -30,7 +26,7 @@ bool is_refuted(Evaluator& evaluator, const NeededParameters& needed, FitOptions
   options.trials = check;
   const std::vector<Hypothesis> models{nominal, needed.model.hypothesis};
   const Scan found = scan(evaluator, models, options);
-  return found.cost[1] - found.cost[0] > objection;
+  return found.cost[1] - found.cost[0] > options.settings->levels.clear_odds;
 }
 
 // Density in place of modulus, or the other way round, so that a free swing stays as it is.
@@ -72,6 +68,8 @@ const FitSummary* NeededParameters::better() const {
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
                                    const std::vector<Cause>& causes, const FitOptions& options,
                                    const std::vector<int>& check) {
+  const double deviations = options.settings->levels.needed_deviations;
+  const double needed_cost = 0.5 * deviations * deviations;
   NeededParameters needed;
   needed.model = base;
   for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
@@ -88,7 +86,8 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
     if (starts.empty()) return;
     FitSummary found = fit(evaluator, starts[scan(evaluator, starts, options).best], options);
     const double behind = objective(found) - objective(needed.model);
-    if (behind < clear_odds) needed.instead.push_back({std::move(found), behind});
+    if (behind < options.settings->levels.clear_odds)
+      needed.instead.push_back({std::move(found), behind});
   };
   if (needed.names.size() != 1) return needed;
   ask(exchanged(base, needed.model));

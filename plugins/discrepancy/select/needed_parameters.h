@@ -28,7 +28,7 @@ struct NeededParameters {
 /// Each in turn is put back to its nominal value and everything else refitted; it is needed where
 /// that costs more than noise may. Where two of them say nearly the same (modulus and density of a
 /// free swing), standard errors do not tell; the one that plants differ in less, put back first,
-/// is not blamed alone. None is needed where the trials kept back (`check`, may be empty) are
+/// is not blamed alone. None is needed where the held-out trials (`check`, may be empty) are
 /// clearly against all of them. `causes` are all that are known.
 NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
                                    const std::vector<Cause>& causes, const FitOptions& options,

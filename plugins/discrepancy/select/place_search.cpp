@@ -14,8 +14,6 @@ namespace {
 // its time does nothing between two samples: the nearest shifts are about as long as a sample.
 constexpr std::array place_shifts{0.04, 0.1, 0.3};
 constexpr std::array moment_shifts{0.002, 0.005, 0.015, 0.04, 0.1, 0.3};
-constexpr int place_rounds = 3, moment_rounds = 6, round_iterations = 10;
-constexpr double worth_a_fit = 1.0;  // nats
 
 bool is_of_moment(const FreeParameter& parameter) {
   return parameter.name == "time" && !parameter.logarithmic;  // a time constant is logarithmic
@@ -83,15 +81,17 @@ class Others {
 FitSummary slide_along(Evaluator& evaluator, FitSummary found, const FitOptions& options) {
   const int parameter = slid_parameter(found.hypothesis);
   if (parameter < 0 || found.jacobian.size() == 0) return found;
-  const int rounds = is_of_moment(found.hypothesis.free[parameter]) ? moment_rounds : place_rounds;
+  const Budget& budget = options.settings->budget;
+  const int rounds =
+      is_of_moment(found.hypothesis.free[parameter]) ? budget.moment_rounds : budget.place_rounds;
   FitOptions few = options;
-  few.iterations = round_iterations;
+  few.iterations = budget.slide_iterations;
   for (int round = 0; round < rounds; ++round) {
     std::vector<Hypothesis> there = moved(found.hypothesis, parameter);
     if (there.empty()) break;
     const Eigen::MatrixXd residuals = evaluator.residuals(there, options);
     const Others others(found, parameter);
-    double least = objective(found) - worth_a_fit;
+    double least = objective(found) - budget.worth_a_fit;
     const Hypothesis* best = nullptr;
     for (std::size_t i = 0; i < there.size(); ++i) {
       const Others::Moved after = others.move(residuals.col(static_cast<Eigen::Index>(i)));
@@ -102,7 +102,7 @@ FitSummary slide_along(Evaluator& evaluator, FitSummary found, const FitOptions&
     }
     if (!best) break;
     FitSummary next = fit(evaluator, *best, few, found.jacobian);
-    if (!(objective(next) < objective(found) - worth_a_fit)) break;
+    if (!(objective(next) < objective(found) - budget.worth_a_fit)) break;
     found = std::move(next);
   }
   return found;

@@ -13,11 +13,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double unexplained = 1.0e-6;   // probability of what a law forbids
-constexpr double least_scatter = 0.03;   // of strengths: what our own loads err by
-constexpr double common_error = 0.1;     // of thresholds and loads, a factor's logarithm
-constexpr int least_broken = 4;          // for a law
-constexpr double enough_evidence = 8.0;  // nats; other stalks must bear it out, too
 constexpr std::array exponents{1.0, 2.0, 3.0};
 constexpr double rounding = 1.0e-9;  // s
 
@@ -29,13 +24,15 @@ bool is_broken(const StalkLoads& stalk) {
   return std::isfinite(stalk.came_off);
 }
 
-// `borne`: the largest load before the window; `reached`: up to the break.
-double log_likelihood(double borne, double reached, bool broke, double scatter) {
+// `borne`: the largest load before the window; `reached`: up to the break. What cannot be costs
+// much, not all: one break that was recorded wrongly must not refute a law.
+double log_likelihood(double borne, double reached, bool broke, double scatter,
+                      const Evidence& weights) {
   const auto share = [&](double load) {
     return load > 0.0 ? below(std::log(load) / scatter) : 0.0;
   };
   const double probability = broke ? share(reached) - share(borne) : 1.0 - share(borne);
-  return std::log(std::max(probability, unexplained));
+  return std::log(std::max(probability, weights.impossible_break));
 }
 
 // Of a stalk's loads those that are the largest under some law: no other one is larger in force,
@@ -72,16 +69,16 @@ double most(const BreakLaw& law, std::span<const StalkNumbers> loads) {
   return most;
 }
 
-double log_likelihood(const BreakLaw& law, const Reading& reading) {
+double log_likelihood(const BreakLaw& law, const Reading& reading, const Evidence& weights) {
   return log_likelihood(most(law, reading.borne), most(law, reading.reached), reading.broke,
-                        law.scatter);
+                        law.scatter, weights);
 }
 
 // The unknowns are logarithms: of the scatter, then of the scales that take part.
 class Likelihood : public ceres::FirstOrderFunction {
  public:
-  Likelihood(const BreakLaw& start, std::vector<Reading> readings)
-      : start_(start), readings_(std::move(readings)) {
+  Likelihood(const BreakLaw& start, std::vector<Reading> readings, const Evidence& weights)
+      : start_(start), readings_(std::move(readings)), weights_(weights) {
     for (int i = 0; i < stalk_load_count; ++i)
       if (std::isfinite(start.scale[i])) terms_.push_back(i);
   }
@@ -98,7 +95,7 @@ class Likelihood : public ceres::FirstOrderFunction {
 
   BreakLaw law(const double* u) const {
     BreakLaw law = start_;
-    law.scatter = std::hypot(std::exp(u[0]), least_scatter);
+    law.scatter = std::hypot(std::exp(u[0]), weights_.stalk_scatter);
     for (std::size_t k = 0; k < terms_.size(); ++k) law.scale[terms_[k]] = std::exp(u[k + 1]);
     return law;
   }
@@ -106,7 +103,7 @@ class Likelihood : public ceres::FirstOrderFunction {
   double value(const double* u) const {
     const BreakLaw at = law(u);
     double sum = 0.0;
-    for (const Reading& reading : readings_) sum += log_likelihood(at, reading);
+    for (const Reading& reading : readings_) sum += log_likelihood(at, reading, weights_);
     // Keeps a scale that no break asks for, and a scatter that none bounds, within reason.
     double far = 0.0;
     const Eigen::VectorXd from = unknowns();
@@ -134,6 +131,7 @@ class Likelihood : public ceres::FirstOrderFunction {
  private:
   BreakLaw start_;
   std::vector<Reading> readings_;
+  const Evidence& weights_;
   std::vector<int> terms_;
 };
 
@@ -163,7 +161,8 @@ double median(std::vector<double> values) {
 /// Laws fitted to some of the stalks, which all have the same list of terms to choose from.
 class LawFit {
  public:
-  explicit LawFit(std::vector<Reading> readings) : readings_(std::move(readings)) {
+  LawFit(std::vector<Reading> readings, const Evidence& weights)
+      : readings_(std::move(readings)), weights_(weights) {
     for (int i = 0; i < stalk_load_count; ++i) {
       BreakLaw alone;  // of the largest ratio
       alone.scale[i] = 1.0;
@@ -200,12 +199,12 @@ class LawFit {
   }
 
   FittedLaw fit(const BreakLaw& from) const {
-    const Likelihood likelihood(from, readings_);
+    const Likelihood likelihood(from, readings_, weights_);
     const Maximum found = maximise(likelihood);
     FittedLaw fitted;
     fitted.law = likelihood.law(found.unknowns.data());
     for (const Reading& reading : readings_)
-      fitted.likelihood += log_likelihood(fitted.law, reading);
+      fitted.likelihood += log_likelihood(fitted.law, reading, weights_);
     // Which exponent is one more choice among them.
     const double choices = likelihood.terms().size() > 1 ? std::log(double(exponents.size())) : 0.0;
     fitted.evidence = fitted.likelihood - choices -
@@ -267,6 +266,7 @@ class LawFit {
   }
 
   std::vector<Reading> readings_;
+  const Evidence& weights_;
   StalkNumbers typical_{};  // median at the breaks
 };
 
@@ -277,25 +277,26 @@ struct Against {
 };
 
 // Thresholds are known, and our loads right, to a common factor.
-struct Thresholds {
-  double scatter = least_scatter, factor = 1.0;
+struct ThresholdModel {
+  const Evidence* weights;
+  double scatter, factor = 1.0;
   double likelihood(const Against& one) const {
-    return log_likelihood(factor * one.borne, factor * one.reached, one.broke, scatter);
+    return log_likelihood(factor * one.borne, factor * one.reached, one.broke, scatter, *weights);
   }
   double likelihood(const std::vector<Against>& all) const {
-    double sum = -0.5 * std::pow(std::log(factor) / common_error, 2);
+    double sum = -0.5 * std::pow(std::log(factor) / weights->threshold_error, 2);
     for (const Against& one : all) sum += likelihood(one);
     return sum;
   }
 };
 
 // The likeliest scatter and factor.
-Thresholds likeliest(const std::vector<Against>& all) {
-  Thresholds best;
+ThresholdModel likeliest(const std::vector<Against>& all, const Evidence& weights) {
+  ThresholdModel best{&weights, weights.stalk_scatter};
   double most = best.likelihood(all);
-  for (double scatter = least_scatter; scatter < 3.0; scatter *= 1.1)
+  for (double scatter = weights.stalk_scatter; scatter < 3.0; scatter *= 1.1)
     for (double factor = 0.7; factor < 1.45; factor *= 1.01) {
-      const Thresholds tried{scatter, factor};
+      const ThresholdModel tried{&weights, scatter, factor};
       const double found = tried.likelihood(all);
       if (found > most) most = found, best = tried;
     }
@@ -304,15 +305,15 @@ Thresholds likeliest(const std::vector<Against>& all) {
 
 // Each stalk by what the others say, with the terms and the exponent of the law found.
 double foretold_by_others(const BreakLaw& law, const std::vector<Reading>& readings,
-                          const std::vector<Against>& thresholds) {
+                          const std::vector<Against>& thresholds, const Evidence& weights) {
   double gain = 0.0;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     std::vector<Reading> others = readings;
     others.erase(others.begin() + i);
     std::vector<Against> without = thresholds;
     without.erase(without.begin() + i);
-    gain += log_likelihood(LawFit(others).fit(law).law, readings[i]) -
-            likeliest(without).likelihood(thresholds[i]);
+    gain += log_likelihood(LawFit(others, weights).fit(law).law, readings[i], weights) -
+            likeliest(without, weights).likelihood(thresholds[i]);
   }
   return gain;
 }
@@ -359,7 +360,7 @@ BreakLaw break_law_of(const plant::PlantFile& plant, const plant::PlantFruit& fr
 }
 
 bool StalkStrength::needs_law() const {
-  return law && evidence > enough_evidence && foretold > 0.0;
+  return law && evidence > levels.outside_evidence && foretold > 0.0;
 }
 
 std::string StalkStrength::sentence() const {
@@ -381,8 +382,8 @@ std::string StalkStrength::sentence() const {
 }
 
 std::string StalkStrength::summary() const {
-  if (broken < least_broken)
-    return sentence() + text(" That is too few for a law: %g are needed.", least_broken);
+  if (broken < levels.broken_stalks)
+    return sentence() + text(" That is too few for a law: %g are needed.", levels.broken_stalks);
   if (!law) return sentence() + " By the model their stalks bore nothing.";
   return sentence() +
          text(
@@ -392,8 +393,9 @@ std::string StalkStrength::summary() const {
 }
 
 StalkStrength judge_strength(std::vector<StalkLoads> stalks, std::vector<BreakLaw> thresholds,
-                             double window) {
+                             double window, const DiagnosisSettings& settings) {
   StalkStrength strength;
+  strength.levels = settings.levels;
   strength.stalks = std::move(stalks);
   strength.thresholds = std::move(thresholds);
   std::vector<Reading> readings;
@@ -406,16 +408,16 @@ StalkStrength judge_strength(std::vector<StalkLoads> stalks, std::vector<BreakLa
                        threshold.most(stalk, stalk.came_off), is_broken(stalk)});
     if (is_broken(stalk)) ++strength.broken;
   }
-  if (strength.broken < least_broken) return strength;
-  const Thresholds thresholds_at_best = likeliest(against);
+  if (strength.broken < settings.levels.broken_stalks) return strength;
+  const ThresholdModel thresholds_at_best = likeliest(against, settings.evidence);
   strength.scatter = thresholds_at_best.scatter;
   const double without =
       thresholds_at_best.likelihood(against) - 0.5 * std::log(double(readings.size()));
-  strength.law = LawFit(readings).best();
+  strength.law = LawFit(readings, settings.evidence).best();
   if (!strength.law) return strength;
   strength.evidence = strength.law->evidence - without;
-  if (strength.evidence > enough_evidence)
-    strength.foretold = foretold_by_others(strength.law->law, readings, against);
+  if (strength.evidence > settings.levels.outside_evidence)
+    strength.foretold = foretold_by_others(strength.law->law, readings, against, settings.evidence);
   return strength;
 }
 

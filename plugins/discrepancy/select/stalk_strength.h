@@ -44,6 +44,7 @@ struct FittedLaw {
 struct StalkStrength {
   std::vector<StalkLoads> stalks;    ///< of all trials
   std::vector<BreakLaw> thresholds;  ///< the file's, by stalk
+  Levels levels = {};                ///< that the law is held against
   int broken = 0;                    ///< stalks
   double scatter = 0.0;              ///< about the thresholds, 1
   std::optional<FittedLaw> law;      ///< the best; absent where too few broke
@@ -64,6 +65,6 @@ struct StalkStrength {
 /// explain costs 14 nats a break, not all. Thresholds may all be off by one factor, known to 10 %:
 /// as far as that explains the events they are no finding.
 StalkStrength judge_strength(std::vector<StalkLoads> stalks, std::vector<BreakLaw> thresholds,
-                             double window);
+                             double window, const DiagnosisSettings& settings);
 
 }  // namespace pedicel::discrepancy

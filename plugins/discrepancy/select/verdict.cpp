@@ -88,14 +88,14 @@ int exit_code(Outcome outcome) {
 }
 
 std::string to_json(const Verdict& verdict) {
-  Json causes = Json::array(), rivals = Json::array(), hide = Json::array();
+  Json causes = Json::array(), competing = Json::array(), hide = Json::array();
   for (const NamedCause& cause : verdict.causes) causes.push_back(to_json(cause));
-  for (const Rival& rival : verdict.rivals)
-    rivals.push_back({{"name", rival.name}, {"behind", number(rival.behind)}});
-  for (const CouldHide& effect : verdict.could_hide)
+  for (const CompetingModel& model : verdict.competing)
+    competing.push_back({{"name", model.name}, {"behind", number(model.behind)}});
+  for (const DetectableLimit& effect : verdict.detectable_limits)
     hide.push_back({{"name", effect.name},
                     {"parameter", effect.parameter},
-                    {"smallest_seen", number(effect.smallest_seen)},
+                    {"smallest_seen", number(effect.smallest)},
                     {"unit", effect.unit}});
   Json parameters = Json::object();
   for (const auto& [name, estimate] : verdict.parameters) parameters[name] = to_json(estimate);
@@ -104,7 +104,7 @@ std::string to_json(const Verdict& verdict) {
       {"version", 1},
       {"verdict", to_string(verdict.outcome)},
       {"causes", causes},
-      {"rivals", rivals},
+      {"rivals", competing},
       {"parameters", parameters},
       {"error",
        {{"fit", to_json(verdict.fit)},
@@ -136,7 +136,7 @@ std::string headline(const Verdict& verdict) {
              effects::plain_name(cause.name) + " (" + cause.name + ")";
   }
   const std::string gain = verdict.gain ? "; it removes " + share_removed(*verdict.gain) +
-                                              " of the error above the noise on trials kept back"
+                                              " of the error above the noise on held-out trials"
                                         : "";
   switch (verdict.outcome) {
     case Outcome::adequate:

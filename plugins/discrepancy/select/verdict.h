@@ -30,7 +30,7 @@ struct NamedCause {
   double evidence = 0.0;  ///< log-likelihood gained, less what its parameters cost
 };
 
-struct Rival {
+struct CompetingModel {
   std::string name;
   double behind = 0.0;  ///< of the evidence
 };
@@ -40,9 +40,9 @@ struct Errors {
   std::optional<double> nominal, refitted, extended;
 };
 
-struct CouldHide {
+struct DetectableLimit {
   std::string name, parameter;
-  double smallest_seen = 0.0;
+  double smallest = 0.0;
   std::string unit;
 };
 
@@ -50,12 +50,12 @@ struct CouldHide {
 struct Verdict {
   Outcome outcome = Outcome::adequate;
   std::vector<NamedCause> causes;
-  std::vector<Rival> rivals;
+  std::vector<CompetingModel> competing;
   std::map<std::string, Estimate> parameters;
   Errors fit, check;
   std::optional<double> gain;
   std::string remainder;
-  std::vector<CouldHide> could_hide;
+  std::vector<DetectableLimit> detectable_limits;
   std::string next_experiment;
   std::string extended_plant;  ///< file name, empty where there is none
   long simulations = 0;

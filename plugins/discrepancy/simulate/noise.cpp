@@ -50,7 +50,7 @@ void cut(const Series& series, int begin, int end, std::vector<Window>& windows)
                   begin + (end - begin) * (i + 1) / pieces};
     if (window.end - window.begin < least_window) continue;
     window.scatter = plateau(window);
-    // A channel that does not change at all is stuck or made of constants, not quiet.
+    // A channel that does not change at all is stuck or made of constants, not still.
     if (window.scatter > 0.0) windows.push_back(window);
   }
 }
@@ -68,9 +68,9 @@ std::vector<Window> windows_of(std::span<const Series> channels) {
   return windows;
 }
 
-// Motion only adds to the scatter, so the quiet windows are those near the lower end; a few times
+// Motion only adds to the scatter, so the still windows are those near the lower end; a few times
 // its level leaves room for the scatter of coloured noise itself.
-void keep_quiet(std::vector<Window>& windows) {
+void keep_still(std::vector<Window>& windows) {
   std::vector<double> scatter;
   for (const Window& window : windows) scatter.push_back(window.scatter);
   const auto quarter = scatter.begin() + static_cast<std::ptrdiff_t>(scatter.size() / 4);
@@ -119,7 +119,7 @@ Noise estimate_noise(std::span<const Series> channels, double stated_std) {
   std::vector<Window> windows = windows_of(channels);
   const Noise otherwise = white_noise(stated_std > 0.0 ? stated_std : 1.0);
   if (windows.empty()) return otherwise;
-  keep_quiet(windows);
+  keep_still(windows);
   double level = 0.0, samples = 0.0;
   for (const Window& window : windows) {
     const double size = window.end - window.begin;

@@ -28,7 +28,7 @@ Noise white_noise(double std);
 /// A stretch of one channel at even sampling; NaN where nothing was measured.
 using Series = Eigen::VectorXd;
 
-/// Noise of channels that share one kind of sensor, from their quiet stretches: windows whose
+/// Noise of channels that share one kind of sensor, from stretches at rest: windows whose
 /// scatter is near the least one found. Covariances come from the variogram, half the mean square
 /// difference of samples `k` apart, which neither a constant nor a slow drift biases (Cressie,
 /// Statistics for Spatial Data, 2.4). `stated_std`: used for the scale where there is no better

@@ -9,20 +9,14 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double least_change = 3.0;  // noise units in all
-// Of the expected gain: with a change d and a residual d a + noise, the gain over the expected one
-// is 2 a - 1, so 0.2 stands for an amplitude a of 0.6. Its standard deviation is 2 / |d|.
-constexpr double least_share = 0.2;
-constexpr double deviations = 2.0;
-
-// A model with its unknowns moved as far as the trials kept back ask for and the fit allows.
+// A model with its unknowns moved as far as the held-out trials ask for and the fit allows.
 struct Moved {
   Eigen::VectorXd residual;
   double square = 0.0;  // what it leaves, weighed by its predictive covariance
   double cost = 0.0;    // minus the log predictive density, but for a constant
 };
 
-Moved moved(const KeptBack& model, double fitted_dispersion, double dispersion) {
+Moved moved(const HeldOutModel& model, double fitted_dispersion, double dispersion) {
   const Eigen::MatrixXd here = model.jacobian.transpose() * model.jacobian / dispersion;
   Eigen::MatrixXd information = model.by_data / fitted_dispersion;
   information.diagonal() += model.prior;
@@ -40,43 +34,46 @@ Moved moved(const KeptBack& model, double fitted_dispersion, double dispersion) 
 
 }  // namespace
 
-bool HeldOut::carries_over() const {
+// With a change d and a residual d a + noise the gain over the expected one is 2 a - 1, so a share
+// of 0.2 stands for an amplitude a of 0.6. Its standard deviation is 2 / |d|.
+bool HeldOut::carries_over(const Evidence& evidence) const {
   const double change = std::sqrt(2.0 * expected);
-  if (change < least_change) return true;
-  return gain > (least_share - deviations * 2.0 / change) * expected;
+  if (change < evidence.held_out_change) return true;
+  return gain > (evidence.held_out_share - evidence.held_out_chance * 2.0 / change) * expected;
 }
 
-KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check) {
+HeldOutModel held_out_model(Evaluator& evaluator, const FitSummary& model,
+                            const FitOptions& check) {
   Differences differences(model.hypothesis, model.jacobian);
   const Eigen::MatrixXd residuals =
       evaluator.residuals(differences.points(model.hypothesis.unknowns()), check);
-  KeptBack result{residuals.col(0), differences.jacobian(residuals),
-                  model.jacobian.transpose() * model.jacobian,
-                  Eigen::VectorXd(model.hypothesis.size())};
+  HeldOutModel result{residuals.col(0), differences.jacobian(residuals),
+                      model.jacobian.transpose() * model.jacobian,
+                      Eigen::VectorXd(model.hypothesis.size())};
   for (int p = 0; p < model.hypothesis.size(); ++p)
     result.prior[p] = std::pow(model.hypothesis.free[p].width(), -2);
   return result;
 }
 
-double kept_back_excess(const KeptBack& model, int samples, double dispersion) {
+double held_out_excess(const HeldOutModel& model, int samples, double dispersion) {
   return moved(model, dispersion, dispersion).square / std::max(1, samples);
 }
 
-std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,
-                              double dispersion) {
+std::vector<HeldOut> held_out(const HeldOutModel& base, std::span<const HeldOutModel> models,
+                              int samples, double dispersion) {
   const double fitted = dispersion;
   double least = base.residual.squaredNorm();
   // What is left depends on how far the unknowns may move, and the other way round.
   for (int pass = 0; pass < 3; ++pass) {
     const double now = std::max(dispersion, least / std::max(1, samples));
     least = moved(base, fitted, now).residual.squaredNorm();
-    for (const KeptBack& model : models)
+    for (const HeldOutModel& model : models)
       least = std::min(least, moved(model, fitted, now).residual.squaredNorm());
   }
   dispersion = std::max(dispersion, least / std::max(1, samples));
   const Moved without = moved(base, fitted, dispersion);
   std::vector<HeldOut> found;
-  for (const KeptBack& model : models) {
+  for (const HeldOutModel& model : models) {
     const Moved with = moved(model, fitted, dispersion);
     found.push_back({without.cost - with.cost,
                      0.5 * (without.residual - with.residual).squaredNorm() / dispersion});

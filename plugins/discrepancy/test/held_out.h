@@ -15,31 +15,31 @@ struct HeldOut {
 
   /// Whether what was found shows there, too: the amplitude that the data give to the change is at
   /// least 0.6 of the one predicted, but for noise. A change too small to show refutes nothing.
-  bool carries_over() const;
+  bool carries_over(const Evidence& evidence) const;
 };
 
-/// What a fitted model says of trials kept back, and how sure it is of it.
-struct KeptBack {
+/// What a fitted model says of held-out trials, and how sure it is of it.
+struct HeldOutModel {
   Eigen::VectorXd residual;  ///< whitened
   Eigen::MatrixXd jacobian;  ///< of the whitened prediction by the unknowns
   Eigen::MatrixXd by_data;   ///< information about the unknowns from the trials fitted to
   Eigen::VectorXd prior;     ///< and from beforehand, its diagonal
 };
 
-/// `check` names the trials kept back.
-KeptBack kept_back(Evaluator& evaluator, const FitSummary& model, const FitOptions& check);
+/// `check` names the held-out trials.
+HeldOutModel held_out_model(Evaluator& evaluator, const FitSummary& model, const FitOptions& check);
 
 /// The mean square, in that of the noise (`dispersion`), of what a model leaves of these `samples`
-/// kept back, weighed by the noise's covariance and what its unknowns' own adds: 1 with a standard
+/// held out, weighed by the noise's covariance and what its unknowns' own adds: 1 with a standard
 /// deviation of sqrt(2/samples) where it is right.
-double kept_back_excess(const KeptBack& model, int samples, double dispersion);
+double held_out_excess(const HeldOutModel& model, int samples, double dispersion);
 
 /// Each model's log predictive density less the base's: normal, with the noise's covariance and
 /// what the unknowns' own adds (Bernardo and Smith 1994, section 5.1), so that a valley of the fit
 /// (modulus and density of a free vibration) neither helps nor harms a model. `dispersion` is the
 /// mean square that even the best model leaves of the trials fitted to (1 where that is noise);
 /// what the best leaves of these `samples` above it raises it for them.
-std::vector<HeldOut> held_out(const KeptBack& base, std::span<const KeptBack> models, int samples,
-                              double dispersion);
+std::vector<HeldOut> held_out(const HeldOutModel& base, std::span<const HeldOutModel> models,
+                              int samples, double dispersion);
 
 }  // namespace pedicel::discrepancy

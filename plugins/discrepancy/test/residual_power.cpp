@@ -10,11 +10,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr int most_shapes = 4;
-constexpr double least_shape = 1.0e-8;   // of the largest one's square
-constexpr int least_neighbourhood = 10;  // frequencies to either side, for the noise
-constexpr double tame = 4.0;             // noise units; a wild sample has power at all frequencies
-constexpr double mistrust = 2.0;         // of the amplitude of our own error
+constexpr double least_shape = 1.0e-8;  // of the largest one's square
 
 /// One trial's markers in a vector over the trials' entries.
 struct Block {
@@ -45,7 +41,7 @@ struct Shapes {
   int count = 0;  // of motion
 };
 
-Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& blocks) {
+Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& blocks, int most) {
   const Eigen::Index channels = blocks.front().channels;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(channels, channels);
   for (Eigen::Index p = 0; p < jacobian.cols(); ++p) {
@@ -60,7 +56,7 @@ Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& bloc
   const auto moving =
       (eigen.eigenvalues().array() > least_shape * eigen.eigenvalues()[channels - 1]).count();
   const int count = static_cast<int>(std::min<Eigen::Index>(moving, channels / 3));
-  return {eigen.eigenvectors().rowwise().reverse(), std::min(most_shapes, count)};
+  return {eigen.eigenvectors().rowwise().reverse(), std::min(most, count)};
 }
 
 /// Power of each column at the frequencies 1/duration, 2/duration, ...: squares of its products
@@ -97,20 +93,22 @@ struct Powers {
 };
 
 /// Of a band of all these trials together.
-double deviations(std::span<const Powers> trials, double low_hz, double high_hz) {
+double deviations(std::span<const Powers> trials, double low_hz, double high_hz,
+                  const Accuracy& accuracy) {
+  const Eigen::Index neighbourhood = accuracy.power_neighbourhood;
   double along = 0.0, across = 0.0, own = 0.0, n = 0.0, m = 0.0;
   for (const Powers& powers : trials) {
     const Eigen::Index first = powers.at(low_hz), count = powers.at(high_hz) - first + 1;
-    const Eigen::Index low = std::max<Eigen::Index>(0, first - least_neighbourhood);
+    const Eigen::Index low = std::max<Eigen::Index>(0, first - neighbourhood);
     const Eigen::Index high =
-        std::min<Eigen::Index>(powers.across.size(), first + count + least_neighbourhood);
+        std::min<Eigen::Index>(powers.across.size(), first + count + neighbourhood);
     along += powers.along.segment(first, count).sum();
     own += powers.own.segment(first, count).sum();
     across += powers.across.segment(low, high - low).sum();
     n += 2.0 * powers.shapes * static_cast<double>(count);
     m += 2.0 * powers.others * static_cast<double>(high - low);
   }
-  const double found = std::sqrt(along) - mistrust * std::sqrt(own);
+  const double found = std::sqrt(along) - accuracy.own_amplitude * std::sqrt(own);
   if (found <= 0.0 || !(across > 0.0)) return 0.0;
   return deviations_of(found * found / n / (across / m), n, m);
 }
@@ -135,26 +133,31 @@ Powers powers_of(const Block& block, const Shapes& shapes, const Eigen::VectorXd
 
 }  // namespace
 
-std::string Leftover::frequency() const {
+std::string ResidualPower::frequency() const {
   return low_hz == high_hz ? text(" at %.3g Hz", low_hz)
                            : text(" at %.3g to %.3g Hz", low_hz, high_hz);
 }
 
-Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSummary& model,
-                  const Eigen::VectorXd& numerical) {
-  Leftover loudest;
+ResidualPower residual_power(const DataSet& data, std::span<const int> trials,
+                             const FitSummary& model, const Eigen::VectorXd& numerical,
+                             const DiagnosisSettings& settings) {
+  const Accuracy& accuracy = settings.accuracy;
+  ResidualPower strongest;
+  strongest.level = settings.levels.residual_power;
   const std::vector<Block> blocks = blocks_of(data, trials);
-  if (blocks.empty() || model.jacobian.rows() != model.residual.size()) return loudest;
+  if (blocks.empty() || model.jacobian.rows() != model.residual.size()) return strongest;
   const Eigen::Index channels = blocks.front().channels;
   const bool same =
       std::ranges::all_of(blocks, [&](const Block& block) { return block.channels == channels; });
-  if (channels < 3 || !same) return loudest;
-  const Eigen::VectorXd residual = model.residual.cwiseMax(-tame).cwiseMin(tame);
-  const Shapes shapes = shapes_of(model.jacobian, blocks);
-  if (shapes.count < 1) return loudest;
+  if (channels < 3 || !same) return strongest;
+  // An outlier has power at all frequencies.
+  const double limit = settings.levels.winsorised_at;
+  const Eigen::VectorXd residual = model.residual.cwiseMax(-limit).cwiseMin(limit);
+  const Shapes shapes = shapes_of(model.jacobian, blocks, accuracy.motion_shapes);
+  if (shapes.count < 1) return strongest;
   std::vector<Powers> all;
   for (const Block& block : blocks)
-    if (block.rows >= 4 * least_neighbourhood)
+    if (block.rows >= 4 * accuracy.power_neighbourhood)
       all.push_back(powers_of(block, shapes, residual, numerical));
   const auto look_at = [&](std::span<const Powers> some) {
     const Powers& longest = *std::ranges::max_element(
@@ -162,8 +165,10 @@ Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSum
     const auto look = [&](Eigen::Index first, Eigen::Index count) {
       const double low = static_cast<double>(first + 1) / longest.duration;
       const double high = static_cast<double>(first + count) / longest.duration;
-      const double found = deviations(some, low, high);
-      if (found > loudest.deviations) loudest = {found, longest.trial, some.size() > 1, low, high};
+      const double found = deviations(some, low, high, accuracy);
+      if (found > strongest.deviations)
+        strongest = {found, settings.levels.residual_power, longest.trial, some.size() > 1, low,
+                     high};
     };
     const Eigen::Index frequencies = longest.along.size();
     for (Eigen::Index f = 0; f < frequencies; ++f) look(f, 1);
@@ -173,9 +178,10 @@ Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSum
     }
   };
   for (const Powers& powers : all) look_at({&powers, 1});
-  // What acts in every trial, as a thing that was forgotten does, is louder in all together.
+  // What acts in every trial, as a thing that was forgotten does, is more significant in all
+  // together.
   if (all.size() > 1) look_at(all);
-  return loudest;
+  return strongest;
 }
 
 }  // namespace pedicel::discrepancy

@@ -10,14 +10,13 @@ namespace pedicel::discrepancy {
 
 /// What a residual holds of the plant's own motion beyond what noise would: a sign of something
 /// that no cause's direction looks for.
-struct Leftover {
-  double deviations = 0.0;             ///< of a standard normal
-  int trial = -1;                      ///< where it is loudest (`in_all`: the longest); -1: nowhere
-  bool in_all = false;                 ///< in all trials together, quiet as each may be
+struct ResidualPower {
+  double deviations = 0.0;                 ///< of a standard normal
+  double level = Levels{}.residual_power;  ///< that `deviations` must exceed
+  int trial = -1;       ///< where it is strongest (`in_all`: the longest); -1: nowhere
+  bool in_all = false;  ///< in all trials together, however little each shows
   double low_hz = 0.0, high_hz = 0.0;  ///< the band of it
-  /// Beyond what noise does in some hundred bands (5), and one more for noise that is not as
-  /// modelled.
-  bool shows() const { return deviations > 6.0; }
+  bool shows() const { return deviations > level; }
   std::string frequency() const;  ///< " at 1.4 Hz", " at 1.2 to 2.4 Hz"
 };
 
@@ -28,9 +27,10 @@ struct Leftover {
 /// samples count up to 4 noise units: an F test a band, by Wilson and Hilferty's cube roots
 /// (Johnson, Kotz, Balakrishnan, Continuous Univariate Distributions 2, 27.4) as deviations of a
 /// standard normal. `numerical` (noise units, may be empty) is our own error: its amplitude, twice,
-/// is taken off that of the residual. The loudest of all bands, of each trial and of all together;
-/// nothing for fewer markers than shapes to compare.
-Leftover leftover(const DataSet& data, std::span<const int> trials, const FitSummary& model,
-                  const Eigen::VectorXd& numerical);
+/// is taken off that of the residual. The strongest of all bands, of each trial and of all
+/// together; nothing for fewer markers than shapes to compare.
+ResidualPower residual_power(const DataSet& data, std::span<const int> trials,
+                             const FitSummary& model, const Eigen::VectorXd& numerical,
+                             const DiagnosisSettings& settings);
 
 }  // namespace pedicel::discrepancy

@@ -8,11 +8,11 @@
 namespace pedicel::discrepancy {
 
 /// The largest directed statistic of each cause.
-std::vector<double> promise_of(const std::vector<Cause>& causes,
-                               const std::vector<Direction>& directions);
+std::vector<double> score_statistics(const std::vector<Cause>& causes,
+                                     const std::vector<Direction>& directions);
 
-/// Causes whose direction shows in what is left; the loudest dozen, loudest first.
-std::vector<Cause> promising(const std::vector<Cause>& causes,
-                             const std::vector<Direction>& directions);
+/// Causes whose direction shows in what is left; the `most` strongest, strongest first.
+std::vector<Cause> screened(const std::vector<Cause>& causes,
+                            const std::vector<Direction>& directions, int most);
 
 }  // namespace pedicel::discrepancy

@@ -27,7 +27,7 @@ Channel channel_of(const SymptomContext& context, int marker) {
   return channel;
 }
 
-// The loudest marker against the next one: errors of the plant grow smoothly along it, errors of
+// The strongest marker against the next one: errors of the plant grow smoothly along it, errors of
 // one marker do not.
 void add_bad_channel(const SymptomContext& context, std::vector<Symptom>& out) {
   std::vector<std::pair<Channel, int>> channels;
@@ -38,13 +38,13 @@ void add_bad_channel(const SymptomContext& context, std::vector<Symptom>& out) {
   if (channels.size() < 3) return;
   std::ranges::sort(channels,
                     [](const auto& a, const auto& b) { return a.first.rms() > b.first.rms(); });
-  const auto& [loudest, marker] = channels[0];
-  if (loudest.rms() < 1.2) return;  // all noise
+  const auto& [strongest, marker] = channels[0];
+  if (strongest.rms() < 1.2) return;  // all noise
   const Channel& next = channels[1].first;
-  const double ratio = loudest.rms() / std::max(next.rms(), 1e-12);
+  const double ratio = strongest.rms() / std::max(next.rms(), 1e-12);
   const std::string& name = context.experiment.markers[marker].name;
   Symptom symptom = make_symptom("bad_channel", name, ratio - 1.0,
-                                 ratio * std::sqrt(0.5 / loudest.samples + 0.5 / next.samples));
+                                 ratio * std::sqrt(0.5 / strongest.samples + 0.5 / next.samples));
   symptom.unit = "1";
   symptom.least = 0.7;
   symptom.sentence = "The residual of " + name + " is " + short_number(ratio) +
@@ -88,7 +88,8 @@ void add_offsets(const SymptomContext& context, std::vector<Symptom>& out) {
 // Chords between neighbouring markers of a chain, summed: their relative change is the scale,
 // whatever the plant does, because it bends and hardly stretches. The series is divided by the
 // length of its gradient, so that its noise is that of one coordinate.
-void add_chords(const SymptomContext& context, const Chain& chain, int t, Projection& projection) {
+void add_chords(const SymptomContext& context, const MarkerChain& chain, int t,
+                Projection& projection) {
   const Eigen::MatrixXd& measured = context.trial(t).markers.value;
   const Eigen::MatrixXd& predicted = context.predictions[t].markers;
   const Eigen::Index n = measured.rows();
@@ -118,7 +119,7 @@ void add_chords(const SymptomContext& context, const Chain& chain, int t, Projec
 
 void add_scale(const SymptomContext& context, std::vector<Symptom>& out) {
   Projection projection(1);
-  for (const Chain& chain : context.chains) {
+  for (const MarkerChain& chain : context.chains) {
     if (chain.markers.size() < 2) continue;
     for (int t = 0; t < context.trials(); ++t)
       if (context.usable(t)) add_chords(context, chain, t, projection);

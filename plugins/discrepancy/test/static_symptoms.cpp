@@ -121,7 +121,7 @@ struct ChainPoint {
 };
 
 // The clamped root stays where it is, so it is a point without residual.
-std::vector<ChainPoint> points_of(const SymptomContext& context, const Chain& chain,
+std::vector<ChainPoint> points_of(const SymptomContext& context, const MarkerChain& chain,
                                   const StaticStretch& stretch) {
   std::vector<ChainPoint> points;
   if (chain.rooted)
@@ -136,8 +136,8 @@ std::vector<ChainPoint> points_of(const SymptomContext& context, const Chain& ch
   return points;
 }
 
-void add_curvature(const SymptomContext& context, const Chain& chain, const StaticStretch& stretch,
-                   std::vector<Symptom>& out) {
+void add_curvature(const SymptomContext& context, const MarkerChain& chain,
+                   const StaticStretch& stretch, std::vector<Symptom>& out) {
   const std::vector<ChainPoint> p = points_of(context, chain, stretch);
   const std::string& curve = context.experiment.plant.curves[chain.curve].name;
   for (std::size_t i = 1; i + 1 < p.size(); ++i) {
@@ -173,7 +173,7 @@ Rotation rotation_of(const ChainPoint& a, const ChainPoint& b) {
           Vec3::Constant(error.maxCoeff() / arm.norm()), arm.normalized()};
 }
 
-void add_kink(const SymptomContext& context, const Chain& chain, const StaticStretch& stretch,
+void add_kink(const SymptomContext& context, const MarkerChain& chain, const StaticStretch& stretch,
               std::vector<Symptom>& out) {
   if (chain.parent < 0) return;
   const std::vector<ChainPoint> branch = points_of(context, chain, stretch);
@@ -211,7 +211,7 @@ void add_static_symptoms(const SymptomContext& context, std::vector<Symptom>& ou
   const std::vector<StaticStretch> stretches = static_stretches(context);
   add_base_rotation(context, stretches, out);
   for (const StaticStretch& stretch : stretches)
-    for (const Chain& chain : context.chains) {
+    for (const MarkerChain& chain : context.chains) {
       add_curvature(context, chain, stretch, out);
       add_kink(context, chain, stretch, out);
     }

@@ -12,15 +12,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// Noise units in all: well above what the solver's tolerance leaves, and still a small change.
-constexpr double wanted_change = 15.0, most_change = 60.0;
-constexpr double full_size = 10.0;  // of a start over the size that is looked at first
 constexpr double no_change = 1.0e-3;
-// Small steady differences between any two simulators (when exactly a grip lets go, how a branch
-// leads into its stem) reach 4; what is worth a name reaches 10.
-constexpr double least_level = 5.0;
-constexpr int bootstraps = 400;
-
 Hypothesis with(const Hypothesis& base, const Hypothesis& start) {
   Hypothesis both = base;
   both.add(start);
@@ -40,7 +32,7 @@ void measure_changes(Evaluator& evaluator, const FitSummary& base, const FitOpti
 }
 
 // The parameters take of each change what they can, as far as that goes with what is known of them.
-void absorb(const FitSummary& base, std::vector<Direction>& directions) {
+void project_out_nuisance(const FitSummary& base, std::vector<Direction>& directions) {
   const Eigen::Index rows = base.jacobian.rows(), n = base.jacobian.cols();
   const Eigen::VectorXd weight = prior_rows(base).weight;
   Eigen::MatrixXd stacked(rows + n, n);
@@ -50,10 +42,10 @@ void absorb(const FitSummary& base, std::vector<Direction>& directions) {
   for (Direction& direction : directions) {
     if (n > 0) {
       change.head(rows) = direction.change;
-      direction.absorbed = all.solve(change);
+      direction.nuisance_step = all.solve(change);
     }
-    direction.change -= base.jacobian * direction.absorbed;
-    direction.against = -weight.cwiseProduct(direction.absorbed);
+    direction.change -= base.jacobian * direction.nuisance_step;
+    direction.against = -weight.cwiseProduct(direction.nuisance_step);
   }
 }
 
@@ -74,13 +66,17 @@ std::vector<std::size_t> all_of(const std::vector<Direction>& directions) {
 std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& base,
                                      const std::vector<Cause>& causes, const FitOptions& options,
                                      const std::vector<Direction>& known) {
+  const Accuracy& accuracy = options.settings->accuracy;
   std::vector<Direction> directions;
   for (const Cause& cause : causes)
     for (const Hypothesis& start : cause.starts) {
       const std::size_t d = directions.size();
       const bool sized = d < known.size() && !known[d].has_threshold;
-      directions.push_back(
-          {cause.name, sized ? known[d].start : start.shrunk(1.0 / full_size), {}, {}, false});
+      directions.push_back({cause.name,
+                            sized ? known[d].start : start.shrunk(1.0 / accuracy.full_size),
+                            {},
+                            {},
+                            false});
     }
   measure_changes(evaluator, base, options, all_of(directions), directions);
   // The first look says how large a start is in units of the noise. What has a threshold and does
@@ -89,16 +85,17 @@ std::vector<Direction> directions_of(Evaluator& evaluator, const FitSummary& bas
   for (std::size_t d = 0; d < directions.size(); ++d) {
     Direction& direction = directions[d];
     const double size = direction.change.norm();
-    if (size >= 0.2 * wanted_change && size <= most_change) continue;
+    if (size >= 0.2 * accuracy.direction_change && size <= accuracy.most_change) continue;
     const effects::EffectDefinition* definition = effects::find_effect(direction.cause);
     direction.has_threshold = size < no_change || (definition && definition->has_threshold);
-    const double share =
-        direction.has_threshold ? full_size : std::clamp(wanted_change / size, 1.0e-4, 20.0);
+    const double share = direction.has_threshold
+                             ? accuracy.full_size
+                             : std::clamp(accuracy.direction_change / size, 1.0e-4, 20.0);
     direction.start = direction.start.shrunk(share).bounded();
     again.push_back(d);
   }
   measure_changes(evaluator, base, options, again, directions);
-  absorb(base, directions);
+  project_out_nuisance(base, directions);
   return directions;
 }
 
@@ -107,7 +104,8 @@ double length(const Direction& direction) {
 }
 
 Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
-            const Eigen::VectorXd& numerical, std::uint64_t seed) {
+            const Eigen::VectorXd& numerical, std::uint64_t seed,
+            const DiagnosisSettings& settings) {
   Alarm alarm;
   std::vector<Eigen::VectorXd> unit;
   const Eigen::VectorXd residual = joined(base.residual, prior_rows(base).left);
@@ -124,11 +122,11 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
     if (beyond <= most) continue;
     most = beyond;
     alarm.statistic = std::abs(direction.statistic);
-    alarm.loudest = static_cast<int>(d);
+    alarm.strongest = static_cast<int>(d);
   }
   // Where nothing is wrong the statistics are jointly normal with the directions' own correlations:
   // noise through them is the bootstrap of the whole linear pipeline, the refit included, because
-  // the directions hold nothing that the parameters can absorb.
+  // the directions hold nothing that the parameters can take up.
   const auto count = static_cast<Eigen::Index>(unit.size());
   Eigen::MatrixXd correlation(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
@@ -139,18 +137,20 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
       eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   Random random(seed);
   std::vector<double> largest;
-  for (int b = 0; b < bootstraps; ++b) {
+  for (int b = 0; b < settings.budget.bootstraps; ++b) {
     Eigen::VectorXd normal(count);
     for (double& x : normal) x = random.normal();
     largest.push_back(count > 0 ? (root * normal).cwiseAbs().maxCoeff() : 0.0);
   }
   std::sort(largest.begin(), largest.end());
-  alarm.level = std::max(least_level, largest[static_cast<std::size_t>(0.995 * bootstraps)]);
+  alarm.level = std::max(settings.levels.least_alarm,
+                         largest[static_cast<std::size_t>(settings.levels.alarm_quantile *
+                                                          settings.budget.bootstraps)]);
   alarm.raised = most > alarm.level;
   return alarm;
 }
 
-double smallest_seen(const Direction& direction, double sigma, std::string& parameter) {
+double detectable_limit(const Direction& direction, double sigma, std::string& parameter) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const std::vector<FreeParameter>& free = direction.start.free;
   const auto sized = std::ranges::find_if(

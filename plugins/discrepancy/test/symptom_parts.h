@@ -11,7 +11,7 @@ struct SymptomContext {
   const Experiment& experiment;
   const DataSet& data;
   const std::vector<Prediction>& predictions;
-  std::vector<Chain> chains;
+  std::vector<MarkerChain> chains;
 
   int trials() const { return static_cast<int>(experiment.trials.size()); }
   int markers() const { return static_cast<int>(experiment.markers.size()); }

@@ -26,7 +26,7 @@ std::vector<double> jumps(const Trial& trial) {
   return times;
 }
 
-bool moves(const Path& path) {
+bool moves(const DrivenPath& path) {
   return std::ranges::any_of(path.position, [&](const Vec3& p) { return p != path.position[0]; });
 }
 
@@ -36,7 +36,7 @@ bool Symptom::shows() const {
   return std::abs(value) > std::max(beyond_chance * standard_error, least);
 }
 
-double Symptom::loudness() const {
+double Symptom::significance() const {
   if (standard_error > 0.0) return std::abs(value) / standard_error;
   return value == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
 }
@@ -136,7 +136,7 @@ std::vector<SymptomPair> paired(const std::vector<Symptom>& before,
         pairs, [&](const SymptomPair& pair) { return pair.before.name == symptom.name; });
     if (same == pairs.end())
       pairs.push_back({symptom, {}});
-    else if (symptom.loudness() > same->before.loudness())
+    else if (symptom.significance() > same->before.significance())
       same->before = symptom;
   }
   for (SymptomPair& pair : pairs)
@@ -144,12 +144,13 @@ std::vector<SymptomPair> paired(const std::vector<Symptom>& before,
       if (symptom.name != pair.before.name) continue;
       const bool same = symptom.subject == pair.before.subject;
       const bool had = !pair.after.name.empty() && pair.after.subject == pair.before.subject;
-      if (same || (!had && (pair.after.name.empty() || symptom.loudness() > pair.after.loudness())))
+      if (same ||
+          (!had && (pair.after.name.empty() || symptom.significance() > pair.after.significance())))
         pair.after = symptom;
     }
   std::ranges::stable_sort(pairs, [](const SymptomPair& a, const SymptomPair& b) {
     if (a.before.shows() != b.before.shows()) return a.before.shows();
-    return a.before.loudness() > b.before.loudness();
+    return a.before.significance() > b.before.significance();
   });
   return pairs;
 }

@@ -37,7 +37,7 @@ struct Symptom {
   /// some the lengths of vectors of three) reach in less than 1 % of null cases.
   bool shows() const;
   /// The value in standard errors.
-  double loudness() const;
+  double significance() const;
 };
 
 /// All symptoms that the data of the trials can show, for the predictions of one model (one a
@@ -45,7 +45,7 @@ struct Symptom {
 std::vector<Symptom> symptoms(const Experiment& experiment, const DataSet& data,
                               const std::vector<Prediction>& predictions);
 
-/// The same symptom of two models, for a table: of each name the subject that is loudest before.
+/// The same symptom of two models, for a table: of each name the subject that is strongest before.
 struct SymptomPair {
   Symptom before, after;
 };

@@ -41,19 +41,20 @@ TEST(Admission, LeavesGoodDataAlone) {
                 made.experiment.trials[t].markers.value);
 }
 
-TEST(Admission, TakesOutWildSamplesAndNoOthers) {
+TEST(Admission, TakesOutOutliersAndNoOthers) {
   MadeData made = noisy();
   Samples& markers = made.experiment.trials[1].markers;
   Random random(12);
-  std::vector<std::pair<int, int>> wild;
-  for (int i = 0; i < 10; ++i) wild.push_back({20 + 38 * i, random.integer(0, 17)});
-  for (const auto& [row, column] : wild) markers.value(row, column) += 0.05;
+  std::vector<std::pair<int, int>> outliers;
+  for (int i = 0; i < 10; ++i) outliers.push_back({20 + 38 * i, random.integer(0, 17)});
+  for (const auto& [row, column] : outliers) markers.value(row, column) += 0.05;
   // Along two axes at once: still one point.
-  markers.value(wild[3].first, wild[3].second / 3 * 3 + (wild[3].second + 1) % 3) -= 0.04;
+  markers.value(outliers[3].first, outliers[3].second / 3 * 3 + (outliers[3].second + 1) % 3) -=
+      0.04;
   const Admission admission = admit(made.experiment);
   EXPECT_EQ(admission.outliers, 10);
   const Eigen::MatrixXd& kept = admission.experiment.trials[1].markers.value;
-  for (const auto& [row, column] : wild)
+  for (const auto& [row, column] : outliers)
     EXPECT_TRUE(kept.row(row).segment(column / 3 * 3, 3).array().isNaN().all()) << row;
   EXPECT_EQ(kept.array().isNaN().count(), 30);
   EXPECT_EQ(admission.points, 6 * (301 + 401 + 351) + 351);
@@ -64,7 +65,7 @@ TEST(Admission, TakesOutWildSamplesAndNoOthers) {
 
 // 11 deviations along each axis are 19 in all: no axis alone is beyond the limit of 10 deviations
 // of what a sample has against its neighbours, 13.9 of its own.
-TEST(Admission, TakesOutPointsThatAreWildAskew) {
+TEST(Admission, TakesOutPointsThatAreOutAskew) {
   MadeData made = noisy();
   Samples& markers = made.experiment.trials[1].markers;
   for (int i = 0; i < 10; ++i)
@@ -133,7 +134,7 @@ TEST(Admission, KeepsDataWithoutNoise) {
 }
 
 // A pull of 50 deviations is let go, and the force is exactly zero from then on: nothing there is
-// wild, neither the jump nor the noise beside what does not scatter.
+// outlying, neither the jump nor the noise beside what does not scatter.
 TEST(Admission, KeepsAForceThatIsLetGo) {
   MadeData made = noisy();
   Trial& push = made.experiment.trials[2];

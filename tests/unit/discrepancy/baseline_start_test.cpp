@@ -42,7 +42,7 @@ TEST_F(BaselineStart, LeavesOutWhatMovesNothing) {
   EXPECT_EQ(unseen_, (std::vector<std::string>{"density", "damping_time"}));
 }
 
-// The noise was first read as far too loud.
+// The noise was first read as far too large.
 TEST_F(BaselineStart, TakesBackWhatIsPlainlySeenWithAnotherNoise) {
   set_noise(0.05);
   Hypothesis base = baseline_start(evaluator_, options_, unseen_);

@@ -72,7 +72,7 @@ inline Experiment experiment_of(const Beam& beam, double duration, double step =
 }
 
 /// A path that rests at `offset` (m) from a beam's place, across it.
-inline Path resting_at(const Vec3& point) {
+inline DrivenPath resting_at(const Vec3& point) {
   return {{0.0}, {point}, {}};
 }
 

@@ -76,9 +76,9 @@ TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
   Hidden hidden({testing::effect("base_compliance", "stiffness", {stiffness})});
   std::vector<Direction> directions =
       directions_of(hidden.workers[0], hidden.base, hidden.causes, hidden.options);
-  const Alarm alarm = judge(directions, hidden.base, {}, 1);
+  const Alarm alarm = judge(directions, hidden.base, {}, 1, {});
   EXPECT_TRUE(alarm.raised);
-  // Directions hold nothing that the baseline can absorb, what is known beforehand counted.
+  // Directions hold nothing that the baseline can take up, what is known beforehand counted.
   const Eigen::VectorXd weight = prior_rows(hidden.base).weight;
   for (const Direction& direction : directions)
     EXPECT_LT((hidden.base.jacobian.transpose() * direction.change +
@@ -107,27 +107,27 @@ TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
   Hidden nothing({});
   std::vector<Direction> directions =
       directions_of(nothing.workers[0], nothing.base, nothing.causes, nothing.options);
-  EXPECT_FALSE(judge(directions, nothing.base, {}, 1).raised);
-  EXPECT_LT(std::ranges::max(promise_of(nothing.causes, directions)), 5.0);
+  EXPECT_FALSE(judge(directions, nothing.base, {}, 1, {}).raised);
+  EXPECT_LT(std::ranges::max(score_statistics(nothing.causes, directions)), 5.0);
 }
 
 // A threshold just below the sharpest bend lies between one that does nothing and one that does too
 // much: with either as it stands the fit has nowhere to go.
 TEST(Candidates, FindAThresholdBetweenTwoStarts) {
-  Hidden quiet({});
+  Hidden plain({});
   Cause yield;
-  for (Cause& cause : candidate_causes(quiet.experiment, scales_of(quiet.experiment)))
+  for (Cause& cause : candidate_causes(plain.experiment, scales_of(plain.experiment)))
     if (cause.name == "yield") yield = std::move(cause);
   const auto with = [&](double curvature) {
-    Hypothesis model = quiet.base.hypothesis;
+    Hypothesis model = plain.base.hypothesis;
     model.add(yield.starts[0]);
     model.set_value(model.size() - 1, curvature);
     return model;
   };
   const auto change = [&](double curvature) {
     const Hypothesis model = with(curvature);
-    const Eigen::MatrixXd r = quiet.workers[0].residuals(std::span(&model, 1), quiet.options);
-    return (r.col(0) - quiet.base.residual).norm();
+    const Eigen::MatrixXd r = plain.workers[0].residuals(std::span(&model, 1), plain.options);
+    return (r.col(0) - plain.base.residual).norm();
   };
   std::size_t still = 0;  // the first start that does nothing
   while (still < yield.starts.size() && change(yield.starts[still].value(0)) > 1e-3) ++still;
@@ -145,7 +145,7 @@ TEST(Candidates, FindAThresholdBetweenTwoStarts) {
   // About a model that has taken up nothing of it.
   FitOptions none = hidden.options;
   none.iterations = 0;
-  const FitSummary base = fit(hidden.workers[0], quiet.base.hypothesis, none);
+  const FitSummary base = fit(hidden.workers[0], plain.base.hypothesis, none);
   const auto start = best_plain_start(hidden.workers[0], base, yield, hidden.options);
   ASSERT_TRUE(start);
   EXPECT_NEAR(start->value(start->size() - 1) / hidden_at, 1.0, 0.01);
@@ -192,13 +192,13 @@ TEST(Candidates, StartsLeaveToOthersWhatABoundForbids) {
   const double bound = model.hypothesis.high()[modulus];
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(3);
   wanted[modulus] = bound + 0.7;
-  Eigen::VectorXd step = allowed_step(model, wanted);
+  Eigen::VectorXd step = allowed_step(model, wanted, {});
   EXPECT_NEAR(step[modulus], bound, 1e-9);
   EXPECT_NEAR(step[damping], 0.7, 1e-3);
   wanted << 0.0, 0.0, 0.0;
   wanted[modulus] = 0.3;
   wanted[damping] = -0.1;
-  step = allowed_step(model, wanted);
+  step = allowed_step(model, wanted, {});
   EXPECT_NEAR(step[modulus] + step[damping], 0.2, 1e-6);
   EXPECT_NEAR(step[damping], -0.1, 1e-3);
 }

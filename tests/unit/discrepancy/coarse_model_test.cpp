@@ -19,13 +19,13 @@ struct Fitted {
 
   explicit Fitted(double noise)
       : experiment(testing::released_beam(noise, 0.04, {0.04, 1.0 / 480.0})),
-        setup(experiment, 1, {}, nullptr) {
+        setup(experiment, 1, {}, nullptr, default_settings()) {
     Evaluator evaluator = setup.evaluator();
     model = fit(evaluator, baseline(), setup.options());
     setup.refine(model, {[](int) {}, {}});
     setup.renew();
     Evaluator corrected = setup.evaluator();
-    model.hypothesis.add(mesh_freedom());
+    model.hypothesis.add(mesh_nuisance());
     model = fit(corrected, model.hypothesis, setup.options());
   }
   Eigen::MatrixXd seen(Evaluator evaluator, const Hypothesis& of) const {

@@ -1,5 +1,5 @@
 // What is concluded from fits and alarms that are written down: which causes are named, which are
-// rivals, and what is said of the rest.
+// competing models, and what is said of the rest.
 #include "pedicel/discrepancy/procedure/conclusion.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,8 @@ Hypothesis with(const Hypothesis& base, const Hypothesis& added) {
 }
 
 /// The first two of three trials are fitted. The baseline's modulus stands at 1.2 +- 0.01 (of its
-/// logarithm) and leaves four times the noise variance; `best` and its rival leave the noise alone.
+/// logarithm) and leaves four times the noise variance; `best` and its competing model leave the
+/// noise alone.
 struct Case {
   MadeData made;
   DataSet data{made.experiment};
@@ -91,7 +92,6 @@ TEST(Conclusion, NamesTheBestWithItsNumbers) {
   EXPECT_EQ(stiffness.unit, "N m/rad");
 }
 
-// The margin is 3 nats and 0.2 % of the gain of 640: 4.28.
 // A delay that the data alone would give to 0.01 ms, from fits with steps of 2 ms: uniformly within
 // one, with a deviation of 2 ms / sqrt(12). A time that is no moment stays as sharp as the data.
 TEST(Conclusion, KnowsAMomentToAStepAtBest) {
@@ -123,6 +123,7 @@ TEST(Conclusion, KnowsAMomentToAStepAtBest) {
   EXPECT_NEAR(time.high - time.value, 1.96 * 1.0e-5, 1e-9);
 }
 
+// The margin is 3 nats and 0.2 % of the gain of 640: 4.28.
 TEST(Conclusion, IsAmbiguousWithinTheMargin) {
   Case c;
   c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 631.0 - 4.2));
@@ -130,9 +131,20 @@ TEST(Conclusion, IsAmbiguousWithinTheMargin) {
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::ambiguous);
   EXPECT_THAT(names(v), ElementsAre("base_compliance", "weak_segment"));
-  ASSERT_EQ(v.rivals.size(), 1u);
-  EXPECT_EQ(v.rivals[0].name, "creep");
-  EXPECT_NEAR(v.rivals[0].behind, 4.4, 1e-9);
+  ASSERT_EQ(v.competing.size(), 1u);
+  EXPECT_EQ(v.competing[0].name, "creep");
+  EXPECT_NEAR(v.competing[0].behind, 4.4, 1e-9);
+}
+
+// By 6 nats and 1.28 both others are too near.
+TEST(Conclusion, TakesTheMarginFromItsSettings) {
+  Case c;
+  DiagnosisSettings settings;
+  settings.levels.clear_odds = 6.0;
+  c.findings.settings = &settings;
+  c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 631.0 - 4.2));
+  c.diagnosis.ranking.push_back(c.candidate("creep", "fraction", 630.0, 631.0 - 4.4));
+  EXPECT_THAT(names(c.concluded()), ElementsAre("base_compliance", "weak_segment", "creep"));
 }
 
 // A soft foot has three numbers where a soft root has one; where both leave the same, the data tell
@@ -148,10 +160,11 @@ TEST(Conclusion, FewerNumbersAloneDoNotRefute) {
   much.diagnosis.ranking.push_back(much.candidate("gust", "drag_area", 640.0, 631.0 - 35.0));
   EXPECT_THAT(names(much.concluded()), ElementsAre("base_compliance"));
   Case more;
-  Candidate rival = more.candidate("force_gain", "gain", 640.0, 631.0 - 10.0);
-  for (int i = 0; i < 3; ++i) rival.fit.hypothesis.free.push_back(rival.fit.hypothesis.free.back());
-  rival.fit.standard_error = Eigen::VectorXd::Constant(5, 0.02);
-  more.diagnosis.ranking.push_back(rival);
+  Candidate competitor = more.candidate("force_gain", "gain", 640.0, 631.0 - 10.0);
+  for (int i = 0; i < 3; ++i)
+    competitor.fit.hypothesis.free.push_back(competitor.fit.hypothesis.free.back());
+  competitor.fit.standard_error = Eigen::VectorXd::Constant(5, 0.02);
+  more.diagnosis.ranking.push_back(competitor);
   EXPECT_THAT(names(more.concluded()), ElementsAre("base_compliance"));
 }
 
@@ -180,19 +193,19 @@ TEST(Conclusion, PassesOverWhatWasNotFittedOrExplainsNothing) {
   Case c;
   c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 630.0, 630.0));
   c.diagnosis.ranking.back().whole = false;
-  EXPECT_TRUE(c.concluded().rivals.empty());
+  EXPECT_TRUE(c.concluded().competing.empty());
   Case d;
   d.diagnosis.ranking.push_back(d.candidate("weak_segment", "factor", 1.0, -1.0));
-  EXPECT_TRUE(d.concluded().rivals.empty());
+  EXPECT_TRUE(d.concluded().competing.empty());
 }
 
-TEST(Conclusion, DoesNotCallAWindOfNoSpeedARivalOfDrag) {
+TEST(Conclusion, DoesNotCallAWindOfNoSpeedACompetitorOfDrag) {
   Case c;
   c.diagnosis.ranking = {c.candidate("leaf_drag", "drag_area", 640.0, 631.0),
                          c.candidate("wind", "drag_area", 640.0, 628.0)};
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::named);
-  ASSERT_EQ(v.rivals.size(), 1u);
+  ASSERT_EQ(v.competing.size(), 1u);
   Case other;
   other.diagnosis.ranking = {other.candidate("wind", "drag_area", 640.0, 631.0),
                              other.candidate("leaf_drag", "drag_area", 640.0, 628.0)};
@@ -200,9 +213,9 @@ TEST(Conclusion, DoesNotCallAWindOfNoSpeedARivalOfDrag) {
 }
 
 // A gust has two more numbers than its wind, which gain 4.6 nats by chance once in a hundred times
-// (half of chi-squared, 9.21). It is no rival that gains 3; one that gains 6 is, 2 nats behind in
-// evidence, and one that without the other trials stands another 5 nats before the wind.
-TEST(Conclusion, CallsAGustARivalOfItsWindWhereItGainsMoreThanByChance) {
+// (half of chi-squared, 9.21). It is no competing model that gains 3; one that gains 6 is, 2 nats
+// behind in evidence, and one that without the other trials stands another 5 nats before the wind.
+TEST(Conclusion, CallsAGustACompetitorOfItsWindWhereItGainsMoreThanByChance) {
   Case c;
   c.findings.fit_trials = {0, 1, 2};
   const int size = c.data.size(c.findings.fit_trials);
@@ -239,12 +252,12 @@ TEST(Conclusion, IsAmbiguousWhereOneTrialAloneDecides) {
   const int rest = size - c.data.size(last);
   Candidate& best = c.diagnosis.ranking.front();
   best.fit.residual = Eigen::VectorXd::Zero(size);
-  Candidate rival = c.candidate("weak_segment", "factor", 620.0, 611.0);
-  rival.fit.residual = best.fit.residual;
-  best.fit.residual[0] = std::sqrt(2.0 * 10.0);      // 10 nats worse there
-  rival.fit.residual[rest] = std::sqrt(2.0 * 30.0);  // 30 worse here
-  best.fit.cost = 10.0, rival.fit.cost = 30.0;
-  c.diagnosis.ranking.push_back(rival);
+  Candidate competitor = c.candidate("weak_segment", "factor", 620.0, 611.0);
+  competitor.fit.residual = best.fit.residual;
+  best.fit.residual[0] = std::sqrt(2.0 * 10.0);           // 10 nats worse there
+  competitor.fit.residual[rest] = std::sqrt(2.0 * 30.0);  // 30 worse here
+  best.fit.cost = 10.0, competitor.fit.cost = 30.0;
+  c.diagnosis.ranking.push_back(competitor);
   EXPECT_EQ(c.concluded().outcome, Outcome::ambiguous);
   Case even = c;
   even.findings.data = &even.data;
@@ -257,7 +270,7 @@ TEST(Conclusion, IsAmbiguousWhereOneTrialAloneDecides) {
   EXPECT_EQ(even.concluded().outcome, Outcome::named);
 }
 
-TEST(Conclusion, OfSeveralCausesHasNoRivalsAmongThem) {
+TEST(Conclusion, OfSeveralCausesHasNoCompetitorsAmongThem) {
   Case c;
   c.diagnosis.ranking.push_back(c.candidate("weak_segment", "factor", 640.0, 630.0));
   Candidate both = c.diagnosis.ranking.front();
@@ -269,17 +282,17 @@ TEST(Conclusion, OfSeveralCausesHasNoRivalsAmongThem) {
   EXPECT_EQ(v.outcome, Outcome::named);
   EXPECT_THAT(names(v), ElementsAre("base_compliance", "latency"));
   EXPECT_EQ(v.causes[1].parameters.count("delay"), 1u);
-  EXPECT_EQ(v.rivals.size(), 1u);
+  EXPECT_EQ(v.competing.size(), 1u);
 }
 
 // The alarm's direction would still gain half its square, and a tenth of the 640 nats that the
 // cause gained is 64: 11.3^2 / 2.
 TEST(Conclusion, IsUnknownWhereAnAlarmWouldStillGainMuch) {
-  Case quiet, loud;
-  quiet.diagnosis.after = {11.0, 5.0, 0, true};
-  loud.diagnosis.after = {11.6, 5.0, 0, true};
-  EXPECT_EQ(quiet.concluded().outcome, Outcome::named);
-  EXPECT_EQ(loud.concluded().outcome, Outcome::unknown);
+  Case little, much;
+  little.diagnosis.after = {11.0, 5.0, 0, true};
+  much.diagnosis.after = {11.6, 5.0, 0, true};
+  EXPECT_EQ(little.concluded().outcome, Outcome::named);
+  EXPECT_EQ(much.concluded().outcome, Outcome::unknown);
 }
 
 // The baseline left 1.5 times the samples above the noise; of that 0.3 are a fifth.
@@ -296,7 +309,7 @@ TEST(Conclusion, IsUnknownWhereTooMuchIsLeft) {
   EXPECT_EQ(told.remainder, v.remainder + "; the nearest known cause is base_compliance");
 }
 
-// The change that the cause makes on the trials kept back would gain 200 nats if it were right; the
+// The change that the cause makes on the held-out trials would gain 200 nats if it were right; the
 // data there give it half of its size and less, or all of it.
 TEST(Conclusion, IsUnknownWhereACauseDoesNotCarryOver) {
   Case c, d;
@@ -304,7 +317,7 @@ TEST(Conclusion, IsUnknownWhereACauseDoesNotCarryOver) {
   d.diagnosis.ranking[0].held_out = {200.0, 200.0};
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::unknown);
-  EXPECT_EQ(v.remainder, "what was fitted does not carry over to the trials kept back");
+  EXPECT_EQ(v.remainder, "what was fitted does not carry over to the held-out trials");
   EXPECT_EQ(d.concluded().outcome, Outcome::named);
 }
 
@@ -375,7 +388,7 @@ TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
   EXPECT_NEAR(v.causes[0].evidence, 0.5 * std::pow(std::log(1.2) / 0.01, 2), 1e-6);
   // ln 1.2 = 0.182 against 3.5 deviations of 0.04, 0.002 that solvers differ by, and what is left
   // of our own error's shift.
-  const double limit = (std::log(1.2) - 0.142) / left_uncorrected;
+  const double limit = (std::log(1.2) - 0.142) / Accuracy{}.left_uncorrected;
   for (const double shift : {0.95 * limit, -1.05 * limit}) {
     Case d;
     d.diagnosis.before.raised = false;
@@ -422,13 +435,13 @@ TEST(Conclusion, ALawThatExplainsFarMoreThanTheParameterIsNamedAlone) {
     if (better == 30.0) {
       EXPECT_EQ(v.outcome, Outcome::named);
       EXPECT_THAT(names(v), ElementsAre("mass_damping"));
-      ASSERT_EQ(v.rivals.size(), 1u);
-      EXPECT_NEAR(v.rivals[0].behind, 30.0, 1e-9);
+      ASSERT_EQ(v.competing.size(), 1u);
+      EXPECT_NEAR(v.competing[0].behind, 30.0, 1e-9);
       EXPECT_NE(v.causes[0].because.find("Another youngs_modulus"), std::string::npos);
     } else {
       EXPECT_EQ(v.outcome, Outcome::ambiguous);
       EXPECT_THAT(names(v), ElementsAre("mass_damping", "youngs_modulus"));
-      EXPECT_TRUE(v.rivals.empty());
+      EXPECT_TRUE(v.competing.empty());
     }
   }
 }

@@ -330,7 +330,7 @@ const Mistake drives[] = {
     {"QuaternionsWithWFirst",
      in(release_x,
         [](Trial& trial) {
-          Path& path = trial.holds[0].path;  // 1, 0, 0, 0, read as x, y, z, w
+          DrivenPath& path = trial.holds[0].path;  // 1, 0, 0, 0, read as x, y, z, w
           path.rotation.assign(path.time.size(), Quat(0, 1, 0, 0));
         }),
      {"release_x/hold.csv", "expected qx, qy, qz, qw"}},

@@ -11,6 +11,8 @@
 namespace pedicel::discrepancy {
 namespace {
 
+const DiagnosisSettings settings;
+
 constexpr std::array release{0};
 
 struct Residuals {
@@ -36,7 +38,7 @@ TEST(Decoys, OfAChangeThatDiesOutAtOneMarkerLose) {
   Residuals residuals;
   const Eigen::VectorXd r = residuals.after(
       [](int, double t, int marker, const Vec3&) { return marker == 2 ? dying(t) : Vec3::Zero(); });
-  const Decoys decoys = decoys_of(residuals.data, release, r, r);
+  const Decoys decoys = decoys_of(residuals.data, release, r, r, settings.evidence.too_alike);
   EXPECT_NEAR(decoys.own, 0.5 * r.squaredNorm(), 1e-6 * decoys.own);
   EXPECT_EQ(decoys.exchanged, 0.0);  // no other marker moved
   // Cosine of exp(-t) and exp(t - T) over T = 6 s: T exp(-T) / (1 - exp(-2 T)) x 2.
@@ -53,7 +55,8 @@ TEST(Decoys, WinWhereTheChangeIsInTheWrongPlace) {
   const Eigen::VectorXd change = fitted.after([](int, double t, int marker, const Vec3&) {
     return marker == 2 ? dying(t) : marker == 1 ? Vec3(0.1 * dying(t)) : Vec3::Zero();
   });
-  EXPECT_FALSE(decoys_of(measured.data, release, r, change).lose());
+  EXPECT_FALSE(decoys_of(measured.data, release, r, change, settings.evidence.too_alike)
+                   .lose(settings.levels.clear_margin));
 }
 
 TEST(Decoys, OfAConstantSayNothingBackwards) {
@@ -61,7 +64,7 @@ TEST(Decoys, OfAConstantSayNothingBackwards) {
   const Eigen::VectorXd r = residuals.after([](int, double, int marker, const Vec3&) {
     return marker == 2 ? Vec3(1e-3, 0, 0) : Vec3::Zero();
   });
-  const Decoys decoys = decoys_of(residuals.data, release, r, r);
+  const Decoys decoys = decoys_of(residuals.data, release, r, r, settings.evidence.too_alike);
   EXPECT_EQ(decoys.reversed, 0.0);
   EXPECT_TRUE(decoys.lose());
 }

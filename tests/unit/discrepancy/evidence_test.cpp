@@ -77,7 +77,7 @@ TEST(Evidence, ACauseThatEndsWhereAnotherBeginsIsThatOne) {
   base.cost = 600.0;
   const auto limit_of = [&](double time, double cost) {
     std::vector<Candidate> two{memory("relaxation", time, cost), memory("creep", 20.0, 500.5)};
-    weigh(two, base, 1000, 1.0);
+    weigh(two, base, 1000, 1.0, {});
     const Candidate& relaxation = two[two[0].cause == "relaxation" ? 0 : 1];
     if (!relaxation.limit_of.empty()) {
       EXPECT_EQ(two[0].cause, "creep");
@@ -100,13 +100,13 @@ TEST(Evidence, AnotherCauseMustBringMoreThanTwoSolversDifferBy) {
     Candidate found;
     found.cause = cause;
     found.gain = gain;
-    return least_gain_beside({found});
+    return least_gain_beside({found}, {});
   };
-  EXPECT_DOUBLE_EQ(least_gain_beside({}), worth_naming);
+  EXPECT_DOUBLE_EQ(least_gain_beside({}, {}), Levels{}.worth_naming);
   EXPECT_GT(beside("weak_segment", 30126.0), 2.0 * 26.0);
   EXPECT_LT(beside("base_compliance", 87792.0), 0.5 * 673.0);
   // Solvers do not differ about what a sensor does.
-  EXPECT_DOUBLE_EQ(beside("marker_scale", 3.0e6), worth_naming);
+  EXPECT_DOUBLE_EQ(beside("marker_scale", 3.0e6), Levels{}.worth_naming);
   EXPECT_GT(beside("grip_compliance", 3.0e6), 1000.0);
 }
 

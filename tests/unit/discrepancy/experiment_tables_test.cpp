@@ -88,7 +88,7 @@ TEST_F(ExperimentTables, UnitsChangeTheNumbers) {
       read_force(write("time,fx (mN),fy (N),fz (gf)\n0,1000,2,1000\n"), diagnostics_);
   EXPECT_DOUBLE_EQ(force.value(0, 0), 1.0);
   EXPECT_DOUBLE_EQ(force.value(0, 2), 9.80665);
-  const Path path = read_path(
+  const DrivenPath path = read_path(
       write("time,x,y,z,qx,qy,qz,qw\ns,mm,mm,mm,1,1,1,1\n0,1000,0,0,0,0,0,1\n"), diagnostics_);
   EXPECT_EQ(diagnostics_.text(), "");
   EXPECT_DOUBLE_EQ(path.position[0].x(), 1.0);

@@ -34,7 +34,7 @@ Experiment full_experiment() {
       {on_stem(0.8), {{0.0, 0.1}, {Vec3(0, 0, 0.3), Vec3(1.0 / 7.0, 0, 0.3)}, {}}, 0.2, 150.0},
       {on_stem(0.5), {{0.0}, {Vec3(0, 0, 0.2)}, {Quat::Identity()}}, INFINITY, {}}};
   trial.loads = {{on_stem(1.0), Vec3(0, 0, -0.2), 0.1, 0.2}, {on_stem(1.0), Vec3(5e8, 0, 0)}};
-  trial.base = Path{{0.0, 0.3}, {Vec3(0, 0, 0), Vec3(0.1, 0, 0)}, {}};
+  trial.base = DrivenPath{{0.0, 0.3}, {Vec3(0, 0, 0), Vec3(0.1, 0, 0)}, {}};
   trial.markers.value.setRandom();
   trial.markers.value.row(2).head<3>().setConstant(NAN);
   trial.force.value.row(1).setConstant(NAN);
@@ -45,20 +45,20 @@ Experiment full_experiment() {
   fruit.density = 900.0;
   experiment.plant.fruits = {fruit};
   trial.events = {{0.11, "detached", "fruit_1"}};
-  Trial quiet = trial;
-  quiet.name = "two";
-  quiet.folder = "two";
-  quiet.use = Trial::Use::unset;
-  quiet.holds.clear();
-  quiet.loads.clear();
-  quiet.base.reset();
-  quiet.force = {};
-  quiet.events.clear();
-  experiment.trials.push_back(quiet);
+  Trial still = trial;
+  still.name = "two";
+  still.folder = "two";
+  still.use = Trial::Use::unset;
+  still.holds.clear();
+  still.loads.clear();
+  still.base.reset();
+  still.force = {};
+  still.events.clear();
+  experiment.trials.push_back(still);
   return experiment;
 }
 
-void expect_equal(const Path& a, const Path& b) {
+void expect_equal(const DrivenPath& a, const DrivenPath& b) {
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.position, b.position);
   ASSERT_EQ(a.rotation.size(), b.rotation.size());
@@ -166,15 +166,15 @@ TEST(Experiment, FindsTheLeavesOfItsPlantAndTakesThemAlong) {
   ASSERT_TRUE(read) << diagnostics.text();
   ASSERT_EQ(read->plant.leaves.size(), 1u);
   EXPECT_GT(scales_of(*read).mass, scales_of(full_experiment()).mass);
-  EXPECT_NO_THROW(junction_freedom(*read));
+  EXPECT_NO_THROW(junction_nuisance(*read, {}));
   EXPECT_NO_THROW(PlantMaker(*read, read->plant.distance, 0.0));
 }
 
-TEST(Path, IsLinearBetweenItsRowsAndKeptBeyond) {
-  const Path path{{1.0, 2.0, 4.0},
-                  {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 4, 0)},
-                  {Quat::Identity(), Quat(Eigen::AngleAxisd(1.0, Vec3::UnitZ())),
-                   Quat(Eigen::AngleAxisd(1.0, Vec3::UnitZ()))}};
+TEST(DrivenPath, IsLinearBetweenItsRowsAndKeptBeyond) {
+  const DrivenPath path{{1.0, 2.0, 4.0},
+                        {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 4, 0)},
+                        {Quat::Identity(), Quat(Eigen::AngleAxisd(1.0, Vec3::UnitZ())),
+                         Quat(Eigen::AngleAxisd(1.0, Vec3::UnitZ()))}};
   EXPECT_EQ(path.position_at(-3.0), Vec3(0, 0, 0));
   EXPECT_EQ(path.position_at(1.5), Vec3(0.5, 0, 0));
   EXPECT_EQ(path.position_at(2.0), Vec3(1, 0, 0));

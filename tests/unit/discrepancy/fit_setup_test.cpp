@@ -29,7 +29,7 @@ struct Refined {
   NumericsCheck check;
 
   explicit Refined(double noise, double distance = file_distance)
-      : experiment(stated(noise, distance)), setup(experiment, 1, {}, nullptr) {
+      : experiment(stated(noise, distance)), setup(experiment, 1, {}, nullptr, default_settings()) {
     Evaluator evaluator = setup.evaluator();
     model = fit(evaluator, baseline(), setup.options());
     check = setup.refine(model, {[](int) {}, {}});
@@ -51,16 +51,16 @@ struct Refined {
 };
 
 TEST(FitSetup, IsCoarserThanTheFileWhereTheNoiseHidesIt) {
-  const Refined loud(3.0e-3);
-  EXPECT_EQ(loud.setup.numerics().distance, 2.0 * file_distance);
-  EXPECT_EQ(loud.setup.numerics().dt, 2.0 * usual_dt);
-  EXPECT_LE(loud.check.largest, 0.06);
+  const Refined noisy(3.0e-3);
+  EXPECT_EQ(noisy.setup.numerics().distance, 2.0 * file_distance);
+  EXPECT_EQ(noisy.setup.numerics().dt, 2.0 * usual_dt);
+  EXPECT_LE(noisy.check.largest, 0.06);
 }
 
 TEST(FitSetup, IsRefinedUntilTheNoiseHidesIt) {
-  const Refined quiet(3.0e-5);
-  EXPECT_LE(quiet.check.largest, 0.15);
-  EXPECT_LT(quiet.setup.numerics().dt, 2.0 * usual_dt);
+  const Refined precise(3.0e-5);
+  EXPECT_LE(precise.check.largest, 0.15);
+  EXPECT_LT(precise.setup.numerics().dt, 2.0 * usual_dt);
 }
 
 // A coarse mesh beside very short steps would be neither cheap nor what has been measured. On a

@@ -1,4 +1,4 @@
-// Models on trials kept back, as linear predictions whose answers are known.
+// Models on held-out trials, as linear predictions whose answers are known.
 #include "pedicel/discrepancy/test/held_out.h"
 
 #include <gtest/gtest.h>
@@ -25,21 +25,21 @@ Eigen::VectorXd noise() {
 }
 
 // A model that knows its one unknown to `deviation`, and whose prediction moves along shape 1.
-KeptBack model(const Eigen::VectorXd& residual, double deviation) {
+HeldOutModel model(const Eigen::VectorXd& residual, double deviation) {
   return {residual, shape(1, 10.0), Eigen::MatrixXd::Zero(1, 1),
           Eigen::VectorXd::Constant(1, 1.0 / (deviation * deviation))};
 }
 
 TEST(HeldOut, GainsHalfTheSquareOfWhatItExplains) {
-  const KeptBack base = model(noise() + shape(0, 8.0), 1e-3);
-  const KeptBack right = model(noise(), 1e-3), wrong = model(noise() + shape(0, 16.0), 1e-3);
+  const HeldOutModel base = model(noise() + shape(0, 8.0), 1e-3);
+  const HeldOutModel right = model(noise(), 1e-3), wrong = model(noise() + shape(0, 16.0), 1e-3);
   const std::array models{right, wrong};
   const std::vector<HeldOut> found = held_out(base, models, samples, 1.0);
   EXPECT_NEAR(found[0].gain, 32.0, 1e-3);
   EXPECT_NEAR(found[0].expected, 32.0, 1e-3);
-  EXPECT_TRUE(found[0].carries_over());
+  EXPECT_TRUE(found[0].carries_over({}));
   EXPECT_NEAR(found[1].gain, -96.0, 1e-3);
-  EXPECT_FALSE(found[1].carries_over());
+  EXPECT_FALSE(found[1].carries_over({}));
 }
 
 // Off by five deviations of noise along what the unknown moves. Known to a hundredth of that, it
@@ -59,17 +59,19 @@ TEST(HeldOut, AValleyOfTheFitNeitherHelpsNorHarms) {
 // Noise of unit variance alone is 1; 40 noise units in all along what no unknown moves are 40^2
 // more over all samples; along an unknown that the fit left open to ten deviations next to nothing.
 TEST(HeldOut, ExcessLeavesOutWhatTheUnknownsMayTake) {
-  const auto excess = [](const KeptBack& model) { return kept_back_excess(model, samples, 1.0); };
+  const auto excess = [](const HeldOutModel& model) {
+    return held_out_excess(model, samples, 1.0);
+  };
   EXPECT_NEAR(excess(model(noise(), 1e-3)), 1.0, 1e-9);
   EXPECT_NEAR(excess(model(noise() + shape(0, 40.0), 1e-3)), 1.0 + 1600.0 / samples, 1e-6);
   EXPECT_NEAR(excess(model(noise() + shape(1, 40.0), 10.0)), 1.0 + 1600.0 / samples / 1e4, 1e-6);
-  EXPECT_NEAR(kept_back_excess(model(2.0 * noise(), 1e-3), samples, 4.0), 1.0, 1e-9);
+  EXPECT_NEAR(held_out_excess(model(2.0 * noise(), 1e-3), samples, 4.0), 1.0, 1e-9);
 }
 
 // Both miss the same by far more than noise: what they differ in counts in units of that.
 TEST(HeldOut, WhatNoModelExplainsIsNoise) {
   const Eigen::VectorXd missed = 7.0 * noise();
-  const KeptBack base = model(missed + shape(0, 28.0), 1e-3);
+  const HeldOutModel base = model(missed + shape(0, 28.0), 1e-3);
   const std::array models{model(missed, 1e-3)};
   EXPECT_NEAR(held_out(base, models, samples, 1.0).front().gain, 0.5 * 28.0 * 28.0 / 49.0, 0.1);
 }

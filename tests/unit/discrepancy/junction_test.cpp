@@ -28,22 +28,22 @@ struct Give {
 
 // Fits that found such shares.
 bool by_convention(const std::vector<Give>& found) {
-  const Experiment experiment = branched(static_cast<int>(found.size()));
+  const Experiment experiment = branched(static_cast<int>(found.size()), {});
   const Beam beam;
   FitSummary fit;
-  fit.hypothesis = junction_freedom(experiment);
+  fit.hypothesis = junction_nuisance(experiment, {});
   fit.standard_error.resize(fit.hypothesis.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double half = experiment.plant.distance / (2.0 * beam.stiffness());
     fit.hypothesis.set_value(static_cast<int>(i), 1.0 / (found[i].share * half));
     fit.standard_error[i] = found[i].error / found[i].share;  // of its logarithm
   }
-  return is_by_convention(fit, static_cast<int>(found.size()));
+  return is_discretisation(fit, static_cast<int>(found.size()), {});
 }
 
 TEST(Junctions, AStemWithoutBranchesHasNone) {
-  EXPECT_EQ(junction_freedom(branched(0)).size(), 0);
-  EXPECT_EQ(junction_freedom(branched(2)).size(), 2);
+  EXPECT_EQ(junction_nuisance(branched(0), {}).size(), 0);
+  EXPECT_EQ(junction_nuisance(branched(2), {}).size(), 2);
 }
 
 TEST(Junctions, AFinerMeshIsAConvention) {

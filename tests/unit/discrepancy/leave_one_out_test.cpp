@@ -23,7 +23,7 @@ FitSummary linear_fit() {
   for (double& x : fit.jacobian.reshaped()) x = random.normal();
   fit.residual.resize(75);
   for (double& x : fit.residual) x = random.normal();
-  fit.residual = left_over(fit.jacobian, fit.residual);
+  fit.residual = projected_out(fit.jacobian, fit.residual);
   return fit;
 }
 
@@ -37,8 +37,8 @@ TEST(LeaveOneOut, IsTheFitToTheOtherTrials) {
     Eigen::VectorXd residual(75 - rows[t]);
     jacobian << fit.jacobian.topRows(first), fit.jacobian.bottomRows(75 - first - rows[t]);
     residual << fit.residual.head(first), fit.residual.tail(75 - first - rows[t]);
-    EXPECT_LT((found[t].moved - absorbed(jacobian, residual)).norm(), 1e-12);
-    EXPECT_NEAR(found[t].cost, 0.5 * left_over(jacobian, residual).squaredNorm(), 1e-12);
+    EXPECT_LT((found[t].moved - least_squares_step(jacobian, residual)).norm(), 1e-12);
+    EXPECT_NEAR(found[t].cost, 0.5 * projected_out(jacobian, residual).squaredNorm(), 1e-12);
     first += rows[t];
   }
 }

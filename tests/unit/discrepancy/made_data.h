@@ -164,7 +164,7 @@ struct MadeData {
                  {Vec3(0, 0, 0.6), Vec3(0.04, 0, 0.6), Vec3(0.04, 0, 0.6), Vec3(0, 0, 0.6)},
                  {}};
     trial.holds.push_back(hold);
-    const Path path = hold.path;
+    const DrivenPath path = hold.path;
     fill(
         trial, 7.0, [path](double t) { return path.position_at(t).x(); },
         [](double t) { return t < 2   ? 0.02
@@ -173,11 +173,12 @@ struct MadeData {
   }
 };
 
-/// The loudest symptom of a name; nothing where there is none.
-inline const Symptom* loudest(const std::vector<Symptom>& all, const std::string& name) {
+/// The strongest symptom of a name; nothing where there is none.
+inline const Symptom* strongest(const std::vector<Symptom>& all, const std::string& name) {
   const Symptom* best = nullptr;
   for (const Symptom& symptom : all)
-    if (symptom.name == name && (!best || symptom.loudness() > best->loudness())) best = &symptom;
+    if (symptom.name == name && (!best || symptom.significance() > best->significance()))
+      best = &symptom;
   return best;
 }
 

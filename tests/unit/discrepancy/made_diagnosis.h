@@ -35,7 +35,7 @@ inline Diagnosis made_diagnosis(Outcome outcome = Outcome::named) {
   Diagnosis d;
   d.admission.experiment = made.experiment;
   d.admission.samples = 4321;
-  d.admission.remarks = {"2 wild samples were taken out of m3 <at the top>"};
+  d.admission.remarks = {"2 outliers were taken out of m3 <at the top>"};
   d.position_noise = white_noise(MadeData::position_std);
   d.force_noise = white_noise(MadeData::force_std);
   d.numerical_error = 0.07;
@@ -58,16 +58,16 @@ inline Diagnosis made_diagnosis(Outcome outcome = Outcome::named) {
   best.cause = "base_compliance";
   best.fit.hypothesis = hypothesis_of("base_compliance", "stiffness", 0.81, "N m/rad");
   best.gain = 640.0, best.evidence = 631.0;
-  Candidate rival;
-  rival.cause = "weak_segment";
-  rival.fit.hypothesis = hypothesis_of("weak_segment", "factor", 0.1, "1");
-  rival.fit.hypothesis.add(mesh_freedom());
-  rival.fit.at_bound = {0, 1};
-  rival.gain = 610.0, rival.evidence = 598.0;
-  Candidate none = rival;
+  Candidate competitor;
+  competitor.cause = "weak_segment";
+  competitor.fit.hypothesis = hypothesis_of("weak_segment", "factor", 0.1, "1");
+  competitor.fit.hypothesis.add(mesh_nuisance());
+  competitor.fit.at_bound = {0, 1};
+  competitor.gain = 610.0, competitor.evidence = 598.0;
+  Candidate none = competitor;
   none.cause = "wind";
   none.gain = 0.2, none.evidence = -9.0;
-  d.ranking = {best, rival, none};
+  d.ranking = {best, competitor, none};
   d.best = best.fit;
   d.best.why = "relative change of the cost below its limit";
   d.best.converged = true;
@@ -113,14 +113,14 @@ inline Diagnosis made_diagnosis(Outcome outcome = Outcome::named) {
     d.ranking.clear();
     v.causes.clear();
   }
-  v.rivals = {{"weak_segment", 33.0}};
+  v.competing = {{"weak_segment", 33.0}};
   v.fit = {9.1, 6.2, 1.01};
   v.check = {8.4, 5.9, 1.03};
   if (outcome == Outcome::named) v.gain = 0.994;
   v.parameters["youngs_modulus"] = {3.1e8, 3.0e8, 3.2e8, "Pa"};
-  v.could_hide = {{"extra_mass", "mass", 0.004, "kg"},
-                  {"grip_compliance", "stiffness", 900.0, "N/m"},
-                  {"gust", "", INFINITY, "1"}};
+  v.detectable_limits = {{"extra_mass", "mass", 0.004, "kg"},
+                         {"grip_compliance", "stiffness", 900.0, "N/m"},
+                         {"gust", "", INFINITY, "1"}};
   v.extended_plant = "extended.plant.yaml";
   v.simulations = 412;
   v.seconds = 38.5;

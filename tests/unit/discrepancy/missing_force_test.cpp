@@ -47,7 +47,7 @@ TEST(MissingForce, NoiseAloneIsNothing) {
   EXPECT_TRUE(found.sentence().empty());
 }
 
-// Noise alone may be left of trials kept back, and by chance less than that.
+// Noise alone may be left of held-out trials, and by chance less than that.
 TEST(MissingForce, RemovesNoMoreThanAllOfTheError) {
   MissingForce force;
   force.found = true;
@@ -101,7 +101,7 @@ TEST(MissingForce, StopFarStifferThanTheStem) {
   EXPECT_EQ(found.kind, "stop") << found.sentence();
   ASSERT_TRUE(found.place);
   EXPECT_NEAR(found.place->at, 0.7, 0.1);  // an element: from one to the next leads over a ridge
-  // However loud it is, no place is known better than to a node: 40 mm, uniformly, of the stem.
+  // However large it is, no place is known better than to a node: 40 mm, uniformly, of the stem.
   EXPECT_GE(found.place_error, 0.04 / std::sqrt(12.0) / bent.stem_length());
   EXPECT_GT(found.share, 0.9);
 }
@@ -118,7 +118,7 @@ TEST(MissingForce, IsTriedOnThePlantThatWasBelievedIn) {
 }
 
 // Where known causes explain more than any force could, no law of one is looked for.
-TEST(MissingForce, IsNotFollowedWhereItPromisesTooLittle) {
+TEST(MissingForce, IsNotFollowedWhereItScoresTooLittle) {
   BentStem bent;
   bent.measure({soft_stop()}, 3);
   const MissingForce found = bent.infer(baseline(), 60, 1.0e6);

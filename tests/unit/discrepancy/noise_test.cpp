@@ -55,8 +55,8 @@ std::vector<Series> channels(std::uint64_t seed, double correlation, double scal
 // the squares scatter by 2 (1 + r^2) / (1 - r^2) / N, the products by half of that over the share
 // 0.6 of pairs that a window has, 3.7 (1 + r^2) / (1 - r^2) / N = 0.0265^2 together; the standard
 // deviation by half of it. The correlation is 1 - 0.2 / level times what neighbours differ by,
-// which is known to 1 %: 0.2 x 0.028 = 0.0056. Leaving out the loudest windows lowers the level by
-// some 2 %. Bounds: five deviations and that.
+// which is known to 1 %: 0.2 x 0.028 = 0.0056. Leaving out the strongest windows lowers the level
+// by some 2 %. Bounds: five deviations and that.
 TEST(EstimatedNoise, FindsSizeAndCorrelationOfADrawnSeries) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Noise noise = estimate_noise(channels(seed, 0.8, 3e-4), 0.0);
@@ -115,10 +115,10 @@ TEST(ChosenNoise, StaysWithinWhatIsStated) {
 
 // Channels that scatter three times less than is stated stand still. Their own colour is white, and
 // nothing in them says that the noise of the others remembers anything.
-TEST(ChosenNoise, OfQuietWhiteChannelsDoesNotRemember) {
-  const std::vector<Series> quiet = channels(8, 0.0, 1.0);
+TEST(ChosenNoise, OfStillWhiteChannelsDoesNotRemember) {
+  const std::vector<Series> still = channels(8, 0.0, 1.0);
   for (const NoiseRule rule : {NoiseRule{1.0, true}, NoiseRule{0.5, false}}) {
-    const Noise noise = choose_noise(quiet, 3.0, rule);
+    const Noise noise = choose_noise(still, 3.0, rule);
     EXPECT_DOUBLE_EQ(noise.std, 3.0);
     EXPECT_NEAR(noise.correlation(), 0.0, 0.05);
     EXPECT_NEAR(noise.innovation.back(), 3.0, 0.05);
@@ -126,10 +126,10 @@ TEST(ChosenNoise, OfQuietWhiteChannelsDoesNotRemember) {
 }
 
 TEST(ChosenNoise, BelowItsLeastShareIsWhiteWhereColourDoesNotCount) {
-  const std::vector<Series> quiet = channels(9, 0.8, 1.0);
-  EXPECT_EQ(choose_noise(quiet, 3.0, {0.5, false}).order(), 0);
-  EXPECT_DOUBLE_EQ(choose_noise(quiet, 3.0, {0.5, false}).std, 3.0);
-  EXPECT_NEAR(choose_noise(quiet, 3.0, {1.0, true}).correlation(), 0.8, 0.04);
+  const std::vector<Series> still = channels(9, 0.8, 1.0);
+  EXPECT_EQ(choose_noise(still, 3.0, {0.5, false}).order(), 0);
+  EXPECT_DOUBLE_EQ(choose_noise(still, 3.0, {0.5, false}).std, 3.0);
+  EXPECT_NEAR(choose_noise(still, 3.0, {1.0, true}).correlation(), 0.8, 0.04);
 }
 
 // The mean square of 20000 white numbers of unit variance scatters by sqrt(2 / 20000) = 0.01, their

@@ -47,7 +47,7 @@ TEST(Report, CardComesFirstAndSaysAllThatMatters) {
                                             "the root",
                                             "0.81 N m/rad (95 %: 0.77 to 0.86)",
                                             "What it gains",
-                                            "kept back (push)",
+                                            "held out (push)",
                                             "1.03 times with the extended one",
                                             "What else it could have been",
                                             "weak_segment",
@@ -109,14 +109,14 @@ TEST(Report, ForceOfUnknownKindHasItsPlaceInTheDrawing) {
   EXPECT_THAT(page, Not(HasSubstr(">largest residual<")));
   EXPECT_THAT(page, Not(HasSubstr("That removes")));
   EXPECT_THAT(page, HasSubstr("<h3>What is left</h3>"));
-  EXPECT_THAT(page, HasSubstr("&quot;push&quot;, which was to be kept back"));
+  EXPECT_THAT(page, HasSubstr("&quot;push&quot;, which was to be held out"));
 }
 
 TEST(Report, FactorsThatCouldHideAreToldByHowFarTheyAreFromOne) {
   Verdict verdict;
-  verdict.could_hide = {{"marker_scale", "factor", 1.00002, "1"},
-                        {"weak_segment", "factor", 0.91632, "1"},
-                        {"extra_mass", "mass", 0.004, "kg"}};
+  verdict.detectable_limits = {{"marker_scale", "factor", 1.00002, "1"},
+                               {"weak_segment", "factor", 0.91632, "1"},
+                               {"extra_mass", "mass", 0.004, "kg"}};
   EXPECT_THAT(hiding_texts(verdict).first,
               ::testing::ElementsAre("marker_scale: factor off 1 by less than 2e-05",
                                      "weak_segment: factor off 1 by less than 0.0837",

@@ -92,7 +92,7 @@ TEST(Simulator, AHoldPullsThroughItsSpring) {
 TEST(Simulator, ARigidHoldFollowsItsPath) {
   const Beam beam;
   Experiment experiment = experiment_of(beam, 0.5);
-  Path path;
+  DrivenPath path;
   for (int i = 0; i <= 50; ++i) {
     path.time.push_back(0.01 * i);
     path.position.emplace_back(offset * std::pow(std::sin(0.01 * i * M_PI), 2), 0, beam.length);
@@ -126,7 +126,7 @@ TEST(Simulator, AGripThatSlipsHoldsElsewhere) {
 TEST(Simulator, ASlowBaseCarriesThePlant) {
   const Beam beam;
   Experiment experiment = experiment_of(beam, 2.0, 0.1);
-  Path base;
+  DrivenPath base;
   for (int i = 0; i <= 100; ++i) {
     const double t = 0.02 * i, ramp = t - std::sin(M_PI * t) / M_PI;  // 0 to 2, smooth at its ends
     base.time.push_back(t);

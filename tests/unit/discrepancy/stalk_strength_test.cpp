@@ -55,7 +55,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 TEST(StalkStrength, FindsForceAndMomentOfTheLawThatBreaksStalks) {
   const StalkStrength found =
-      judge_strength(pulls(3.0, 0.02, 0.05, 14), thresholds(3.0, 14), window);
+      judge_strength(pulls(3.0, 0.02, 0.05, 14), thresholds(3.0, 14), window, {});
   EXPECT_EQ(found.broken, 14);
   EXPECT_TRUE(found.needs_law()) << found.summary();
   ASSERT_TRUE(found.law);
@@ -75,21 +75,22 @@ TEST(StalkStrength, ThresholdsThatHoldAreLeftAlone) {
   for (const double scatter : {0.0, 0.05, 0.2})
     for (const double given : {2.8, 3.0, 3.2}) {
       const StalkStrength found =
-          judge_strength(pulls(3.0, never, scatter, 16), thresholds(given, 16), window);
+          judge_strength(pulls(3.0, never, scatter, 16), thresholds(given, 16), window, {});
       EXPECT_FALSE(found.needs_law()) << scatter << ", " << given << ": " << found.summary();
     }
 }
 
 TEST(StalkStrength, FruitsThatNeverComeOffByTheFileNeedALaw) {
   const StalkStrength found =
-      judge_strength(pulls(3.0, never, 0.05, 8), std::vector<BreakLaw>(8), window);
+      judge_strength(pulls(3.0, never, 0.05, 8), std::vector<BreakLaw>(8), window, {});
   EXPECT_TRUE(found.needs_law()) << found.summary();
   EXPECT_NEAR(found.law->law.scale[stalk_force], 3.0, 0.2);
   EXPECT_THAT(found.sentence(), testing::HasSubstr("by the plant file's thresholds none does"));
 }
 
 TEST(StalkStrength, FewBreaksMakeNoLaw) {
-  const StalkStrength found = judge_strength(pulls(3.0, 0.02, 0.0, 3), thresholds(1.0, 3), window);
+  const StalkStrength found =
+      judge_strength(pulls(3.0, 0.02, 0.0, 3), thresholds(1.0, 3), window, {});
   EXPECT_FALSE(found.law);
   EXPECT_FALSE(found.needs_law());
   EXPECT_THAT(found.summary(), testing::HasSubstr("too few for a law: 4 are needed"));
@@ -98,16 +99,16 @@ TEST(StalkStrength, FewBreaksMakeNoLaw) {
 // Stalks that bore their trials speak, too: without them a weak law would do as well.
 TEST(StalkStrength, StalksThatHeldCount) {
   std::vector<StalkLoads> stalks = pulls(3.0, never, 0.05, 6);
-  const StalkStrength alone = judge_strength(stalks, thresholds(1.5, 6), window);
+  const StalkStrength alone = judge_strength(stalks, thresholds(1.5, 6), window, {});
   for (int i = 0; i < 6; ++i) stalks.push_back(ramp(0.9, 0.0, never));  // up to 2.7 N
-  const StalkStrength both = judge_strength(stalks, thresholds(1.5, 12), window);
+  const StalkStrength both = judge_strength(stalks, thresholds(1.5, 12), window, {});
   EXPECT_GT(both.evidence, alone.evidence + 6.0);
 }
 
 TEST(StalkStrength, StalksThatBoreNothingMakeNoLaw) {
   std::vector<StalkLoads> stalks;
   for (int i = 0; i < 5; ++i) stalks.push_back(ramp(0.0, 0.0, 1.0));
-  const StalkStrength found = judge_strength(stalks, thresholds(3.0, 5), window);
+  const StalkStrength found = judge_strength(stalks, thresholds(3.0, 5), window, {});
   EXPECT_FALSE(found.law);
   EXPECT_FALSE(found.needs_law());
 }

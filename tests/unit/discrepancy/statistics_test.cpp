@@ -45,7 +45,7 @@ TEST(Directions, OfWhiteNoiseAreStandardNormalAndRaiseNoAlarm) {
   for (int i = 0; i < draws; ++i) {
     FitSummary base;
     base.residual = drawn(random, samples);
-    alarms += judge(directions, base, {}, 3).raised ? 1 : 0;
+    alarms += judge(directions, base, {}, 3, {}).raised ? 1 : 0;
     for (int d = 0; d < count; ++d) {
       mean[d] += directions[d].statistic / draws;
       square[d] += std::pow(directions[d].statistic, 2) / draws;
@@ -62,9 +62,9 @@ TEST(Directions, ShowWhatIsLaidAlongThem) {
   Random random(5);
   FitSummary base;
   base.residual = drawn(random, samples) - 9.0 * directions[7].change.normalized();
-  const Alarm alarm = judge(directions, base, {}, 3);
+  const Alarm alarm = judge(directions, base, {}, 3, {});
   EXPECT_TRUE(alarm.raised);
-  EXPECT_EQ(alarm.loudest, 7);
+  EXPECT_EQ(alarm.strongest, 7);
   EXPECT_NEAR(directions[7].statistic, -9.0, 4.0);  // a standard normal number on top
   EXPECT_DOUBLE_EQ(alarm.statistic, std::abs(directions[7].statistic));
   EXPECT_GE(alarm.level, 5.0);
@@ -76,7 +76,7 @@ TEST(Directions, DoNotBlameWhatOurOwnErrorMayBe) {
   const Eigen::VectorXd along = directions[7].change.normalized();
   FitSummary base;
   base.residual = drawn(random, samples) - 9.0 * along;
-  EXPECT_FALSE(judge(directions, base, 8.0 * along, 3).raised);
+  EXPECT_FALSE(judge(directions, base, 8.0 * along, 3, {}).raised);
   EXPECT_NEAR(directions[7].systematic, 8.0, 1e-9);
 }
 
@@ -86,7 +86,7 @@ TEST(Directions, WithoutLengthSayNothing) {
   directions[0].change.setZero();
   FitSummary base;
   base.residual = Eigen::VectorXd::Constant(samples, 100.0);
-  const Alarm alarm = judge(directions, base, {}, 3);
+  const Alarm alarm = judge(directions, base, {}, 3, {});
   EXPECT_FALSE(alarm.raised);
   EXPECT_EQ(directions[0].statistic, 0.0);
 }
@@ -110,15 +110,16 @@ TEST(SmallestSeen, GoesWithTheSizeOfTheDirection) {
   direction.start.free[0].vanishes = Vanishes::at_zero;
   direction.change = Eigen::VectorXd::Constant(4, 2.0);
   std::string parameter;
-  EXPECT_NEAR(smallest_seen(direction, 5.0, parameter), 0.025, 1e-12);
+  EXPECT_NEAR(detectable_limit(direction, 5.0, parameter), 0.025, 1e-12);
   EXPECT_EQ(parameter, "mass");
-  direction.start.free[0].vanishes = Vanishes::at_infinity;  // a spring: the softer the louder
-  EXPECT_NEAR(smallest_seen(direction, 5.0, parameter), 0.016, 1e-12);
+  direction.start.free[0].vanishes =
+      Vanishes::at_infinity;  // a spring: the softer the more it shows
+  EXPECT_NEAR(detectable_limit(direction, 5.0, parameter), 0.016, 1e-12);
   direction.start.free[0].vanishes = Vanishes::at_nominal;  // a grip of 80 that is softer
   direction.start.free[0].nominal = 0.08;
-  EXPECT_NEAR(smallest_seen(direction, 8.0, parameter), 0.08 * std::pow(0.25, 2.0), 1e-12);
+  EXPECT_NEAR(detectable_limit(direction, 8.0, parameter), 0.08 * std::pow(0.25, 2.0), 1e-12);
   direction.change.setZero();
-  EXPECT_TRUE(std::isinf(smallest_seen(direction, 5.0, parameter)));
+  EXPECT_TRUE(std::isinf(detectable_limit(direction, 5.0, parameter)));
 }
 
 // A wind along y alone: its component along x says nothing of its size.
@@ -131,7 +132,7 @@ TEST(SmallestSeen, OfAVectorIsALength) {
   for (FreeParameter& free : direction.start.free) free.vanishes = Vanishes::at_zero;
   direction.change = Eigen::VectorXd::Constant(4, 1.5);
   std::string parameter;
-  EXPECT_NEAR(smallest_seen(direction, 1.0, parameter), 0.2, 1e-12);
+  EXPECT_NEAR(detectable_limit(direction, 1.0, parameter), 0.2, 1e-12);
 }
 
 // Beyond its threshold a law is seen or not; nothing is known of other thresholds.
@@ -141,8 +142,8 @@ TEST(SmallestSeen, OfALawWithAThresholdIsTheStart) {
   direction.has_threshold = true;
   direction.change = Eigen::VectorXd::Constant(4, 3.0);
   std::string parameter;
-  EXPECT_NEAR(smallest_seen(direction, 5.0, parameter), 0.7, 1e-12);
-  EXPECT_TRUE(std::isinf(smallest_seen(direction, 7.0, parameter)));
+  EXPECT_NEAR(detectable_limit(direction, 5.0, parameter), 0.7, 1e-12);
+  EXPECT_TRUE(std::isinf(detectable_limit(direction, 7.0, parameter)));
 }
 
 }  // namespace

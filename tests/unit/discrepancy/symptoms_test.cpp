@@ -16,7 +16,7 @@ enum { release, weights, push };
 // Each value lies within 4 of its own standard errors of what was laid on the data.
 void expect_value(const std::vector<Symptom>& all, const std::string& name, double expected,
                   double model_error = 0.0) {
-  const Symptom* symptom = loudest(all, name);
+  const Symptom* symptom = strongest(all, name);
   ASSERT_NE(symptom, nullptr) << name;
   EXPECT_TRUE(symptom->shows()) << name;
   EXPECT_NEAR(symptom->value, expected, 4.0 * symptom->standard_error + model_error) << name;
@@ -24,8 +24,8 @@ void expect_value(const std::vector<Symptom>& all, const std::string& name, doub
   EXPECT_TRUE(symptom->sentence.ends_with(".")) << symptom->sentence;
 }
 
-void expect_quiet(const std::vector<Symptom>& all, const std::string& name) {
-  const Symptom* symptom = loudest(all, name);
+void expect_insignificant(const std::vector<Symptom>& all, const std::string& name) {
+  const Symptom* symptom = strongest(all, name);
   if (!symptom) return;
   EXPECT_FALSE(symptom->shows()) << symptom->sentence;
 }
@@ -63,7 +63,7 @@ TEST(Symptoms, StandardErrorsHold) {
       const bool vector = (symptom.name == "base_rotation" || symptom.name == "excess_curvature" ||
                            symptom.name == "constant_offset");
       auto& [sum, count] = squares[symptom.name];
-      sum += std::pow(symptom.loudness(), 2) / (vector ? 3.0 : 1.0);
+      sum += std::pow(symptom.significance(), 2) / (vector ? 3.0 : 1.0);
       ++count;
     }
   }
@@ -90,11 +90,11 @@ TEST(Symptoms, TurnAboutTheRoot) {
   });
   const auto all = made.symptoms();
   expect_value(all, "base_rotation", 1.0);
-  expect_quiet(all, "excess_curvature");
-  expect_quiet(all, "junction_kink");
-  expect_quiet(all, "length_scale");
-  expect_quiet(all, "time_shift");
-  const Symptom& turn = *loudest(all, "base_rotation");
+  expect_insignificant(all, "excess_curvature");
+  expect_insignificant(all, "junction_kink");
+  expect_insignificant(all, "length_scale");
+  expect_insignificant(all, "time_shift");
+  const Symptom& turn = *strongest(all, "base_rotation");
   EXPECT_NE(turn.subject.find("weights, 4"), std::string::npos) << turn.subject;
   ASSERT_EQ(turn.plot.series.size(), 2u);
   // Arc over distance is the angle.
@@ -112,7 +112,7 @@ TEST(Symptoms, BendAtAPlace) {
   });
   const auto all = made.symptoms();
   expect_value(all, "excess_curvature", a / L);
-  EXPECT_NE(loudest(all, "excess_curvature")->sentence.find("around m2"), std::string::npos);
+  EXPECT_NE(strongest(all, "excess_curvature")->sentence.find("around m2"), std::string::npos);
 }
 
 TEST(Symptoms, KinkAtTheJunction) {
@@ -124,8 +124,8 @@ TEST(Symptoms, KinkAtTheJunction) {
   });
   const auto all = made.symptoms();
   expect_value(all, "junction_kink", 2.0);
-  EXPECT_NE(loudest(all, "junction_kink")->sentence.find("branch"), std::string::npos);
-  expect_quiet(all, "excess_curvature");
+  EXPECT_NE(strongest(all, "junction_kink")->sentence.find("branch"), std::string::npos);
+  expect_insignificant(all, "excess_curvature");
 }
 
 // To first order a delay d leaves -d v.
@@ -137,8 +137,8 @@ TEST(Symptoms, MarkersThatComeLate) {
     made.experiment.trials[t].markers.value -= delay * made.predictions[t].marker_velocity;
   const auto all = made.symptoms();
   expect_value(all, "time_shift", 1e3 * delay);
-  EXPECT_NE(loudest(all, "time_shift")->sentence.find("behind"), std::string::npos);
-  expect_quiet(all, "base_rotation");
+  EXPECT_NE(strongest(all, "time_shift")->sentence.find("behind"), std::string::npos);
+  expect_insignificant(all, "base_rotation");
 }
 
 // A frequency that is off drifts out of step, which is no delay.
@@ -151,7 +151,7 @@ TEST(Symptoms, AnotherFrequencyIsNoDelay) {
     if (time[i] > 1.0)
       x.row(i) += 0.002 * (time[i] - 1.0) * made.predictions[release].marker_velocity.row(i);
   const auto all = made.symptoms();
-  expect_quiet(all, "time_shift");
+  expect_insignificant(all, "time_shift");
   expect_value(all, "frequency", 0.2, 0.02);
 }
 
@@ -171,8 +171,8 @@ TEST(Symptoms, OneMarkerThatSitsElsewhere) {
   });
   const auto all = made.symptoms();
   expect_value(all, "constant_offset", 5.0);
-  EXPECT_EQ(loudest(all, "constant_offset")->subject, "m3");
-  const Symptom* bad = loudest(all, "bad_channel");
+  EXPECT_EQ(strongest(all, "constant_offset")->subject, "m3");
+  const Symptom* bad = strongest(all, "bad_channel");
   ASSERT_NE(bad, nullptr);
   EXPECT_TRUE(bad->shows());
   EXPECT_EQ(bad->subject, "m3");
@@ -199,8 +199,8 @@ TEST(Symptoms, FrequencyAndDamping) {
   const auto all = made.symptoms();
   expect_value(all, "frequency", 100.0 * (f / MadeData::frequency - 1.0));
   expect_value(all, "damping", zeta - MadeData::damping);
-  expect_quiet(all, "damping_by_amplitude");
-  expect_quiet(all, "frequency_by_amplitude");
+  expect_insignificant(all, "damping_by_amplitude");
+  expect_insignificant(all, "frequency_by_amplitude");
 }
 
 // Quadratic drag beside the model's own damping: the amplitude follows a' = -d a - b a^2, so
@@ -214,7 +214,7 @@ TEST(Symptoms, DampingThatGrowsWithAmplitude) {
   });
   made.add_noise(9);
   const auto all = made.symptoms();
-  const Symptom* symptom = loudest(all, "damping_by_amplitude");
+  const Symptom* symptom = strongest(all, "damping_by_amplitude");
   ASSERT_NE(symptom, nullptr);
   EXPECT_TRUE(symptom->shows());
   EXPECT_GT(symptom->value, 0.0);
@@ -251,7 +251,7 @@ TEST(Symptoms, LoopOfAPush) {
   const auto all = made.symptoms();
   // Half a sample at each end of the ramps: 0.02 s of 2 s.
   expect_value(all, "loop_area", 1e3 * 2 * c * s, 0.01 * 1e3 * 2 * c * s);
-  expect_quiet(all, "force_drift");
+  expect_insignificant(all, "force_drift");
 }
 
 TEST(Symptoms, ForceThatFallsWhileHeld) {
@@ -278,7 +278,7 @@ TEST(Symptoms, MotionAcrossThePlane) {
   });
   const auto all = made.symptoms();
   expect_value(all, "out_of_plane", 0.01, 5e-4);
-  EXPECT_EQ(loudest(all, "out_of_plane")->subject, "release");
+  EXPECT_EQ(strongest(all, "out_of_plane")->subject, "release");
 }
 
 // Four equal releases whose frequency rises by 0.5 % each time: stiffness by 1 %, 3 % in all.
@@ -309,7 +309,7 @@ TEST(Symptoms, TrialsThatFailedAndGapsAreLeftOut) {
   for (int i = 0; i < 200; ++i)
     made.experiment.trials[weights].markers.value.row(i).segment<3>(6).setConstant(NAN);
   const auto all = made.symptoms();
-  EXPECT_EQ(loudest(all, "frequency"), nullptr);
+  EXPECT_EQ(strongest(all, "frequency"), nullptr);
   for (const Symptom& symptom : all) {
     EXPECT_TRUE(std::isfinite(symptom.value)) << symptom.name;
     EXPECT_FALSE(symptom.shows()) << symptom.sentence;

@@ -33,7 +33,7 @@ TrialSplit split(std::vector<Trial> trials) {
 TEST(TrialSplit, FollowsTheFileWhereItSays) {
   const TrialSplit s = split({release(Trial::Use::check), release(Trial::Use::fit), push()});
   EXPECT_EQ(s.check, Indices{0});
-  EXPECT_EQ(s.fit, (Indices{1, 2}));  // what is open is fitted, because something is kept back
+  EXPECT_EQ(s.fit, (Indices{1, 2}));  // what is open is fitted, because something is held out
 }
 
 TEST(TrialSplit, KeepsBackTheSecondOfAKind) {
@@ -60,7 +60,7 @@ TEST(TrialSplit, FitsSomethingEvenWhereAllIsToBeChecked) {
   EXPECT_TRUE(s.check.empty());
 }
 
-// What objects is fitted, and the last of its kind kept back in its place.
+// What objects is fitted, and the last of its kind held out in its place.
 TEST(TrialSplit, ExchangesATrialThatObjects) {
   Experiment experiment;
   experiment.trials = {release(), push(), release(), release(), push(), push()};

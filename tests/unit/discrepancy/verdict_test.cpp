@@ -30,12 +30,12 @@ Verdict full() {
       {0.001, 0.0, 0.002, "m"}, {0.0, -0.001, 0.001, "m"}, {0.003, 0.002, NAN, "m"}};
   offset.words["marker"] = "m2";
   v.causes = {spring, offset};
-  v.rivals = {{"weak_segment", 88.1}};
+  v.competing = {{"weak_segment", 88.1}};
   v.parameters["youngs_modulus"] = {3.1e8, 3.0e8, 3.2e8, "Pa"};
   v.fit = {4.1, 2.2, 1.03};
   v.check = {4.4, 2.6, 1.08};
   v.gain = 0.96;
-  v.could_hide = {{"extra_mass", "mass", 0.004, "kg"}, {"gust", "", INFINITY, "1"}};
+  v.detectable_limits = {{"extra_mass", "mass", 0.004, "kg"}, {"gust", "", INFINITY, "1"}};
   v.next_experiment = "Pull \"stem\".";
   v.extended_plant = "extended.plant.yaml";
   v.simulations = 412;

@@ -1,11 +1,12 @@
 // What is left of the plant's own motion: seen along its shapes, not across them, whatever the
 // colour of the noise.
+#include "pedicel/discrepancy/test/residual_power.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "made_data.h"
-#include "pedicel/discrepancy/test/residual_power.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -36,8 +37,8 @@ struct Left {
     model.residual += swing;
   }
 
-  Leftover found(const Eigen::VectorXd& numerical = {}) const {
-    return leftover(data_of(0.0), trials, model, numerical);
+  ResidualPower found(const Eigen::VectorXd& numerical = {}) const {
+    return residual_power(data_of(0.0), trials, model, numerical, {});
   }
 
  private:
@@ -64,7 +65,7 @@ struct Left {
   }
 };
 
-TEST(Leftover, NoiseShowsNothing) {
+TEST(ResidualPower, NoiseShowsNothing) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     EXPECT_LT(Left(seed, 0.0, 0.0, Vec3::Zero()).found().deviations, 5.0) << seed;
     EXPECT_LT(Left(seed, 0.8, 0.8, Vec3::Zero()).found().deviations, 5.0) << seed;
@@ -76,20 +77,20 @@ TEST(Leftover, NoiseShowsNothing) {
 
 // The plant moves along x. A swing of 0.4 of the noise's deviation at the tip is nowhere seen in a
 // sample; over n samples of m markers its square is A^2 n m / 2 in noise units.
-TEST(Leftover, ASwingOfThePlantShows) {
-  const Leftover found = Left(3, 0.0, 0.0, Vec3(2e-4, 0, 0)).found();
+TEST(ResidualPower, ASwingOfThePlantShows) {
+  const ResidualPower found = Left(3, 0.0, 0.0, Vec3(2e-4, 0, 0)).found();
   EXPECT_TRUE(found.shows()) << found.deviations;
   EXPECT_EQ(found.trial, trials.back());
   EXPECT_LE(found.low_hz, hz + 0.2);
   EXPECT_GE(found.high_hz, hz - 0.2);
 }
 
-// What is too quiet for either trial shows in both together: at the same amplitude the ratio of the
+// What is too small for either trial shows in both together: at the same amplitude the ratio of the
 // F test stays and its degrees of freedom double, and so its deviations grow by about sqrt(2).
-TEST(Leftover, WhatIsQuietInEachTrialShowsInAll) {
-  const Vec3 quiet(1.5e-4, 0, 0);
-  const Leftover one = Left(3, 0.0, 0.0, quiet).found();
-  const Leftover both = Left(3, 0.0, 0.0, quiet, trials).found();
+TEST(ResidualPower, WhatIsSmallInEachTrialShowsInAll) {
+  const Vec3 small(1.5e-4, 0, 0);
+  const ResidualPower one = Left(3, 0.0, 0.0, small).found();
+  const ResidualPower both = Left(3, 0.0, 0.0, small, trials).found();
   EXPECT_FALSE(one.shows()) << one.deviations;
   EXPECT_TRUE(both.shows()) << both.deviations;
   EXPECT_TRUE(both.in_all);
@@ -97,22 +98,22 @@ TEST(Leftover, WhatIsQuietInEachTrialShowsInAll) {
 }
 
 // One sample in 70 stands 30 deviations out, at one place of the plant and along its motion.
-TEST(Leftover, WildSamplesAreNoMotion) {
+TEST(ResidualPower, OutliersAreNoMotion) {
   Left left(3, 0.0, 0.0, Vec3::Zero());
   for (Eigen::Index i = 5; i < left.model.residual.size(); i += 70) left.model.residual[i] += 30.0;
   EXPECT_FALSE(left.found().shows());
 }
 
-TEST(Leftover, WhatThePlantDoesNotDoIsNoise) {
+TEST(ResidualPower, WhatThePlantDoesNotDoIsNoise) {
   EXPECT_FALSE(Left(3, 0.0, 0.0, Vec3(0, 2e-4, 0)).found().shows());
 }
 
-TEST(Leftover, OurOwnErrorIsTakenOff) {
+TEST(ResidualPower, OurOwnErrorIsTakenOff) {
   const Left left(3, 0.0, 0.0, Vec3(2e-4, 0, 0));
   EXPECT_FALSE(left.found(left.swing).shows());
 }
 
-TEST(Leftover, NeedsTheModelsDerivatives) {
+TEST(ResidualPower, NeedsTheModelsDerivatives) {
   Left left(3, 0.0, 0.0, Vec3(2e-4, 0, 0));
   left.model.jacobian.resize(0, 0);
   EXPECT_EQ(left.found().trial, -1);

@@ -1,12 +1,13 @@
 // A mass that no model knows raises the density that is fitted; from there it must be found by
 // going back to the density that is believed.
+#include "pedicel/discrepancy/select/continuation.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "pedicel/core/random.h"
-#include "pedicel/discrepancy/select/continuation.h"
 #include "unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
@@ -68,13 +69,14 @@ struct Weighted {
   }
 };
 
-TEST(WayBack, FindsTheMassThatPulledDensity) {
+TEST(Continuation, FindsTheMassThatPulledDensity) {
   Weighted weighted;
-  ASSERT_TRUE(is_pulled(weighted.base.hypothesis));
-  EXPECT_TRUE(likest_way_back(weighted.base, "latency", weighted.directions).empty());
-  const auto starts = likest_way_back(weighted.base, "extra_mass", weighted.directions);
+  ASSERT_TRUE(has_prior_shift(weighted.base.hypothesis, {}));
+  EXPECT_TRUE(likest_continuations(weighted.base, "latency", weighted.directions, {}).empty());
+  const auto starts = likest_continuations(weighted.base, "extra_mass", weighted.directions, {});
   ASSERT_FALSE(starts.empty());
-  const auto found = walk_back(weighted.evaluator, weighted.base, starts.front(), weighted.options);
+  const auto found =
+      continue_to_prior(weighted.evaluator, weighted.base, starts.front(), weighted.options);
   ASSERT_TRUE(found);
   const Hypothesis& model = found->hypothesis;
   // Density and the mass stand for each other: the prior's tenth leaves the mass open to a tenth
@@ -87,7 +89,7 @@ TEST(WayBack, FindsTheMassThatPulledDensity) {
 
 // Density is known to 0.1 of its logarithm: 1.4 is 3.4 deviations away, 1.6 is 4.7. Modulus is
 // known to 1.5: only its bound is too far. Damping may end there.
-TEST(WayBack, BeyondBelief) {
+TEST(Continuation, BeyondBelief) {
   FitSummary model;
   model.hypothesis = baseline();
   Hypothesis& numbers = model.hypothesis;
@@ -95,21 +97,21 @@ TEST(WayBack, BeyondBelief) {
   numbers.set_value(modulus, 9.0);
   numbers.set_value(density, 1.4);
   model.at_bound = {numbers.factor_on("damping_time")};
-  EXPECT_FALSE(is_beyond_belief(model));
+  EXPECT_FALSE(conflicts_with_prior(model, {}));
   model.at_bound = {modulus};
-  EXPECT_TRUE(is_beyond_belief(model));
+  EXPECT_TRUE(conflicts_with_prior(model, {}));
   model.at_bound.clear();
   numbers.set_value(density, 1.6);
-  EXPECT_TRUE(is_beyond_belief(model));
-  const Hypothesis believed = as_believed(numbers);
+  EXPECT_TRUE(conflicts_with_prior(model, {}));
+  const Hypothesis believed = at_prior(numbers);
   for (int p = 0; p < believed.size(); ++p) EXPECT_NEAR(believed.value(p), 1.0, 1e-12);
 }
 
-TEST(WayBack, IsNotGoneWhereNothingIsPulled) {
+TEST(Continuation, IsNotGoneWhereNothingIsPulled) {
   Weighted weighted;
   weighted.base.hypothesis.set_value(weighted.base.hypothesis.factor_on("density"), 1.04);
-  EXPECT_FALSE(is_pulled(weighted.base.hypothesis));
-  EXPECT_TRUE(likest_way_back(weighted.base, "extra_mass", weighted.directions).empty());
+  EXPECT_FALSE(has_prior_shift(weighted.base.hypothesis, {}));
+  EXPECT_TRUE(likest_continuations(weighted.base, "extra_mass", weighted.directions, {}).empty());
 }
 
 }  // namespace
