@@ -91,10 +91,10 @@ Result Session::run_text(const std::string& line) {
 Result Session::dispatch(const Command& command) {
   const CommandDescription* description = find_command(command.verb());
   if (!description) throw UsageError("no such command");
-  if (command.verb() == "add robot") return change_document(placed_robot(command));
-  if (description->scope == Scope::document) return change_document(command);
-  Result result =
-      description->scope == Scope::session ? session_command(command) : run_command(command);
+  const CommandHandler::OnSession handle = description->handler.on_session();
+  if (!handle)
+    return change_document(description->complete ? description->complete(*this, command) : command);
+  Result result = handle(*this, command);
   if (!result.ok || description->scope != Scope::run) return result;
   // Of a dragged tool the last place counts.
   if (command.verb() == "tool" && !log_.empty() && log_.back().starts_with("tool "))

@@ -115,6 +115,7 @@ class Session {
   bool can_undo() const;
   const History& history() const { return history_; }
   const Document& document() const { return document_; }
+  const SessionOptions& options() const { return options_; }
   /// Whether what is simulated is what is drawn: false while it is being built, and where it cannot
   /// be (see messages()).
   bool is_simulated() const { return snapshot()->document_hash == hash_; }
@@ -127,7 +128,8 @@ class Session {
   // The simulation.
   /// Begins a pull of a place by hand; control() moves and ends it. undo() takes it back: the run
   /// goes to the step where it began.
-  void begin_pull(const PullPlace& place, const Vec3& target_W);
+  /// `by_command`: the log has it.
+  void begin_pull(const PullPlace& place, const Vec3& target_W, bool by_command = false);
   RunControl& control() { return control_; }
   const RunControl& control() const { return control_; }
   std::shared_ptr<const Snapshot> snapshot() const { return control_.snapshot(); }
@@ -164,6 +166,17 @@ class Session {
   Result aim_tool(const Pose& tool_W, bool turned, bool as_near_as_can_be);
   /// Moves the tool by a shift (m, W) and a turn (rad, a rotation vector, W), or says why not.
   Result jog(const Vec3& shift_W, const Vec3& turn_W = Vec3::Zero());
+  /// Moves one joint, the gripper or all joints (rad or m) by hand. Throws UsageError.
+  Result move_joint(const std::string& name, double value);
+  Result move_gripper(double value);
+  Result move_joints(const Eigen::VectorXd& q);
+  /// Moves all joints to where they stand at time 0.
+  Result home_robot();
+  /// Ends what the robot plays.
+  Result stop_robot();
+  /// Leads the tool to a fruit (PLANT/FRUIT), shuts the gripper on it and pulls it from there by
+  /// `pull_W` (m); without that up, as far as the arm comes.
+  Result pick(const std::string& organ, const std::optional<Vec3>& pull_W = {});
   /// Whether somebody leads the robot by hand, rather than that it follows what the scene says.
   bool robot_is_led() const;
   /// Plays the recorded waypoints from now on; with `loops` over and over until it is stopped: the
@@ -196,6 +209,11 @@ class Session {
   int measured_plant() const;
   /// Gives the measured plant the effects of the extended one, as one step of the history.
   Result accept_diagnosis();
+  /// Begins a diagnosis; where commands wait, it is done on return, with its headline. `threads` 0:
+  /// all cores but one.
+  Result diagnose(int threads, std::uint64_t seed);
+  /// Writes report.html, verdict.json and extended.plant.yaml.
+  Result write_report(const std::filesystem::path& folder) const;
 
   // Films.
   /// Who makes them; null: nobody. Must outlive the session, or be taken back.
@@ -205,6 +223,10 @@ class Session {
   void begin_film(const FilmRequest& request);
   /// Steps, with the pictures that are due between them where a film is made and commands wait.
   void advance(long steps);
+  /// The same for a time (s).
+  void run_for(double duration);
+  /// Closes it; what was made, to be told. Throws UsageError where none is made.
+  Result end_film();
 
   // Recovery.
   /// Documents that a killed program left, the newest first. Empty without autosave.
@@ -257,38 +279,22 @@ class Session {
   void forget_in_log(const std::vector<Command>& commands);
   void forget_file_faults();
   Result change_document(const Command& command);
-  Command placed_robot(const Command& command) const;
   void record(History::Step step);
   void note(const std::string& line);
   void note_step(const std::string& verb, const History::Step& step);
   void add_to_journal(const std::string& line);
   void begin_journal();
-  Result session_command(const Command& command);
-  Result run_command(const Command& command);
-  Result robot_command(const Command& command);
-  Result tool_command(const Command& command);
-  Result home_robot();
-  Result program_command(const Command& command);
-  Result pick(const Command& command);
   void tell_pick();
   Result play(robot::Trajectory trajectory, bool loops);
   robot::Trajectory waypoint_trajectory(const robot::KinematicModel& model) const;
-  Result pull_command(const Command& command);
   void note_pull(bool by_command);
   bool has_pull() const;
   Result undo_pull();
-  Result step_back(long steps);
-  Result go_to(double time);
-  Result expect_command(const Command& command) const;
-  Result measured_command(const Command& command);
-  Result film_command(const Command& command);
   void film_due();
-  void run_for(double duration);
   double next_picture() const;
   void leave_experiment();
   Result adopt(ExperimentReading& reading);
   void tell_faults(const std::vector<std::string>& faults);
-  Result move_joints(const Eigen::VectorXd& q);
   Result finish(Result result);
   void say_remarks(const Diagnostics& remarks);
   void say(Severity severity, const std::string& text, bool can_retry = false);

@@ -1,37 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "pedicel/app/session/session.h"
 #include "pedicel/core/check.h"
 
 /// Films of a session.
 namespace pedicel::app {
-
-namespace {
-
-std::array<int, 2> size_of(const std::string& text) {
-  std::array<int, 2> size{};
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size[0], &size[1], &rest) != 2 || size[0] < 16 ||
-      size[1] < 16 || size[0] > 8192 || size[1] > 8192)
-    throw UsageError("size \"" + text + "\", expected WxH in px, 16 to 8192 each (1280x720)");
-  return size;
-}
-
-FilmRequest request_of(const Command& c) {
-  FilmRequest request;
-  request.file = c.word("file");
-  request.fps = c.number_or("fps", request.fps);
-  if (!(request.fps > 0.0 && request.fps <= 1000.0))
-    throw UsageError("fps, expected Hz above 0 and at most 1000");
-  if (c.has("size")) request.size = size_of(c.word("size"));
-  request.camera = c.word_or("camera", "");
-  request.with_interface = c.whole_or("ui", 0) != 0;
-  return request;
-}
-
-}  // namespace
 
 void Session::begin_film(const FilmRequest& request) {
   if (!film_) throw NoPictures("no film: there is nothing here that makes pictures");
@@ -82,11 +56,7 @@ void Session::run_for(double duration) {
     control_.run_for(duration);
 }
 
-Result Session::film_command(const Command& c) {
-  if (c.verb() == "record") {
-    begin_film(request_of(c));
-    return {};
-  }
+Result Session::end_film() {
   if (!film_ || !film_->running()) throw UsageError("no film is being made");
   return {true, film_->end()};
 }

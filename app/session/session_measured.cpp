@@ -40,9 +40,10 @@ std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-void write_diagnosis(const std::filesystem::path& folder, const discrepancy::Experiment& experiment,
-                     const std::optional<plant::PlantFile>& extended,
-                     discrepancy::Diagnosis diagnosis) {
+void write_diagnosis_files(const std::filesystem::path& folder,
+                           const discrepancy::Experiment& experiment,
+                           const std::optional<plant::PlantFile>& extended,
+                           discrepancy::Diagnosis diagnosis) {
   if (extended) {
     diagnosis.verdict.extended_plant = "extended.plant.yaml";
     plant::write_plant_file(folder / diagnosis.verdict.extended_plant, *extended);
@@ -131,25 +132,18 @@ void Session::tell_faults(const std::vector<std::string>& faults) {
   for (const std::string& fault : faults) say(Severity::error, "measured data: " + fault);
 }
 
-Result Session::measured_command(const Command& c) {
-  const std::string& verb = c.verb();
-  if (verb == "open experiment") return open_experiment(c.word("folder"));
-  if (verb == "accept diagnosis") return accept_diagnosis();
-  if (verb == "close experiment") measured_->close();
-  if (verb == "cancel reading") cancel_reading();
-  if (verb == "cancel diagnosis") measured_->cancel_diagnosis();
-  if (verb == "diagnose") {
-    measured_->start_diagnosis(c.whole_or("threads", 0),
-                               static_cast<std::uint64_t>(c.whole_or("seed", 1)));
-    if (!options_.waits) return {};
-    tell_faults(measured_->wait());
-    if (measured_->diagnosis()) return {true, headline(measured_->diagnosis()->verdict)};
-  }
-  if (verb == "write report") {
-    if (!measured_->diagnosis()) return {false, "there is no diagnosis to write, expected one"};
-    write_diagnosis(c.word("folder"), *measured_->experiment(), measured_->extended_plant(),
-                    *measured_->diagnosis());
-  }
+Result Session::diagnose(int threads, std::uint64_t seed) {
+  measured_->start_diagnosis(threads, seed);
+  if (!options_.waits) return {};
+  tell_faults(measured_->wait());
+  return measured_->diagnosis() ? Result{true, headline(measured_->diagnosis()->verdict)}
+                                : Result{};
+}
+
+Result Session::write_report(const std::filesystem::path& folder) const {
+  if (!measured_->diagnosis()) return {false, "there is no diagnosis to write, expected one"};
+  write_diagnosis_files(folder, *measured_->experiment(), measured_->extended_plant(),
+                        *measured_->diagnosis());
   return {};
 }
 

@@ -9,13 +9,12 @@
 
 namespace pedicel::app {
 
-Result Session::pick(const Command& c) {
+Result Session::pick(const std::string& organ, const std::optional<Vec3>& pull_W) {
   const auto now = snapshot();
   kinematics_of(*now);  // says where there is no robot
-  const std::string& organ = c.word("organ");
   const FruitPlace fruit = find_fruit(*now, organ);
   const robot::Trajectory program =
-      c.has("pull") ? pick_program(*now, fruit, c.point("pull")) : usual_pick(*now, fruit);
+      pull_W ? pick_program(*now, fruit, *pull_W) : usual_pick(*now, fruit);
   note_pull(true);  // undo takes it back
   const Result result = play(program, false);
   picked_ = Picked{organ, now->stage, now->step, now->time + program.times().back()};

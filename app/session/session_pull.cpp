@@ -3,8 +3,8 @@
 /// Pulls, which undo takes back as it takes back edits: whichever came last.
 namespace pedicel::app {
 
-void Session::begin_pull(const PullPlace& place, const Vec3& target_W) {
-  note_pull(false);
+void Session::begin_pull(const PullPlace& place, const Vec3& target_W, bool by_command) {
+  note_pull(by_command);
   control_.begin_pull(place, target_W);
 }
 

@@ -85,6 +85,20 @@ Result Session::move_joints(const Eigen::VectorXd& q) {
   return {};
 }
 
+Result Session::move_joint(const std::string& name, double value) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Eigen::VectorXd q = start_of(now->robot);
+  q[joint_of(model, name)] = value;
+  return move_joints(q);
+}
+
+Result Session::move_gripper(double value) {
+  const auto now = snapshot();
+  kinematics_of(*now);  // says where there is no robot
+  return move_joint(now->assets->scene.robot->gripper, value);
+}
+
 // The pose that was asked for is known as long as the robot goes where that has sent it, or is yet
 // to hear of it.
 std::optional<ToolGoal> Session::tool_goal() const {
@@ -127,20 +141,6 @@ Result Session::jog(const Vec3& shift_W, const Vec3& turn_W) {
   return aim_tool(tool, angle > 0.0, false);
 }
 
-Result Session::tool_command(const Command& c) {
-  const std::optional<ToolGoal> goal = tool_goal();
-  if (!goal) throw UsageError("the scene has no robot");
-  Pose tool = goal->asked_W;
-  tool.position = c.point("to");
-  if (c.has("turn")) {
-    if (c.numbers("turn").size() != 4) throw UsageError("turn, expected x,y,z,w");
-    const Quat turn(c.numbers("turn").data());
-    if (!(turn.norm() > 1e-9)) throw UsageError("turn, expected x,y,z,w that are not all 0");
-    tool.rotation = turn.normalized();
-  }
-  return aim_tool(tool, c.has("turn"), c.whole_or("near", 0) != 0);
-}
-
 // Where the robot stands at time 0.
 Result Session::home_robot() {
   const auto now = snapshot();
@@ -160,27 +160,6 @@ bool Session::robot_is_led() const {
       if (verb == one) return true;
   }
   return false;
-}
-
-Result Session::robot_command(const Command& c) {
-  const std::string& verb = c.verb();
-  const auto now = snapshot();
-  if (verb == "joint" || verb == "gripper") {
-    const robot::KinematicModel model = kinematics_of(*now);
-    const std::string name = verb == "joint" ? c.word("name") : now->assets->scene.robot->gripper;
-    Eigen::VectorXd q = start_of(now->robot);
-    q[joint_of(model, name)] = c.number("value");
-    return move_joints(q);
-  }
-  if (verb == "joints") {
-    const std::vector<double>& values = c.numbers("values");
-    return move_joints(
-        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-  }
-  if (verb == "home robot") return home_robot();
-  if (verb == "jog") return jog(c.point("shift"), c.has("turn") ? c.point("turn") : Vec3::Zero());
-  if (verb == "tool") return tool_command(c);
-  return program_command(c);
 }
 
 }  // namespace pedicel::app

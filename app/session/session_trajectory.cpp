@@ -112,16 +112,9 @@ Result Session::load_waypoints(const std::filesystem::path& file) {
       Command("set waypoints", {{"times", read.times()}, {"joints", std::move(joints)}}));
 }
 
-Result Session::program_command(const Command& c) {
-  const std::string& verb = c.verb();
-  const bool loops = c.has("loop") && c.whole("loop") != 0;
-  if (verb == "play trajectory") return play_trajectory(c.word("file"), loops);
-  if (verb == "pick") return pick(c);
-  if (verb == "play waypoints") return play_waypoints(loops);
-  if (verb == "stop robot") {
-    kinematics_of(*snapshot());
-    control_.stop_robot();
-  }
+Result Session::stop_robot() {
+  kinematics_of(*snapshot());  // says where there is no robot
+  control_.stop_robot();
   return {};
 }
 
