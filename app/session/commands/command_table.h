@@ -60,7 +60,7 @@ struct CommandDescription {
   CommandHandler handler;
   /// Document commands: fills in what was left out and what depends on files, so that a journal or
   /// a script does the same again anywhere; nullptr: nothing is to be filled in.
-  Command (*complete)(const Session&, const Command&) = nullptr;
+  Command (*complete)(Session&, const Command&) = nullptr;
 
   const ArgumentDescription* find(const std::string& argument) const;
   /// "move point PLANT CURVE INDEX TO"

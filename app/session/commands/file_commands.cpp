@@ -1,6 +1,8 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/document/plant_import.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/io/atomic_file.h"
 
 /// Files: open, save, import, export.
@@ -15,48 +17,48 @@ double unit_of(const Command& c) {
 }
 
 /// What the session has just said about a file that cannot be read.
-Result bad_file(const Session& session) {
-  return {false, session.messages().back().sentence, true};
+Result bad_file(Session& session) {
+  return {false, session.messages().all().back().sentence, true};
 }
 
 Result open_file(Session& session, const Command& c) {
-  return session.open(c.word("file"), unit_of(c)) ? Result{} : bad_file(session);
+  return session.files().open(c.word("file"), unit_of(c)) ? Result{} : bad_file(session);
 }
 
 Result new_scene(Session& session, const Command&) {
-  session.open_empty();
+  session.files().open_empty();
   return {};
 }
 
 Result reload_files(Session& session, const Command&) {
-  return session.reload() ? Result{} : bad_file(session);
+  return session.files().reload() ? Result{} : bad_file(session);
 }
 
 Result save_files(Session& session, const Command& c) {
-  return session.save(c.word_or("file", ""),
-                      {c.word_or("plant", ""), c.whole_or("overwrite", 0) != 0});
+  return session.files().save(c.word_or("file", ""),
+                              {c.word_or("plant", ""), c.whole_or("overwrite", 0) != 0});
 }
 
 Result save_script(Session& session, const Command& c) {
   const std::filesystem::path file = c.word("file");
-  io::write_file_atomically(file, session.script());
+  io::write_file_atomically(file, session.files().script());
   return {true, std::to_string(session.log().size()) + " commands in " + file.string()};
 }
 
 Result import_file(Session& session, const Command& c) {
-  return session.import_plant(c.word("file"), c.word_or("plant", ""), unit_of(c));
+  return session.files().import_plant(c.word("file"), c.word_or("plant", ""), unit_of(c));
 }
 
 Result export_file(Session& session, const Command& c) {
-  return session.export_plant(c.word("plant"), c.word("file"));
+  return session.files().export_plant(c.word("plant"), c.word("file"));
 }
 
 Result save_recorded(Session& session, const Command& c) {
-  return session.save_waypoints(c.word("file"));
+  return session.robot().save_waypoints(c.word("file"));
 }
 
 Result load_recorded(Session& session, const Command& c) {
-  return session.load_waypoints(c.word("file"));
+  return session.robot().load_waypoints(c.word("file"));
 }
 
 }  // namespace

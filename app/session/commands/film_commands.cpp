@@ -2,6 +2,7 @@
 
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_films.h"
 #include "pedicel/core/check.h"
 
 /// Films of what is done.
@@ -33,12 +34,12 @@ FilmRequest request_of(const Command& c) {
 }
 
 Result begin_recording(Session& session, const Command& c) {
-  session.begin_film(request_of(c));
+  session.films().begin(request_of(c));
   return {};
 }
 
 Result end_recording(Session& session, const Command&) {
-  return session.end_film();
+  return session.films().end();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/measured/measured_data.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/core/check.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/yaml.h"
@@ -31,35 +32,35 @@ void set_effects(Document& document, const Command& c) {
 }
 
 Result open_measured(Session& session, const Command& c) {
-  return session.open_experiment(c.word("folder"));
+  return session.measured().open(c.word("folder"));
 }
 
 Result cancel_reading(Session& session, const Command&) {
-  session.cancel_reading();
+  session.measured().cancel_reading();
   return {};
 }
 
 Result close_measured(Session& session, const Command&) {
-  session.measured().close();
+  session.measured().data().close();
   return {};
 }
 
 Result begin_diagnosis(Session& session, const Command& c) {
-  return session.diagnose(c.whole_or("threads", 0),
-                          static_cast<std::uint64_t>(c.whole_or("seed", 1)));
+  return session.measured().diagnose(c.whole_or("threads", 0),
+                                     static_cast<std::uint64_t>(c.whole_or("seed", 1)));
 }
 
 Result cancel_diagnosis(Session& session, const Command&) {
-  session.measured().cancel_diagnosis();
+  session.measured().data().cancel_diagnosis();
   return {};
 }
 
 Result accept_diagnosis(Session& session, const Command&) {
-  return session.accept_diagnosis();
+  return session.measured().accept_diagnosis();
 }
 
 Result write_diagnosis(Session& session, const Command& c) {
-  return session.write_report(c.word("folder"));
+  return session.measured().write_report(c.word("folder"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/live/robot_goal.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/core/check.h"
 
 /// The robot by hand, and what it plays.
@@ -15,25 +15,25 @@ bool loops(const Command& c) {
 }
 
 Result move_joint(Session& session, const Command& c) {
-  return session.move_joint(c.word("name"), c.number("value"));
+  return session.robot().move_joint(c.word("name"), c.number("value"));
 }
 
 Result move_gripper(Session& session, const Command& c) {
-  return session.move_gripper(c.number("value"));
+  return session.robot().move_gripper(c.number("value"));
 }
 
 Result move_all_joints(Session& session, const Command& c) {
   const std::vector<double>& values = c.numbers("values");
-  return session.move_joints(
+  return session.robot().move_joints(
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
 }
 
 Result jog_tool(Session& session, const Command& c) {
-  return session.jog(c.point("shift"), c.has("turn") ? c.point("turn") : Vec3::Zero());
+  return session.robot().jog(c.point("shift"), c.has("turn") ? c.point("turn") : Vec3::Zero());
 }
 
 Result move_tool(Session& session, const Command& c) {
-  const std::optional<ToolGoal> goal = session.tool_goal();
+  const std::optional<ToolGoal> goal = session.robot().tool_goal();
   if (!goal) throw UsageError("the scene has no robot");
   Pose tool = goal->asked_W;
   tool.position = c.point("to");
@@ -43,28 +43,28 @@ Result move_tool(Session& session, const Command& c) {
     if (!(turn.norm() > 1e-9)) throw UsageError("turn, expected x,y,z,w that are not all 0");
     tool.rotation = turn.normalized();
   }
-  return session.aim_tool(tool, c.has("turn"), c.whole_or("near", 0) != 0);
+  return session.robot().aim_tool(tool, c.has("turn"), c.whole_or("near", 0) != 0);
 }
 
 Result pick_fruit(Session& session, const Command& c) {
-  return session.pick(c.word("organ"),
-                      c.has("pull") ? std::optional<Vec3>(c.point("pull")) : std::nullopt);
+  return session.robot().pick(c.word("organ"),
+                              c.has("pull") ? std::optional<Vec3>(c.point("pull")) : std::nullopt);
 }
 
 Result play_table(Session& session, const Command& c) {
-  return session.play_trajectory(c.word("file"), loops(c));
+  return session.robot().play_trajectory(c.word("file"), loops(c));
 }
 
 Result play_recorded(Session& session, const Command& c) {
-  return session.play_waypoints(loops(c));
+  return session.robot().play_waypoints(loops(c));
 }
 
 Result home_robot(Session& session, const Command&) {
-  return session.home_robot();
+  return session.robot().home();
 }
 
 Result stop_robot(Session& session, const Command&) {
-  return session.stop_robot();
+  return session.robot().stop();
 }
 
 }  // namespace

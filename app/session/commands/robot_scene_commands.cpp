@@ -1,7 +1,7 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/app/session/robot_placing.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
 
@@ -88,8 +88,8 @@ void clear_program(Document& document, const Command&) {
   robot.trajectory.clear();
 }
 
-Command complete_robot(const Session& session, const Command& c) {
-  return placed_robot(session.document(), session.options().packages, c);
+Command complete_robot(Session& session, const Command& c) {
+  return session.robot().complete(c);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/live/organ_place.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_films.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
 
@@ -38,7 +39,7 @@ Result pause_run(Session& session, const Command&) {
 }
 
 Result step_on(Session& session, const Command& c) {
-  session.advance(steps_of(c));
+  session.films().advance(steps_of(c));
   return {};
 }
 
@@ -61,7 +62,7 @@ Result go_to(Session& session, const Command& c) {
 }
 
 Result run_on(Session& session, const Command& c) {
-  session.run_for(at_least_0(c, "duration", "s"));
+  session.films().run_for(at_least_0(c, "duration", "s"));
   return {};
 }
 

@@ -1,5 +1,6 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_tuning.h"
 #include "pedicel/io/csv.h"
 
 /// History, settings, and what is asked of a session.
@@ -59,11 +60,11 @@ Result redo_next(Session& session, const Command&) {
 }
 
 Result keep_settings(Session& session, const Command&) {
-  return session.keep_parameters();
+  return session.tuning().keep();
 }
 
 Result discard_settings(Session& session, const Command&) {
-  return session.discard_parameters();
+  return session.tuning().discard();
 }
 
 Result expect_quantity(Session& session, const Command& c) {
