@@ -51,7 +51,7 @@ class SavedScene : public ::testing::Test {
     return text.replace(text.find(from), from.size(), to);
   }
   /// A value of the document by its key.
-  static double parameter(const Session& of, const std::string& key) {
+  static double parameter(Session& of, const std::string& key) {
     for (const SessionParameter& one : of.tuning().parameters())
       if (one.key == key) return one.value;
     ADD_FAILURE() << "no parameter " << key;
