@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
 #include "pedicel/app/ui/widgets.h"
@@ -38,7 +39,7 @@ std::string listed(const std::vector<std::string>& words) {
 
 void DiagnosisPart::draw(Ui& ui) {
   heading(ui, "Diagnosis");
-  const MeasuredData& data = ui.session.measured();
+  const MeasuredData& data = ui.session.measured().data();
   if (data.is_diagnosing())
     draw_progress(ui);
   else if (wide_button("Find out what is wrong"))
@@ -54,15 +55,15 @@ void DiagnosisPart::draw_result(Ui& ui) {
 }
 
 void DiagnosisPart::draw_progress(Ui& ui) {
-  const DiagnosisProgress now = ui.session.measured().progress();
+  const DiagnosisProgress now = ui.session.measured().data().progress();
   const std::string share = std::to_string(static_cast<int>(100.0 * now.share)) + " %";
   ImGui::ProgressBar(static_cast<float>(now.share), ImVec2(-1, 0), share.c_str());
   paragraph(now.doing.empty() ? "beginning" : now.doing);
   std::string time = seconds_text(now.seconds) + " so far";
   if (now.left) time += ", about " + seconds_text(*now.left) + " left";
   note(time);
-  ImGui::BeginDisabled(ui.session.measured().is_cancelling());
-  if (wide_button(ui.session.measured().is_cancelling() ? "Cancelling ..." : "Cancel"))
+  ImGui::BeginDisabled(ui.session.measured().data().is_cancelling());
+  if (wide_button(ui.session.measured().data().is_cancelling() ? "Cancelling ..." : "Cancel"))
     ui.run(Command("cancel diagnosis", {}));
   ImGui::EndDisabled();
   if (!now.found.empty()) note(now.found.back());
@@ -122,8 +123,8 @@ void DiagnosisPart::draw_rivals(Ui& ui) {
 
 void DiagnosisPart::draw_buttons(Ui& ui) {
   ImGui::Spacing();
-  const auto extended = ui.session.measured().extended_plant();
-  const int plant = ui.session.measured_plant();
+  const auto extended = ui.session.measured().data().extended_plant();
+  const int plant = ui.session.measured().plant();
   const bool accepted =
       extended && plant >= 0 &&
       ui.session.document().plants[static_cast<std::size_t>(plant)].file->effects ==
@@ -140,7 +141,7 @@ void DiagnosisPart::draw_buttons(Ui& ui) {
   }
   if (wide_button("Write report")) {
     const std::string folder =
-        "diagnosis_" + ui.session.measured().experiment()->folder.filename().string();
+        "diagnosis_" + ui.session.measured().data().experiment()->folder.filename().string();
     if (ui.run(Command("write report", {{"folder", folder}}))) ui.say("written to " + folder);
   }
 }

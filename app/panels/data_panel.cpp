@@ -8,6 +8,7 @@
 #include "pedicel/app/panels/panel.h"
 #include "pedicel/app/session/measured/experiment_reading.h"
 #include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/plot.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
@@ -37,14 +38,14 @@ class DataPanel : public Panel {
   void draw(Ui& ui) override {
     follow(ui);
     open_row(ui);
-    const discrepancy::Experiment* experiment = ui.session.measured().experiment();
+    const discrepancy::Experiment* experiment = ui.session.measured().data().experiment();
     if (reading(ui)) return;
     if (!experiment) {
       note("Measured markers over the plant: open an experiment, the folder with experiment.yaml.");
       return;
     }
     title(ui, *experiment);
-    if (!ui.session.measured().experiment()) return;  // closed
+    if (!ui.session.measured().data().experiment()) return;  // closed
     diagnosis_.draw(ui);
     trial_and_time(ui, *experiment);
     models(ui);
@@ -60,7 +61,7 @@ class DataPanel : public Panel {
   /// Another experiment: its first trial from the beginning. Time goes on while it plays.
   void follow(Ui& ui) {
     MeasuredView& view = ui.view.measured;
-    const MeasuredData& data = ui.session.measured();
+    const MeasuredData& data = ui.session.measured().data();
     if (view.number != data.number()) {
       const MeasuredView fresh;
       view.number = data.number();
@@ -83,7 +84,7 @@ class DataPanel : public Panel {
   }
 
   static double end_of(const Ui& ui) {
-    const auto& trials = ui.session.measured().experiment()->trials;
+    const auto& trials = ui.session.measured().data().experiment()->trials;
     const auto& time = trials[static_cast<std::size_t>(ui.view.measured.trial)].markers.time;
     return time.empty() ? 0.0 : time.back();
   }
@@ -94,11 +95,12 @@ class DataPanel : public Panel {
     bool asked = text_field("##path", path_, "experiment folder");
     ImGui::SameLine();
     asked |= ImGui::Button("Open");
-    if (asked && !path_.empty() && (path_ != opened_ || !ui.session.measured().experiment())) {
+    if (asked && !path_.empty() &&
+        (path_ != opened_ || !ui.session.measured().data().experiment())) {
       const Result result = ui.session.run(Command("open experiment", {{"folder", path_}}));
       opened_ = result.ok ? path_ : "";
     }
-    const std::string& fault = ui.session.reading_fault();
+    const std::string& fault = ui.session.measured().reading_fault();
     if (fault.empty()) return;
     ImGui::PushStyleColor(ImGuiCol_Text, palette().error);
     ImGui::TextWrapped("%s", fault.c_str());
@@ -107,7 +109,7 @@ class DataPanel : public Panel {
 
   /// How far the one is that is being read; false: none is.
   static bool reading(Ui& ui) {
-    const ExperimentReading* reading = ui.session.reading();
+    const ExperimentReading* reading = ui.session.measured().reading();
     if (!reading) return false;
     note("reading " + reading->path().filename().string());
     const int all = reading->trials(), done = std::min(reading->trials_read() + 1, all);
@@ -123,9 +125,9 @@ class DataPanel : public Panel {
   void title(Ui& ui, const discrepancy::Experiment& experiment) {
     heading(ui, "Trial");
     if (!experiment.title.empty()) note(experiment.title);
-    const int left = ui.session.measured().still_simulated();
+    const int left = ui.session.measured().data().still_simulated();
     if (left > 0) note("simulating: " + std::to_string(left) + " trials to go");
-    if (ui.session.measured_plant() < 0)
+    if (ui.session.measured().plant() < 0)
       note("The document's plant is not as it was measured (any more).");
     if (wide_button("Close experiment")) ui.run(Command("close experiment", {}));
     tip("Leaves the measured data; the plant stays");
@@ -159,7 +161,7 @@ class DataPanel : public Panel {
 
   void models(Ui& ui) {
     MeasuredView& view = ui.view.measured;
-    const MeasuredData& data = ui.session.measured();
+    const MeasuredData& data = ui.session.measured().data();
     heading(ui, "Model");
     for (int m = 0; m < discrepancy::model_count; ++m) {
       if (m > 0 && !data.has(static_cast<Model>(m))) continue;
@@ -182,7 +184,7 @@ class DataPanel : public Panel {
 
   void markers(Ui& ui, const discrepancy::Experiment& experiment) {
     MeasuredView& view = ui.view.measured;
-    const MeasuredData& data = ui.session.measured();
+    const MeasuredData& data = ui.session.measured().data();
     const auto now = moment_of(data, view.trial, static_cast<Model>(view.model), view.time);
     heading(ui, "Error of markers, mm");
     if (!now) return note("No markers were measured in this trial.");
@@ -244,7 +246,7 @@ class DataPanel : public Panel {
     cell(now.markers[i].error().norm());
     for (const int m : columns) {
       ImGui::TableNextColumn();
-      cell(ui.session.measured().path(static_cast<Model>(m), view.trial)->marker_rms[i]);
+      cell(ui.session.measured().data().path(static_cast<Model>(m), view.trial)->marker_rms[i]);
     }
   }
 
@@ -258,7 +260,8 @@ class DataPanel : public Panel {
       if (a > 0) ImGui::SameLine();
       if (ImGui::RadioButton(axes[static_cast<std::size_t>(a)], &axis_, a)) plot_.follows = true;
     }
-    const MeasuredSeries series = series_of(ui.session.measured(), view.trial, view.marker, axis_);
+    const MeasuredSeries series =
+        series_of(ui.session.measured().data(), view.trial, view.marker, axis_);
     std::vector<PlotLine> lines{{"measured", ink(measured_colour), series.time, series.measured}};
     for (int m = 0; m < discrepancy::model_count; ++m) {
       const auto& values = series.models[static_cast<std::size_t>(m)];

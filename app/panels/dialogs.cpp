@@ -9,6 +9,8 @@
 #include "pedicel/app/panels/layout.h"
 #include "pedicel/app/report/manual.h"
 #include "pedicel/app/report/version.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_recovery.h"
 #include "pedicel/app/ui/file_list.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/widgets.h"
@@ -110,7 +112,7 @@ void info(Ui& ui) {
     row("Pedicel", version() + " (" + git_hash() + ")");
     row("OpenGL", ui.times.renderer.empty() ? "none" : ui.times.renderer);
     row("Platform", ui.times.platform);
-    row("File", ui.session.path().empty() ? "none" : ui.session.path().string());
+    row("File", ui.session.files().path().empty() ? "none" : ui.session.files().path().string());
     if (ui.snapshot->assets) {
       const SceneAssets& assets = *ui.snapshot->assets;
       row("Time step", quantity_text(assets.scene.dt, "s"));
@@ -180,7 +182,7 @@ void problem(Ui& ui) {
 void recover(Ui& ui) {
   if (begin_dialog(ui, "Edits that were not saved", 560, 300)) {
     note("The program ended before these were saved.");
-    const std::vector<Session::Lost> all = ui.session.lost_documents();
+    const std::vector<LostDocument> all = ui.session.recovery().lost_documents();
     if (all.empty()) ui.dialog = Dialog::none;
     for (std::size_t i = 0; i < all.size(); ++i) {
       ImGui::PushID(static_cast<int>(i));
@@ -188,9 +190,9 @@ void recover(Ui& ui) {
           all[i].document.empty() ? "new scene" : all[i].document.filename().string();
       row(name.c_str(), std::to_string(all[i].commands) + " edits, " + all[i].when);
       const bool taken = ImGui::Button("Recover");
-      if (taken) ui.session.recover(all[i]);
+      if (taken) ui.session.recovery().recover(all[i]);
       ImGui::SameLine();
-      if (ImGui::Button("Forget")) ui.session.forget(all[i]);
+      if (ImGui::Button("Forget")) ui.session.recovery().forget(all[i]);
       ImGui::PopID();
       if (taken) {
         ui.dialog = Dialog::none;
@@ -203,7 +205,7 @@ void recover(Ui& ui) {
 
 void unsaved(Ui& ui) {
   if (begin_dialog(ui, "Edits that are not saved", 460, 125)) {
-    const std::string name = ui.session.path().filename().string();
+    const std::string name = ui.session.files().path().filename().string();
     note((name.empty() ? "The new scene" : name) + " was changed since it was saved.");
     ImGui::Spacing();
     if (ImGui::Button("Save")) ui.save();

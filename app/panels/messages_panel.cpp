@@ -26,7 +26,7 @@ class MessagesPanel : public Panel {
     ui.unread = false;
     const float line = ImGui::GetFrameHeightWithSpacing();
     if (ImGui::BeginChild("messages", ImVec2(0, -line))) {
-      const auto& messages = ui.session.messages();
+      const auto& messages = ui.session.messages().all();
       if (messages.empty() && answer_.empty()) note("Nothing to say.");
       for (std::size_t i = 0; i < messages.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
@@ -42,8 +42,8 @@ class MessagesPanel : public Panel {
 
   /// A file that cannot be read is shown at once, with what to do; other news bring the tab up.
   void idle(Ui& ui) override {
-    const auto& messages = ui.session.messages();
-    const std::size_t said = ui.session.messages_said();
+    const auto& messages = ui.session.messages().all();
+    const std::size_t said = ui.session.messages().said();
     const std::size_t news = std::min(said - shown_, messages.size());
     for (std::size_t i = messages.size() - news; i < messages.size(); ++i) {
       bring_up(ui, messages[i]);
@@ -104,7 +104,7 @@ class MessagesPanel : public Panel {
       ImGui::SetKeyboardFocusHere(-1);
     }
     ImGui::SameLine();
-    if (ImGui::Button("Clear")) ui.session.clear_messages(), answer_.clear();
+    if (ImGui::Button("Clear")) ui.session.messages().clear(), answer_.clear();
   }
 
   std::size_t shown_ = 0, scrolled_ = 0;

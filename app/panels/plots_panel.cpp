@@ -7,6 +7,7 @@
 
 #include "pedicel/app/panels/panel.h"
 #include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/free_file_name.h"
 #include "pedicel/app/ui/plot.h"
 #include "pedicel/app/ui/theme.h"
@@ -85,15 +86,15 @@ class PlotsPanel : public Panel {
 
   /// The measured force is shown at once, where there is one.
   void follow_experiment(const Ui& ui) {
-    if (experiment_ == ui.session.measured().number()) return;
-    experiment_ = ui.session.measured().number();
+    if (experiment_ == ui.session.measured().data().number()) return;
+    experiment_ = ui.session.measured().data().number();
     std::erase_if(picked_, [](const std::string& one) { return one.starts_with(trial_prefix); });
     if (has_force(ui)) picked_ = {std::string(trial_prefix) + "force_N"};
     views_.clear();
   }
 
   static bool has_force(const Ui& ui) {
-    const discrepancy::Experiment* experiment = ui.session.measured().experiment();
+    const discrepancy::Experiment* experiment = ui.session.measured().data().experiment();
     const auto trial = static_cast<std::size_t>(ui.view.measured.trial);
     return experiment && trial < experiment->trials.size() &&
            !experiment->trials[trial].force.time.empty();
@@ -174,8 +175,8 @@ class PlotsPanel : public Panel {
   static void add_force(const Ui& ui, const std::string& name, std::vector<PlotLine>& lines) {
     const std::string part = name.substr(std::string(trial_prefix).size());
     const auto axis = std::ranges::find(forces, part) - forces.begin();
-    const auto series =
-        force_series_of(ui.session.measured(), ui.view.measured.trial, static_cast<int>(axis));
+    const auto series = force_series_of(ui.session.measured().data(), ui.view.measured.trial,
+                                        static_cast<int>(axis));
     if (!series) return;
     lines.push_back({"measured " + part, ink(measured_colour), series->time, series->measured});
     for (int m = 0; m < discrepancy::model_count; ++m) {

@@ -8,6 +8,7 @@
 #include "pedicel/app/editors/organ_numbers.h"
 #include "pedicel/app/editors/robot_program_part.h"
 #include "pedicel/app/panels/panel.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
 #include "pedicel/app/ui/widgets.h"
@@ -125,7 +126,7 @@ class RobotPanel : public Panel {
 
   /// Where the tool is to go, to be typed in; and what is out of reach.
   void goal(Ui& ui) {
-    const std::optional<ToolGoal> goal = ui.session.tool_goal();
+    const std::optional<ToolGoal> goal = ui.session.robot().tool_goal();
     if (!goal) return;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Goal, mm");
@@ -161,7 +162,7 @@ class RobotPanel : public Panel {
   void jog(Ui& ui, const Vec3& shift, const Vec3& turn) {
     const Result result = ui.session.run(Command("jog", {{"shift", shift}, {"turn", turn}}));
     problem_ = result.ok ? "" : result.text;
-    if (const auto goal = ui.session.tool_goal()) problem_at_ = goal->asked_W.position;
+    if (const auto goal = ui.session.robot().tool_goal()) problem_at_ = goal->asked_W.position;
   }
 
   RobotProgramPart program_;

@@ -4,6 +4,7 @@
 
 #include "pedicel/app/editors/add_menu.h"
 #include "pedicel/app/panels/layout.h"
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/widgets.h"
 
@@ -76,9 +77,9 @@ float width_of(const std::array<const char*, 3>& labels) {
 }
 
 std::string document_name(const Ui& ui) {
-  std::string name = ui.session.path().filename().string();
+  std::string name = ui.session.files().path().filename().string();
   if (name.empty()) name = "new scene";
-  return ui.session.dirty() ? name + " *" : name;
+  return ui.session.files().dirty() ? name + " *" : name;
 }
 
 /// A dot on the last button: something was said behind it.
@@ -128,7 +129,7 @@ void draw_toolbar(Ui& ui) {
     ImGui::SetCursorPosX(start - ImGui::CalcTextSize(name.c_str()).x - 2 * style.ItemSpacing.x);
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(palette().dim, "%s", name.c_str());
-    tip(ui.session.path().string());
+    tip(ui.session.files().path().string());
     ImGui::SameLine();
   }
   ImGui::SetCursorPosX(start);

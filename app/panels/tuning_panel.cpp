@@ -5,6 +5,7 @@
 #include <map>
 
 #include "pedicel/app/panels/panel.h"
+#include "pedicel/app/session/session_tuning.h"
 #include "pedicel/app/ui/drag_bar.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
@@ -44,7 +45,7 @@ class TuningPanel : public Panel {
   Dock dock() const override { return Dock::right; }
 
   void draw(Ui& ui) override {
-    std::vector<SessionParameter> parameters = ui.session.parameters();
+    std::vector<SessionParameter> parameters = ui.session.tuning().parameters();
     const auto plant = [&ui](const SessionParameter& p) {
       return ui.session.document().plant_index(p.group) >= 0;
     };
@@ -85,10 +86,10 @@ class TuningPanel : public Panel {
     const auto changed =
         std::ranges::count_if(parameters, [](const SessionParameter& p) { return p.changed; });
     ImGui::BeginDisabled(changed == 0);
-    if (ImGui::Button("Keep")) ui.report(ui.session.keep_parameters());
+    if (ImGui::Button("Keep")) ui.report(ui.session.tuning().keep());
     tip("Writes changed plant parameters into the plants, so that saving keeps them");
     ImGui::SameLine();
-    if (ImGui::Button("Discard")) ui.report(ui.session.discard_parameters());
+    if (ImGui::Button("Discard")) ui.report(ui.session.tuning().discard());
     tip("Sets everything back to what the files say");
     ImGui::EndDisabled();
     ImGui::SameLine();
@@ -114,7 +115,7 @@ class TuningPanel : public Panel {
   static void reset_button(Ui& ui, const SessionParameter& p) {
     if (!p.changed) return;
     ImGui::SameLine();
-    if (ImGui::Button("reset")) ui.report(ui.session.reset_parameter(p.key));
+    if (ImGui::Button("reset")) ui.report(ui.session.tuning().reset(p.key));
     tip("Back to " + number_text(p.initial, 5));
   }
 

@@ -7,6 +7,7 @@
 #include "pedicel/app/run/rod_options.h"
 #include "pedicel/app/session/document/effective_plant.h"
 #include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
 #include "pedicel/app/ui/widgets.h"
@@ -120,7 +121,7 @@ class WorldPanel : public Panel {
   }
 
   static void experiment(Ui& ui) {
-    if (!ui.session.measured().experiment()) return;
+    if (!ui.session.measured().data().experiment()) return;
     heading(ui, "Experiment");
     if (wide_button("Close experiment")) ui.run(Command("close experiment", {}));
     tip("Leaves the measured data; the plant stays");

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/app/session/session.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/asset_folder.h"
 #include "pedicel/plant/plant_edit.h"
@@ -154,13 +153,14 @@ Pose base_near(const robot::RobotDescription& robot, const std::string& tool,
 }
 
 // What a script says is all that counts there: paths are whole, and nothing is chosen again.
-Command Session::placed_robot(const Command& c) const {
+Command placed_robot(const Document& document, const std::vector<std::string>& packages,
+                     const Command& c) {
   const auto file = robot_file(c.word("file"));
   std::map<std::string, Value> arguments{{"file", file.string()},
                                          {"name", c.word_or("name", "robot")}};
-  if (document_.scene->robot) return Command(c.verb(), std::move(arguments));  // it is refused
+  if (document.scene->robot) return Command(c.verb(), std::move(arguments));  // it is refused
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
-  for (const std::string& package : options_.packages) paths.add(package);
+  for (const std::string& package : packages) paths.add(package);
   Diagnostics diagnostics;
   const auto robot = robot::read_urdf(file, paths, diagnostics);
   if (!robot) throw InvalidFile(diagnostics);
@@ -170,8 +170,8 @@ Command Session::placed_robot(const Command& c) const {
   if (!gripper.empty()) arguments.emplace("gripper", gripper);
   Pose base;
   if (!c.has("position")) {
-    const auto& ground = document_.scene->ground;
-    base = base_near(*robot, tool, places_to_reach(document_), ground ? ground->height : 0.0);
+    const auto& ground = document.scene->ground;
+    base = base_near(*robot, tool, places_to_reach(document), ground ? ground->height : 0.0);
   }
   base = read_pose(c, base);
   // To 0.1 mm: numbers that people can read.

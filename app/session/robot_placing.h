@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/app/session/commands/command.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/robot/description.h"
 
@@ -28,5 +29,10 @@ std::vector<ReachPlace> places_to_reach(const Document& document);
 /// without places.
 Pose base_near(const robot::RobotDescription& robot, const std::string& tool,
                const std::vector<ReachPlace>& places, double ground);
+
+/// The command `add robot` with all that it leaves out: the whole path, tool, gripper and place.
+/// Throws InvalidFile where the robot's file cannot be read. `packages`: "NAME=PATH".
+Command placed_robot(const Document& document, const std::vector<std::string>& packages,
+                     const Command& add_robot);
 
 }  // namespace pedicel::app

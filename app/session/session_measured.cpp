@@ -1,17 +1,18 @@
+#include "pedicel/app/session/session_measured.h"
+
 #include <chrono>
 #include <thread>
 
 #include "pedicel/app/session/commands/measured_commands.h"
-#include "pedicel/app/session/journal.h"
 #include "pedicel/app/session/measured/diagnosis_card.h"
 #include "pedicel/app/session/measured/experiment_reading.h"
 #include "pedicel/app/session/measured/measured_data.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/core/check.h"
 #include "pedicel/discrepancy/report/report.h"
 #include "pedicel/io/atomic_file.h"
 
-/// A session and the data that were measured on its plant.
 namespace pedicel::app {
 
 namespace {
@@ -40,9 +41,10 @@ std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-void write_diagnosis(const std::filesystem::path& folder, const discrepancy::Experiment& experiment,
-                     const std::optional<plant::PlantFile>& extended,
-                     discrepancy::Diagnosis diagnosis) {
+void write_diagnosis_files(const std::filesystem::path& folder,
+                           const discrepancy::Experiment& experiment,
+                           const std::optional<plant::PlantFile>& extended,
+                           discrepancy::Diagnosis diagnosis) {
   if (extended) {
     diagnosis.verdict.extended_plant = "extended.plant.yaml";
     plant::write_plant_file(folder / diagnosis.verdict.extended_plant, *extended);
@@ -53,103 +55,107 @@ void write_diagnosis(const std::filesystem::path& folder, const discrepancy::Exp
 
 }  // namespace
 
-int Session::measured_plant() const {
-  const discrepancy::Experiment* experiment = measured_->experiment();
-  return experiment ? find_plant(document_, experiment->plant) : -1;
+SessionMeasured::SessionMeasured(Session& session, SessionCore& core)
+    : session_(session), core_(core), data_(std::make_unique<MeasuredData>()) {}
+
+SessionMeasured::~SessionMeasured() = default;
+
+int SessionMeasured::plant() const {
+  const discrepancy::Experiment* experiment = data_->experiment();
+  return experiment ? find_plant(core_.editor.document(), experiment->plant) : -1;
 }
 
-Result Session::open_experiment(const std::filesystem::path& path) {
-  if (measured_->is_diagnosing()) {
+Result SessionMeasured::open(const std::filesystem::path& path) {
+  if (data_->is_diagnosing()) {
     reading_fault_ = path.string() + ": a diagnosis runs, expected it to end or be cancelled";
-    say(Severity::error, reading_fault_);
+    core_.messages.say(Severity::error, reading_fault_);
     return {false, reading_fault_};
   }
   cancel_reading();
   reading_fault_.clear();
   reading_ = std::make_unique<ExperimentReading>(path);
-  return options_.waits ? finish_reading() : Result{true, "reading " + path.string()};
+  return core_.options.waits ? finish_reading() : Result{true, "reading " + path.string()};
 }
 
 // The data of a plant that is not there would stand in the air.
-void Session::leave_experiment() {
-  if (measured_->experiment() && measured_plant() < 0) measured_->close();
+void SessionMeasured::leave() {
+  if (data_->experiment() && plant() < 0) data_->close();
 }
 
-void Session::cancel_reading() {
+void SessionMeasured::cancel_reading() {
   if (!reading_) return;
   reading_->cancel();
   dropped_.push_back(std::move(reading_));
 }
 
-Result Session::finish_reading() {
+Result SessionMeasured::finish_reading() {
   if (!reading_) return {false, "nothing is being read"};
   while (!reading_->has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const auto reading = std::move(reading_);
   const Result result = adopt(*reading);
-  if (!result.ok) say(Severity::error, result.text);
+  if (!result.ok) core_.messages.say(Severity::error, result.text);
   reading_fault_ = result.ok ? "" : result.text;
   return result;
 }
 
-Result Session::adopt(ExperimentReading& reading) {
+Result SessionMeasured::adopt(ExperimentReading& reading) {
   const std::string path = reading.path().string();
   if (!reading.fault().empty()) return {false, path + ": " + reading.fault(), true};
   if (!reading.experiment()) return {false, reading.diagnostics().text(), true};
-  if (measured_->is_diagnosing())
+  if (data_->is_diagnosing())
     return {false, path + ": a diagnosis runs, expected it to end or be cancelled"};
-  const bool replaces = find_plant(document_, reading.experiment()->plant) < 0;
-  if (dirty() && replaces)
+  const bool replaces = find_plant(core_.editor.document(), reading.experiment()->plant) < 0;
+  if (session_.files().dirty() && replaces)
     return {false, path +
                        ": its plant would take the place of changes that are not saved, expected "
                        "them to be saved or taken back"};
-  for (const Diagnostic& one : reading.diagnostics().all()) say(one.severity, to_string(one));
-  measured_->open(*std::move(reading.experiment()));
-  if (replaces) set_document(document_of(*measured_->experiment()));
-  if (options_.waits) tell_faults(measured_->wait());
-  const discrepancy::Experiment& e = *measured_->experiment();
+  core_.messages.say_remarks(reading.diagnostics());
+  data_->open(*std::move(reading.experiment()));
+  if (replaces) session_.files().begin(document_of(*data_->experiment()));
+  if (core_.options.waits) tell_faults(data_->wait());
+  const discrepancy::Experiment& e = *data_->experiment();
   return {true, "opened " + path + ": " + counted(e.trials.size(), "trial") + ", " +
                     counted(e.markers.size(), "marker")};
 }
 
-Result Session::accept_diagnosis() {
-  const auto extended = measured_->extended_plant();
-  if (!measured_->diagnosis())
+Result SessionMeasured::accept_diagnosis() {
+  const auto extended = data_->extended_plant();
+  if (!data_->diagnosis())
     return {false, "there is no diagnosis to accept, expected one (diagnose)"};
   if (!extended)
     return {false, "nothing to accept: the diagnosis found no effect that belongs to the plant"};
-  const int index = measured_plant();
+  const int index = plant();
   if (index < 0)
     return {false,
             "the plant that was measured is not in the document (any more), expected its curves as "
             "they were measured"};
-  return run(Command("set effects",
-                     {{"plant", document_.plants[static_cast<std::size_t>(index)].entry.name},
-                      {"text", effects_text(extended->effects)}}));
+  return session_.run(Command(
+      "set effects",
+      {{"plant", core_.editor.document().plants[static_cast<std::size_t>(index)].entry.name},
+       {"text", effects_text(extended->effects)}}));
 }
 
-void Session::tell_faults(const std::vector<std::string>& faults) {
-  for (const std::string& fault : faults) say(Severity::error, "measured data: " + fault);
+void SessionMeasured::update() {
+  std::erase_if(dropped_, [](const auto& one) { return one->has_ended(); });
+  if (reading_ && reading_->has_ended()) finish_reading();
+  tell_faults(data_->update());
 }
 
-Result Session::measured_command(const Command& c) {
-  const std::string& verb = c.verb();
-  if (verb == "open experiment") return open_experiment(c.word("folder"));
-  if (verb == "accept diagnosis") return accept_diagnosis();
-  if (verb == "close experiment") measured_->close();
-  if (verb == "cancel reading") cancel_reading();
-  if (verb == "cancel diagnosis") measured_->cancel_diagnosis();
-  if (verb == "diagnose") {
-    measured_->start_diagnosis(c.whole_or("threads", 0),
-                               static_cast<std::uint64_t>(c.whole_or("seed", 1)));
-    if (!options_.waits) return {};
-    tell_faults(measured_->wait());
-    if (measured_->diagnosis()) return {true, headline(measured_->diagnosis()->verdict)};
-  }
-  if (verb == "write report") {
-    if (!measured_->diagnosis()) return {false, "there is no diagnosis to write, expected one"};
-    write_diagnosis(c.word("folder"), *measured_->experiment(), measured_->extended_plant(),
-                    *measured_->diagnosis());
-  }
+void SessionMeasured::tell_faults(const std::vector<std::string>& faults) {
+  for (const std::string& fault : faults)
+    core_.messages.say(Severity::error, "measured data: " + fault);
+}
+
+Result SessionMeasured::diagnose(int threads, std::uint64_t seed) {
+  data_->start_diagnosis(threads, seed);
+  if (!core_.options.waits) return {};
+  tell_faults(data_->wait());
+  return data_->diagnosis() ? Result{true, headline(data_->diagnosis()->verdict)} : Result{};
+}
+
+Result SessionMeasured::write_report(const std::filesystem::path& folder) const {
+  if (!data_->diagnosis()) return {false, "there is no diagnosis to write, expected one"};
+  write_diagnosis_files(folder, *data_->experiment(), data_->extended_plant(), *data_->diagnosis());
   return {};
 }
 

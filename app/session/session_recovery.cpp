@@ -1,13 +1,14 @@
+#include "pedicel/app/session/session_recovery.h"
+
 #include <chrono>
 #include <ctime>
 #include <utility>
 
-#include "pedicel/app/session/journal.h"
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 
-/// What a killed program left.
 namespace pedicel::app {
 
 namespace {
@@ -27,10 +28,10 @@ std::string time_text(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<Session::Lost> Session::lost_documents() const {
-  std::vector<Lost> lost;
-  if (options_.autosave.empty()) return lost;
-  for (const std::filesystem::path& file : lost_journals(options_.autosave)) {
+std::vector<LostDocument> SessionRecovery::lost_documents() const {
+  std::vector<LostDocument> lost;
+  if (core_.options.autosave.empty()) return lost;
+  for (const std::filesystem::path& file : lost_journals(core_.options.autosave)) {
     try {
       const JournalContent content = read_journal(file);
       if (content.commands.empty()) continue;
@@ -43,39 +44,42 @@ std::vector<Session::Lost> Session::lost_documents() const {
   return lost;
 }
 
-bool Session::recover(const Lost& lost) {
+bool SessionRecovery::recover(const LostDocument& lost) {
+  SessionFiles& files = session_.files();
   JournalContent content;
   try {
     content = read_journal(lost.file);
   } catch (const InvalidFile& fault) {
-    say(fault.all(), false);
+    core_.messages.say(fault.all(), false);
     return false;
   }
-  if (content.document.empty() || !open(content.document)) open_empty();
+  if (content.document.empty() || !files.open(content.document)) files.open_empty();
   // The lines say themselves what was taken back: nothing is to be judged in between.
-  const bool waits = std::exchange(options_.waits, false);
+  const bool waits = std::exchange(core_.options.waits, false);
   const auto do_line = [this](const std::string& line) {
     Diagnostics diagnostics;
     const auto command = parse_command(line, {"journal", 1, 1}, diagnostics);
-    const Result result = command ? run(*command) : Result{false, diagnostics.text()};
-    if (!result) say(Severity::warning, "not recovered: " + line + ": " + result.text);
+    const Result result = command ? session_.run(*command) : Result{false, diagnostics.text()};
+    if (!result)
+      core_.messages.say(Severity::warning, "not recovered: " + line + ": " + result.text);
   };
-  const std::uint64_t on_disk = content.document.empty() ? 0 : saved_hash_;
+  const Document& document = core_.editor.document();
+  const std::uint64_t on_disk = content.document.empty() ? 0 : files.saved_hash();
   for (const JournalContent::Line& line : content.base) do_line(line.command);
-  history_.clear();
-  if (is_scene(document_.path)) saved_settings_ = document_.settings;
+  core_.editor.forget_history();
+  if (is_scene(document.path)) files.set_saved_settings(document.settings);
   for (const JournalContent::Line& line : content.commands) do_line(line.command);
-  options_.waits = waits;
-  finish({});
-  saved_hash_ = on_disk;
+  core_.options.waits = waits;
+  session_.finish({});
+  files.set_saved_hash(on_disk);
   const auto wanted = content.commands.empty() ? std::nullopt : content.commands.back().hash;
-  if (wanted && *wanted != document_.state_hash())
-    say(Severity::warning, "what was recovered is not exactly what was lost");
+  if (wanted && *wanted != document.state_hash())
+    core_.messages.say(Severity::warning, "what was recovered is not exactly what was lost");
   forget(lost);
   return true;
 }
 
-void Session::forget(const Lost& lost) {
+void SessionRecovery::forget(const LostDocument& lost) {
   std::error_code ignored;
   std::filesystem::remove(lost.file, ignored);
 }

@@ -1,12 +1,13 @@
+#include "pedicel/app/session/session_robot.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/robot_placing.h"
+#include "pedicel/app/session/session_core.h"
 #include "pedicel/core/check.h"
 #include "pedicel/robot/joint_range.h"
 
-/// The robot by hand.
 namespace pedicel::app {
 
 namespace {
@@ -53,7 +54,15 @@ robot::IkResult descend_in_steps(const robot::KinematicModel& model, robot::IkTa
 
 }  // namespace
 
-robot::IkResult Session::reach(const Pose& tool_W, bool turned) const {
+std::shared_ptr<const Snapshot> SessionRobot::snapshot() const {
+  return core_.control.snapshot();
+}
+
+Command SessionRobot::complete(const Command& add_robot) const {
+  return placed_robot(core_.editor.document(), core_.options.packages, add_robot);
+}
+
+robot::IkResult SessionRobot::reach(const Pose& tool_W, bool turned) const {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
   const world::SceneRobot& scene = *now->assets->scene.robot;
@@ -75,19 +84,33 @@ robot::IkResult Session::reach(const Pose& tool_W, bool turned) const {
   return robot::descend(model, target, others.front(), settings);
 }
 
-Result Session::move_joints(const Eigen::VectorXd& q) {
+Result SessionRobot::move_joints(const Eigen::VectorXd& q) {
   const robot::KinematicModel model = kinematics_of(*snapshot());
   if (q.size() != model.dofs())
     throw UsageError(std::to_string(q.size()) + " values, expected " +
                      std::to_string(model.dofs()) + ", one a joint");
   check_limits(model, q);
-  control_.move_robot(q);
+  core_.control.move_robot(q);
   return {};
+}
+
+Result SessionRobot::move_joint(const std::string& name, double value) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Eigen::VectorXd q = start_of(now->robot);
+  q[joint_of(model, name)] = value;
+  return move_joints(q);
+}
+
+Result SessionRobot::move_gripper(double value) {
+  const auto now = snapshot();
+  kinematics_of(*now);  // says where there is no robot
+  return move_joint(now->assets->scene.robot->gripper, value);
 }
 
 // The pose that was asked for is known as long as the robot goes where that has sent it, or is yet
 // to hear of it.
-std::optional<ToolGoal> Session::tool_goal() const {
+std::optional<ToolGoal> SessionRobot::tool_goal() const {
   const auto now = snapshot();
   if (!now->robot.present || !now->assets || !now->assets->robot) return {};
   if (aim_ && aim_->stage == now->stage && now->step >= aim_->step &&
@@ -98,7 +121,7 @@ std::optional<ToolGoal> Session::tool_goal() const {
   return ToolGoal{tool, tool, true, {}};
 }
 
-Result Session::aim_tool(const Pose& tool_W, bool turned, bool as_near_as_can_be) {
+Result SessionRobot::aim_tool(const Pose& tool_W, bool turned, bool as_near_as_can_be) {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
   // With fewer than six joints a place alone can be asked for.
@@ -116,7 +139,7 @@ Result Session::aim_tool(const Pose& tool_W, bool turned, bool as_near_as_can_be
   return moved.ok ? Result{true, found.sentence} : moved;
 }
 
-Result Session::jog(const Vec3& shift_W, const Vec3& turn_W) {
+Result SessionRobot::jog(const Vec3& shift_W, const Vec3& turn_W) {
   const std::optional<ToolGoal> goal = tool_goal();
   if (!goal) throw UsageError("the scene has no robot");
   Pose tool = goal->nearest_W;
@@ -127,22 +150,8 @@ Result Session::jog(const Vec3& shift_W, const Vec3& turn_W) {
   return aim_tool(tool, angle > 0.0, false);
 }
 
-Result Session::tool_command(const Command& c) {
-  const std::optional<ToolGoal> goal = tool_goal();
-  if (!goal) throw UsageError("the scene has no robot");
-  Pose tool = goal->asked_W;
-  tool.position = c.point("to");
-  if (c.has("turn")) {
-    if (c.numbers("turn").size() != 4) throw UsageError("turn, expected x,y,z,w");
-    const Quat turn(c.numbers("turn").data());
-    if (!(turn.norm() > 1e-9)) throw UsageError("turn, expected x,y,z,w that are not all 0");
-    tool.rotation = turn.normalized();
-  }
-  return aim_tool(tool, c.has("turn"), c.whole_or("near", 0) != 0);
-}
-
 // Where the robot stands at time 0.
-Result Session::home_robot() {
+Result SessionRobot::home() {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
   Eigen::VectorXd q = model.clamped(Eigen::VectorXd::Zero(model.dofs()));
@@ -151,8 +160,9 @@ Result Session::home_robot() {
   return move_joints(q);
 }
 
-bool Session::robot_is_led() const {
-  for (auto line = log_.rbegin(); line != log_.rend(); ++line) {
+bool SessionRobot::is_led() const {
+  const std::vector<std::string>& log = core_.editor.log().lines();
+  for (auto line = log.rbegin(); line != log.rend(); ++line) {
     const std::string verb = line->substr(0, line->find(' '));
     if (*line == "reset" || verb == "play") return false;
     if (*line == "stop robot" || *line == "home robot") return true;
@@ -160,27 +170,6 @@ bool Session::robot_is_led() const {
       if (verb == one) return true;
   }
   return false;
-}
-
-Result Session::robot_command(const Command& c) {
-  const std::string& verb = c.verb();
-  const auto now = snapshot();
-  if (verb == "joint" || verb == "gripper") {
-    const robot::KinematicModel model = kinematics_of(*now);
-    const std::string name = verb == "joint" ? c.word("name") : now->assets->scene.robot->gripper;
-    Eigen::VectorXd q = start_of(now->robot);
-    q[joint_of(model, name)] = c.number("value");
-    return move_joints(q);
-  }
-  if (verb == "joints") {
-    const std::vector<double>& values = c.numbers("values");
-    return move_joints(
-        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-  }
-  if (verb == "home robot") return home_robot();
-  if (verb == "jog") return jog(c.point("shift"), c.has("turn") ? c.point("turn") : Vec3::Zero());
-  if (verb == "tool") return tool_command(c);
-  return program_command(c);
 }
 
 }  // namespace pedicel::app

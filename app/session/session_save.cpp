@@ -4,7 +4,8 @@
 #include "pedicel/app/session/document/plant_import.h"
 #include "pedicel/app/session/document/plant_save.h"
 #include "pedicel/app/session/document/scene_save.h"
-#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_core.h"
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/world/scene_reader.h"
@@ -132,27 +133,27 @@ std::string text_for(const fs::path& there, const plant::PlantFile& plant, Saved
 
 }  // namespace
 
-bool Session::needs_name() const {
-  if (is_scene(document_.path) || is_empty(document_)) return false;
-  const DocumentPlant* one = only_plant(document_);
-  return document_.path.empty() || !one || file_of(*one).empty();
+bool SessionFiles::needs_name() const {
+  if (is_scene(document().path) || is_empty(document())) return false;
+  const DocumentPlant* one = only_plant(document());
+  return document().path.empty() || !one || file_of(*one).empty();
 }
 
-fs::path Session::suggested_name() const {
+fs::path SessionFiles::suggested_name() const {
   std::error_code none;
-  const fs::path folder =
-      document_.path.empty() ? fs::current_path(none) : fs::absolute(document_.path).parent_path();
-  if (is_scene(document_.path)) return fs::absolute(document_.path);
-  const DocumentPlant* one = only_plant(document_);
-  if (one && !document_.path.empty())
+  const fs::path folder = document().path.empty() ? fs::current_path(none)
+                                                  : fs::absolute(document().path).parent_path();
+  if (is_scene(document().path)) return fs::absolute(document().path);
+  const DocumentPlant* one = only_plant(document());
+  if (one && !document().path.empty())
     return file_of(*one).empty() ? free_file(folder, one->entry.name, ".plant.yaml")
                                  : fs::absolute(file_of(*one));
-  const std::string stem = document_.plants.empty() ? "scene" : document_.plants[0].entry.name;
+  const std::string stem = document().plants.empty() ? "scene" : document().plants[0].entry.name;
   return free_file(folder, stem, ".scene.yaml");
 }
 
-Result Session::save(const fs::path& path, const SaveWishes& wishes) {
-  end_gesture();
+Result SessionFiles::save(const fs::path& path, const SaveWishes& wishes) {
+  core_.editor.end_gesture();
   try {
     if (is_scene(path)) return save_scene(path, wishes.overwrite);
     if (!path.empty() && !is_plant_file(path))
@@ -160,9 +161,9 @@ Result Session::save(const fs::path& path, const SaveWishes& wishes) {
                          ", expected *.scene.yaml for the scene or *.plant.yaml for a plant (see "
                          "export for other files)"};
     if (!path.empty()) return save_plant(path, wishes);
-    if (is_scene(document_.path)) return save_scene(document_.path, wishes.overwrite);
-    if (is_empty(document_)) return {true, "nothing to save"};
-    const DocumentPlant* one = only_plant(document_);
+    if (is_scene(document().path)) return save_scene(document().path, wishes.overwrite);
+    if (is_empty(document())) return {true, "nothing to save"};
+    const DocumentPlant* one = only_plant(document());
     if (!needs_name()) return save_plant(file_of(*one), wishes);
     return {false, one ? "plant \"" + one->entry.name + "\" has no file yet, expected a path"
                        : "the scene has no file yet, expected a path *.scene.yaml"};
@@ -176,8 +177,8 @@ Result Session::save(const fs::path& path, const SaveWishes& wishes) {
 }
 
 // Plants first: a scene file names files that are there.
-Result Session::save_scene(const fs::path& path, bool overwrite) {
-  const bool same = is_same_file(path, document_.path);
+Result SessionFiles::save_scene(const fs::path& path, bool overwrite) {
+  const bool same = is_same_file(path, document().path);
   if (!same && is_there(path) && !overwrite) return refusal_to_overwrite(path, false);
   if (same && files_.has_changed(path) && !overwrite) {
     Diagnostics diagnostics;  // a faulty one says its fault
@@ -186,21 +187,21 @@ Result Session::save_scene(const fs::path& path, bool overwrite) {
   }
   Saved saved;
   std::vector<std::pair<std::size_t, fs::path>> targets;
-  for (std::size_t p = 0; p < document_.plants.size(); ++p) {
-    const DocumentPlant& one = document_.plants[p];
+  for (std::size_t p = 0; p < document().plants.size(); ++p) {
+    const DocumentPlant& one = document().plants[p];
     if (!is_drawn(one)) continue;
     if (is_as_read(one)) {
       if (same) saved.kept.push_back(one.entry.file);
       continue;
     }
-    const bool own = same && !file_of(one).empty() && !is_shared(document_, p);
+    const bool own = same && !file_of(one).empty() && !is_shared(document(), p);
     if (own && files_.has_changed(file_of(one)) && !overwrite)
       return refusal_to_overwrite(file_of(one), true);
     targets.emplace_back(
         p, own ? file_of(one) : free_file(path.parent_path(), one.entry.name, ".plant.yaml"));
   }
-  const fs::path before = document_.path;
-  Document changed = document_;
+  const fs::path before = document().path;
+  Document changed = document();
   for (const auto& [p, file] : targets) {
     DocumentPlant& one = changed.plants[p];
     const std::string text = text_for(file_of(one), *one.file, saved);
@@ -221,21 +222,23 @@ Result Session::save_scene(const fs::path& path, bool overwrite) {
   if (text != was) write_with_backup(path, text);
   (text == was ? saved.kept : saved.written).push_back(path);
   files_.remember(path, text);
-  document_ = std::move(changed);
-  saved_settings_ = document_.settings;
+  core_.editor.set_files(std::move(changed));
+  saved_settings_ = document().settings;
   mark_saved(!saved.written.empty());
   return {true, saved.text()};
 }
 
-Result Session::save_plant(const fs::path& path, const SaveWishes& wishes) {
-  const DocumentPlant* only = only_plant(document_);
-  const std::string name = wishes.plant.empty() ? meant_plant(document_) : wishes.plant;
+Result SessionFiles::save_plant(const fs::path& path, const SaveWishes& wishes) {
+  const DocumentPlant* only = only_plant(document());
+  const std::string name = wishes.plant.empty() ? meant_plant(document()) : wishes.plant;
   if (name.empty())
-    return {false, names_of(document_).empty()
+    return {false, names_of(document()).empty()
                        ? "no plant to save, expected one with a stem"
-                       : "which plant, expected plant=NAME, one of: " + names_of(document_)};
-  const plant::PlantFile& plant = document_.plant(name);
-  DocumentPlant& one = document_.plants[static_cast<std::size_t>(document_.plant_index(name))];
+                       : "which plant, expected plant=NAME, one of: " + names_of(document())};
+  Document changed = document();
+  const plant::PlantFile& plant = changed.plant(name);
+  const auto index = static_cast<std::size_t>(changed.plant_index(name));
+  DocumentPlant& one = changed.plants[index];
   if (plant.curves.empty()) return {false, "plant \"" + name + "\" has no stem yet"};
   const bool own = is_same_file(path, file_of(one));
   if (!own && is_there(path) && !wishes.overwrite) return refusal_to_overwrite(path, false);
@@ -249,30 +252,31 @@ Result Session::save_plant(const fs::path& path, const SaveWishes& wishes) {
     files_.remember(path, text);
     saved.written.push_back(path);
   }
-  const bool alone = only == &one;
+  const bool alone = only == &document().plants[index];
   if (alone || file_of(one).empty()) {
     one.entry.file = path;
     one.entry.source = world::ScenePlant::Source::file;
     one.entry.unit = 0.0;
     one.entry.optional = false, one.entry.fallback.clear();
   }
+  if (alone) changed.path = path;
+  core_.editor.set_files(std::move(changed));
   if (!alone) return {true, saved.text() + ", the plant \"" + name + "\" alone"};
-  document_.path = path;
   mark_saved(!saved.written.empty());
   return {true, saved.text()};
 }
 
 // Scripts begin with what was opened: where that was written over, with commands that make it.
-void Session::mark_saved(bool wrote) {
-  saved_hash_ = hash_;
+void SessionFiles::mark_saved(bool wrote) {
+  saved_hash_ = core_.editor.hash();
   if (wrote) {
-    const bool over_first = first_.path.empty() || is_same_file(document_.path, first_.path);
+    const bool over_first = first_.path.empty() || is_same_file(document().path, first_.path);
     if (over_first)
-      saved_ = document_;
+      saved_ = document();
     else if (!saved_)
       saved_ = first_;
   }
-  begin_journal();
+  core_.autosave.begin(document());
 }
 
 }  // namespace pedicel::app

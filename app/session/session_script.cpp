@@ -1,6 +1,7 @@
 #include "pedicel/app/session/document/document_parameters.h"
 #include "pedicel/app/session/journal.h"
-#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_core.h"
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/io/csv.h"
 
 /// What was done since the document was opened, as a script.
@@ -60,7 +61,7 @@ std::string line_of_log(const std::string& one, const Document& first,
 
 }  // namespace
 
-std::string Session::script() const {
+std::string SessionFiles::script() const {
   const bool scene = is_scene(first_.path);
   std::string text;
   if (!first_.path.empty() && (scene || !saved_)) {
@@ -73,7 +74,8 @@ std::string Session::script() const {
   } else {
     text = line(Command("new", {})) + state_commands(first_);
   }
-  for (const std::string& one : log_) text += line_of_log(one, first_, saved_);
+  for (const std::string& one : core_.editor.log().lines())
+    text += line_of_log(one, first_, saved_);
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/app/ui/widgets.h"
 #include "pedicel/app/view/picking.h"
 
@@ -82,7 +83,7 @@ ToolHandles::Part ToolHandles::part_under(const ImVec2& mouse, const SceneFrame&
 
 bool ToolHandles::update(Ui& ui, const SceneFrame& frame) {
   const ImGuiIO& io = ImGui::GetIO();
-  const auto goal = visible(ui) ? ui.session.tool_goal() : std::nullopt;
+  const auto goal = visible(ui) ? ui.session.robot().tool_goal() : std::nullopt;
   seen_ = goal.has_value();
   ui.view.goal_missed = false;
   if (!seen_) {
@@ -188,7 +189,7 @@ void ToolHandles::send(Ui& ui, const Pose& pose, bool turned) {
              : Command("tool", {{"to", pose.position}, {"near", 1}});
   const Result result = ui.session.run(command);
   if (!result.ok) ui.report(result);
-  if (const auto goal = ui.session.tool_goal()) goal_ = *goal;
+  if (const auto goal = ui.session.robot().tool_goal()) goal_ = *goal;
   ui.view.goal_missed = !goal_.reached;
 }
 

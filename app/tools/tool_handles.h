@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/app/session/live/robot_goal.h"
 #include "pedicel/app/ui/ui.h"
 #include "pedicel/app/view/scene_mouse.h"
 

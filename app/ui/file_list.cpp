@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
 #include "pedicel/app/ui/widgets.h"
@@ -54,13 +55,13 @@ void FileList::read() {
 std::optional<fs::path> FileList::draw(Ui& ui, bool saves, bool robots) {
   robots_ = robots;
   if (folder_.empty() || ImGui::IsWindowAppearing()) {
-    const fs::path open = ui.session.path();
+    const fs::path open = ui.session.files().path();
     std::error_code ignored;
     folder_ = fs::absolute(open.empty() ? fs::path(".") : open, ignored);
     folder_ = open.empty() ? fs::current_path(ignored) : folder_.parent_path();
     const bool exports = !ui.export_plant.empty();
     if (exports) folder_ = ui.export_path.parent_path();
-    const fs::path suggested = exports ? ui.export_path : ui.session.suggested_name();
+    const fs::path suggested = exports ? ui.export_path : ui.session.files().suggested_name();
     typed_ = saves ? suggested.string() : "";
     read();
   }
@@ -79,9 +80,10 @@ std::optional<fs::path> FileList::draw(Ui& ui, bool saves, bool robots) {
     std::error_code ignored;
     const bool is_folder = fs::is_directory(path, ignored);
     if (saves && !is_folder && !path.has_extension())
-      path += !ui.export_plant.empty()                                        ? ui.export_ending
-              : ui.session.suggested_name().string().ends_with(".plant.yaml") ? ".plant.yaml"
-                                                                              : ".scene.yaml";
+      path += !ui.export_plant.empty() ? ui.export_ending
+              : ui.session.files().suggested_name().string().ends_with(".plant.yaml")
+                  ? ".plant.yaml"
+                  : ".scene.yaml";
     problem_.clear();
     if (is_folder)
       folder_ = path, typed_.clear(), read();

@@ -6,6 +6,7 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/commands/measured_commands.h"
 #include "pedicel/app/session/document/scene_references.h"
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/asset_folder.h"
 
@@ -16,12 +17,12 @@ bool Ui::run(const Command& command) {
 }
 
 bool Ui::report(const Result& result) {
-  if (!result.ok) say(result.text), session.tell(result.text);
+  if (!result.ok) say(result.text), session.messages().tell(result.text);
   return result.ok;
 }
 
 void Ui::leave_document(std::function<void()> next) {
-  if (!session.dirty()) return next();
+  if (!session.files().dirty()) return next();
   after_leaving = std::move(next);
   dialog = Dialog::unsaved;
 }
@@ -29,7 +30,7 @@ void Ui::leave_document(std::function<void()> next) {
 std::filesystem::path Ui::output_stem() const {
   namespace fs = std::filesystem;
   std::error_code none;
-  const fs::path open = session.path();
+  const fs::path open = session.files().path();
   if (open.empty()) return fs::current_path(none) / "pedicel";
   std::string name = open.filename().string();
   for (const char* ending : {".yaml", ".scene", ".plant", ".csv", ".mtg"})
@@ -48,7 +49,7 @@ void Ui::leave_now() {
 }
 
 void Ui::save() {
-  if (session.needs_name())
+  if (session.files().needs_name())
     dialog = Dialog::save_as;
   else
     save_to({});
@@ -58,7 +59,7 @@ void Ui::save_to(const std::filesystem::path& path, bool overwrite) {
   SaveWishes wishes;
   wishes.overwrite = overwrite;
   if (!path.empty() && !is_scene(path)) wishes.plant = chosen_plant();
-  const Result saved = session.save(path, wishes);
+  const Result saved = session.files().save(path, wishes);
   say(saved.text);
   if (saved.overwrites) {
     overwrite_path = path;
@@ -66,7 +67,7 @@ void Ui::save_to(const std::filesystem::path& path, bool overwrite) {
     dialog = Dialog::overwrite;
   } else if (saved.ok) {
     dialog = Dialog::none;
-    if (!session.dirty()) leave_now();
+    if (!session.files().dirty()) leave_now();
   }
 }
 
@@ -136,9 +137,9 @@ std::string Ui::chosen_plant() const {
 
 void Ui::open(const std::filesystem::path& path) {
   if (is_experiment(path))
-    session.open(path);
+    session.files().open(path);
   else
-    leave_document([this, path] { session.open(path); });
+    leave_document([this, path] { session.files().open(path); });
 }
 
 void Ui::import_plant(const std::filesystem::path& path) {

@@ -12,6 +12,8 @@
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/plant_import.h"
 #include "pedicel/app/session/script.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_films.h"
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
 #include "pedicel/app/verbs/fit.h"
@@ -47,9 +49,9 @@ int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   Session session(options);
   std::unique_ptr<FilmMaker> films;
   if (make_films) films = make_films(session);
-  session.set_film_maker(films.get());
-  if (!a.scene.empty() && !session.open(a.scene, unit_of_text(a.unit, "--unit"))) {
-    std::fprintf(stderr, "%s\n", session.messages().back().text.c_str());
+  session.films().set_maker(films.get());
+  if (!a.scene.empty() && !session.files().open(a.scene, unit_of_text(a.unit, "--unit"))) {
+    std::fprintf(stderr, "%s\n", session.messages().all().back().text.c_str());
     return exit_invalid;
   }
   for (const std::string& assignment : a.set) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/plant/plant_edit.h"
 #include "pedicel/plant/plant_graph.h"
 #include "pedicel/plant/plant_pick.h"
@@ -59,7 +60,7 @@ double width_of(const plant::PlantFile& plant) {
 
 /// Index in the snapshot of the plant that was measured; -1: it is not there.
 int plant_of(const Session& session, const Snapshot& snapshot) {
-  const int index = session.measured_plant();
+  const int index = session.measured().plant();
   if (index < 0) return -1;
   const auto& name = session.document().plants[static_cast<std::size_t>(index)].entry.name;
   for (std::size_t p = 0; p < snapshot.plants.size(); ++p)
@@ -85,7 +86,7 @@ Colour model_colour(int model) {
 void MeasuredMarks::follow(const Session& session,
                            const std::shared_ptr<const cosserat::RodModel>& model,
                            const Pose& place_W) {
-  const MeasuredData& data = session.measured();
+  const MeasuredData& data = session.measured().data();
   if (places_.model == model && places_.number == data.number()) return;
   places_ = {model, data.number(), {}};
   const plant::StemPicker picker(data.experiment()->plant);
@@ -101,9 +102,9 @@ void MeasuredMarks::update(ViewState& view, const Session& session, const Snapsh
   list_.clear();
   list_.ground.reset();
   view.hidden_plant = view.residual_plant = -1;
-  const MeasuredData& data = session.measured();
+  const MeasuredData& data = session.measured().data();
   if (!data.experiment()) return;
-  const int document = session.measured_plant();
+  const int document = session.measured().plant();
   Pose place_W;
   if (document >= 0)
     place_W = session.document().plants[static_cast<std::size_t>(document)].entry.pose;

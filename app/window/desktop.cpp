@@ -8,6 +8,8 @@
 
 #include "pedicel/app/panels/time_line.h"
 #include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_films.h"
 #include "pedicel/app/tools/draw_tool.h"
 #include "pedicel/app/ui/selection_follow.h"
 #include "pedicel/app/ui/theme.h"
@@ -99,13 +101,13 @@ Desktop::Desktop(Platform& platform, Session& session, const DesktopOptions& opt
     painter_ = std::make_unique<GuiPainter>(*platform.gl());
     canvas_ = std::make_unique<SceneCanvas>(*platform.gl());
   }
-  if (!session.film_maker()) session.set_film_maker(this);
+  if (!session.films().maker()) session.films().set_maker(this);
   follow_fonts();
 }
 
 Desktop::~Desktop() {
   if (video_) end();
-  if (ui_.session.film_maker() == this) ui_.session.set_film_maker(nullptr);
+  if (ui_.session.films().maker() == this) ui_.session.films().set_maker(nullptr);
   if (ui_.preferences != written_) write_preferences(ui_.preferences, preferences_path_);
 }
 
@@ -143,8 +145,8 @@ void Desktop::follow_document() {
                         return shown_plants_.contains(name);
                       });
   if (!plants.empty()) shown_plants_ = std::move(plants);
-  if (shown_path_ != ui_.session.path()) {
-    shown_path_ = ui_.session.path();
+  if (shown_path_ != ui_.session.files().path()) {
+    shown_path_ = ui_.session.files().path();
     framed_ = false;
     ui_.selection = {};
   }

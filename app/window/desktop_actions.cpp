@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "pedicel/app/draw/pictures.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/app/ui/free_file_name.h"
 #include "pedicel/app/window/desktop.h"
 
@@ -49,7 +51,7 @@ void Desktop::perform(Action action) {
       break;
     case Action::reset: {
       // The scene's program would take the robot out of the hand that leads it.
-      const bool led = ui_.session.robot_is_led();
+      const bool led = ui_.session.robot().is_led();
       ui_.run(Command("reset", {}));
       if (led && ui_.snapshot->robot.present) {
         ui_.run(Command("stop robot", {}));
@@ -58,7 +60,7 @@ void Desktop::perform(Action action) {
       break;
     }
     case Action::reload:
-      ui_.session.reload();
+      ui_.session.files().reload();
       break;
     case Action::faster:
       control.set_speed(next_speed(ui_.snapshot->speed, 1));
@@ -71,7 +73,7 @@ void Desktop::perform(Action action) {
       break;
     case Action::quit:
       ui_.leave_document([this] {
-        ui_.session.give_up_edits();
+        ui_.session.files().give_up_edits();
         quits_ = true;
       });
       break;
@@ -94,7 +96,7 @@ void Desktop::perform_file(Action action) {
       ui_.save();
       break;
     case Action::new_document:
-      ui_.leave_document([this] { ui_.session.open_empty(); });
+      ui_.leave_document([this] { ui_.session.files().open_empty(); });
       break;
     case Action::screenshot:
       take_screenshot();

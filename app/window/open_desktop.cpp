@@ -11,6 +11,10 @@
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/session/measured/measured_data.h"
 #include "pedicel/app/session/script.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_films.h"
+#include "pedicel/app/session/session_measured.h"
+#include "pedicel/app/session/session_recovery.h"
 #include "pedicel/app/window/desktop.h"
 #include "pedicel/app/window/film.h"
 #include "pedicel/core/check.h"
@@ -27,9 +31,9 @@ constexpr int no_opengl = 77, invalid_file = 3, unstable = 4;
 /// False, with the faults on standard error, where it cannot be opened.
 bool open_file(Session& session, const DesktopRequest& request) {
   const auto first = io::asset_folder() / "scenes" / "cherry_tomato_pull_aside.scene.yaml";
-  const bool opened = session.open(
+  const bool opened = session.files().open(
       request.file.empty() ? first : std::filesystem::path(request.file), request.unit);
-  for (const Message& message : session.messages())
+  for (const Message& message : session.messages().all())
     std::fprintf(stderr, "%s\n", message.text.c_str());
   for (const std::string& assignment : request.set) {
     const auto [key, value] = world::split_assignment(assignment);
@@ -83,7 +87,7 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   camera_index(*session.snapshot(), request.camera);  // there is such a one
   if (!request.script.empty())
     if (const int code = run_script(request.script, session, std::cout, std::cerr)) return code;
-  if (session.measured().experiment())
+  if (session.measured().data().experiment())
     desktop.frame(), desktop.ui().view.measured.time = request.time;
   else if (request.time > 0.0)
     session.control().run_for(request.time);
@@ -109,7 +113,7 @@ void film_scene(Session& session, const DesktopRequest& request) {
   const long some = std::max(1l, std::lround(0.5 / scene.dt));
   const bool tells = !request.quiet && isatty(2);
   for (long done = 0; done < steps && !stop_requested; done += some) {
-    session.advance(std::min(some, steps - done));
+    session.films().advance(std::min(some, steps - done));
     if (session.snapshot()->mode == RunMode::unstable) return;
     if (tells)
       std::fprintf(stderr, "\r%5.1f %%",
@@ -125,7 +129,7 @@ int make_film(const DesktopRequest& request, const DesktopOptions& options) {
   about.waits = true;
   Session session(about);
   OffscreenFilm film(session, options, [&](Desktop& desktop) { show_parts(desktop, request); });
-  session.set_film_maker(&film);
+  session.films().set_maker(&film);
   if (!open_file(session, request)) return invalid_file;
   const world::SceneVideo& video = session.snapshot()->assets->scene.video;
   FilmRequest wanted;
@@ -135,7 +139,7 @@ int make_film(const DesktopRequest& request, const DesktopOptions& options) {
   wanted.camera = request.camera.empty() ? video.camera : request.camera;
   wanted.with_interface = request.with_interface;
   stop_in_good_order();
-  session.begin_film(wanted);
+  session.films().begin(wanted);
   int code = 0;
   if (request.script.empty())
     film_scene(session, request);
@@ -186,7 +190,7 @@ std::optional<int> open_desktop(const DesktopRequest& request) {
   std::fprintf(stderr, "pedicel %s (%s), OpenGL by %s, letters from %s\n", version().c_str(),
                git_hash().c_str(), desktop.ui().times.renderer.c_str(),
                desktop.letters().empty() ? "ImGui" : desktop.letters().c_str());
-  if (!session.lost_documents().empty()) desktop.ui().dialog = Dialog::recover;
+  if (!session.recovery().lost_documents().empty()) desktop.ui().dialog = Dialog::recover;
   show_parts(desktop, request);
   Tally tally;
   while (desktop.frame() && !stop_requested) tally.add(*desktop.ui().snapshot);

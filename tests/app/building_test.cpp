@@ -1,6 +1,7 @@
 // Scenes are built, changed, saved and left in the window as a person does it.
 #include "empty_desk.h"
 #include "pedicel/app/editors/thing_editor.h"
+#include "pedicel/app/session/session_files.h"
 
 namespace pedicel::app {
 namespace {
@@ -35,7 +36,7 @@ TEST_F(BuildingInWindow, ANewSceneIsSavedAsOne) {
   EXPECT_EQ(ui().dialog, Dialog::none);
   EXPECT_TRUE(there(folder_ / "made.scene.yaml")) << "the ending is added";
   EXPECT_TRUE(there(folder_ / "herb.plant.yaml"));
-  EXPECT_FALSE(desk_.session().dirty());
+  EXPECT_FALSE(desk_.session().files().dirty());
 }
 
 TEST_F(BuildingInWindow, AFileThatIsThereIsAskedAbout) {
@@ -47,13 +48,13 @@ TEST_F(BuildingInWindow, AFileThatIsThereIsAskedAbout) {
   desk_.frames(3);
   press("Write over a file", "Cancel");
   EXPECT_EQ(ui().dialog, Dialog::none);
-  EXPECT_TRUE(desk_.session().dirty());
+  EXPECT_TRUE(desk_.session().files().dirty());
   desk_.key(Key::s, true);
   type_name(folder_ / "made.scene.yaml");
   desk_.frames(3);
   press("Write over a file", "Write over it");
   EXPECT_EQ(ui().dialog, Dialog::none);
-  EXPECT_FALSE(desk_.session().dirty());
+  EXPECT_FALSE(desk_.session().files().dirty());
   EXPECT_TRUE(there(folder_ / "made.scene.yaml~"));
 }
 
@@ -69,7 +70,7 @@ TEST_F(BuildingInWindow, APlantNameSavesTheChosenPlant) {
   const auto read = plant::read_plant_file(folder_ / "one.plant.yaml", diagnostics);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->curves[0].name, "s");
-  EXPECT_TRUE(desk_.session().dirty()) << "the scene is not saved by that";
+  EXPECT_TRUE(desk_.session().files().dirty()) << "the scene is not saved by that";
 }
 
 // "Do not save", and then what was to be opened cannot be: nothing is given up.
@@ -81,7 +82,7 @@ TEST_F(BuildingInWindow, EditsThatWereNotLeftStayUnsaved) {
   desk_.frames(3);
   press("Edits", "Do not save");
   EXPECT_EQ(desk_.session().document().plants.size(), 1u);
-  EXPECT_TRUE(desk_.session().dirty());
+  EXPECT_TRUE(desk_.session().files().dirty());
   ui().dialog = Dialog::none;
   desk_.frames(2);
   desk_.key(Key::q, true);
@@ -152,7 +153,7 @@ TEST_F(BuildingInWindow, AStemOfTheRobotsProgramGoesWithTheProgram) {
   desk_.settle();
   EXPECT_EQ(desk_.session().document().plants.size(), 1u);
   EXPECT_FALSE(scene().robot->waypoints.empty()) << "in one step";
-  EXPECT_FALSE(desk_.session().dirty());
+  EXPECT_FALSE(desk_.session().files().dirty());
 }
 
 }  // namespace

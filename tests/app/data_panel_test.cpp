@@ -2,6 +2,7 @@
 #include "cut_text.h"
 #include "desk.h"
 #include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/view/measured_marks.h"
 #include "support/measured_stem.h"
 #include "support/slow_file.h"
@@ -27,8 +28,8 @@ class DataPanelTest : public ::testing::Test {
   }
   void open() {
     desk_.open(folder_ / "stem");
-    if (desk_.session().reading()) desk_.session().finish_reading();
-    desk_.session().measured().wait();
+    if (desk_.session().measured().reading()) desk_.session().measured().finish_reading();
+    desk_.session().measured().data().wait();
     desk_.settle();
   }
   std::string keep(const std::string& name) {
@@ -176,8 +177,8 @@ TEST_F(DataPanelTest, AFolderIsReadBesideAndCancelledByAButton) {
   const auto button = place_of("right", "Cancel");
   ASSERT_TRUE(button) << keep("reading");
   desk_.click(button->x, button->y);
-  EXPECT_EQ(desk_.session().reading(), nullptr) << keep("reading");
-  EXPECT_EQ(desk_.session().measured().experiment(), nullptr);
+  EXPECT_EQ(desk_.session().measured().reading(), nullptr) << keep("reading");
+  EXPECT_EQ(desk_.session().measured().data().experiment(), nullptr);
 }
 
 TEST_F(DataPanelTest, DiagnosisIsStartedCancelledShownAndAccepted) {
@@ -186,11 +187,11 @@ TEST_F(DataPanelTest, DiagnosisIsStartedCancelledShownAndAccepted) {
   desk_.frames(4);
   check("running");
   must_run("cancel diagnosis");
-  desk_.session().measured().wait();
+  desk_.session().measured().data().wait();
 
   must_run("diagnose threads=2");
-  desk_.session().measured().wait();
-  ASSERT_NE(desk_.session().measured().diagnosis(), nullptr);
+  desk_.session().measured().data().wait();
+  ASSERT_NE(desk_.session().measured().data().diagnosis(), nullptr);
   desk_.ui().view.measured.side_by_side = true;
   desk_.ui().view.measured.model = discrepancy::extended;
   desk_.ui().view.measured.time = 0.2;

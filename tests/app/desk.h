@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/app/window/desktop.h"
 #include "places.h"
 
@@ -45,7 +46,7 @@ class Desk {
   Session& session() { return *session_; }
 
   void open(const std::filesystem::path& path) {
-    session_->open(path);
+    session_->files().open(path);
     settle();
   }
   /// So that a picture costs little.
@@ -56,7 +57,7 @@ class Desk {
   /// A scene with nothing in it, drawn coarsely.
   void open_empty() {
     draw_coarsely();
-    session_->open_empty();
+    session_->files().open_empty();
     settle();
   }
   /// Lets the simulation do what it was told, and the window show it.

@@ -2,6 +2,7 @@
 #include "pedicel/app/ui/drag_bar.h"
 
 #include "desk.h"
+#include "pedicel/app/session/session_tuning.h"
 #include "words.h"
 
 namespace pedicel::app {
@@ -53,7 +54,7 @@ class Bars : public ::testing::Test {
     bar_ = ImVec2(caption->x, caption->y + 0.5f * ImGui::GetFontSize() + 12.0f);
   }
   double modulus() {
-    for (const SessionParameter& p : desk_.session().parameters())
+    for (const SessionParameter& p : desk_.session().tuning().parameters())
       if (p.key.ends_with("material.youngs_modulus")) return p.value;
     return 0.0;
   }

@@ -4,6 +4,8 @@
 
 #include "desk.h"
 #include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_tuning.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "places.h"
@@ -61,8 +63,8 @@ TEST_F(Gui, AMendedFileIsReadAgainAndItsDialogGoes) {
   desk_.key(Key::r, true);
   desk_.settle();
   EXPECT_EQ(desk_.ui().dialog, Dialog::none);
-  EXPECT_TRUE(desk_.session().messages().empty());
-  EXPECT_EQ(desk_.session().path(), file);
+  EXPECT_TRUE(desk_.session().messages().all().empty());
+  EXPECT_EQ(desk_.session().files().path(), file);
 }
 
 // The time of a picture is what it takes, without the scene's: not less than nothing.
@@ -185,7 +187,7 @@ TEST_F(Gui, APlainDragNeverPulls) {
 
 TEST_F(Gui, ASliderChangesTheRunningPlantAndUndoTakesItBack) {
   desk_.show("Tune");
-  const auto before = desk_.session().parameters();
+  const auto before = desk_.session().tuning().parameters();
   desk_.key(Key::right);  // not at time 0: a restart would show
   desk_.settle();
   // The first slider of the panel: below search, buttons, the group's heading and its name.
@@ -199,7 +201,7 @@ TEST_F(Gui, ASliderChangesTheRunningPlantAndUndoTakesItBack) {
   for (float y = panel->InnerRect.Min.y + 30; changed.empty() && y < panel->InnerRect.Max.y - 40;
        y += 9) {
     desk_.drag({ImVec2(left, y), ImVec2(0.5f * (left + right), y), ImVec2(right, y)});
-    for (const SessionParameter& p : desk_.session().parameters())
+    for (const SessionParameter& p : desk_.session().tuning().parameters())
       if (p.changed) changed = p.key;
   }
   desk_.frames(5);
@@ -207,7 +209,7 @@ TEST_F(Gui, ASliderChangesTheRunningPlantAndUndoTakesItBack) {
   EXPECT_EQ(desk_.session().history().size(), 1u)
       << "one drag is one step of the history " << changed << " " << desk_.ui().notice;
   desk_.key(Key::z, true);
-  const auto after = desk_.session().parameters();
+  const auto after = desk_.session().tuning().parameters();
   for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].value, before[i].value);
 }
 
@@ -256,7 +258,7 @@ TEST_F(Gui, AFileThatCannotBeReadIsShownAndRetried) {
   desk_.key(Key::escape);
   desk_.key(Key::r, true);
   desk_.settle();
-  EXPECT_EQ(desk_.session().path(), path);
+  EXPECT_EQ(desk_.session().files().path(), path);
 }
 
 TEST_F(Gui, RobotSliderMovesTheJoint) {
@@ -371,7 +373,7 @@ TEST_F(Gui, EditsThatAreNotSavedAreAskedAbout) {
   const auto cancel = place_of("Edits", "Cancel");
   ASSERT_TRUE(cancel);
   desk_.click(cancel->x, cancel->y);
-  EXPECT_EQ(desk_.session().path().filename(), "cherry_tomato_pull_aside.scene.yaml");
+  EXPECT_EQ(desk_.session().files().path().filename(), "cherry_tomato_pull_aside.scene.yaml");
   EXPECT_GE(desk_.session().document().plant_index("x"), 0);
   desk_.key(Key::q, true);
   desk_.frames(3);

@@ -2,6 +2,7 @@
 #include "desk.h"
 #include "pedicel/app/editors/stem_editor.h"
 #include "pedicel/app/panels/time_line.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/app/ui/selection_follow.h"
 #include "pedicel/io/atomic_file.h"
 #include "words.h"
@@ -55,7 +56,7 @@ TEST_F(Inspector, SaysWhereItIsAndLeadsTheToolThere) {
   press("left", "Tool to selection");
   const auto place = place_of(desk_.ui().selection, *desk_.snapshot());
   ASSERT_TRUE(place);
-  EXPECT_NEAR((desk_.session().tool_goal()->asked_W.position - *place).norm(), 0.0, 0.002);
+  EXPECT_NEAR((desk_.session().robot().tool_goal()->asked_W.position - *place).norm(), 0.0, 0.002);
 }
 
 TEST_F(Inspector, TheWorldHasGravityAndASolver) {
@@ -102,8 +103,8 @@ TEST_F(Inspector, AFaultOfAnImportStaysWholeInMessages) {
   io::write_file_atomically(file, "x,y\n1,2\n");
   desk_.ui().import_plant(file);
   desk_.frames(3);
-  ASSERT_FALSE(desk_.session().messages().empty());
-  EXPECT_THAT(desk_.session().messages().back().text, HasSubstr("faulty.csv"));
+  ASSERT_FALSE(desk_.session().messages().all().empty());
+  EXPECT_THAT(desk_.session().messages().all().back().text, HasSubstr("faulty.csv"));
   EXPECT_FALSE(desk_.ui().notice.empty());
 }
 

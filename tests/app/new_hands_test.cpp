@@ -3,6 +3,7 @@
 #include "empty_desk.h"
 #include "pedicel/app/editors/add_menu.h"
 #include "pedicel/app/editors/thing_editor.h"
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
@@ -102,8 +103,8 @@ TEST_F(NewHands, AWarningLeavesTheSceneWhereItIs) {
   ASSERT_FALSE(ui().preferences.show_bottom);
   run("new plant p");
   run("draw stem p stem 0,0,0;0,0,0.8;0,0,1.6 0.002");
-  ASSERT_FALSE(desk_.session().messages().empty());
-  EXPECT_EQ(desk_.session().messages().back().severity, Severity::warning);
+  ASSERT_FALSE(desk_.session().messages().all().empty());
+  EXPECT_EQ(desk_.session().messages().all().back().severity, Severity::warning);
   EXPECT_EQ(desk_.desktop().scene().size.y, before);
   EXPECT_THAT(ui().notice, HasSubstr("unstable"));
   EXPECT_TRUE(ui().unread) << "a mark says that there is more";
@@ -114,17 +115,17 @@ TEST_F(NewHands, AWarningLeavesTheSceneWhereItIs) {
 TEST_F(NewHands, AWarningThatComesAgainIsOneMessage) {
   run("new plant p");
   run("draw stem p stem 0,0,0;0,0,0.8;0,0,1.6 0.002");
-  const std::size_t before = desk_.session().messages().size();
+  const std::size_t before = desk_.session().messages().all().size();
   run("add sphere ball 0.03 position=0.5,0,0.03");
   run("add sphere other 0.03 position=0.8,0,0.03");
-  EXPECT_EQ(desk_.session().messages().size(), before);
-  EXPECT_GE(desk_.session().messages().back().times, 3);
+  EXPECT_EQ(desk_.session().messages().all().size(), before);
+  EXPECT_GE(desk_.session().messages().all().back().times, 3);
 }
 
 TEST_F(NewHands, ARefusalCanBeReadLater) {
   EXPECT_FALSE(ui().run(Command("delete plant", {{"plant", std::string("none")}})));
-  ASSERT_FALSE(desk_.session().messages().empty());
-  EXPECT_THAT(desk_.session().messages().back().text, HasSubstr("none"));
+  ASSERT_FALSE(desk_.session().messages().all().empty());
+  EXPECT_THAT(desk_.session().messages().all().back().text, HasSubstr("none"));
 }
 
 TEST_F(NewHands, AnAddedRobotIsSeenAndItsPanelIsThere) {
@@ -164,7 +165,7 @@ TEST_F(NewHands, APlantStaysOpenInTheTreeWhenItIsChosen) {
 
 TEST_F(NewHands, PicturesGoBesideTheScene) {
   run("add sphere ball 0.03 position=0.3,0,0.03");
-  ASSERT_TRUE(desk_.session().save(folder_ / "my_0.1.scene.yaml").ok);
+  ASSERT_TRUE(desk_.session().files().save(folder_ / "my_0.1.scene.yaml").ok);
   for (int i = 0; i < 2; ++i) desk_.key(Key::f12);
   EXPECT_TRUE(there(folder_ / "my_0.1_001.png"));
   EXPECT_TRUE(there(folder_ / "my_0.1_002.png"));

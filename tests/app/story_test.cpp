@@ -1,6 +1,7 @@
 // The whole story off screen: a stem and a branch are drawn, a fruit is put on, pulled off, and all
 // of it is undone, saved and read again.
 #include "desk.h"
+#include "pedicel/app/session/session_files.h"
 
 namespace pedicel::app {
 namespace {
@@ -14,7 +15,7 @@ TEST(Story, DrawPullUndoSaveReload) {
   Desk desk;
   if (!desk.available()) GTEST_SKIP() << desk.why();
   desk.draw_coarsely();
-  desk.session().open_empty();
+  desk.session().files().open_empty();
   desk.settle();
   desk.key(Key::d);
   ASSERT_TRUE(desk.ui().draw.on);

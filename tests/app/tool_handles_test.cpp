@@ -3,6 +3,7 @@
 
 #include "cut_text.h"
 #include "desk.h"
+#include "pedicel/app/session/session_robot.h"
 #include "support/temporary_folder.h"
 #include "words.h"
 
@@ -25,7 +26,7 @@ class ToolHandlesTest : public ::testing::Test {
     desk_.show("Robot");
     desk_.settle();
   }
-  ToolGoal goal() { return desk_.session().tool_goal().value(); }
+  ToolGoal goal() { return desk_.session().robot().tool_goal().value(); }
   ImVec2 grip(const std::string& part) {
     const auto at = desk_.desktop().tool_handles().grip(part, desk_.desktop().scene());
     EXPECT_TRUE(at) << "no handle " << part << " is seen";

@@ -58,7 +58,7 @@ RULES = [
     Rule("settings.md", ("plugins/plant/plant_numbers.cpp",), (DOTTED,), 11),
     Rule("verdict.md", ("plugins/discrepancy/select/verdict.cpp",), (JSON,), 30, end=""),
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
-    Rule("quantities.md", ("app/session/session_run.cpp",), (SCRIPT_QUANTITY,), 7),
+    Rule("quantities.md", ("app/session/commands/session_commands.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
     Rule("quantities.md", ("app/run/channels.cpp",), (CHANNEL,), 6, end=""),
     Rule("quantities.md", ("app/run/channels.cpp",), (FRUIT_CHANNEL,), 5, prefix="PLANT/FRUIT", end=""),

@@ -20,12 +20,22 @@ std::vector<CommandDescription> whole_table() {
   std::vector<CommandDescription> table = stem_commands();
   for (const auto& part :
        {organ_commands(), document_commands(), waypoint_commands(), scene_commands(),
-        thing_commands(), robot_scene_commands(), run_commands(), measured_commands()})
+        thing_commands(), robot_scene_commands(), run_commands(), robot_commands(), file_commands(),
+        history_commands(), film_commands(), setting_commands(), query_commands(),
+        measured_commands()})
     table.insert(table.end(), part.begin(), part.end());
   return table;
 }
 
 }  // namespace
+
+CommandHandler::CommandHandler(OnDocument function) : on_document_(function) {
+  PEDICEL_ASSERT(function);
+}
+
+CommandHandler::CommandHandler(OnSession function) : on_session_(function) {
+  PEDICEL_ASSERT(function);
+}
 
 const ArgumentDescription* CommandDescription::find(const std::string& argument) const {
   for (const ArgumentDescription& one : arguments)
@@ -55,10 +65,10 @@ const CommandDescription* find_command(const std::string& verb) {
 
 void apply_command(Document& document, const Command& command) {
   const CommandDescription* description = find_command(command.verb());
-  if (!description || !description->apply)
+  if (!description || !description->handler.on_document())
     throw UsageError("\"" + command.verb() + "\" does not change the document");
   Document changed = document;
-  description->apply(changed, command);
+  description->handler.on_document()(changed, command);
   check_bounds(document, changed);
   document = std::move(changed);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,37 @@
 namespace pedicel::app {
 
 struct Document;
+struct Result;
+class Session;
 
 /// What a command acts on, and so what undo takes back: the document only.
 enum class Scope {
   document,  ///< plants, settings, waypoints: undone, journalled
-  run,       ///< the simulation: play, pull, move the robot
+  run,       ///< the simulation: play, pull, move the robot; in the log where it succeeds
   session,   ///< files and history: open, save, undo
+};
+
+/// What does a command. It is made of a function and of nothing else, so that a command that nobody
+/// does cannot be described.
+class CommandHandler {
+ public:
+  /// Changes the document, or throws UsageError; then the document is thrown away.
+  using OnDocument = void (*)(Document&, const Command&);
+  /// Does what is not undone. May throw UsageError, InvalidFile and io::WriteError.
+  using OnSession = Result (*)(Session&, const Command&);
+
+  CommandHandler(OnDocument function);
+  CommandHandler(OnSession function);
+  CommandHandler(std::nullptr_t) = delete;
+
+  /// nullptr where the command is one of the run or the session.
+  OnDocument on_document() const { return on_document_; }
+  /// nullptr where the command is one of the document.
+  OnSession on_session() const { return on_session_; }
+
+ private:
+  OnDocument on_document_ = nullptr;
+  OnSession on_session_ = nullptr;
 };
 
 /// number, point, numbers and points are values; the others name what is changed (but for `text`).
@@ -31,8 +57,10 @@ struct CommandDescription {
   Scope scope = Scope::document;
   std::vector<ArgumentDescription> arguments;
   std::string sentence;
-  /// Document commands: does it, or throws UsageError and leaves the document as it was.
-  void (*apply)(Document&, const Command&) = nullptr;
+  CommandHandler handler;
+  /// Document commands: fills in what was left out and what depends on files, so that a journal or
+  /// a script does the same again anywhere; nullptr: nothing is to be filled in.
+  Command (*complete)(Session&, const Command&) = nullptr;
 
   const ArgumentDescription* find(const std::string& argument) const;
   /// "move point PLANT CURVE INDEX TO"
@@ -53,6 +81,12 @@ std::vector<CommandDescription> thing_commands();
 std::vector<CommandDescription> robot_scene_commands();
 std::vector<CommandDescription> waypoint_commands();
 std::vector<CommandDescription> run_commands();
+std::vector<CommandDescription> robot_commands();
+std::vector<CommandDescription> file_commands();
+std::vector<CommandDescription> history_commands();
+std::vector<CommandDescription> film_commands();
+std::vector<CommandDescription> setting_commands();
+std::vector<CommandDescription> query_commands();
 std::vector<CommandDescription> measured_commands();
 
 /// Applies a document command: all of it or, with a UsageError, nothing.

@@ -4,6 +4,9 @@
 
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/document/document.h"
+#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/core/check.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/yaml.h"
@@ -28,13 +31,39 @@ void set_effects(Document& document, const Command& c) {
   document.edit_plant(c.word("plant")).effects = std::move(*effects);
 }
 
-}  // namespace
-
-bool is_measured_command(const std::string& verb) {
-  for (const CommandDescription& one : measured_commands())
-    if (one.verb == verb) return one.scope == Scope::session;
-  return false;
+Result open_measured(Session& session, const Command& c) {
+  return session.measured().open(c.word("folder"));
 }
+
+Result cancel_reading(Session& session, const Command&) {
+  session.measured().cancel_reading();
+  return {};
+}
+
+Result close_measured(Session& session, const Command&) {
+  session.measured().data().close();
+  return {};
+}
+
+Result begin_diagnosis(Session& session, const Command& c) {
+  return session.measured().diagnose(c.whole_or("threads", 0),
+                                     static_cast<std::uint64_t>(c.whole_or("seed", 1)));
+}
+
+Result cancel_diagnosis(Session& session, const Command&) {
+  session.measured().data().cancel_diagnosis();
+  return {};
+}
+
+Result accept_diagnosis(Session& session, const Command&) {
+  return session.measured().accept_diagnosis();
+}
+
+Result write_diagnosis(Session& session, const Command& c) {
+  return session.measured().write_report(c.word("folder"));
+}
+
+}  // namespace
 
 bool is_experiment(const std::filesystem::path& path) {
   return path.filename() == "experiment.yaml" || std::filesystem::exists(path / "experiment.yaml");
@@ -74,26 +103,26 @@ std::vector<CommandDescription> measured_commands() {
        s,
        {{"folder", Kind::text, true, "path of the experiment"}},
        "Opens measured data and simulates them with the nominal plant.",
-       nullptr},
-      {"cancel reading", s, {}, "Drops the experiment that is being read.", nullptr},
-      {"close experiment", s, {}, "Leaves the measured data.", nullptr},
+       open_measured},
+      {"cancel reading", s, {}, "Drops the experiment that is being read.", cancel_reading},
+      {"close experiment", s, {}, "Leaves the measured data.", close_measured},
       {"diagnose",
        s,
        {{"threads", Kind::whole, false, "that work on it (all cores but one)"},
         {"seed", Kind::whole, false, "of the bootstrap (1)"}},
        "Begins to find out what the simulation of the measured data gets wrong.",
-       nullptr},
-      {"cancel diagnosis", s, {}, "Ends a diagnosis without a result.", nullptr},
+       begin_diagnosis},
+      {"cancel diagnosis", s, {}, "Ends a diagnosis without a result.", cancel_diagnosis},
       {"accept diagnosis",
        s,
        {},
        "Gives the plant the effects that the diagnosis found; undo takes them away.",
-       nullptr},
+       accept_diagnosis},
       {"write report",
        s,
        {{"folder", Kind::text, true, "path"}},
        "Writes the diagnosis as report.html, verdict.json and extended.plant.yaml.",
-       nullptr},
+       write_diagnosis},
   };
 }
 

@@ -8,9 +8,6 @@
 
 namespace pedicel::app {
 
-/// Whether a command of scope `session` is about measured data.
-bool is_measured_command(const std::string& verb);
-
 /// Whether a path is an experiment's folder or its experiment.yaml.
 bool is_experiment(const std::filesystem::path& path);
 

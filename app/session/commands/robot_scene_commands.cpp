@@ -1,5 +1,7 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/commands/scene_things.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
 
@@ -86,6 +88,10 @@ void clear_program(Document& document, const Command&) {
   robot.trajectory.clear();
 }
 
+Command complete_robot(Session& session, const Command& c) {
+  return session.robot().complete(c);
+}
+
 }  // namespace
 
 std::vector<CommandDescription> robot_scene_commands() {
@@ -101,7 +107,8 @@ std::vector<CommandDescription> robot_scene_commands() {
         {"tool", Kind::word, false, "link that is led (the last one, or one that is named so)"},
         {"gripper", Kind::word, false, "joint (one that is named so)"}},
        "Adds a robot.",
-       add_robot},
+       add_robot,
+       complete_robot},
       {"move robot",
        d,
        {{"to", Kind::point, true, "m, in the world: its base"}},

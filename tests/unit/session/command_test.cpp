@@ -7,6 +7,7 @@
 
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/core/check.h"
+#include "session_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -92,11 +93,36 @@ TEST(Command, DragsMergeByWhatTheyName) {
 TEST(Command, EveryOneIsDescribed) {
   for (const CommandDescription& one : command_table()) {
     EXPECT_FALSE(one.sentence.empty()) << one.verb;
-    EXPECT_EQ(one.scope == Scope::document, one.apply != nullptr) << one.verb;
     EXPECT_EQ(find_command(one.verb), &one) << one.verb << " is there twice";
     for (const ArgumentDescription& argument : one.arguments)
       EXPECT_FALSE(argument.sentence.empty()) << one.verb << ' ' << argument.name;
   }
+}
+
+// A description without a handler does not compile.
+static_assert(!std::is_default_constructible_v<CommandHandler>);
+static_assert(!std::is_constructible_v<CommandHandler, std::nullptr_t>);
+static_assert(!std::is_default_constructible_v<CommandDescription>);
+
+TEST(Command, EveryOneHasOneHandlerOfItsScope) {
+  for (const CommandDescription& one : command_table()) {
+    const bool is_of_document = one.scope == Scope::document;
+    EXPECT_EQ(one.handler.on_document() != nullptr, is_of_document) << one.verb;
+    EXPECT_EQ(one.handler.on_session() != nullptr, !is_of_document) << one.verb;
+    EXPECT_TRUE(is_of_document || !one.complete) << one.verb;
+  }
+}
+
+TEST(Command, WhatNobodyDoesIsRefused) {
+  Session session(waiting());
+  const std::uint64_t before = session.document().state_hash();
+  EXPECT_EQ(session.run(Command()).text, ": no such command");
+  EXPECT_FALSE(session.run(Command()).ok);
+  EXPECT_FALSE(session.run_text("fly").ok);
+  Document document = session.document();
+  EXPECT_THROW(apply_command(document, Command("play", {})), UsageError);
+  EXPECT_EQ(session.document().state_hash(), before);
+  EXPECT_TRUE(session.log().empty());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "pedicel/app/session/measured/diagnosis_card.h"
 #include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/session_measured.h"
 #include "session_cases.h"
 #include "support/measured_stem.h"
 #include "support/temporary_folder.h"
@@ -26,7 +27,7 @@ class DiagnosisInSession : public ::testing::Test {
  protected:
   void open(Session& session, const pedicel::testing::MeasuredStem& stem) {
     must(session.run(Command("open experiment", {{"folder", stem.write(folder_ / "e").string()}})));
-    if (session.reading()) must(session.finish_reading());
+    if (session.measured().reading()) must(session.measured().finish_reading());
   }
   static pedicel::testing::MeasuredStem soft() {
     pedicel::testing::MeasuredStem stem;
@@ -40,20 +41,20 @@ class DiagnosisInSession : public ::testing::Test {
 TEST_F(DiagnosisInSession, RunsBesideAndIsCancelled) {
   Session session;
   open(session, soft());
-  session.measured().wait();
+  session.measured().data().wait();
   const auto start = steady_clock::now();
   must(session.run_text("diagnose threads=1"));
   EXPECT_LT(seconds_since(start), 0.5) << "the caller must not wait";
   EXPECT_FALSE(session.run_text("diagnose").ok) << "one at a time";
-  while (session.measured().is_diagnosing() && session.measured().progress().doing.empty() &&
-         seconds_since(start) < 60.0)
+  while (session.measured().data().is_diagnosing() &&
+         session.measured().data().progress().doing.empty() && seconds_since(start) < 60.0)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_FALSE(session.measured().progress().doing.empty());
+  EXPECT_FALSE(session.measured().data().progress().doing.empty());
   must(session.run_text("cancel diagnosis"));
-  EXPECT_TRUE(session.measured().is_cancelling());
-  session.measured().wait();
-  EXPECT_FALSE(session.measured().is_diagnosing());
-  EXPECT_EQ(session.measured().diagnosis(), nullptr);
+  EXPECT_TRUE(session.measured().data().is_cancelling());
+  session.measured().data().wait();
+  EXPECT_FALSE(session.measured().data().is_diagnosing());
+  EXPECT_EQ(session.measured().data().diagnosis(), nullptr);
   EXPECT_FALSE(session.run_text("accept diagnosis").ok);
 }
 
@@ -61,10 +62,10 @@ TEST_F(DiagnosisInSession, AnotherExperimentWaitsForIt) {
   Session session;
   open(session, soft());
   must(session.run_text("diagnose threads=1"));
-  EXPECT_FALSE(session.open_experiment(folder_ / "e").ok);
+  EXPECT_FALSE(session.measured().open(folder_ / "e").ok);
   must(session.run_text("cancel diagnosis"));
-  session.measured().wait();
-  must(session.open_experiment(folder_ / "e"));
+  session.measured().data().wait();
+  must(session.measured().open(folder_ / "e"));
 }
 
 TEST_F(DiagnosisInSession, FindsTheSoftRootAndItIsAccepted) {
@@ -72,7 +73,7 @@ TEST_F(DiagnosisInSession, FindsTheSoftRootAndItIsAccepted) {
   open(session, soft());
   const Result result = session.run_text("diagnose threads=2");
   must(result);
-  const discrepancy::Diagnosis* found = session.measured().diagnosis();
+  const discrepancy::Diagnosis* found = session.measured().data().diagnosis();
   ASSERT_NE(found, nullptr);
   ASSERT_FALSE(found->verdict.causes.empty()) << result.text;
   EXPECT_EQ(found->verdict.causes.front().name, "base_compliance") << result.text;
@@ -86,9 +87,9 @@ TEST_F(DiagnosisInSession, FindsTheSoftRootAndItIsAccepted) {
   EXPECT_FALSE(card.next.empty());
 
   // The three models: the extended one is near the noise where the nominal one is far off.
-  const auto rms = [&](discrepancy::Model m) { return session.measured().path(m, 1)->rms; };
+  const auto rms = [&](discrepancy::Model m) { return session.measured().data().path(m, 1)->rms; };
   EXPECT_GT(rms(discrepancy::nominal), 4.0 * rms(discrepancy::extended));
-  EXPECT_FALSE(session.measured().path(discrepancy::extended, 0)->shape.size() == 0);
+  EXPECT_FALSE(session.measured().data().path(discrepancy::extended, 0)->shape.size() == 0);
 
   const std::uint64_t before = session.document().state_hash();
   must(session.run_text("accept diagnosis"));

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "pedicel/app/session/session_films.h"
 #include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 
@@ -35,7 +36,7 @@ class Films : public ::testing::Test {
  protected:
   Films() : session_(waiting()), maker_(session_) {
     draw_plant(session_);
-    session_.set_film_maker(&maker_);
+    session_.films().set_maker(&maker_);
   }
   Result run(const std::string& line) { return session_.run_text(line); }
 
@@ -90,7 +91,7 @@ TEST_F(Films, FaultsAreTold) {
   EXPECT_THAT(run("stop recording").text, HasSubstr("no film"));
   must(run("record film.mp4"));
   EXPECT_THAT(run("record other.mp4").text, HasSubstr("stop recording"));
-  session_.set_film_maker(nullptr);
+  session_.films().set_maker(nullptr);
   EXPECT_THROW(run("record film.mp4"), NoPictures);
 }
 

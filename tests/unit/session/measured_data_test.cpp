@@ -6,6 +6,8 @@
 
 #include "pedicel/app/session/measured/experiment_reading.h"
 #include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_measured.h"
 #include "pedicel/core/timer.h"
 #include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
@@ -27,7 +29,7 @@ class Measured : public ::testing::Test {
   /// Opened to the end, with what came of it.
   static Result open(Session& session, const std::string& path) {
     const Result begun = session.run(Command("open experiment", {{"folder", path}}));
-    return begun.ok && session.reading() ? session.finish_reading() : begun;
+    return begun.ok && session.measured().reading() ? session.measured().finish_reading() : begun;
   }
 
   TemporaryFolder folder_;
@@ -36,15 +38,15 @@ class Measured : public ::testing::Test {
 TEST_F(Measured, OpensAndSimulatesWithoutWaiting) {
   Session session;
   must(open(session, stem("a")));
-  ASSERT_NE(session.measured().experiment(), nullptr);
-  EXPECT_EQ(session.measured_plant(), 0);
-  EXPECT_TRUE(session.path().empty()) << "saving must not touch the experiment's plant";
-  EXPECT_FALSE(session.dirty());
-  EXPECT_EQ(session.measured().wait(), std::vector<std::string>{});
-  ASSERT_TRUE(session.measured().has(nominal));
+  ASSERT_NE(session.measured().data().experiment(), nullptr);
+  EXPECT_EQ(session.measured().plant(), 0);
+  EXPECT_TRUE(session.files().path().empty()) << "saving must not touch the experiment's plant";
+  EXPECT_FALSE(session.files().dirty());
+  EXPECT_EQ(session.measured().data().wait(), std::vector<std::string>{});
+  ASSERT_TRUE(session.measured().data().has(nominal));
   // Right but for the noise, of 3 coordinates.
-  EXPECT_NEAR(session.measured().path(nominal, 0)->rms, 2e-4 * std::sqrt(3.0), 1e-4);
-  EXPECT_FALSE(session.measured().has(discrepancy::extended));
+  EXPECT_NEAR(session.measured().data().path(nominal, 0)->rms, 2e-4 * std::sqrt(3.0), 1e-4);
+  EXPECT_FALSE(session.measured().data().has(discrepancy::extended));
 }
 
 TEST_F(Measured, ASoftRootShowsAsError) {
@@ -52,12 +54,12 @@ TEST_F(Measured, ASoftRootShowsAsError) {
   soft.effects = {pedicel::testing::soft_root(0.1)};
   Session session(waiting());
   must(session.run(Command("open experiment", {{"folder", stem("soft", soft)}})));
-  const TrialPath* path = session.measured().path(nominal, 0);
+  const TrialPath* path = session.measured().data().path(nominal, 0);
   ASSERT_NE(path, nullptr);
   EXPECT_GT(path->rms, 2e-3);
   // At the end of the stem after the release, not where it is held.
-  const auto held = moment_of(session.measured(), 0, nominal, 0.0);
-  const auto free = moment_of(session.measured(), 0, nominal, 0.2);
+  const auto held = moment_of(session.measured().data(), 0, nominal, 0.0);
+  const auto free = moment_of(session.measured().data(), 0, nominal, 0.2);
   ASSERT_TRUE(held && free);
   EXPECT_LT(held->markers[1].error().norm(), 1e-3);
   EXPECT_GT(free->rms, 2e-3);
@@ -116,10 +118,10 @@ TEST_F(Measured, FaultsAreToldWithTheirPlace) {
   must(session.undo());
   const Result result = open(session, path);
   EXPECT_FALSE(result.ok);
-  ASSERT_FALSE(session.messages().empty());
-  EXPECT_THAT(session.messages().back().text, HasSubstr("experiment.yaml:"));
-  EXPECT_THAT(session.messages().back().text, HasSubstr("fat"));
-  EXPECT_EQ(session.measured().experiment(), nullptr);
+  ASSERT_FALSE(session.messages().all().empty());
+  EXPECT_THAT(session.messages().all().back().text, HasSubstr("experiment.yaml:"));
+  EXPECT_THAT(session.messages().all().back().text, HasSubstr("fat"));
+  EXPECT_EQ(session.measured().data().experiment(), nullptr);
   EXPECT_EQ(session.document().plants.size(), 1u) << "what was open stays";
 }
 
@@ -129,24 +131,26 @@ TEST_F(Measured, IsReadBesideAndMayBeDropped) {
   SlowFile table(std::filesystem::path(slow) / "along_y" / "markers.csv");
   ASSERT_TRUE(table.made());
   must(session.run(Command("open experiment", {{"folder", slow}})));
-  ASSERT_NE(session.reading(), nullptr) << "the caller does not wait";
+  ASSERT_NE(session.measured().reading(), nullptr) << "the caller does not wait";
   const Timer timer;
-  while (session.reading() && session.reading()->trials_read() < 1 && timer.seconds() < 60.0)
+  while (session.measured().reading() && session.measured().reading()->trials_read() < 1 &&
+         timer.seconds() < 60.0)
     session.update();
-  ASSERT_NE(session.reading(), nullptr);
-  EXPECT_EQ(session.reading()->trials(), 2);
-  EXPECT_EQ(session.measured().experiment(), nullptr);
+  ASSERT_NE(session.measured().reading(), nullptr);
+  EXPECT_EQ(session.measured().reading()->trials(), 2);
+  EXPECT_EQ(session.measured().data().experiment(), nullptr);
   // Another one takes its place, whatever becomes of the first.
   must(open(session, quick));
-  ASSERT_NE(session.measured().experiment(), nullptr);
-  EXPECT_EQ(session.measured().experiment()->folder, quick);
+  ASSERT_NE(session.measured().data().experiment(), nullptr);
+  EXPECT_EQ(session.measured().data().experiment()->folder, quick);
   must(session.run(Command("open experiment", {{"folder", slow}})));
   must(session.run_text("cancel reading"));
-  EXPECT_EQ(session.reading(), nullptr);
+  EXPECT_EQ(session.measured().reading(), nullptr);
   table.let_go();
   session.update();
-  EXPECT_EQ(session.measured().experiment()->folder, quick) << "what was dropped does not come";
-  EXPECT_TRUE(session.messages().empty()) << session.messages().back().text;
+  EXPECT_EQ(session.measured().data().experiment()->folder, quick)
+      << "what was dropped does not come";
+  EXPECT_TRUE(session.messages().all().empty()) << session.messages().all().back().text;
 }
 
 TEST_F(Measured, TheForceIsPlottedBesideWhatTheModelsSay) {
@@ -186,7 +190,7 @@ TEST_F(Measured, DrawnWorkIsNotLost) {
   must(session.run_text("new"));
   must(open(session, path));
   must(session.run_text("set effects beam \"[{name: mass_damping, rate: 2}]\""));
-  EXPECT_TRUE(session.dirty());
+  EXPECT_TRUE(session.files().dirty());
   must(open(session, path));
   EXPECT_EQ(session.document().plants[0].file->effects.size(), 1u);
 }

@@ -11,6 +11,8 @@
 #include <functional>
 
 #include "pedicel/app/session/journal.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_recovery.h"
 #include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
@@ -52,8 +54,8 @@ std::uint64_t killed_after(const SessionOptions& options,
 }
 
 void recover_the_one(Session& session) {
-  ASSERT_EQ(session.lost_documents().size(), 1u);
-  ASSERT_TRUE(session.recover(session.lost_documents()[0]));
+  ASSERT_EQ(session.recovery().lost_documents().size(), 1u);
+  ASSERT_TRUE(session.recovery().recover(session.recovery().lost_documents()[0]));
 }
 
 TEST(Recovery, AKilledSessionLosesNothingThatWasDone) {
@@ -66,14 +68,14 @@ TEST(Recovery, AKilledSessionLosesNothingThatWasDone) {
     must(session.undo());
   });
   Session session(saving(folder));
-  const auto lost = session.lost_documents();
+  const auto lost = session.recovery().lost_documents();
   ASSERT_EQ(lost.size(), 1u);
   EXPECT_EQ(lost[0].commands, 8);
   EXPECT_NE(session.document().state_hash(), lost_hash);
-  ASSERT_TRUE(session.recover(lost[0]));
+  ASSERT_TRUE(session.recovery().recover(lost[0]));
   EXPECT_EQ(session.document().state_hash(), lost_hash);
-  EXPECT_TRUE(session.dirty());
-  EXPECT_TRUE(session.lost_documents().empty());
+  EXPECT_TRUE(session.files().dirty());
+  EXPECT_TRUE(session.recovery().lost_documents().empty());
   must(session.redo());  // the history came back, too
   EXPECT_EQ(session.document().plant("p").curves.size(), 1u);
 }
@@ -98,19 +100,19 @@ TEST(Recovery, EditsOfAFileComeBackOverTheFile) {
   const auto file = folder / "tomato.plant.yaml";
   std::filesystem::copy_file(source("plants/cherry_tomato.plant.yaml"), file);
   const std::uint64_t lost_hash = killed_after(saving(folder), [&](Session& session) {
-    ASSERT_TRUE(session.open(file));
+    ASSERT_TRUE(session.files().open(file));
     must(session.run_text("set radius \"cherry tomato\" truss 0.004"));
-    must(session.save());
+    must(session.files().save());
     must(session.run_text("set length \"cherry tomato\" stalk_5 0.05"));
   });
   Session session(saving(folder));
-  const auto lost = session.lost_documents();
+  const auto lost = session.recovery().lost_documents();
   ASSERT_EQ(lost.size(), 1u);
   EXPECT_EQ(lost[0].document, file);
   EXPECT_EQ(lost[0].commands, 1);  // what was saved is in the file
-  ASSERT_TRUE(session.recover(lost[0]));
+  ASSERT_TRUE(session.recovery().recover(lost[0]));
   EXPECT_EQ(session.document().state_hash(), lost_hash);
-  EXPECT_TRUE(session.dirty());
+  EXPECT_TRUE(session.files().dirty());
 }
 
 TEST(Recovery, ARunningOrWellEndedSessionIsNotLost) {
@@ -119,10 +121,10 @@ TEST(Recovery, ARunningOrWellEndedSessionIsNotLost) {
     Session first(saving(folder));
     draw_plant(first);
     Session second(saving(folder));
-    EXPECT_TRUE(second.lost_documents().empty()) << "the first one is alive";
-    first.give_up_edits();
+    EXPECT_TRUE(second.recovery().lost_documents().empty()) << "the first one is alive";
+    first.files().give_up_edits();
   }
-  EXPECT_TRUE(Session(saving(folder)).lost_documents().empty());
+  EXPECT_TRUE(Session(saving(folder)).recovery().lost_documents().empty());
 }
 
 // A terminal's Ctrl-C, a desktop that ends: nobody was asked.
@@ -137,16 +139,16 @@ TEST(Recovery, WhatWasNeitherSavedNorGivenUpIsKept) {
   Session session(saving(folder));
   recover_the_one(session);
   EXPECT_EQ(session.document().plant("p").curves[1].points[2], Vec3(0.2, 0, 0.1));
-  must(session.save(folder / "p.plant.yaml"));
-  EXPECT_FALSE(session.dirty());
+  must(session.files().save(folder / "p.plant.yaml"));
+  EXPECT_FALSE(session.files().dirty());
 }
 
 TEST(Recovery, AFolderThatCannotBeWrittenIsSaid) {
   TemporaryFolder folder;
   std::ofstream(folder / "autosave") << "a file";
   Session session(saving(folder));
-  ASSERT_EQ(session.messages().size(), 1u);
-  EXPECT_THAT(session.messages()[0].text, HasSubstr("autosave is off"));
+  ASSERT_EQ(session.messages().all().size(), 1u);
+  EXPECT_THAT(session.messages().all()[0].text, HasSubstr("autosave is off"));
   draw_plant(session);
 }
 

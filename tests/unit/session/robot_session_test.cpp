@@ -1,6 +1,8 @@
 // The robot led by hand: where its tool is asked to go, the ghost of its goal, programs.
 #include <gmock/gmock.h>
 
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/core/timer.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
@@ -13,7 +15,7 @@ using ::testing::HasSubstr;
 class RobotSession : public ::testing::Test {
  protected:
   RobotSession() : session_(waiting()) {
-    EXPECT_TRUE(session_.open(source("assets/scenes/cherry_tomato_pull_up.scene.yaml")));
+    EXPECT_TRUE(session_.files().open(source("assets/scenes/cherry_tomato_pull_up.scene.yaml")));
     // To where the arm can go any way.
     must(run("run 1"));
     must(run("stop robot"));
@@ -21,7 +23,7 @@ class RobotSession : public ::testing::Test {
   }
   Result run(const std::string& line) { return session_.run_text(line); }
   std::shared_ptr<const Snapshot> now() { return session_.snapshot(); }
-  ToolGoal goal() { return session_.tool_goal().value(); }
+  ToolGoal goal() { return session_.robot().tool_goal().value(); }
   static std::string text_of(const Vec3& p) {
     return std::to_string(p.x()) + "," + std::to_string(p.y()) + "," + std::to_string(p.z());
   }
@@ -182,7 +184,7 @@ TEST_F(RobotSession, GoingBackIsTheSameRunAgain) {
 // A fruit in the gripper, friction in its contacts, and the break between the two ends.
 TEST(RobotRun, BackAndForwardAcrossABreakIsTheSameRun) {
   Session session(waiting());
-  ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
+  ASSERT_TRUE(session.files().open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
   must(session.run_text("run 2.6"));
   const int contacts = session.snapshot()->report.contacts;
   EXPECT_GT(contacts, 0);

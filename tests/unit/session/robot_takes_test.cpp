@@ -107,8 +107,8 @@ TEST_F(RobotTakes, AFruitThatStaysOnIsSaid) {
   run("run 20");
   session.update();
   ASSERT_TRUE(is_on("plant/berry"));
-  ASSERT_FALSE(session.messages().empty());
-  EXPECT_THAT(session.messages().back().text, HasSubstr("plant/berry was not taken off"));
+  ASSERT_FALSE(session.messages().all().empty());
+  EXPECT_THAT(session.messages().all().back().text, HasSubstr("plant/berry was not taken off"));
 }
 
 TEST_F(RobotTakes, UndoTakesBackThePick) {

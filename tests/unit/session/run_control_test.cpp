@@ -9,6 +9,7 @@
 
 #include "pedicel/app/session/live/live_run.h"
 #include "pedicel/app/session/live/organ_place.h"
+#include "pedicel/app/session/session_files.h"
 #include "session_cases.h"
 
 namespace pedicel::app {
@@ -80,7 +81,7 @@ TEST_F(Running, NeverWaitsForThePicture) {
 TEST_F(Running, RatesAreThoseOfWhatIsOpen) {
   for (int i = 0; i < 20 && session.snapshot()->steps_per_second == 0.0; ++i) steps(4000);
   EXPECT_GT(session.snapshot()->steps_per_second, 0.0);
-  session.open_empty();
+  session.files().open_empty();
   EXPECT_EQ(session.snapshot()->steps_per_second, 0.0);
   EXPECT_EQ(session.snapshot()->ms_per_step, 0.0);
 }

@@ -5,6 +5,8 @@
 
 #include "pedicel/app/session/document/effective_plant.h"
 #include "pedicel/app/session/live/robot_goal.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 
@@ -134,13 +136,13 @@ TEST(Robot, AWideTurnDoesNotFlipTheArm) {
                         source("assets/scenes/cherry_tomato_pull_aside.scene.yaml").string()));
   must(session.run_text("stop robot"));
   ASSERT_TRUE(session.snapshot()->robot.present);
-  const Pose tool = session.tool_goal()->nearest_W;
+  const Pose tool = session.robot().tool_goal()->nearest_W;
   const Eigen::VectorXd before = session.snapshot()->robot.q;
   // A ring is dragged by 120 degrees about the tool's own axis.
   Pose turned = tool;
   turned.rotation =
       (tool.rotation * Eigen::AngleAxisd(2.0 * M_PI / 3.0, Vec3::UnitZ())).normalized();
-  const robot::IkResult found = session.reach(turned);
+  const robot::IkResult found = session.robot().reach(turned);
   if (!found.reached) GTEST_SKIP() << found.sentence;
   double most = 0.0;
   for (int i = 0; i < before.size(); ++i) most = std::max(most, std::abs(found.q[i] - before[i]));
@@ -152,9 +154,9 @@ TEST(Robot, HomeIsWhereItStarts) {
   Session session(waiting());
   must(session.run_text("open " +
                         source("assets/scenes/cherry_tomato_pull_aside.scene.yaml").string()));
-  EXPECT_FALSE(session.robot_is_led());
+  EXPECT_FALSE(session.robot().is_led());
   must(session.run_text("jog 0,0,0.02"));
-  EXPECT_TRUE(session.robot_is_led());
+  EXPECT_TRUE(session.robot().is_led());
   must(session.run_text("home robot"));
   const auto& joints = session.snapshot()->assets->scene.robot->joints;
   const auto now = session.snapshot();
@@ -165,7 +167,7 @@ TEST(Robot, HomeIsWhereItStarts) {
     EXPECT_NEAR(now->robot.goal[joint], value, 1e-9) << name;
   }
   must(session.run_text("reset"));
-  EXPECT_FALSE(session.robot_is_led());
+  EXPECT_FALSE(session.robot().is_led());
 }
 
 // A bar that lies at height 0 lies on the ground; a stem that stands in it leaves it where it is.
@@ -180,7 +182,7 @@ TEST(Opened, ABarLiesOnTheGround) {
         "sampling: {connect: 0.01, distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n" +
             curves);
     Session session(waiting());
-    EXPECT_TRUE(session.open(file)) << session.messages().back().text;
+    EXPECT_TRUE(session.files().open(file)) << session.messages().all().back().text;
     return session.document().scene->ground->height;
   };
   EXPECT_NEAR(open("  - {name: bar, points: [[0, 0, 0], [0.3, 0, 0]], section: {kind: rectangle, "

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "pedicel/app/session/session_files.h"
 #include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
@@ -54,7 +55,7 @@ class Saving : public ::testing::Test {
     std::ofstream(plant) << herb_text;
     std::ofstream(scene) << herb_scene;
   }
-  void open(const std::filesystem::path& file) { ASSERT_TRUE(session.open(file)); }
+  void open(const std::filesystem::path& file) { ASSERT_TRUE(session.files().open(file)); }
   void run(const std::string& line) { must(session.run_text(line)); }
   static std::string text(const std::filesystem::path& file) { return io::read_file(file); }
   static bool there(const std::filesystem::path& file) { return std::filesystem::exists(file); }
@@ -72,21 +73,21 @@ TEST_F(Saving, ASceneNameReceivesTheScene) {
   open(scene);
   run("set dt 0.002");
   run("set radius herb stem 0.005");
-  must(session.save(other));
+  must(session.files().save(other));
   EXPECT_EQ(text(scene), herb_scene) << "the one that was open stays as it was";
   EXPECT_EQ(text(plant), herb_text) << "and its plant";
   EXPECT_FALSE(there(scene.string() + "~"));
-  EXPECT_EQ(session.path(), other);
-  EXPECT_FALSE(session.dirty());
+  EXPECT_EQ(session.files().path(), other);
+  EXPECT_FALSE(session.files().dirty());
   EXPECT_THAT(text(other), HasSubstr("name: one          # of a kind"));
   EXPECT_THAT(text(other), HasSubstr("dt: 0.002"));
   EXPECT_THAT(text(other), HasSubstr("file: herb_2.plant.yaml}   # the only one"));
   EXPECT_THAT(text(folder / "herb_2.plant.yaml"), HasSubstr("# measured in May"));
   Session again(waiting());
-  ASSERT_TRUE(again.open(other));
+  ASSERT_TRUE(again.files().open(other));
   EXPECT_EQ(again.document().plant("herb"), session.document().plant("herb"));
   run("set dt 0.001");
-  must(session.save());
+  must(session.files().save());
   EXPECT_EQ(text(scene), herb_scene);
   EXPECT_THAT(text(other), HasSubstr("dt: 0.001"));
 }
@@ -94,10 +95,10 @@ TEST_F(Saving, ASceneNameReceivesTheScene) {
 TEST_F(Saving, ASceneInAnotherFolderFindsItsPlants) {
   open(scene);
   std::filesystem::create_directory(folder / "deep");
-  must(session.save(folder / "deep" / "one.scene.yaml"));
+  must(session.files().save(folder / "deep" / "one.scene.yaml"));
   EXPECT_THAT(text(folder / "deep" / "one.scene.yaml"), HasSubstr("file: ../herb.plant.yaml}"));
   Session again(waiting());
-  ASSERT_TRUE(again.open(folder / "deep" / "one.scene.yaml"));
+  ASSERT_TRUE(again.files().open(folder / "deep" / "one.scene.yaml"));
   EXPECT_EQ(again.document().plants.size(), 1u);
 }
 
@@ -106,22 +107,23 @@ TEST_F(Saving, APlantNameReceivesThePlantAlone) {
   run("set radius herb stem 0.005");
   run("set dt 0.002");
   const auto copy = folder / "copy.plant.yaml";
-  const Result saved = session.save(copy);
+  const Result saved = session.files().save(copy);
   must(saved);
   EXPECT_THAT(saved.text, HasSubstr("the plant \"herb\" alone"));
   EXPECT_EQ(text(scene), herb_scene);
   EXPECT_EQ(text(plant), herb_text);
-  EXPECT_EQ(session.path(), scene);
-  EXPECT_TRUE(session.dirty()) << "the scene is not saved by this";
+  EXPECT_EQ(session.files().path(), scene);
+  EXPECT_TRUE(session.files().dirty()) << "the scene is not saved by this";
   EXPECT_THAT(text(copy), HasSubstr("# the stem"));
-  must(session.save());
+  must(session.files().save());
   EXPECT_THAT(text(scene), HasSubstr("file: herb.plant.yaml}")) << "it does not point at the copy";
 }
 
 TEST_F(Saving, OfSeveralPlantsTheOneThatIsNamed) {
   open(scene);
   run("copy plant herb second position=0.5,0,0");
-  EXPECT_THAT(session.save(folder / "x.plant.yaml").text, HasSubstr("one of: herb, second"));
+  EXPECT_THAT(session.files().save(folder / "x.plant.yaml").text,
+              HasSubstr("one of: herb, second"));
   EXPECT_FALSE(there(folder / "x.plant.yaml"));
   run("set radius second stem 0.006");
   run("save " + (folder / "x.plant.yaml").string() + " plant=second");
@@ -143,24 +145,24 @@ TEST_F(Saving, OtherNamesAreRefused) {
 
 TEST_F(Saving, ANewSceneIsSavedWithItsPlants) {
   draw_plant(session);
-  EXPECT_TRUE(session.needs_name());
-  EXPECT_EQ(session.suggested_name().filename(), "p.scene.yaml");
+  EXPECT_TRUE(session.files().needs_name());
+  EXPECT_EQ(session.files().suggested_name().filename(), "p.scene.yaml");
   run("save " + (folder / "new.scene.yaml").string());
   EXPECT_TRUE(there(folder / "p.plant.yaml"));
-  EXPECT_FALSE(session.dirty());
-  EXPECT_FALSE(session.needs_name());
+  EXPECT_FALSE(session.files().dirty());
+  EXPECT_FALSE(session.files().needs_name());
   Session again(waiting());
-  ASSERT_TRUE(again.open(folder / "new.scene.yaml"));
+  ASSERT_TRUE(again.files().open(folder / "new.scene.yaml"));
   EXPECT_EQ(again.document().state_hash(), session.document().state_hash());
 }
 
 TEST_F(Saving, TwoPlantsOfOneFilePartWhenOneIsChanged) {
   open(scene);
   run("copy plant herb second position=0.5,0,0");
-  must(session.save());
+  must(session.files().save());
   EXPECT_THAT(text(scene), HasSubstr("{name: second, file: herb.plant.yaml, position"));
   run("set radius second stem 0.006");
-  must(session.save());
+  must(session.files().save());
   EXPECT_EQ(text(plant), herb_text) << "the first one's";
   EXPECT_THAT(text(scene), HasSubstr("second, file: second.plant.yaml"));
 }
@@ -173,7 +175,7 @@ TEST_F(Saving, AFileThatIsThereIsNotWrittenOverUnasked) {
   const auto precious = folder / "precious.plant.yaml";
   std::ofstream(precious) << "precious";
   for (const auto& file : {other, precious}) {
-    const Result saved = session.save(file);
+    const Result saved = session.files().save(file);
     EXPECT_FALSE(saved.ok);
     EXPECT_TRUE(saved.overwrites);
     EXPECT_THAT(saved.text, HasSubstr("is there already, expected a new name, or overwrite=1"));
@@ -189,17 +191,17 @@ TEST_F(Saving, WhatAnotherProgramChangedIsNotWrittenOverUnasked) {
   run("set radius herb twig 0.001");
   const std::string theirs = with(herb_text, "density: 800", "density: 650");
   std::ofstream(plant) << theirs;
-  const Result saved = session.save();
+  const Result saved = session.files().save();
   EXPECT_FALSE(saved.ok);
   EXPECT_TRUE(saved.overwrites);
   EXPECT_THAT(saved.text, HasSubstr("herb.plant.yaml was changed by another program"));
   EXPECT_EQ(text(plant), theirs);
-  EXPECT_TRUE(session.dirty());
+  EXPECT_TRUE(session.files().dirty());
   run("save overwrite=1");
   EXPECT_THAT(text(plant), HasSubstr("density: 800"));
   EXPECT_EQ(text(plant.string() + "~"), theirs);
   run("set radius herb twig 0.002");
-  must(session.save());  // what it wrote itself is known
+  must(session.files().save());  // what it wrote itself is known
 }
 
 TEST_F(Saving, TheSceneFileToo) {
@@ -207,9 +209,9 @@ TEST_F(Saving, TheSceneFileToo) {
   run("set dt 0.002");
   const std::string theirs = with(herb_scene, "duration: 1", "duration: 2");
   std::ofstream(scene) << theirs;
-  EXPECT_TRUE(session.save().overwrites);
+  EXPECT_TRUE(session.files().save().overwrites);
   EXPECT_EQ(text(scene), theirs);
-  must(session.save({}, {{}, true}));
+  must(session.files().save({}, {{}, true}));
   EXPECT_THAT(text(scene), HasSubstr("dt: 0.002"));
   EXPECT_THAT(text(scene), HasSubstr("duration: 1"));
 }
@@ -218,7 +220,7 @@ TEST_F(Saving, CommentsOfAnotherProgramStay) {
   open(scene);
   run("set radius herb twig 0.001");
   std::ofstream(plant) << with(herb_text, "# the stem", "# the stem, as Ann says");
-  must(session.save());
+  must(session.files().save());
   EXPECT_THAT(text(plant), HasSubstr("# the stem, as Ann says"));
 }
 
@@ -227,29 +229,29 @@ TEST_F(Saving, CommentsOfAnotherProgramStay) {
 TEST_F(Saving, OnlyWhatChangedIsWritten) {
   open(plant);
   run("move point herb twig 1 0.12,0,0.2");
-  must(session.save());
+  must(session.files().save());
   EXPECT_EQ(text(plant), with(herb_text, "[0.1, 0, 0.2]", "[0.12, 0, 0.2]"));
   run("undo");
-  must(session.save());
+  must(session.files().save());
   EXPECT_EQ(text(plant), herb_text);
 }
 
 TEST_F(Saving, AnAnchorKeepsWhatOthersHaveOfIt) {
   open(plant);
   run("set radius herb stem 0.005");
-  must(session.save());
+  must(session.files().save());
   EXPECT_EQ(text(plant), with(with(herb_text, "&thin 0.004", "&thin 0.005"), "*thin}", "0.004}"));
 }
 
 TEST_F(Saving, OrgansComeAndGoInTheirFile) {
   open(plant);
   run("add fruit herb berry twig 1 0.01 force=2");
-  must(session.save());
+  must(session.files().save());
   EXPECT_EQ(text(plant), herb_text + std::string("fruits:\n  - {name: berry, curve: twig, at: 1, "
                                                  "radius: 0.01, density: 950, detach: {force: "
                                                  "2}}\n"));
   run("delete stem herb twig");
-  must(session.save());
+  must(session.files().save());
   std::string expected = herb_text;
   expected.erase(expected.find("  - {name: twig"));
   EXPECT_EQ(text(plant), expected);
@@ -259,7 +261,7 @@ TEST_F(Saving, NumbersAreThoseOfEveryYamlReader) {
   open(plant);
   run("set material herb youngs_modulus 3e9");
   run("set material herb damping_time 0.00001");
-  must(session.save());
+  must(session.files().save());
   EXPECT_THAT(text(plant), HasSubstr("youngs_modulus: 3.0e+9"));
   EXPECT_THAT(text(plant), HasSubstr("damping_time: 1.0e-5"));
 }
@@ -269,16 +271,16 @@ TEST_F(Saving, NumbersAreThoseOfEveryYamlReader) {
 TEST_F(Saving, WhatCannotBeOpenedLeavesTheEditsUnsaved) {
   open(scene);
   run("set dt 0.002");
-  EXPECT_FALSE(session.open(folder / "nothing.scene.yaml"));
-  EXPECT_TRUE(session.dirty());
+  EXPECT_FALSE(session.files().open(folder / "nothing.scene.yaml"));
+  EXPECT_TRUE(session.files().dirty());
 }
 
 TEST_F(Saving, AScriptAfterSaveAsDoesTheSame) {
   open(scene);
   run("set radius herb stem 0.005");
-  must(session.save(other));
+  must(session.files().save(other));
   run("set radius herb stem 0.006");
-  must(session.save());
+  must(session.files().save());
   run("save script " + (folder / "again.script").string());
   Session again(waiting());
   std::ifstream script(folder / "again.script");

@@ -5,6 +5,8 @@
 
 #include "edit_cases.h"
 #include "pedicel/app/session/commands/scene_things.h"
+#include "pedicel/app/session/session_files.h"
+#include "pedicel/app/session/session_recovery.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "support/temporary_folder.h"
@@ -82,14 +84,14 @@ TEST_F(Building, WhatIsAddedToARunIsInIt) {
 TEST_F(Building, SavedAndReadAgainItIsTheSame) {
   build();
   const auto file = folder / "built.scene.yaml";
-  must(session.save(file));
-  EXPECT_FALSE(session.dirty());
+  must(session.files().save(file));
+  EXPECT_FALSE(session.files().dirty());
   Session again(waiting());
-  ASSERT_TRUE(again.open(file));
+  ASSERT_TRUE(again.files().open(file));
   EXPECT_EQ(again.document().state_hash(), session.document().state_hash());
   EXPECT_EQ(hash_after(again, 100), hash_after(session, 100));
   const std::string text = io::read_file(file);
-  must(again.save());
+  must(again.files().save());
   EXPECT_EQ(io::read_file(file), text);
   const std::vector<std::string> keys = {
       "\nplants:", "\nrobot:", "\nbodies:", "\nground:", "\ncameras:"};
@@ -110,7 +112,7 @@ TEST_F(Building, EveryCommandIsUndoneAndRedone) {
     must(session.undo());
     hashes.push_back(session.document().state_hash());
   }
-  EXPECT_FALSE(session.dirty());
+  EXPECT_FALSE(session.files().dirty());
   for (std::size_t i = hashes.size() - 1; i > 0; --i) {
     EXPECT_NE(hashes[i], hashes[i - 1]) << "a step that changed nothing";
     must(session.redo());
@@ -139,10 +141,10 @@ TEST_F(Building, AKilledProgramLeavesIt) {
     built = lost.document().state_hash();
   }
   Session found(options);
-  ASSERT_EQ(found.lost_documents().size(), 1u);
-  ASSERT_TRUE(found.recover(found.lost_documents()[0]));
+  ASSERT_EQ(found.recovery().lost_documents().size(), 1u);
+  ASSERT_TRUE(found.recovery().recover(found.recovery().lost_documents()[0]));
   EXPECT_EQ(found.document().state_hash(), built);
-  EXPECT_TRUE(found.messages().empty());
+  EXPECT_TRUE(found.messages().all().empty());
 }
 
 TEST_F(Building, ThingsAreMovedTurnedCopiedRenamedDeleted) {
@@ -207,7 +209,7 @@ TEST_F(Building, WhatCannotBeIsRefusedWithASentence) {
 // An added arm is of use where it stands: its tool comes to the fruit.
 TEST_F(Building, AnAddedArmReachesTheFruit) {
   for (const double x : {0.0, 2.0}) {
-    session.open_empty();
+    session.files().open_empty();
     for (const char* line : draw_lines) run(line);
     run("move plant p " + std::to_string(x) + ",1,0");
     run("add robot " + source(stalk6).string());
@@ -224,7 +226,7 @@ TEST_F(Building, AnAddedArmReachesTheFruit) {
 class Spoken : public Building {
  protected:
   Spoken() {
-    EXPECT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
+    EXPECT_TRUE(session.files().open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
   }
 };
 
@@ -238,7 +240,7 @@ TEST_F(Spoken, AThingThatIsMeantIsDeletedAfterWhatMeansIt) {
   run("delete plant truss");
   must(session.undo());
   must(session.undo());
-  EXPECT_FALSE(session.dirty());
+  EXPECT_FALSE(session.files().dirty());
   EXPECT_EQ(scene().robot->waypoints.size(), 6u);
 }
 
@@ -261,13 +263,13 @@ TEST_F(Spoken, ANewNameIsSaidEverywhere) {
   EXPECT_EQ(scene().expectations[3].body, "box");
   EXPECT_EQ(scene().video.camera, "view");
   EXPECT_EQ(session.document().settings[0].first, "plants.cherry.detach.stretch");
-  must(session.save(folder / "renamed.scene.yaml"));
+  must(session.files().save(folder / "renamed.scene.yaml"));
   const std::string text = io::read_file(folder / "renamed.scene.yaml");
   EXPECT_THAT(text, Not(HasSubstr("truss/")));
   EXPECT_THAT(text, HasSubstr("facing: {approach: [-1, 0, 0], across: [0, 1, 0]}"))
       << "the rest is as it was written";
   Session again(waiting());
-  ASSERT_TRUE(again.open(folder / "renamed.scene.yaml"));
+  ASSERT_TRUE(again.files().open(folder / "renamed.scene.yaml"));
   EXPECT_EQ(hash_after(again, 20), hash_after(session, 20));
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "pedicel/app/session/session_files.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 
@@ -54,7 +55,7 @@ class Scripts : public ::testing::Test {
     return run_script(folder / "story.txt", session, out, errors);
   }
   void open_robot() {
-    ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_up.scene.yaml")));
+    ASSERT_TRUE(session.files().open(source("assets/scenes/cherry_tomato_pull_up.scene.yaml")));
   }
   TemporaryFolder folder;
   Session session;
@@ -91,7 +92,7 @@ TEST_F(Scripts, TheLogIsAScriptThatDoesTheSame) {
   std::string text;
   for (const std::string& line : session.log()) text += line + "\n";
   const std::uint64_t hash = session.document().state_hash();
-  session.open_empty();
+  session.files().open_empty();
   ASSERT_EQ(run(text), 0) << errors.str();
   EXPECT_EQ(session.document().state_hash(), hash);
 }
@@ -226,13 +227,13 @@ TEST(SavedScript, BeginsWithWhatWasThereBeforeASave) {
   TemporaryFolder folder;
   Session session(waiting());
   draw_plant(session);
-  must(session.save(folder / "new.plant.yaml"));
+  must(session.files().save(folder / "new.plant.yaml"));
   must(session.run_text("move point p branch 2 0.12,0,0.14"));
   must(session.run_text("run 0.1"));
   expect_replay(folder, session);  // a new plant
   must(session.run_text("open " + (folder / "new.plant.yaml").string()));
   must(session.run_text("draw stem p second 0,0,0.2;0.1,0.05,0.25 0.002"));
-  must(session.save());
+  must(session.files().save());
   must(session.run_text("delete organ p berry"));
   must(session.run_text("run 0.1"));
   expect_replay(folder, session);  // one that was saved over
@@ -247,13 +248,13 @@ TEST(SavedScript, OfASceneThatWasSavedOver) {
                           "ground: {height: 0}\nplants:\n"
                           "  - {name: truss, file: truss.plant.yaml}\n";
   Session session(waiting());
-  ASSERT_TRUE(session.open(scene)) << session.messages().back().text;
+  ASSERT_TRUE(session.files().open(scene)) << session.messages().all().back().text;
   must(session.run_text("set dt 0.004"));
   must(session.run_text("set plants.truss.detach.stretch 0.2"));
   must(session.run_text("new plant p"));
   must(session.run_text("draw stem p stem 0.3,0,0;0.3,0,0.2 0.003"));
-  must(session.save(folder / "p.plant.yaml"));
-  must(session.save());
+  must(session.files().save(folder / "p.plant.yaml"));
+  must(session.files().save());
   must(session.run_text("unset dt"));
   must(session.run_text("run 0.1"));
   const double dt = session.snapshot()->assets->scene.dt;
@@ -265,7 +266,8 @@ TEST(SavedScript, ReadsTheFilesAnewWhereThatWasDone) {
   TemporaryFolder folder;
   std::filesystem::copy_file(source("plants/cherry_tomato.plant.yaml"), folder / "p.plant.yaml");
   Session session(waiting());
-  ASSERT_TRUE(session.open(folder / "p.plant.yaml")) << session.messages().back().text;
+  ASSERT_TRUE(session.files().open(folder / "p.plant.yaml"))
+      << session.messages().all().back().text;
   const std::string plant = session.document().plants.front().entry.name;
   must(session.run_text("draw stem \"" + plant + "\" more 0,0,0.2;0.1,0.05,0.25 0.002"));
   must(session.run_text("reload"));

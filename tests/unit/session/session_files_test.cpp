@@ -1,4 +1,6 @@
 // Opening, saving, importing, exporting: what is written is what was drawn.
+#include "pedicel/app/session/session_files.h"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -29,13 +31,13 @@ class Files : public ::testing::Test {
 
 TEST_F(Files, SavingAndOpeningGiveTheSamePlant) {
   draw_plant(session);
-  EXPECT_TRUE(session.dirty());
-  EXPECT_FALSE(session.save().ok) << "a new plant has no file yet";
-  must(session.save(folder / "new.plant.yaml"));
-  EXPECT_FALSE(session.dirty());
+  EXPECT_TRUE(session.files().dirty());
+  EXPECT_FALSE(session.files().save().ok) << "a new plant has no file yet";
+  must(session.files().save(folder / "new.plant.yaml"));
+  EXPECT_FALSE(session.files().dirty());
   EXPECT_EQ(read(folder / "new.plant.yaml"), session.document().plant("p"));
   Session other(waiting());
-  ASSERT_TRUE(other.open(folder / "new.plant.yaml"));
+  ASSERT_TRUE(other.files().open(folder / "new.plant.yaml"));
   EXPECT_EQ(other.document().plant("p"), session.document().plant("p"));
   EXPECT_EQ(other.document().state_hash(), session.document().state_hash());
 }
@@ -43,39 +45,39 @@ TEST_F(Files, SavingAndOpeningGiveTheSamePlant) {
 TEST_F(Files, TheFileBeforeStays) {
   draw_plant(session);
   const auto file = folder / "p.plant.yaml";
-  must(session.save(file));
+  must(session.files().save(file));
   const std::string before = io::read_file(file);
   must(session.run_text("set radius p stem 0.005"));
-  must(session.save());
+  must(session.files().save());
   EXPECT_EQ(io::read_file(file.string() + "~"), before);
   EXPECT_NE(io::read_file(file), before);
 }
 
 TEST_F(Files, UndoDoesNotForgetWhereItWasSaved) {
   draw_plant(session);
-  must(session.save(folder / "p.plant.yaml"));
+  must(session.files().save(folder / "p.plant.yaml"));
   must(session.undo());
-  EXPECT_TRUE(session.dirty());
+  EXPECT_TRUE(session.files().dirty());
   EXPECT_TRUE(session.is_simulated());
-  must(session.save());
+  must(session.files().save());
   EXPECT_TRUE(read(folder / "p.plant.yaml").fruits.empty());
   must(session.run_text("new plant q"));
   must(session.run_text("new plant r"));
   must(session.run_text("draw stem q s 0,0,0;0,0,1 0.01"));
   must(session.run_text("draw stem r s 0,0,0;0,0,1 0.01"));
-  EXPECT_THAT(session.save(folder / "both.plant.yaml").text,
+  EXPECT_THAT(session.files().save(folder / "both.plant.yaml").text,
               HasSubstr("which plant, expected plant=NAME, one of: p, q, r"));
-  EXPECT_THAT(session.save().text, HasSubstr("expected a path *.scene.yaml"));
+  EXPECT_THAT(session.files().save().text, HasSubstr("expected a path *.scene.yaml"));
 }
 
 TEST_F(Files, AnEditByHandAndReload) {
   draw_plant(session);
   const auto file = folder / "p.plant.yaml";
-  must(session.save(file));
+  must(session.files().save(file));
   std::string text = io::read_file(file);
   text.replace(text.find("radius: 0.004"), 13, "radius: 0.006");
   std::ofstream(file) << text;
-  ASSERT_TRUE(session.reload());
+  ASSERT_TRUE(session.files().reload());
   EXPECT_EQ(session.document().plant("p").curves[0].radius[0], 0.006);
   must(session.undo());
   EXPECT_EQ(session.document().plant("p").curves[0].radius[0], 0.004);
@@ -88,14 +90,14 @@ TEST_F(Files, AFaultNamesFileAndLineAndCanBeRetried) {
   bad.replace(bad.find("shape: drawn"), 12, "shape: blue!");
   std::ofstream(file) << bad;
   draw_plant(session);
-  EXPECT_FALSE(session.open(file));
-  ASSERT_FALSE(session.messages().empty());
-  EXPECT_THAT(session.messages().back().text, HasSubstr("bad.plant.yaml:8:8: error"));
-  EXPECT_TRUE(session.messages().back().can_retry);
+  EXPECT_FALSE(session.files().open(file));
+  ASSERT_FALSE(session.messages().all().empty());
+  EXPECT_THAT(session.messages().all().back().text, HasSubstr("bad.plant.yaml:8:8: error"));
+  EXPECT_TRUE(session.messages().all().back().can_retry);
   EXPECT_EQ(session.document().plants.size(), 1u) << "what was open stays";
   std::ofstream(file) << good;
-  ASSERT_TRUE(session.reload());
-  EXPECT_EQ(session.path(), file);
+  ASSERT_TRUE(session.files().reload());
+  EXPECT_EQ(session.files().path(), file);
 }
 
 // The scene's robot grips fruit_5: without it nothing can be simulated.
@@ -105,7 +107,7 @@ TEST_P(Unbuildable, AnEditIsTakenBackWholeWithOneSentence) {
   SessionOptions options;
   options.waits = GetParam();
   Session session(options);
-  ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
+  ASSERT_TRUE(session.files().open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
   session.control().wait();
   session.update();
   must(session.run_text("delete organ truss fruit_1"));
@@ -117,8 +119,8 @@ TEST_P(Unbuildable, AnEditIsTakenBackWholeWithOneSentence) {
   session.control().wait();
   session.update();
   EXPECT_EQ(result.ok, !GetParam()) << "where commands wait it is known at once";
-  ASSERT_EQ(session.messages().size(), 1u);
-  const Message& message = session.messages().front();
+  ASSERT_EQ(session.messages().all().size(), 1u);
+  const Message& message = session.messages().all().front();
   EXPECT_THAT(message.text, HasSubstr("delete organ: taken back, for it could not be simulated"));
   EXPECT_THAT(message.text, HasSubstr("\"truss/fruit_5\" is not there"));
   EXPECT_THAT(message.text, ::testing::Not(HasSubstr("\n")));
@@ -129,7 +131,7 @@ TEST_P(Unbuildable, AnEditIsTakenBackWholeWithOneSentence) {
   EXPECT_EQ(session.history().size(), 1u);
   EXPECT_FALSE(session.history().can_redo());
   must(session.undo());
-  EXPECT_FALSE(session.dirty());
+  EXPECT_FALSE(session.files().dirty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, Unbuildable, ::testing::Bool(), [](const auto& one) {
@@ -138,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, Unbuildable, ::testing::Bool(), [](const auto
 
 // A drag is judged when it ends: on its way it may pass through what cannot be.
 TEST_F(Files, AGestureThatCannotBeSimulatedIsTakenBackAtItsEnd) {
-  ASSERT_TRUE(session.open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
+  ASSERT_TRUE(session.files().open(source("assets/scenes/cherry_tomato_pull_aside.scene.yaml")));
   const std::uint64_t before = session.document().state_hash();
   session.begin_gesture();
   must(session.run_text("delete organ truss fruit_1"));
@@ -153,23 +155,23 @@ TEST_F(Files, AMendedFileTakesItsMessageAway) {
   const auto file = folder / "mended.plant.yaml";
   const std::string good = io::read_file(source("plants/cherry_tomato.plant.yaml"));
   std::ofstream(file) << "curves: 3\n";
-  EXPECT_FALSE(session.open(file));
-  EXPECT_EQ(session.messages().size(), 1u);
-  EXPECT_FALSE(session.reload());
-  EXPECT_EQ(session.messages().size(), 1u) << "the same fault stands there once";
-  EXPECT_EQ(session.messages_said(), 2u) << "but it was said again";
+  EXPECT_FALSE(session.files().open(file));
+  EXPECT_EQ(session.messages().all().size(), 1u);
+  EXPECT_FALSE(session.files().reload());
+  EXPECT_EQ(session.messages().all().size(), 1u) << "the same fault stands there once";
+  EXPECT_EQ(session.messages().said(), 2u) << "but it was said again";
   std::ofstream(file) << good;
-  ASSERT_TRUE(session.reload());
-  EXPECT_TRUE(session.messages().empty());
+  ASSERT_TRUE(session.files().reload());
+  EXPECT_TRUE(session.messages().all().empty());
 }
 
 TEST_F(Files, ASceneWithItsPlantsAndRobot) {
   const auto scene = source("assets/scenes/cherry_tomato_pull_up.scene.yaml");
-  ASSERT_TRUE(session.open(scene));
+  ASSERT_TRUE(session.files().open(scene));
   const auto now = session.snapshot();
   ASSERT_FALSE(now->plants.empty());
   EXPECT_TRUE(now->robot.present);
-  EXPECT_FALSE(session.dirty());
+  EXPECT_FALSE(session.files().dirty());
   must(session.run_text("run 0.1"));
 }
 
@@ -195,20 +197,21 @@ TEST_F(Files, ATableIsReadInTheUnitThatIsNamed) {
     return session.document().plant(name).curves[0].points.back().z();
   };
   EXPECT_NEAR(height("again"), 0.2, 1.0e-12);
-  EXPECT_THAT(session.messages().back().text, HasSubstr("cm.csv: notice: 0.2 m tall, 3 nodes"));
+  EXPECT_THAT(session.messages().all().back().text,
+              HasSubstr("cm.csv: notice: 0.2 m tall, 3 nodes"));
   EXPECT_THAT(session.run_text("import " + file + " plant=third unit=furlong").text,
               HasSubstr("unit furlong: expected m, cm, mm or a number of metres"));
   must(session.run_text("open " + file + " unit=0.01"));
   EXPECT_NEAR(height("cm"), 0.2, 1.0e-12);
-  EXPECT_TRUE(session.reload());
+  EXPECT_TRUE(session.files().reload());
   EXPECT_NEAR(height("cm"), 0.2, 1.0e-12);
-  EXPECT_THAT(session.script(), HasSubstr("unit=0.01"));
+  EXPECT_THAT(session.files().script(), HasSubstr("unit=0.01"));
 }
 
 // Branches anywhere between control points, thin stalks, smooth curves: the same plant again, but
 // for what a table cannot say, and from then on the same to the last bit.
 TEST_F(Files, ATableOfAPlantIsReadAsTheSamePlant) {
-  ASSERT_TRUE(session.open(source("plants/cherry_tomato.plant.yaml")));
+  ASSERT_TRUE(session.files().open(source("plants/cherry_tomato.plant.yaml")));
   const std::string name = session.document().plants[0].entry.name;
   must(
       session.run(Command("export", {{"plant", name}, {"file", (folder / "first.csv").string()}})));

@@ -2,6 +2,7 @@
 // both are exact.
 #include <gmock/gmock.h>
 
+#include "pedicel/app/session/session_tuning.h"
 #include "session_cases.h"
 
 namespace pedicel::app {
@@ -17,7 +18,7 @@ class Tuning : public ::testing::Test {
   }
   long step() const { return session.snapshot()->step; }
   const SessionParameter& parameter(const std::string& key) {
-    all = session.parameters();
+    all = session.tuning().parameters();
     for (const SessionParameter& one : all)
       if (one.key == key) return one;
     ADD_FAILURE() << "no parameter " << key;
@@ -123,7 +124,7 @@ TEST_F(Tuning, ParametersAreDescribedAndReset) {
   EXPECT_EQ(parameter("plants.p.detach.bend").value, 0.7);
   EXPECT_EQ(parameter("plants.p.detach.bend").initial, 0.5);
   EXPECT_TRUE(parameter("plants.p.detach.bend").changed);
-  must(session.reset_parameter("plants.p.detach.bend"));
+  must(session.tuning().reset("plants.p.detach.bend"));
   EXPECT_EQ(parameter("plants.p.detach.bend").value, 0.5);
 }
 

@@ -4,26 +4,26 @@
 #include "pedicel/app/run/plant_step.h"
 #include "pedicel/app/session/live/pick_program.h"
 #include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_core.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/core/check.h"
 
 namespace pedicel::app {
 
-Result Session::pick(const Command& c) {
+Result SessionRobot::pick(const std::string& organ, const std::optional<Vec3>& pull_W) {
   const auto now = snapshot();
   kinematics_of(*now);  // says where there is no robot
-  const std::string& organ = c.word("organ");
   const FruitPlace fruit = find_fruit(*now, organ);
   const robot::Trajectory program =
-      c.has("pull") ? pick_program(*now, fruit, c.point("pull")) : usual_pick(*now, fruit);
-  note_pull(true);  // undo takes it back
+      pull_W ? pick_program(*now, fruit, *pull_W) : usual_pick(*now, fruit);
+  core_.pulls.add(*snapshot(), core_.editor.history().size(), true);  // undo takes it back
   const Result result = play(program, false);
   picked_ = Picked{organ, now->stage, now->step, now->time + program.times().back()};
   return result;
 }
 
 // A plant that gives way to the end of the pull keeps its fruit: that is said.
-void Session::tell_pick() {
+void SessionRobot::update() {
   constexpr double later = 0.3;  // s, after the pull
   if (!picked_) return;
   const auto now = snapshot();
@@ -36,11 +36,12 @@ void Session::tell_pick() {
       const auto element = static_cast<std::size_t>(plant.model->fruits[index].element);
       if (fruit_name(*plant.model, f) != picked.organ || !plant.state.alive[element]) continue;
       const long used = std::lround(100.0 * plant.margin_used[index]);
-      say(Severity::warning, "warning: " + picked.organ +
-                                 " was not taken off: at the end its stalk bears " +
-                                 std::to_string(used) +
-                                 " % of what breaks it (a stiffer plant, a weaker stalk or "
-                                 "\"pick ... pull=X,Y,Z\" another way helps)");
+      core_.messages.say(Severity::warning,
+                         "warning: " + picked.organ +
+                             " was not taken off: at the end its stalk bears " +
+                             std::to_string(used) +
+                             " % of what breaks it (a stiffer plant, a weaker stalk or "
+                             "\"pick ... pull=X,Y,Z\" another way helps)");
     }
 }
 

@@ -1,5 +1,6 @@
 #include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_core.h"
+#include "pedicel/app/session/session_robot.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
@@ -35,11 +36,12 @@ robot::Trajectory lap_of(const Snapshot& now, const robot::KinematicModel& model
 
 }  // namespace
 
-robot::Trajectory Session::waypoint_trajectory(const robot::KinematicModel& model) const {
-  if (document_.waypoints.empty()) throw UsageError("no waypoints, expected some to be recorded");
+robot::Trajectory SessionRobot::waypoint_trajectory(const robot::KinematicModel& model) const {
+  if (core_.editor.document().waypoints.empty())
+    throw UsageError("no waypoints, expected some to be recorded");
   std::vector<double> times;
   std::vector<Eigen::VectorXd> positions;
-  for (const RobotWaypoint& one : document_.waypoints) {
+  for (const RobotWaypoint& one : core_.editor.document().waypoints) {
     if (static_cast<int>(one.joints.size()) != model.dofs())
       throw UsageError("the waypoint at " + io::format_number(one.time) + " s has " +
                        std::to_string(one.joints.size()) + " joints, expected " +
@@ -57,7 +59,7 @@ robot::Trajectory Session::waypoint_trajectory(const robot::KinematicModel& mode
 }
 
 // A program that begins later than now begins with the way there.
-Result Session::play(robot::Trajectory program, bool loops) {
+Result SessionRobot::play(robot::Trajectory program, bool loops) {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
   std::vector<double> times = program.times();
@@ -67,22 +69,22 @@ Result Session::play(robot::Trajectory program, bool loops) {
       times.insert(times.begin(), 0.0);
       positions.insert(positions.begin(), now->robot.q);
     }
-    control_.play_trajectory({std::move(times), std::move(positions)});
+    core_.control.play_trajectory({std::move(times), std::move(positions)});
     return {};
   }
   if (times.size() < 2) throw UsageError("one place is no loop, expected two or more");
   const double lead = std::max(times.front(), travel_time(*now, model, now->robot.q, positions[0]));
   robot::Trajectory way = lead > 0.0 ? robot::Trajectory({0.0, lead}, {now->robot.q, positions[0]})
                                      : robot::Trajectory({0.0}, {positions[0]});
-  control_.play_loop(std::move(way), lap_of(*now, model, program));
+  core_.control.play_loop(std::move(way), lap_of(*now, model, program));
   return {};
 }
 
-Result Session::play_waypoints(bool loops) {
+Result SessionRobot::play_waypoints(bool loops) {
   return play(waypoint_trajectory(kinematics_of(*snapshot())), loops);
 }
 
-Result Session::play_trajectory(const std::filesystem::path& file, bool loops) {
+Result SessionRobot::play_trajectory(const std::filesystem::path& file, bool loops) {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
   Diagnostics diagnostics;
@@ -92,13 +94,13 @@ Result Session::play_trajectory(const std::filesystem::path& file, bool loops) {
   return play(std::move(trajectory), loops);
 }
 
-Result Session::save_waypoints(const std::filesystem::path& file) const {
+Result SessionRobot::save_waypoints(const std::filesystem::path& file) const {
   const robot::KinematicModel model = kinematics_of(*snapshot());
   io::write_file_atomically(file, robot::trajectory_csv(waypoint_trajectory(model), model));
   return {};
 }
 
-Result Session::load_waypoints(const std::filesystem::path& file) {
+Result SessionRobot::load_waypoints(const std::filesystem::path& file) {
   const auto now = snapshot();
   const robot::KinematicModel model = kinematics_of(*now);
   Diagnostics diagnostics;
@@ -108,20 +110,13 @@ Result Session::load_waypoints(const std::filesystem::path& file) {
   std::vector<double> joints;
   for (const Eigen::VectorXd& row : read.positions())
     joints.insert(joints.end(), row.begin(), row.end());
-  return change_document(
+  return core_.editor.change(
       Command("set waypoints", {{"times", read.times()}, {"joints", std::move(joints)}}));
 }
 
-Result Session::program_command(const Command& c) {
-  const std::string& verb = c.verb();
-  const bool loops = c.has("loop") && c.whole("loop") != 0;
-  if (verb == "play trajectory") return play_trajectory(c.word("file"), loops);
-  if (verb == "pick") return pick(c);
-  if (verb == "play waypoints") return play_waypoints(loops);
-  if (verb == "stop robot") {
-    kinematics_of(*snapshot());
-    control_.stop_robot();
-  }
+Result SessionRobot::stop() {
+  kinematics_of(*snapshot());  // says where there is no robot
+  core_.control.stop_robot();
   return {};
 }
 

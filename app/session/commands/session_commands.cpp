@@ -1,0 +1,126 @@
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/session.h"
+#include "pedicel/app/session/session_tuning.h"
+#include "pedicel/io/csv.h"
+
+/// History, settings, and what is asked of a session.
+namespace pedicel::app {
+
+namespace {
+
+using Kind = ArgumentKind;
+
+std::string help_text(const std::string& verb) {
+  std::string text;
+  for (const CommandDescription& one : command_table()) {
+    if (!verb.empty() && one.verb.rfind(verb, 0) != 0) continue;
+    text += one.usage() + "\n    " + one.sentence + "\n";
+    if (verb.empty()) continue;
+    for (const ArgumentDescription& argument : one.arguments)
+      text += "    " + argument.name + ": " + argument.sentence + "\n";
+  }
+  return text;
+}
+
+int count_curves(const Document& document) {
+  int count = 0;
+  for (const DocumentPlant& one : document.plants)
+    if (one.file) count += static_cast<int>(one.file->curves.size());
+  return count;
+}
+
+int count_fruits(const Document& document) {
+  int count = 0;
+  for (const DocumentPlant& one : document.plants)
+    if (one.file) count += static_cast<int>(one.file->fruits.size());
+  return count;
+}
+
+/// Nothing where there is no such quantity.
+std::optional<double> measure(const std::string& name, const Document& document,
+                              const Snapshot& now, const RunLog& log) {
+  if (name == "time_s") return now.time;
+  if (name == "breaks") return now.events ? static_cast<double>(now.events->size()) : 0.0;
+  if (name == "plants") return static_cast<double>(document.plants.size());
+  if (name == "stems") return count_curves(document);
+  if (name == "fruits") return count_fruits(document);
+  if (name == "pull_N") return now.pull.force_W.norm();
+  if (name == "strain_1") return now.largest_strain;
+  const auto series = log.series(name);
+  if (series.value.empty()) return std::nullopt;
+  return series.value.back();
+}
+
+Result undo_last(Session& session, const Command&) {
+  return session.undo();
+}
+
+Result redo_next(Session& session, const Command&) {
+  return session.redo();
+}
+
+Result keep_settings(Session& session, const Command&) {
+  return session.tuning().keep();
+}
+
+Result discard_settings(Session& session, const Command&) {
+  return session.tuning().discard();
+}
+
+Result expect_quantity(Session& session, const Command& c) {
+  const std::string& name = c.word("quantity");
+  const auto value =
+      measure(name, session.document(), *session.snapshot(), session.control().log());
+  if (!value)
+    return {false, "expect: no quantity \"" + name +
+                       "\", expected time_s, breaks, plants, stems, fruits, pull_N, strain_1 or a "
+                       "column of log.csv"};
+  const bool met = (!c.has("above") || *value > c.number("above")) &&
+                   (!c.has("below") || *value < c.number("below")) &&
+                   (!c.has("is") || *value == c.number("is"));
+  const std::string text = name + " is " + io::format_number(*value);
+  return {met, met ? text : text + ", not as expected: " + c.text()};
+}
+
+Result tell_commands(Session&, const Command& c) {
+  return {true, help_text(c.word_or("verb", ""))};
+}
+
+}  // namespace
+
+std::vector<CommandDescription> history_commands() {
+  const Scope s = Scope::session;
+  return {
+      {"undo", s, {}, "Takes back the last change.", undo_last},
+      {"redo", s, {}, "Does it again.", redo_next},
+  };
+}
+
+std::vector<CommandDescription> setting_commands() {
+  const Scope s = Scope::session;
+  return {
+      {"keep", s, {}, "Writes changed plant parameters into the plants.", keep_settings},
+      {"discard", s, {}, "Sets changed parameters back.", discard_settings},
+  };
+}
+
+std::vector<CommandDescription> query_commands() {
+  const Scope s = Scope::session;
+  return {
+      {"expect",
+       s,
+       {{"quantity", Kind::word, true, "of the run, or time_s, breaks, stems, fruits"},
+        {"above", Kind::number, false, "least"},
+        {"below", Kind::number, false, "most"},
+        {"is", Kind::number, false, "exactly"}},
+       "Fails where a quantity is not as said.",
+       expect_quantity},
+      {"help",
+       s,
+       {{"verb", Kind::text, false, "of a command"}},
+       "Says what commands there are.",
+       tell_commands},
+  };
+}
+
+}  // namespace pedicel::app
