@@ -45,10 +45,13 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME pedicel)
 set(CPACK_PACKAGE_CONTACT "The Pedicel authors <pedicel@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "sandbox where robots handle plants")
-set(CPACK_PACKAGE_DESCRIPTION
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "Robots, grippers and rigid things move by Bullet, plants by Cosserat rods.
 Given measured trials of a real plant, Pedicel says what the simulation gets
 wrong, and why.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+"Static libraries, headers and find_package(Pedicel), for programs that simulate
+plants with Pedicel.")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -61,10 +64,6 @@ find_program(SHLIBDEPS dpkg-shlibdeps)
 if(SHLIBDEPS)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 endif()
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-"Static libraries, headers and find_package(Pedicel), for programs that simulate
-plants with Pedicel.")
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpedicel-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
