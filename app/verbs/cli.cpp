@@ -14,9 +14,11 @@
 #include "pedicel/app/session/script.h"
 #include "pedicel/app/session/session_files.h"
 #include "pedicel/app/session/session_films.h"
+#include "pedicel/app/verbs/completion.h"
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
 #include "pedicel/app/verbs/fit.h"
+#include "pedicel/app/verbs/man_page.h"
 #include "pedicel/app/verbs/manual.h"
 #include "pedicel/app/verbs/observe.h"
 #include "pedicel/app/verbs/parallel_worlds.h"
@@ -298,6 +300,27 @@ int bench_verb(const BenchArguments& a) {
   return print(run_worlds(rod_worlds(options), worlds_options(a, options.dt, options.duration)));
 }
 
+/// What a shell and `man` want to know of the program.
+struct TellArguments {
+  std::string shell;
+  bool man_page = false;
+};
+
+void add_tell_options(CLI::App& app, TellArguments& a) {
+  app.add_option("--completion", a.shell, "print what completes this program in a shell")
+      ->check(CLI::IsMember({"bash", "zsh"}));
+  app.add_flag("--man-page", a.man_page, "print the man page, as roff");
+}
+
+int tell_verb(const CLI::App& app, const TellArguments& a) {
+  const CommandWords words = command_words(app);
+  if (a.man_page)
+    std::cout << man_page(words, version());
+  else
+    std::cout << (a.shell == "bash" ? bash_completion(words) : zsh_completion(words));
+  return std::cout.flush() ? ok : unwritable;
+}
+
 int guarded(const std::function<int()>& verb) {
   try {
     const int code = verb();
@@ -345,6 +368,8 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   bool paused = false;
   add_window_options(app, window, paused);
   add_run_options(app, run);
+  TellArguments told;
+  add_tell_options(app, told);
 
   RunArguments swept;
   CLI::App* sweep = app.add_subcommand("sweep", "run a scene for several values of one setting");
@@ -382,6 +407,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_ok : exit_usage;
   }
+  if (!told.shell.empty() || told.man_page) return tell_verb(app, told);
   if (*sweep) return guarded([&] { return sweep_verb(swept); });
   if (*validate)
     return guarded(
