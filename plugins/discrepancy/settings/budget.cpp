@@ -134,7 +134,7 @@ void add_continuation(Budget& b, SettingRows& rows) {
               "Deviations that a factor must be off its prior to be led back.",
               {budget, time_only, "Masses that look like density are found less often."});
   rows.share("continuation_unlike", b.continuation_unlike,
-             "Of the change that the way back makes: what the cause may leave of it.",
+             "Of the change that the continuation makes: what the cause may leave of it.",
              {measured, "bench of hidden effects; no figure was kept",
               "More causes go back, which takes longer."});
   rows.count("continuation_starts", b.continuation_starts, "Starts of a cause that go back.",
