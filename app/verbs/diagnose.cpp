@@ -72,7 +72,6 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
   verb->add_option("--set", a->settings,
                    "NAME=VALUE, repeatable: a setting of `pedicel manual diagnosis_settings`, as "
                    "levels.clear_odds=4")
-      ->type_size(1)
       ->allow_extra_args(false);
   verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
   return [a] { return run(*a); };

@@ -24,7 +24,7 @@ struct DiagnosisOptions {
   std::function<void(const std::string&, double)> progress;
   std::function<void(const std::string&)> note;  ///< each finding, as a sentence
   const std::atomic<bool>* stop = nullptr;
-  DiagnosisSettings settings;
+  DiagnosisSettings settings = {};
 };
 
 /// The three models that a diagnosis compares.
@@ -34,7 +34,7 @@ inline constexpr int model_count = 3;
 /// Everything that a diagnosis found out, for its report.
 struct Diagnosis {
   Verdict verdict;
-  DiagnosisSettings settings;  ///< that it was made with
+  DiagnosisSettings settings = {};  ///< that it was made with
   Admission admission;
   Noise position_noise, force_noise;
   Numerics numerics;

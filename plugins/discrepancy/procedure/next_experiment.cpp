@@ -211,7 +211,7 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
   for (Tried& one : try_designs(turned, data, around, variants, options, simulations))
     tried.push_back(std::move(one));
   if (tried.empty()) return by_hand(models);
-  const auto better = [](const Tried& a, const Tried& b) {
+  const auto better = [enough](const Tried& a, const Tried& b) {
     const bool ea = a.nearest.total >= enough, eb = b.nearest.total >= enough;
     if (ea != eb) return eb;
     return ea ? a.worth() < b.worth() : a.nearest.total < b.nearest.total;

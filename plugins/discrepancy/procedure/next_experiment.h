@@ -25,7 +25,7 @@ struct NextExperimentOptions {
   Numerics numerics;
   int threads = 1;
   const std::atomic<bool>* stop = nullptr;  ///< what is found is not to be used once it is set
-  DiagnosisSettings settings;
+  DiagnosisSettings settings = {};
 };
 
 /// Simulates a handful of trials that can be done on the same plant for each of the hypotheses
