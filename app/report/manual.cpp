@@ -51,9 +51,10 @@ std::string manual_text(const std::string& page) {
 }
 
 std::filesystem::path manual_html(const std::string& page) {
-  // Installed beside the pages; in a tree that was built, where tools/manual puts it.
-  const std::filesystem::path pages = folder();
-  for (const auto& html : {pages / "html", pages.parent_path().parent_path() / "build" / "manual"})
+  // Installed as documentation; in a tree that was built, where tools/manual puts it.
+  const std::filesystem::path above = folder().parent_path().parent_path();
+  for (const auto& html :
+       {above.parent_path() / "doc" / "pedicel" / "html", above / "build" / "manual"})
     if (std::filesystem::exists(html / (page + ".html"))) return html / (page + ".html");
   return {};
 }

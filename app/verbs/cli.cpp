@@ -318,7 +318,7 @@ int tell_verb(const CLI::App& app, const TellArguments& a) {
     std::cout << man_page(words, version());
   else
     std::cout << (a.shell == "bash" ? bash_completion(words) : zsh_completion(words));
-  return std::cout.flush() ? ok : unwritable;
+  return std::cout.flush() ? exit_ok : exit_unwritable;
 }
 
 int guarded(const std::function<int()>& verb) {
