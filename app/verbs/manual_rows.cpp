@@ -45,9 +45,8 @@ std::string range_text(const io::Bounds& bounds) {
 
 std::string range_text(const effects::EffectParameter& parameter) {
   if (parameter.size == 3)
-    return std::isfinite(parameter.bounds.minimum)
-               ? "three numbers " + range_text(parameter.bounds)
-               : "`[x, y, z]`";
+    return std::isfinite(parameter.bounds.minimum) ? "three numbers " + range_text(parameter.bounds)
+                                                   : "`[x, y, z]`";
   if (parameter.size > 0) return range_text(parameter.bounds);
   std::string words;
   for (const std::string& word : parameter.words) words += (words.empty() ? "" : ", ") + code(word);

@@ -8,10 +8,10 @@ namespace pedicel::io {
 /// A YAML file as text, changed place by place: comments, order and layout of everything else stay.
 ///
 /// A path is the keys from the outermost map on; in a list the number of an entry, from 0. Values
-/// are YAML themselves ("0.2", "[0, 0, 1]", "{name: a}"). An anchor stays on what it is on; an alias
-/// that a path goes through becomes what it stands for, so that the anchor's own value stays. What
-/// cannot be changed so (a path through a number) is a UsageError, and then the text is as it was;
-/// every change is read back before it is taken.
+/// are YAML themselves ("0.2", "[0, 0, 1]", "{name: a}"). An anchor stays on what it is on; an
+/// alias that a path goes through becomes what it stands for, so that the anchor's own value stays.
+/// What cannot be changed so (a path through a number) is a UsageError, and then the text is as it
+/// was; every change is read back before it is taken.
 class YamlText {
  public:
   using Path = std::vector<std::string>;

@@ -109,8 +109,9 @@ TEST(Asymmetry, RefusesWhatItCannotBe) {
                                "effects: [{name: asymmetry, coefficient: 0.95, axis: [1, 0, 0], "
                                "k0: 2}]\n",
                            "p.plant.yaml", diagnostics));
-  EXPECT_NE(diagnostics.text().find("coefficient is \"0.95\", expected a number between -0.9 and 0.9"),
-            std::string::npos)
+  EXPECT_NE(
+      diagnostics.text().find("coefficient is \"0.95\", expected a number between -0.9 and 0.9"),
+      std::string::npos)
       << diagnostics.text();
   Diagnostics none;
   EXPECT_FALSE(parse_plant(straight_stem_text +
