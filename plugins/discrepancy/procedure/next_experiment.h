@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/discrepancy/simulate/data_set.h"
 #include "pedicel/discrepancy/simulate/hypothesis.h"
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/discrepancy/simulate/stalk_loads.h"
 #include "pedicel/plant/plant_file.h"
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
@@ -44,7 +45,7 @@ TEST(Decoys, OfAChangeThatDiesOutAtOneMarkerLose) {
   // Cosine of exp(-t) and exp(t - T) over T = 6 s: T exp(-T) / (1 - exp(-2 T)) x 2.
   const double cosine = 2.0 * 6.0 * std::exp(-6.0) / (1.0 - std::exp(-12.0));
   EXPECT_NEAR(decoys.reversed / decoys.own, cosine * cosine, 0.1 * cosine * cosine);
-  EXPECT_TRUE(decoys.lose());
+  EXPECT_TRUE(decoys.lose(settings.levels.clear_margin));
 }
 
 // What was fitted dies out at marker 3, what is in the data is at its neighbour.
@@ -66,7 +67,7 @@ TEST(Decoys, OfAConstantSayNothingBackwards) {
   });
   const Decoys decoys = decoys_of(residuals.data, release, r, r, settings.evidence.too_alike);
   EXPECT_EQ(decoys.reversed, 0.0);
-  EXPECT_TRUE(decoys.lose());
+  EXPECT_TRUE(decoys.lose(settings.levels.clear_margin));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Give {
 
 // Fits that found such shares.
 bool by_convention(const std::vector<Give>& found) {
-  const Experiment experiment = branched(static_cast<int>(found.size()), {});
+  const Experiment experiment = branched(static_cast<int>(found.size()));
   const Beam beam;
   FitSummary fit;
   fit.hypothesis = junction_nuisance(experiment, {});
