@@ -73,7 +73,7 @@ TEST(PlantOverrides, RefusalsNamePlaceKeyAndWhatWasExpected) {
   plant::PlantFile file = plant();
   EXPECT_THAT(apply(file, "detach.strech", "1"),
               HasSubstr("s.scene.yaml:7:9: error: unknown key \"detach.strech\", expected one of: "
-                        "detach.bend"));
+                        "material.youngs_modulus"));
   EXPECT_THAT(apply(file, "detach.stretch", "-1"), HasSubstr("detach.stretch is \"-1\", expected"));
   EXPECT_THAT(apply(file, "material.poisson_ratio", "0.6"), HasSubstr("poisson_ratio is \"0.6\""));
   EXPECT_THAT(apply(file, "sampling.distance", "far"), HasSubstr("sampling.distance is \"far\""));

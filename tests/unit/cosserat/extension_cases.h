@@ -16,7 +16,7 @@ inline void extend(RodModel& model, Random& random, double bend = 0.1) {
     JointLaw law;
     if (e % 3 == 0) law.term("material_nonlinearity") = random.uniform(-2.0, 10.0);
     if (e % 7 == 3) {
-      law.term("asymmetry", 0) = random.uniform(-0.9, 0.9);
+      law.term("asymmetry", 0) = 0.1 * (e % 17) - 0.8;
       law.term("asymmetry", 1) = 0.6;
       law.term("asymmetry", 2) = -0.5;
       law.term("asymmetry", 3) = bend;

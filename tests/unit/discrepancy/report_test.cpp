@@ -47,7 +47,7 @@ TEST(Report, CardComesFirstAndSaysAllThatMatters) {
                                             "the root",
                                             "0.81 N m/rad (95 %: 0.77 to 0.86)",
                                             "What it gains",
-                                            "held out (push)",
+                                            "held-out trials (push)",
                                             "1.03 times with the extended one",
                                             "What else it could have been",
                                             "weak_segment",
