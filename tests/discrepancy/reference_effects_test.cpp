@@ -154,8 +154,8 @@ TEST(ReferenceEffects, NonlinearAndDriftingMoments) {
   EXPECT_NEAR(moments(hinge({effect("stiffness_drift", {{"rate", {-2e-4}}})}), still)[5],
               0.8 * K * phi, 1e-4 * K * phi);
   const auto sided =
-      effect("asymmetry", {{"coefficient", {0.5}}, {"axis", {0, 1, 0}}, {"k0", {2.0}}});
-  // kappa is phi / (L / 2) = k0 / 2: 1 + 0.5 / sqrt(1 + 4), about +y or its opposite.
+      effect("asymmetry", {{"coefficient", {0.5}}, {"axis", {1, 0, 0}}, {"k0", {2.0}}});
+  // kappa is phi / (L / 2) = k0 / 2: 1 + 0.5 / sqrt(1 + 4), about +x or its opposite.
   const double side = 0.5 / std::sqrt(5.0), moment = moments(hinge({sided}), still)[5] / (K * phi);
   EXPECT_NEAR(std::abs(moment - 1.0), side, 1e-4);
   const auto bent = effect("material_nonlinearity", {{"coefficient", {-0.2}}, {"k0", {2.0}}});
