@@ -1,6 +1,5 @@
 #include "pedicel/app/report/manual.h"
 
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -61,18 +60,15 @@ std::filesystem::path manual_html(const std::string& page) {
 
 bool open_in_browser(const std::filesystem::path& file) {
   if (!has_screen()) return false;
-  const std::string path = file.string();
-  std::string program = "xdg-open", argument = path;
-  char* arguments[] = {program.data(), argument.data(), nullptr};
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  // A shell puts it aside and ends: without a desktop, xdg-open is the browser until that is
+  // closed.
+  std::string shell = "sh", option = "-c", path = file.string(),
+              line = "command -v xdg-open >/dev/null && { xdg-open \"$1\" >/dev/null 2>&1 & }";
+  char* arguments[] = {shell.data(), option.data(), line.data(),
+                       shell.data(), path.data(),   nullptr};
   pid_t process = 0;
-  const int fault = posix_spawnp(&process, program.c_str(), &quiet, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&quiet);
-  if (fault != 0) return false;
-  // xdg-open hands the file over and ends at once; what it cannot open it says by its exit code.
+  if (posix_spawnp(&process, shell.c_str(), nullptr, nullptr, arguments, environ) != 0)
+    return false;
   int status = 0;
   return waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }

@@ -50,21 +50,22 @@ void apply_number(const Setting& setting, const std::string& section, const Para
     diagnostics.error(setting.where, section + "." + *refused);
 }
 
-double checked(const SceneNumber& number, const std::string& text, const std::string& asked) {
+/// `asked` names it in faults.
+double checked(const std::string& text, double minimum, double maximum, bool whole,
+               const std::string& asked) {
   const std::optional<double> value = to_number(text);
-  if (value && *value >= number.minimum && *value <= number.maximum &&
-      (!number.whole() || *value == std::floor(*value)))
+  if (value && *value >= minimum && *value <= maximum && (!whole || *value == std::floor(*value)))
     return *value;
-  throw UsageError(asked + std::string(number.key) + " = \"" + text + "\": must be a " +
-                   (number.whole() ? "whole " : "") + "number between " +
-                   io::format_number(number.minimum) + " and " + io::format_number(number.maximum));
+  throw UsageError(asked + " = \"" + text + "\": must be a " + (whole ? "whole " : "") +
+                   "number between " + io::format_number(minimum) + " and " +
+                   io::format_number(maximum));
 }
 
 bool set_scene_number(Scene& scene, const std::string& key, const std::string& text,
                       const std::string& asked) {
   for (const SceneNumber& number : scene_numbers()) {
     if (key != number.key) continue;
-    const double value = checked(number, text, asked);
+    const double value = checked(text, number.minimum, number.maximum, number.whole(), asked + key);
     if (number.whole())
       scene.*std::get<int Scene::*>(number.member) = static_cast<int>(value);
     else
@@ -108,8 +109,8 @@ void set_on_robot(Scene& scene, const Setting& setting) {
   if (setting.key != "robot.gripper_force")
     throw UsageError(setting.where.file + ": expected robot.gripper_force");
   if (!scene.robot) throw UsageError(setting.where.file + ": the scene has no robot");
-  scene.robot->gripper_force = checked({"", "N", 0.0, largest_gripper_force, "", &Scene::duration},
-                                       setting.text, setting.where.file);
+  scene.robot->gripper_force =
+      checked(setting.text, 0.0, largest_gripper_force, false, setting.where.file);
 }
 
 void set_on_plant(Scene& scene, const std::string& rest, Setting setting) {

@@ -27,7 +27,7 @@ EffectDefinition define_yield() {
         std::string_view beside;  // a law that is elastic, too, and would have nothing left
         t.each_law([&](int e, cosserat::JointLaw& law) {
           for (const JointTerm& term : joint_terms)
-            if (!law.terms.empty() && law.term(term.effect) != 0.0) beside = term.effect;
+            if (law.terms_there() & term.bit) beside = term.effect;
           for (const cosserat::JointBranch& branch : law.branches) twice = twice || branch.plastic;
           if (!beside.empty() || twice || law.elastic + law.deviation < 1.0e-6) return;
           cosserat::add_yield(law, t.softer_bending(e) * t.number("curvature") * t.joint_length(e));

@@ -98,18 +98,6 @@ TEST_P(FoundEffects, ComesOutAsItShould) {
       << run.notes;
 }
 
-// A stem that is stiffer towards one side, at eight times the smallest size that is seen.
-TEST(FoundEffect, StemThatIsStifferTowardsOneSide) {
-  const TemporaryFolder folder;
-  const auto order = std::ranges::find_if(case_orders(), [](const CaseOrder& one) {
-    return !one.hidden.empty() && one.hidden.front() == "asymmetry" && one.size >= 8.0 &&
-           three_trials(one);
-  });
-  ASSERT_NE(order, case_orders().end());
-  const CaseRun run = run_case(seed, seen(*order), {folder / "", 1, nullptr});
-  EXPECT_EQ(run.score.call, Call::right) << run.notes;
-}
-
 // A modulus that falls by a third of a stem in free vibration: modulus and density take up all but
 // a hundredth of it, and with rough derivatives a fit from the size that the rest asks for stopped
 // a third of the way, 84 nats behind a weak stretch.

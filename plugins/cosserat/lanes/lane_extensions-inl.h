@@ -68,7 +68,7 @@ HWY_INLINE Bending bend_joint(const RowArrays& rows, const Pack& pack, int row, 
     V numbers[effects::joint_term_numbers];
     for (int i = 0; i < effects::joint_term_numbers; ++i)
       numbers[i] = load(rows.joint_term[row].number[i] + lane);
-    formula::add_joint_terms(numbers, joint, terms);
+    formula::add_joint_terms(pack.terms, numbers, joint, terms);
   }
   for (int j = 0; j < pack.sliders; ++j) {
     const BranchRow& branch = rows.law_branch[row * rows.law_branches + j];

@@ -142,7 +142,7 @@ struct alignas(64) Pack {
   bool viscous = false;   // some element has Kelvin-Voigt damping, or an extension
   // Extensions.
   bool extended = false, windy = false;  // some plant in it has any; drag
-  bool terms = false;                    // some joint in it has any
+  unsigned terms = 0;                    // JointTerm::bit of those that some joint in it has
   int branches = 0, sliders = 0;         // of its joints at most
 };
 

@@ -39,6 +39,13 @@ double& JointLaw::term(std::string_view effect, int number) {
   return terms[first + number];
 }
 
+unsigned JointLaw::terms_there() const {
+  unsigned bits = 0;
+  for (const effects::JointTerm& one : effects::joint_terms)
+    if (!terms.empty() && terms[one.first] != 0.0) bits |= one.bit;
+  return bits;
+}
+
 void sort_branches(JointLaw& law) {
   std::stable_sort(law.branches.begin(), law.branches.end(),
                    [](const JointBranch& a, const JointBranch& b) {
@@ -151,7 +158,7 @@ JointResponse joint_response(const RodModel& model, const RodState& state, int e
   const Vec3& bias = begun ? state.joint_bias[e] : zero;
   const formula::BentJoint<double> joint{k.x(), k.y(), softer(k), law.elastic, phi.x(), phi.y()};
   formula::BendTerms<double> terms{};
-  if (!law.terms.empty()) formula::add_joint_terms(law.terms.data(), joint, terms);
+  formula::add_joint_terms(law.terms_there(), law.terms.data(), joint, terms);
   Vec3 bend = (law.elastic + law.deviation) * phi + bias;
   double energy = 0.5 * (law.elastic + law.deviation) * phi.dot(k.cwiseProduct(phi)) +
                   bias.dot(k.cwiseProduct(phi));

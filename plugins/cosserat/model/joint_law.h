@@ -39,6 +39,8 @@ struct JointLaw {
 
   /// A number of the term of that effect, by its index in the formula.
   double& term(std::string_view effect, int number = 0);
+  /// JointTerm::bit of those whose size is not 0.
+  unsigned terms_there() const;
 };
 
 /// Adds relaxation by `fraction` of the stiffness with a time (s), which is the instantaneous one:

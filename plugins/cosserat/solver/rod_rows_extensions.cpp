@@ -89,19 +89,19 @@ void RodRows::read_extensions(int plant, const RodModel& model) {
 // A pack does what any of its plants needs.
 void RodRows::mark_extended(int plant, const RodModel& model) {
   int sliders = 0;
-  bool terms = false;
+  unsigned terms = 0;
   for (const JointLaw& law : model.laws) {
-    terms = terms || !law.terms.empty();
+    terms |= law.terms_there();
     sliders = std::max(sliders, static_cast<int>(std::count_if(law.branches.begin(),
                                                                law.branches.end(), has_slider)));
   }
-  if (terms) joint_term_.resize(layout_.rows(), JointTermRow{});
+  if (terms != 0) joint_term_.resize(layout_.rows(), JointTermRow{});
   for (const int c : layout_.chains_of_plant(plant)) {
     Pack& pack = packs_[layout_.chains()[c].pack];
     pack.extended = true;
     make_viscous(c);
     pack.windy = pack.windy || !model.air.empty();
-    pack.terms = pack.terms || terms;
+    pack.terms |= terms;
     pack.branches = std::max(pack.branches, extended_[plant].branches);
     pack.sliders = std::max(pack.sliders, sliders);
   }
