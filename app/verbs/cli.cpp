@@ -18,12 +18,14 @@
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
 #include "pedicel/app/verbs/fit.h"
+#include "pedicel/app/verbs/lab.h"
 #include "pedicel/app/verbs/man_page.h"
 #include "pedicel/app/verbs/manual.h"
 #include "pedicel/app/verbs/observe.h"
 #include "pedicel/app/verbs/parallel_worlds.h"
 #include "pedicel/app/verbs/param_sweep.h"
 #include "pedicel/app/verbs/run_arguments.h"
+#include "pedicel/app/verbs/transfer.h"
 #include "pedicel/app/verbs/validate.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/exit_code.h"
@@ -394,6 +396,8 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   add_bench_options(*bench, benched);
   const std::function<int()> diagnose = add_diagnose_verb(app);
   const std::function<int()> fit = add_fit_verb(app);
+  const std::function<int()> lab = add_lab_verb(app);
+  const std::function<int()> transfer = add_transfer_verb(app);
   const std::function<int()> manual = add_manual_verb(app);
 
   ObserveArguments observed;
@@ -415,6 +419,8 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (*bench) return guarded([&] { return bench_verb(benched); });
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);
+  if (app.got_subcommand("lab")) return guarded(lab);
+  if (app.got_subcommand("transfer")) return guarded(transfer);
   if (app.got_subcommand("manual")) return guarded(manual);
   if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });

@@ -7,6 +7,7 @@
 
 #include "pedicel/app/verbs/experiment_run.h"
 #include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/data/more_trials.h"
 #include "pedicel/discrepancy/procedure/diagnosis.h"
 #include "pedicel/discrepancy/report/report.h"
 #include "pedicel/io/atomic_file.h"
@@ -17,27 +18,46 @@ namespace pedicel::app {
 namespace {
 
 struct DiagnoseArguments : ExperimentArguments {
+  std::vector<std::string> with;      // folders
   std::vector<std::string> settings;  // NAME=VALUE
   bool verbose = false;
 };
 
-void write_results(const std::filesystem::path& folder, const discrepancy::Experiment& experiment,
-                   discrepancy::Diagnosis& diagnosis) {
+}  // namespace
+
+void write_diagnosis(const std::filesystem::path& folder, const discrepancy::Experiment& experiment,
+                     discrepancy::Diagnosis& diagnosis) {
   using discrepancy::Outcome;
   discrepancy::Verdict& verdict = diagnosis.verdict;
-  if (!diagnosis.best.hypothesis.effects.empty() && verdict.outcome != Outcome::bad_data) {
+  const bool is_found = verdict.outcome == Outcome::adequate || verdict.outcome == Outcome::named ||
+                        verdict.outcome == Outcome::ambiguous;
+  if (!diagnosis.best.hypothesis.effects.empty() && is_found) {
     verdict.extended_plant = "extended.plant.yaml";
     plant::write_plant_file(folder / verdict.extended_plant,
                             discrepancy::extended_plant(experiment, diagnosis.best.hypothesis));
   }
+  verdict.next = discrepancy::write_next(folder, diagnosis.next);
   io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
   discrepancy::write_report(folder, experiment, diagnosis);
+}
+
+namespace {
+
+// With the trials that were done afterwards.
+discrepancy::Experiment load_all(const DiagnoseArguments& a) {
+  discrepancy::Experiment experiment = load_experiment(a);
+  for (const std::string& folder : a.with) {
+    ExperimentArguments later;
+    later.experiment = folder;
+    discrepancy::add_trials(load_experiment(later), experiment);
+  }
+  return experiment;
 }
 
 int run(const DiagnoseArguments& a) {
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
-  const discrepancy::Experiment experiment = load_experiment(a);
+  const discrepancy::Experiment experiment = load_all(a);
   ProgressLine progress;
   options.threads = a.thread_count();
   options.seed = static_cast<std::uint64_t>(a.seed);
@@ -50,7 +70,7 @@ int run(const DiagnoseArguments& a) {
   if (diagnosis.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("diagnosis_", experiment);
   a.write(folder,
-          [&](const std::filesystem::path& in) { write_results(in, experiment, diagnosis); });
+          [&](const std::filesystem::path& in) { write_diagnosis(in, experiment, diagnosis); });
   if (a.json)
     std::cout << to_json(diagnosis.verdict) << std::endl;
   else
@@ -67,8 +87,12 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
   add_experiment(*verb, *a);
   add_experiment_options(
       *verb, *a,
-      {"folder for report.html, verdict.json, extended.plant.yaml", "of the bootstrap",
+      {"folder for report.html, verdict.json, extended.plant.yaml, next/", "of the bootstrap",
        "the verdict as JSON, and nothing else, on standard output"});
+  verb->add_option("--with", a->with,
+                   "another experiment folder on the same plant, as the answer to next/; "
+                   "repeatable")
+      ->allow_extra_args(false);
   verb->add_option("--set", a->settings,
                    "NAME=VALUE, repeatable: a setting of `pedicel manual diagnosis_settings`, as "
                    "levels.clear_odds=4")

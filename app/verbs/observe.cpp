@@ -102,8 +102,9 @@ plant::Effect parse_effect(const std::string& text) {
   return effect;
 }
 
-// What was not measured is not observed either.
+// What was not measured is not observed either; where nothing was, all is still to be measured.
 void keep_gaps(const discrepancy::Samples& measured, Eigen::MatrixXd& predicted) {
+  if (measured.value.array().isNaN().all()) return;
   predicted = measured.value.array().isNaN().select(measured.value, predicted);
 }
 
@@ -161,13 +162,17 @@ void add_observe_options(CLI::App& observe, ObserveArguments& a) {
       ->allow_extra_args(false);
 }
 
+discrepancy::Experiment observed(const ObserveArguments& a, discrepancy::Experiment like) {
+  take_plant(a, like);
+  like.noise = {};
+  if (a.noise_position > 0.0) like.noise.position_std = a.noise_position;
+  if (a.noise_force > 0.0) like.noise.force_std = a.noise_force;
+  simulate(a, like);
+  return like;
+}
+
 int observe_verb(const ObserveArguments& a) {
-  Experiment experiment = read_experiment(a.like);
-  take_plant(a, experiment);
-  experiment.noise = {};
-  if (a.noise_position > 0.0) experiment.noise.position_std = a.noise_position;
-  if (a.noise_force > 0.0) experiment.noise.force_std = a.noise_force;
-  simulate(a, experiment);
+  const Experiment experiment = observed(a, read_experiment(a.like));
   stop_in_good_order();
   const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {
     discrepancy::write_experiment(in, experiment);

@@ -38,6 +38,10 @@ void add_observe_options(CLI::App& observe, ObserveArguments& arguments);
 /// InvalidFile, UsageError, UnstableWorld, io::WriteError.
 int observe_verb(const ObserveArguments& arguments);
 
+/// The same without files: `like` with what the instruments would have reported. Where a table of
+/// `like` has no sample at all, it is a plan, and all of it is filled.
+discrepancy::Experiment observed(const ObserveArguments& arguments, discrepancy::Experiment like);
+
 /// Adds noise of the given marginal standard deviation to each column, white or AR(1); gaps stay.
 void add_noise(discrepancy::Samples& samples, double deviation, double colour, std::uint64_t seed);
 

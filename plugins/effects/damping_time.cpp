@@ -25,7 +25,10 @@ EffectDefinition define_damping_time() {
   };
   d.speaks_for = {{"damping", 1}};
   d.material = &plant::MaterialValues::damping_time;
+  d.known_to = &plant::MaterialKnowledge::damping_time;
   d.material_unit = "s";
+  d.less = "less damped";
+  d.more = "more damped";
   return d;
 }
 

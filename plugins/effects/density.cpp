@@ -25,7 +25,10 @@ EffectDefinition define_density() {
   };
   d.speaks_for = {{"frequency", 2}};
   d.material = &plant::MaterialValues::density;
+  d.known_to = &plant::MaterialKnowledge::density;
   d.material_unit = "kg/m3";
+  d.less = "lighter";
+  d.more = "heavier";
   return d;
 }
 

@@ -27,7 +27,10 @@ EffectDefinition define_youngs_modulus() {
   };
   d.speaks_for = {{"frequency", 1}, {"force_scale", 2}};
   d.material = &plant::MaterialValues::youngs_modulus;
+  d.known_to = &plant::MaterialKnowledge::youngs_modulus;
   d.material_unit = "Pa";
+  d.less = "softer";
+  d.more = "stiffer";
   return d;
 }
 

@@ -27,6 +27,16 @@ Vec3 direction(const YamlNode& node, const std::string& what) {
   return value;
 }
 
+MaterialKnowledge read_known_to(const YamlNode& node) {
+  YamlMap map(node, "known_to");
+  MaterialKnowledge known;
+  known.youngs_modulus = optional_number(map, "youngs_modulus", io::positive);
+  known.density = optional_number(map, "density", io::positive);
+  known.damping_time = optional_number(map, "damping_time", io::positive);
+  map.finish();
+  return known;
+}
+
 MaterialValues read_material(const YamlNode& node) {
   YamlMap map(node, "material");
   MaterialValues material;
@@ -37,6 +47,7 @@ MaterialValues read_material(const YamlNode& node) {
   material.density = optional_number(map, "density", number_bounds("material.density"));
   material.damping_time =
       optional_number(map, "damping_time", number_bounds("material.damping_time"));
+  if (const auto known_to = map.optional("known_to")) material.known_to = read_known_to(*known_to);
   map.finish();
   return material;
 }

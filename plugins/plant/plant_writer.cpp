@@ -50,11 +50,17 @@ class FlowMap {
 };
 
 FlowMap material_map(const MaterialValues& material) {
-  return FlowMap()
-      .add("youngs_modulus", material.youngs_modulus)
+  const FlowMap known_to = FlowMap()
+                               .add("youngs_modulus", material.known_to.youngs_modulus)
+                               .add("density", material.known_to.density)
+                               .add("damping_time", material.known_to.damping_time);
+  FlowMap map;
+  map.add("youngs_modulus", material.youngs_modulus)
       .add("poisson_ratio", material.poisson_ratio)
       .add("density", material.density)
       .add("damping_time", material.damping_time);
+  if (!known_to.empty()) map.add("known_to", known_to.text());
+  return map;
 }
 
 FlowMap section_map(const SectionShape& section) {

@@ -139,12 +139,19 @@ const char* name_of(Call call) {
 Score score(const HiddenCase& hidden, const Verdict& verdict, const TrueError& truth) {
   Score s = blank(hidden);
   s.outcome = discrepancy::to_string(verdict.outcome);
+  std::vector<NamedCause> found = verdict.causes;
   for (const NamedCause& cause : verdict.causes) s.said.push_back(cause.name);
+  // What was hidden and is told as a detail was found.
+  for (const NamedCause& detail : verdict.details)
+    if (verdict.outcome == Outcome::named && contains(names_of(hidden.causes), detail.name)) {
+      s.said.push_back(detail.name);
+      found.push_back(detail);
+    }
   s.call = call_of(hidden, verdict.outcome, s.said);
   s.gain_share = gain_share(hidden, verdict, truth);
   if (s.call == Call::right || s.call == Call::partial || s.call == Call::sure)
     for (const plant::Effect& effect : hidden.causes)
-      for (const NamedCause& cause : verdict.causes)
+      for (const NamedCause& cause : found)
         if (cause.name == effect.name)
           s.sizes.push_back(size_error(effect, cause, stated_grip(hidden)));
   if (!verdict.causes.empty()) s.evidence = verdict.causes.front().evidence;

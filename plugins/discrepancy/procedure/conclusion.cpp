@@ -16,8 +16,8 @@ namespace {
 
 // How far a factor that is needed is from 1 in its deviations; 0 where our own errors may have
 // moved it so far.
-double deviations(const Findings& findings, const FitSummary& base, const std::string& name) {
-  const FitSummary& model = findings.needed.model;
+double deviations(const Findings& findings, const FitSummary& model, const FitSummary& base,
+                  const std::string& name) {
   const int p = model.hypothesis.factor_on(name);
   const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
   const int shifted = base.hypothesis.factor_on(name);
@@ -31,6 +31,26 @@ double deviations(const Findings& findings, const FitSummary& base, const std::s
   return may_be_nominal ? 0.0 : u / error;
 }
 
+// What the plant file says, of the whole plant or of any of its curves.
+double known_to(const Findings& findings, const std::string& name) {
+  const plant::PlantFile& plant = findings.data->experiment().plant;
+  const effects::EffectDefinition* known = effects::find_effect(name);
+  double widest = 0.0;
+  const auto look = [&](const plant::MaterialValues& material) {
+    if (known && known->known_to)
+      widest = std::max(widest, (material.known_to.*known->known_to).value_or(0.0));
+  };
+  look(plant.material);
+  for (const plant::PlantCurve& curve : plant.curves) look(curve.material);
+  return widest > 0.0 ? widest : findings.settings->levels.known_to;
+}
+
+bool leaves_what_is_known(const Findings& findings, const FitSummary& model,
+                          const std::string& name) {
+  const double factor = model.hypothesis.value(model.hypothesis.factor_on(name));
+  return std::abs(factor - 1.0) > known_to(findings, name);
+}
+
 NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
                            const std::string& name, double evidence) {
   const int p = model.hypothesis.factor_on(name);
@@ -39,8 +59,7 @@ NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
   cause.parameters["factor"] = {findings.estimate(model, p)};
   cause.evidence = evidence;
   cause.because =
-      "The refitted value is " +
-      text("%.4g times the nominal one, and nothing else is needed.", model.hypothesis.value(p));
+      text("The refitted value is %.4g times the nominal one.", model.hypothesis.value(p));
   return cause;
 }
 
@@ -67,9 +86,11 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   const NeededParameters& needed = findings.needed;
   for (const std::string& name : needed.names) {
-    const double off = deviations(findings, diagnosis.base, name);
-    if (off != 0.0)
-      verdict.causes.push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
+    const double off = deviations(findings, needed.model, diagnosis.base, name);
+    if (off == 0.0) continue;
+    const bool found = leaves_what_is_known(findings, needed.model, name);
+    (found ? verdict.causes : verdict.details)
+        .push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
   }
   verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
   if (verdict.causes.size() != 1) {
@@ -267,7 +288,23 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   }
 }
 
+// The residual's own scatter, over the noise: of an RMS over as many samples.
+double scatter(const Findings& findings, const std::vector<int>& trials) {
+  return interval95 / std::sqrt(2.0 * std::max(1, findings.data->samples(trials)));
+}
+
 }  // namespace
+
+std::vector<NamedCause> parameters_off(const Findings& findings, const NeededParameters& needed,
+                                       const FitSummary& best) {
+  std::vector<NamedCause> causes;
+  for (const std::string& name : needed.names) {
+    const double off = deviations(findings, needed.model, best, name);
+    if (off != 0.0 && leaves_what_is_known(findings, needed.model, name))
+      causes.push_back(parameter_cause(findings, best, name, 0.5 * off * off));
+  }
+  return causes;
+}
 
 void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
   const auto measure = [&](const std::vector<int>& trials, Errors& errors) {
@@ -280,8 +317,14 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
   measure(diagnosis.fit_trials, diagnosis.verdict.fit);
   measure(diagnosis.check_trials, diagnosis.verdict.check);
   const Errors& check = diagnosis.verdict.check;
-  if (!findings.chain.empty() && check.refitted && *check.refitted > 1.0)
-    diagnosis.verdict.gain = (*check.refitted - *check.extended) / (*check.refitted - 1.0);
+  if (!check.refitted) return;
+  const double noise = scatter(findings, diagnosis.check_trials);
+  const auto gain_over = [&](double error) -> std::optional<double> {
+    if (error - 1.0 <= noise) return {};
+    return (error - *check.extended) / (error - 1.0);
+  };
+  if (!findings.chain.empty()) diagnosis.verdict.gain = gain_over(*check.refitted);
+  diagnosis.verdict.gain_over_nominal = gain_over(*check.nominal);
 }
 
 void conclude(const Findings& findings, Diagnosis& diagnosis) {
@@ -311,11 +354,15 @@ void conclude(const Findings& findings, Diagnosis& diagnosis) {
 }
 
 void name_nothing(Verdict& verdict) {
-  std::string nearest;
+  std::string names;
   for (const NamedCause& cause : verdict.causes)
-    nearest += (nearest.empty() ? "" : " with ") + cause.name;
+    names += (names.empty() ? "" : " with ") + cause.name;
+  verdict.nearest = std::move(verdict.causes);
   verdict.causes.clear();
-  if (!nearest.empty()) verdict.remainder += "; the nearest known cause is " + nearest;
+  verdict.details.clear();
+  for (NamedCause& cause : verdict.nearest) cause.against = verdict.remainder;
+  if (!names.empty()) verdict.remainder += "; the nearest known cause is " + names;
+  verdict.gain = verdict.gain_over_nominal = {};
 }
 
 void conclude_outliers(Diagnosis& diagnosis) {

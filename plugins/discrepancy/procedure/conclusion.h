@@ -14,8 +14,13 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis);
 /// Outcome, causes, competing models and remainder.
 void conclude(const Findings& findings, Diagnosis& diagnosis);
 
-/// Where the outcome is `unknown`: what was fitted but does not explain the data is told in words,
-/// not as a cause.
+/// Of the parameters that `best` needs, those that leave what is known of them (`known_to`), with
+/// the intervals of `best`, which leaves all of them free.
+std::vector<NamedCause> parameters_off(const Findings& findings, const NeededParameters& needed,
+                                       const FitSummary& best);
+
+/// Where the outcome is `unknown`: what was fitted but does not explain the data stands under
+/// `nearest`, not among the causes, and it gains nothing.
 void name_nothing(Verdict& verdict);
 
 /// Outliers were left out before the fit; they are named beside what else was found.

@@ -3,6 +3,7 @@
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/procedure/conclusion.h"
 #include "pedicel/discrepancy/procedure/diagnosis_procedure.h"
+#include "pedicel/discrepancy/procedure/shares.h"
 #include "pedicel/discrepancy/select/evidence.h"
 #include "pedicel/effects/registry/effect_definition.h"
 
@@ -51,6 +52,11 @@ void Procedure::conclude_all() {
     tell_of_force();
   } else if (!findings_.chain.empty()) {
     ask_for_one_force();
+  }
+  if (!stopped()) {
+    log_.say("weighing what explains how much", 0.97);
+    Evaluator evaluator = setup_->evaluator();
+    tell_shares(evaluator, findings_, fit_options(), result_);
   }
   conclude_outliers(result_);
   judge_stalks();

@@ -154,6 +154,30 @@ std::string channel_of(const Experiment& experiment, int column) {
   return (column < markers ? experiment.markers[column / 3].name : "force") + axis;
 }
 
+// A name that no trial has yet.
+std::string free_name(const Experiment& experiment) {
+  for (int i = 1;; ++i) {
+    const std::string name = "next_" + std::to_string(i);
+    if (std::ranges::find(experiment.trials, name, &Trial::name) == experiment.trials.end())
+      return name;
+  }
+}
+
+// The trial as a plan: on the plant as it stands, with nothing measured.
+Experiment planned(const Experiment& experiment, const TrialDesign& design) {
+  Experiment plan = empty_copy(experiment);
+  plan.title = "next: " + design.action;
+  plan.plant_path = experiment.plant_path;
+  plan.trials = {design.trial};
+  Trial& trial = plan.trials.front();
+  trial.name = free_name(experiment);
+  trial.folder = trial.name;
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  trial.markers.value.setConstant(nothing);
+  trial.force.value.setConstant(nothing);
+  return plan;
+}
+
 NextExperiment described(const Experiment& experiment, const DataSet& data, const Tried& best,
                          const std::vector<Hypothesis>& models) {
   const auto markers = static_cast<int>(3 * experiment.markers.size());
@@ -218,6 +242,10 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
   };
   const Tried& best = *std::ranges::max_element(tried, better);
   NextExperiment next = described(experiment, data, best, models);
+  if (next.separation >= enough && !best.design->turned) {
+    next.experiment = planned(experiment, *best.design);
+    next.predictions = best.predictions;
+  }
   if (next.separation < enough)
     next.sentence = "No trial of those that were tried out separates " + next.names[0] + " from " +
                     next.names[best.other] + " (the best one by " + short_number(next.separation) +

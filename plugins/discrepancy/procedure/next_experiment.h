@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct NextExperiment {
   double noise = 0.0;                       ///< m or N, standard deviation of a sample
   double separation = 0.0;  ///< noise units in all: root of the whitened sum of squares
   double minutes = 0.0;     ///< of work that it takes
+  /// The trial itself, with sample times and nothing measured (NaN), on the plant as it stands; and
+  /// what each model predicts for it. Absent where nothing was found, or the plant is to be turned.
+  std::optional<Experiment> experiment;
+  std::vector<Prediction> predictions;
 };
 
 struct NextExperimentOptions {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "pedicel/discrepancy/data/experiment_tables.h"
 #include "pedicel/discrepancy/report/report_card.h"
+#include "pedicel/discrepancy/report/report_plots.h"
 #include "pedicel/discrepancy/report/report_words.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 #include "pedicel/io/atomic_file.h"
@@ -236,6 +238,27 @@ std::string report_text(const Experiment& experiment, const Diagnosis& diagnosis
     page.list(diagnosis.steps);
   }
   return page.text();
+}
+
+std::string write_next(const std::filesystem::path& folder, const NextExperiment& next) {
+  if (!next.experiment) return {};
+  const Experiment& plan = *next.experiment;
+  const std::filesystem::path into = folder / "next";
+  write_experiment(into, plan);
+  const Trial& trial = plan.trials.front();
+  const auto write = [&](const std::string& file, const std::string& text) {
+    io::write_file_atomically(into / trial.name / file, text);
+  };
+  for (std::size_t m = 0; m < next.predictions.size(); ++m) {
+    const Prediction& predicted = next.predictions[m];
+    write("predicted_" + next.names[m] + ".csv",
+          markers_text({trial.markers.time, predicted.markers}, plan.markers));
+    if (trial.force.size() > 0)
+      write("predicted_force_" + next.names[m] + ".csv",
+            force_text({trial.force.time, predicted.force}));
+  }
+  write("predictions.svg", prediction_plot(next));
+  return "next/experiment.yaml";
 }
 
 void write_report(const std::filesystem::path& folder, const Experiment& experiment,

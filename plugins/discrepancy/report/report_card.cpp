@@ -91,20 +91,36 @@ void add_symptom(io::HtmlReport& page, const ReportData& report,
   page.plots(plots);
 }
 
-void add_causes(io::HtmlReport& page, const Verdict& v) {
-  if (v.causes.empty()) return;
-  page.subheading(v.outcome == Outcome::ambiguous ? "What it could be, and how large"
-                                                  : "What it is, where, and how large");
+void add_cause_table(io::HtmlReport& page, const std::vector<NamedCause>& causes) {
   std::vector<std::vector<std::string>> rows;
-  for (const NamedCause& cause : v.causes) {
+  for (const NamedCause& cause : causes) {
     std::string numbers;
     for (const auto& [name, estimates] : cause.parameters)
       numbers += (numbers.empty() ? "" : "; ") + name + " " + estimate_text(estimates);
     const std::string place = place_text(cause);
     rows.push_back({effects::plain_name(cause.name) + " (" + cause.name + ")",
-                    place.empty() ? "the whole" : place, numbers, short_number(cause.evidence)});
+                    place.empty() ? "the whole" : place, numbers, share_text(cause.share),
+                    change_text(cause.change), short_number(cause.evidence)});
   }
-  page.table({"cause", "where", "size", "evidence (nats)"}, rows);
+  page.table(
+      {"cause", "where", "size", "share of the misfit", "changes by (RMS)", "evidence (nats)"},
+      rows);
+}
+
+void add_causes(io::HtmlReport& page, const Verdict& v) {
+  if (!v.causes.empty()) {
+    page.subheading(v.outcome == Outcome::ambiguous ? "What it could be, and how large"
+                                                    : "What it is, where, and how large");
+    add_cause_table(page, v.causes);
+  }
+  if (!v.details.empty()) {
+    page.subheading("Details: real, and too small to matter");
+    add_cause_table(page, v.details);
+  }
+  if (!v.nearest.empty()) {
+    page.subheading("What came closest, and was not accepted");
+    add_cause_table(page, v.nearest);
+  }
 }
 
 void add_rivals(io::HtmlReport& page, const Diagnosis& d) {

@@ -51,6 +51,19 @@ std::string estimate_text(const std::vector<Estimate>& estimates) {
   return text + "]" + (estimates.empty() ? "" : unit_text(estimates.front().unit));
 }
 
+std::string share_text(const Share& share) {
+  std::string text = share.fit ? percent(*share.fit) : "\u2013";
+  if (share.check) text += ", held out " + percent(*share.check);
+  return text;
+}
+
+std::string change_text(const Change& change) {
+  std::vector<std::string> parts;
+  if (change.marker) parts.push_back(short_number(1e3 * *change.marker) + " mm");
+  if (change.force) parts.push_back(short_number(*change.force) + " N");
+  return joined(parts, ", ");
+}
+
 std::string place_text(const NamedCause& cause) {
   const effects::EffectDefinition* known = effects::find_effect(cause.name);
   if (known && known->home == effects::Home::base) return "the root";

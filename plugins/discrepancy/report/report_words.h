@@ -16,6 +16,11 @@ std::string estimate_text(const std::vector<Estimate>& estimates);
 /// "at 0.4 of stem", "marker m3", "the root": empty where it has no place of its own.
 std::string place_text(const NamedCause& cause);
 
+/// "93 %, held out 91 %"; a dash where the nominal model leaves no more than noise.
+std::string share_text(const Share& share);
+/// "0.05 mm, 0.2 N".
+std::string change_text(const Change& change);
+
 /// Values of a candidate's own parameters: "stiffness 0.81 N m/rad, ...".
 std::string parameters_text(const Candidate& candidate);
 

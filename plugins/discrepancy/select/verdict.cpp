@@ -1,5 +1,7 @@
 #include "pedicel/discrepancy/select/verdict.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -39,6 +41,10 @@ Json to_json(const std::vector<Estimate>& estimates) {
   return {{"value", value}, {"low", low}, {"high", high}, {"unit", estimates.front().unit}};
 }
 
+Json sized(double value, const std::string& unit) {
+  return {{"value", number(value)}, {"unit", unit}};
+}
+
 Json to_json(const NamedCause& cause) {
   Json parameters = Json::object();
   for (const auto& [name, estimates] : cause.parameters) parameters[name] = to_json(estimates);
@@ -48,7 +54,18 @@ Json to_json(const NamedCause& cause) {
   for (const auto& [key, word] : cause.words) json[key] = word;
   json["because"] = cause.because;
   json["evidence"] = number(cause.evidence);
+  json["share"] = {{"fit", number(cause.share.fit)}, {"check", number(cause.share.check)}};
+  json["change"] = Json::object();
+  if (cause.change.marker) json["change"]["marker"] = sized(*cause.change.marker, "m");
+  if (cause.change.force) json["change"]["force"] = sized(*cause.change.force, "N");
+  if (!cause.against.empty()) json["against"] = cause.against;
   return json;
+}
+
+Json to_json(const std::vector<NamedCause>& causes) {
+  Json list = Json::array();
+  for (const NamedCause& cause : causes) list.push_back(to_json(cause));
+  return list;
 }
 
 Json to_json(const Errors& errors) {
@@ -88,8 +105,7 @@ int exit_code(Outcome outcome) {
 }
 
 std::string to_json(const Verdict& verdict) {
-  Json causes = Json::array(), competing = Json::array(), hide = Json::array();
-  for (const NamedCause& cause : verdict.causes) causes.push_back(to_json(cause));
+  Json competing = Json::array(), hide = Json::array();
   for (const CompetingModel& model : verdict.competing)
     competing.push_back({{"name", model.name}, {"behind", number(model.behind)}});
   for (const DetectableLimit& effect : verdict.detectable_limits)
@@ -103,7 +119,9 @@ std::string to_json(const Verdict& verdict) {
       {"format", "pedicel-verdict"},
       {"version", 1},
       {"verdict", to_string(verdict.outcome)},
-      {"causes", causes},
+      {"causes", to_json(verdict.causes)},
+      {"details", to_json(verdict.details)},
+      {"nearest", to_json(verdict.nearest)},
       {"rivals", competing},
       {"parameters", parameters},
       {"error",
@@ -111,11 +129,13 @@ std::string to_json(const Verdict& verdict) {
         {"check", to_json(verdict.check)},
         {"unit", "rms residual over the noise floor"}}},
       {"gain", number(verdict.gain)},
+      {"gain_over_nominal", number(verdict.gain_over_nominal)},
       {"remainder", verdict.remainder},
       {"could_hide", hide},
       {"next_experiment", verdict.next_experiment},
       {"extended_plant",
        verdict.extended_plant.empty() ? Json(nullptr) : Json(verdict.extended_plant)},
+      {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
       {"simulations", verdict.simulations},
       {"seconds", number(verdict.seconds)}};
   return json.dump(2);
@@ -124,6 +144,70 @@ std::string to_json(const Verdict& verdict) {
 std::string share_removed(double gain) {
   return gain > 0.995 ? "all" : short_number(100.0 * gain) + " %";
 }
+
+namespace {
+
+std::string percent(double share) {
+  return short_number(100.0 * std::min(share, 1.0)) + " %";
+}
+
+// "the plant is 28 % softer than the file says", "a weak stretch (weak_segment) at 0.21 of stem".
+std::string said(const NamedCause& cause) {
+  const effects::EffectDefinition* known = effects::find_effect(cause.name);
+  const auto factor = cause.parameters.find("factor");
+  if (known && known->material && factor != cause.parameters.end()) {
+    const double times = factor->second.front().value;
+    const std::string& word = times < 1.0 ? known->less : known->more;
+    return "the plant is " +
+           (times < 2.0 ? short_number(100.0 * std::abs(times - 1.0)) + " % " + word
+                        : short_number(times) + " times as much " + word) +
+           " than the file says (" + cause.name + ")";
+  }
+  std::string place;
+  if (const auto marker = cause.words.find("marker"); marker != cause.words.end())
+    place = " at " + marker->second;
+  else if (cause.where && known && known->home != effects::Home::base)
+    place = " at " + short_number(cause.where->at) + " of " + cause.where->curve;
+  return effects::plain_name(cause.name) + " (" + cause.name + ")" + place;
+}
+
+std::string changed(const NamedCause& cause) {
+  std::string text;
+  if (cause.change.marker) text = short_number(1.0e3 * *cause.change.marker) + " mm";
+  if (cause.change.force)
+    text += (text.empty() ? "" : " and ") + short_number(*cause.change.force) + " N";
+  return text;
+}
+
+std::string capital(std::string sentence) {
+  if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(sentence[0]));
+  return sentence;
+}
+
+// The size of what explains most, then what stands beside it.
+std::string sizes(const Verdict& verdict) {
+  std::string text;
+  const NamedCause& first = verdict.causes.front();
+  if (first.share.fit)
+    text =
+        capital(said(first)) + ": this explains " + percent(*first.share.fit) + " of the misfit. ";
+  for (std::size_t c = 1; c < verdict.causes.size(); ++c)
+    if (verdict.causes[c].share.fit)
+      text += "Beside it " + said(verdict.causes[c]) + " explains " +
+              percent(*verdict.causes[c].share.fit) + ". ";
+  return text;
+}
+
+std::string details(const Verdict& verdict) {
+  std::string text;
+  for (const NamedCause& cause : verdict.details) {
+    const std::string size = changed(cause);
+    text += " Beside it " + said(cause) + (size.empty() ? "" : ", which changes " + size) + ".";
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string headline(const Verdict& verdict) {
   std::string names;
@@ -140,11 +224,12 @@ std::string headline(const Verdict& verdict) {
                                         : "";
   switch (verdict.outcome) {
     case Outcome::adequate:
-      return "The model explains these data down to their noise.";
+      return "The model explains these data down to their noise." + details(verdict);
     case Outcome::named:
-      return "The data show " + names + gain + ".";
+      return sizes(verdict) + "The data show " + names + gain + "." + details(verdict);
     case Outcome::ambiguous:
-      return "Something is missing, and these data cannot tell which: " + names + ".";
+      return "Something is missing, and these data cannot tell which: " + names + "." +
+             details(verdict);
     case Outcome::unknown:
       return "Something is missing that none of the known causes explains. Do not extrapolate.";
     case Outcome::bad_data:

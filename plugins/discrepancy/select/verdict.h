@@ -21,6 +21,16 @@ struct Estimate {
   std::string unit;
 };
 
+/// Part of the nominal misfit above the noise that a cause takes away (tell_shares()).
+struct Share {
+  std::optional<double> fit, check;
+};
+/// RMS of what a cause changes, over all trials.
+struct Change {
+  std::optional<double> marker;  ///< m
+  std::optional<double> force;   ///< N
+};
+
 struct NamedCause {
   std::string name;
   std::map<std::string, std::vector<Estimate>> parameters;  ///< one entry a component
@@ -28,6 +38,9 @@ struct NamedCause {
   std::map<std::string, std::string> words;  ///< which marker, which trial
   std::string because;                       ///< one sentence
   double evidence = 0.0;  ///< log-likelihood gained, less what its parameters cost
+  Share share;
+  Change change;
+  std::string against;  ///< of one that came near: what speaks against it
 };
 
 struct CompetingModel {
@@ -49,15 +62,19 @@ struct DetectableLimit {
 /// What verdict.json says: the page Verdict of the manual.
 struct Verdict {
   Outcome outcome = Outcome::adequate;
-  std::vector<NamedCause> causes;
+  std::vector<NamedCause> causes;   ///< what explains most first; under `ambiguous` likeliest first
+  std::vector<NamedCause> details;  ///< real, and too small to matter
+  std::vector<NamedCause> nearest;  ///< under `unknown`: what came closest
   std::vector<CompetingModel> competing;
   std::map<std::string, Estimate> parameters;
   Errors fit, check;
-  std::optional<double> gain;
+  std::optional<double> gain;               ///< over the refitted model, on held-out trials
+  std::optional<double> gain_over_nominal;  ///< likewise
   std::string remainder;
   std::vector<DetectableLimit> detectable_limits;
   std::string next_experiment;
   std::string extended_plant;  ///< file name, empty where there is none
+  std::string next;            ///< file of the experiment that decides; empty where there is none
   long simulations = 0;
   double seconds = 0.0;
 };

@@ -24,6 +24,8 @@ struct Levels {
   double held_out_excess = 0.1;         ///< of the noise's square
   double needed_deviations = 3.5;       ///< deviations
   double least_factor_change = 0.0015;  ///< of a logarithm
+  double known_to = 0.01;               ///< of a number
+  double least_share = 0.02;            ///< of the misfit
   double believed = 2.0;                ///< deviations
   double prior_conflict = 4.0;          ///< deviations
   double beyond_mesh = 30.0;            ///< noise units in all

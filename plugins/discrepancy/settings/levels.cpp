@@ -67,6 +67,16 @@ void add_parameters(Levels& l, SettingRows& rows) {
               "Logarithm of a factor that two honest solvers may differ by.",
               {measured, "moduli of two solvers differ by up to 0.1 % on the same data",
                "Moduli that are 0.3 % off are not told, however precise the data."});
+  rows.share("known_to", l.known_to,
+             "How far from its nominal value modulus, density or damping may be without being a "
+             "finding, where the plant file says nothing (`known_to`).",
+             {derived, "materials are seldom measured to less than 1 %",
+              "Fewer numbers of the plant file are told to be off."});
+  rows.share("least_share", l.least_share,
+             "Share of the misfit that a further cause must explain; what explains less is told as "
+             "a detail.",
+             {derived, "fifty times less than all of it changes no decision",
+              "Fewer causes stand beside the first."});
   rows.number("believed", l.believed, "Deviations of its prior within which a factor is believed.",
               {derived, "95 % of what is known beforehand",
                "A mass that looks like density is searched for less often."});

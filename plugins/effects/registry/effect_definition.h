@@ -125,7 +125,9 @@ struct EffectDefinition {
   plant::Effect (*twin)(const plant::Effect&, double& modulus) = nullptr;
   /// The material's own number that the factor is on, and its unit.
   std::optional<double> plant::MaterialValues::*material = nullptr;
+  std::optional<double> plant::MaterialKnowledge::*known_to = nullptr;  ///< how well it is known
   std::string material_unit;
+  std::string less, more;  ///< than the file says: "softer", "stiffer"
 
   const EffectParameter* find(const std::string& parameter) const;
 };

@@ -30,12 +30,19 @@ enum class Shape { drawn, rest };
 enum class Interpolation { linear, smooth };
 enum class SectionKind { circle, ellipse, rectangle };
 
+/// How well numbers of a material are known: relative standard deviations, > 0.
+struct MaterialKnowledge {
+  std::optional<double> youngs_modulus, density, damping_time;
+  bool operator==(const MaterialKnowledge&) const = default;
+};
+
 /// Material as the file gives it; what a curve leaves out comes from the plant.
 struct MaterialValues {
   std::optional<double> youngs_modulus;  ///< Pa, > 0
   std::optional<double> poisson_ratio;   ///< 1, in (-1, 0.5]
   std::optional<double> density;         ///< kg/m3, > 0
   std::optional<double> damping_time;    ///< s, >= 0
+  MaterialKnowledge known_to = {};
   bool operator==(const MaterialValues&) const = default;
 };
 

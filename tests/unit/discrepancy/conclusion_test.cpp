@@ -373,6 +373,20 @@ TEST(Conclusion, NamesWhatAPulledParameterHadTakenOver) {
   EXPECT_THAT(names(v), ElementsAre("base_compliance"));
 }
 
+TEST(Conclusion, AParameterWithinWhatIsKnownIsADetail) {
+  Case c;
+  c.diagnosis.before.raised = false;
+  c.diagnosis.ranking.clear();
+  c.diagnosis.base.cost = 0.5 * c.findings.samples();
+  c.made.experiment.plant.material.known_to.youngs_modulus = 0.25;
+  const Verdict v = c.concluded();
+  EXPECT_EQ(v.outcome, Outcome::adequate);
+  EXPECT_THAT(v.causes, ::testing::IsEmpty());
+  ASSERT_EQ(v.details.size(), 1u);
+  EXPECT_EQ(v.details[0].name, "youngs_modulus");
+  EXPECT_THAT(headline(v), HasSubstr("the plant is 20 % stiffer than the file says"));
+}
+
 TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
   Case c;
   c.diagnosis.before.raised = false;
@@ -382,8 +396,7 @@ TEST(Conclusion, WithoutAnAlarmNamesAParameterThatLeavesOutOne) {
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::named);
   ASSERT_THAT(names(v), ElementsAre("youngs_modulus"));
-  EXPECT_EQ(v.causes[0].because,
-            "The refitted value is 1.2 times the nominal one, and nothing else is needed.");
+  EXPECT_EQ(v.causes[0].because, "The refitted value is 1.2 times the nominal one.");
   // (ln 1.2 / 0.01)^2 / 2 nats
   EXPECT_NEAR(v.causes[0].evidence, 0.5 * std::pow(std::log(1.2) / 0.01, 2), 1e-6);
   // ln 1.2 = 0.182 against 3.5 deviations of 0.04, 0.002 that solvers differ by, and what is left

@@ -24,6 +24,8 @@ Verdict full() {
   spring.where = plant::CurvePlace{"stem", 0.0, {}};
   spring.because = "It turns about its root.";
   spring.evidence = 143.2;
+  spring.share = {0.93, {}};
+  spring.change = {0.004, 0.2};
   NamedCause offset;
   offset.name = "marker_offset";
   offset.parameters["offset"] = {
@@ -51,10 +53,11 @@ std::vector<std::string> keys(const Json& json) {
 
 TEST(Verdict, HasTheFieldsOfTheFormat) {
   const Json json = Json::parse(to_json(full()));
-  EXPECT_THAT(keys(json),
-              ElementsAre("format", "version", "verdict", "causes", "rivals", "parameters", "error",
-                          "gain", "remainder", "could_hide", "next_experiment", "extended_plant",
-                          "simulations", "seconds"));
+  EXPECT_THAT(
+      keys(json),
+      ElementsAre("format", "version", "verdict", "causes", "details", "nearest", "rivals",
+                  "parameters", "error", "gain", "gain_over_nominal", "remainder", "could_hide",
+                  "next_experiment", "extended_plant", "next", "simulations", "seconds"));
   EXPECT_EQ(json["format"], "pedicel-verdict");
   EXPECT_EQ(json["version"], 1);
   EXPECT_EQ(json["verdict"], "ambiguous");
@@ -66,6 +69,9 @@ TEST(Verdict, HasTheFieldsOfTheFormat) {
   EXPECT_EQ(cause["where"], Json({{"curve", "stem"}, {"at", 0.0}}));
   EXPECT_EQ(cause["because"], "It turns about its root.");
   EXPECT_EQ(cause["evidence"], 143.2);
+  EXPECT_EQ(cause["share"], Json::parse(R"({"fit": 0.93, "check": null})"));
+  EXPECT_EQ(cause["change"], Json::parse(R"({"marker": {"value": 0.004, "unit": "m"},
+                                             "force": {"value": 0.2, "unit": "N"}})"));
   EXPECT_EQ(json["rivals"], Json::parse(R"([{"name": "weak_segment", "behind": 88.1}])"));
   EXPECT_EQ(json["parameters"]["youngs_modulus"]["high"], 3.2e8);
   EXPECT_EQ(json["error"]["fit"],

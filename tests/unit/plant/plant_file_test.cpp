@@ -16,7 +16,9 @@ const std::string every_key = R"(format: pedicel-plant
 version: 1
 name: cherry tomato truss
 shape: rest
-material: {youngs_modulus: 2.0e7, poisson_ratio: 0.35, density: 700, damping_time: 0.01}
+material:
+  {youngs_modulus: 2.0e7, poisson_ratio: 0.35, density: 700, damping_time: 0.01,
+   known_to: {youngs_modulus: 0.1, density: 0.05, damping_time: 0.5}}
 sampling: {connect: 0.01, distance: 0.02}
 root: [0, 0, 0.001]
 supports:
@@ -61,7 +63,7 @@ TEST(PlantFileReader, ReadsThePlant) {
   const PlantFile plant = parsed(every_key);
   EXPECT_EQ(plant.name, "cherry tomato truss");
   EXPECT_EQ(plant.shape, Shape::rest);
-  EXPECT_EQ(plant.material, (MaterialValues{2.0e7, 0.35, 700.0, 0.01}));
+  EXPECT_EQ(plant.material, (MaterialValues{2.0e7, 0.35, 700.0, 0.01, {0.1, 0.05, 0.5}}));
   EXPECT_EQ(plant.connect, 0.01);
   EXPECT_EQ(plant.distance, 0.02);
   EXPECT_EQ(plant.root, Vec3(0, 0, 0.001));

@@ -1,0 +1,82 @@
+#include "pedicel/app/verbs/transfer.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "pedicel/app/verbs/experiment_run.h"
+#include "pedicel/core/exit_code.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/procedure/transfer.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/plant/plant_file.h"
+
+namespace pedicel::app {
+
+namespace {
+
+struct TransferArguments : ExperimentArguments {
+  std::string extended;
+};
+
+plant::PlantFile load_plant(const std::string& path) {
+  Diagnostics diagnostics;
+  auto plant = plant::read_plant_file(path, diagnostics);
+  if (!plant) throw InvalidFile(diagnostics);
+  return *std::move(plant);
+}
+
+std::string row(const char* trials, const discrepancy::Errors& errors) {
+  if (!errors.refitted) return "";
+  char text[120];
+  std::snprintf(text, sizeof text, "%-10s %10.4g %10.4g %10.4g\n", trials,
+                errors.nominal.value_or(0.0), *errors.refitted, errors.extended.value_or(0.0));
+  return text;
+}
+
+int run(const TransferArguments& a) {
+  const plant::PlantFile extended = load_plant(a.extended);
+  const discrepancy::Experiment experiment = load_experiment(a);
+  ProgressLine progress;
+  discrepancy::TransferOptions options;
+  options.threads = a.thread_count();
+  options.stop = &stop_requested;
+  options.progress = progress.callback(a.quiet);
+  const discrepancy::Transfer found = discrepancy::transfer(extended, experiment, options);
+  progress.end(found.stopped);
+  if (found.stopped) return stop_exit_code();
+  const std::filesystem::path folder = a.folder("transfer_", experiment);
+  a.write(folder, [&](const std::filesystem::path& in) {
+    io::write_file_atomically(in / "transfer.json", to_json(found) + "\n");
+  });
+  if (a.json) {
+    std::cout << to_json(found) << std::endl;
+  } else {
+    if (found.refusal.empty())
+      std::cout << "RMS residual over the noise:\n"
+                << "trials        nominal   refitted  with effects\n"
+                << row("fitted", found.fit) << row("held out", found.check);
+    std::cout << found.sentence() << "\nwritten to " << folder.string() << std::endl;
+  }
+  return found.refusal.empty() ? exit_ok : exit_code(discrepancy::Outcome::bad_data);
+}
+
+}  // namespace
+
+std::function<int()> add_transfer_verb(CLI::App& app) {
+  const auto a = std::make_shared<TransferArguments>();
+  CLI::App* verb = app.add_subcommand(
+      "transfer", "whether effects found in one experiment help to foretell another one");
+  verb->add_option("extended", a->extended,
+                   "extended.plant.yaml of a diagnosis; its effects are carried over")
+      ->required();
+  add_experiment(*verb, *a);
+  add_experiment_options(*verb, *a,
+                         {"folder for transfer.json", "not used: nothing is drawn",
+                          "transfer.json, and nothing else, on standard output"});
+  return [a] { return run(*a); };
+}
+
+}  // namespace pedicel::app

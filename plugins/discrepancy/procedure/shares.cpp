@@ -1,0 +1,199 @@
+#include "pedicel/discrepancy/procedure/shares.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/discrepancy/procedure/conclusion.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+/// What stands for one cause of the verdict.
+struct Explained {
+  NamedCause* cause = nullptr;
+  Hypothesis with, without;
+};
+
+// The model with a parameter at its nominal value, or without the effect; nothing where it has
+// neither.
+std::optional<Hypothesis> less(const Hypothesis& model, const std::string& cause) {
+  Hypothesis rest = model;
+  if (const int p = model.factor_on(cause); p >= 0) {
+    rest.set_value(p, 1.0);
+    rest.free.erase(rest.free.begin() + p);
+    return rest;
+  }
+  // The last of that name is the one that was added last.
+  const auto found =
+      std::ranges::find(model.effects.rbegin(), model.effects.rend(), cause, &plant::Effect::name);
+  if (found == model.effects.rend()) return {};
+  const int effect = static_cast<int>(std::distance(found, model.effects.rend())) - 1;
+  rest.effects.erase(rest.effects.begin() + effect);
+  std::erase_if(rest.free, [&](const FreeParameter& free) { return free.effect == effect; });
+  for (FreeParameter& free : rest.free) free.effect -= free.effect > effect ? 1 : 0;
+  return rest;
+}
+
+Hypothesis refitted_to(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options) {
+  return start.size() > 0 ? fit(evaluator, start, options).hypothesis : start;
+}
+
+const FitSummary* alternative(const Findings& findings, const Diagnosis& diagnosis,
+                              const std::string& cause) {
+  for (const Candidate& candidate : diagnosis.ranking)
+    if (candidate.cause == cause) return &candidate.fit;
+  for (const NeededParameters::Instead& other : findings.needed.instead)
+    if (other.model.hypothesis.name == cause) return &other.model;
+  return nullptr;
+}
+
+/// Shares over some trials.
+class Misfit {
+ public:
+  Misfit(Evaluator& evaluator, const FitOptions& options, std::vector<int> trials)
+      : evaluator_(evaluator), options_(options) {
+    options_.trials = std::move(trials);
+    if (options_.trials.empty()) return;
+    const double samples = evaluator_.data().samples(options_.trials);
+    above_noise_ = of(Hypothesis{}) - samples;
+    // The sum of as many squares of noise scatters by itself.
+    is_seen_ = above_noise_ > interval95 * std::sqrt(2.0 * samples);
+  }
+  std::optional<double> share(const Explained& explained) {
+    if (!is_seen_) return {};
+    return (of(explained.without) - of(explained.with)) / above_noise_;
+  }
+
+ private:
+  double of(const Hypothesis& model) {
+    return evaluator_.residuals(std::span(&model, 1), options_).squaredNorm();
+  }
+
+  Evaluator& evaluator_;
+  FitOptions options_;
+  double above_noise_ = 0.0;
+  bool is_seen_ = false;
+};
+
+/// Sum of squares of what was measured three numbers at a time.
+class VectorRms {
+ public:
+  void add(const Eigen::MatrixXd& measured, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    const Eigen::Index columns = std::min({measured.cols(), a.cols(), b.cols()});
+    for (Eigen::Index c = 0; c + 2 < columns; c += 3)
+      for (Eigen::Index i = 0; i < measured.rows(); ++i) {
+        const double far = (a.block<1, 3>(i, c) - b.block<1, 3>(i, c)).squaredNorm();
+        if (!measured.block<1, 3>(i, c).allFinite() || !std::isfinite(far)) continue;
+        sum_ += far;
+        ++count_;
+      }
+  }
+  std::optional<double> value() const {
+    return count_ > 0 ? std::optional(std::sqrt(sum_ / count_)) : std::nullopt;
+  }
+
+ private:
+  double sum_ = 0.0;
+  int count_ = 0;
+};
+
+Change change_of(Evaluator& evaluator, const Explained& explained, FitOptions options) {
+  const Experiment& experiment = evaluator.data().experiment();
+  options.trials.resize(experiment.trials.size());
+  for (int t = 0; t < static_cast<int>(options.trials.size()); ++t) options.trials[t] = t;
+  const std::vector<Hypothesis> models{explained.with, explained.without};
+  const auto predicted = evaluator.predictions(models, options);
+  VectorRms markers, force;
+  for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
+    const Trial& trial = experiment.trials[t];
+    const Prediction &with = predicted[0][t], &without = predicted[1][t];
+    markers.add(trial.markers.value, with.markers, without.markers);
+    force.add(trial.force.value, with.force, without.force);
+  }
+  return {markers.value(), force.value()};
+}
+
+double most(const NamedCause& cause) {
+  return std::max(cause.share.fit.value_or(-1.0), cause.share.check.value_or(-1.0));
+}
+
+// What explains most comes first; what has no share (a law of breaking) stays behind.
+void sort_by_share(std::vector<NamedCause>& causes) {
+  std::ranges::stable_sort(causes, std::ranges::greater{}, most);
+}
+
+// Beside what explains most, a small thing is no cause.
+void set_details_apart(const Levels& levels, Verdict& verdict) {
+  const auto first = verdict.causes.begin() + 1;
+  const auto small = std::stable_partition(first, verdict.causes.end(), [&](const NamedCause& c) {
+    return most(c) >= levels.least_share || !c.share.fit;
+  });
+  verdict.details.insert(verdict.details.end(), std::make_move_iterator(small),
+                         std::make_move_iterator(verdict.causes.end()));
+  verdict.causes.erase(small, verdict.causes.end());
+}
+
+// Causes that exclude each other stand beside parameters that are off. Where these explain nearly
+// all, they are the finding.
+void settle_ambiguity(const Levels& levels, std::vector<NamedCause>& parameters, Verdict& verdict) {
+  sort_by_share(parameters);
+  const double best = std::ranges::max(verdict.causes, {}, most).share.fit.value_or(1.0);
+  if (!parameters.empty() && best < levels.least_share && most(parameters.front()) > best) {
+    std::swap(parameters, verdict.causes);
+    verdict.outcome = Outcome::named;
+  }
+  std::ranges::move(parameters, std::back_inserter(verdict.details));
+}
+
+}  // namespace
+
+void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOptions& options,
+                 Diagnosis& diagnosis) {
+  Verdict& verdict = diagnosis.verdict;
+  const bool is_ambiguous = verdict.outcome == Outcome::ambiguous;
+  if (verdict.causes.empty() || (verdict.outcome != Outcome::named && !is_ambiguous)) return;
+  const Levels& levels = findings.settings->levels;
+
+  NeededParameters needed = findings.needed;
+  std::vector<NamedCause> parameters;
+  if (!findings.chain.empty()) {
+    // The noise was read anew since the best model was fitted.
+    const FitSummary best = refit(evaluator, diagnosis.best, options);
+    needed = needed_parameters(evaluator, best, {}, options);
+    parameters = parameters_off(findings, needed, best);
+    if (!is_ambiguous) std::ranges::move(parameters, std::back_inserter(verdict.causes));
+  }
+
+  std::vector<Explained> all;
+  const auto explain = [&](std::vector<NamedCause>& causes) {
+    for (NamedCause& cause : causes) {
+      std::optional<Hypothesis> rest = less(needed.model.hypothesis, cause.name);
+      if (rest) {
+        all.push_back({&cause, needed.model.hypothesis, refitted_to(evaluator, *rest, options)});
+      } else if (const FitSummary* other = alternative(findings, diagnosis, cause.name)) {
+        rest = less(other->hypothesis, cause.name);
+        if (rest)
+          all.push_back({&cause, other->hypothesis, refitted_to(evaluator, *rest, options)});
+      }
+    }
+  };
+  explain(verdict.causes);
+  if (is_ambiguous) explain(parameters);
+
+  Misfit fitted(evaluator, options, diagnosis.fit_trials);
+  Misfit held_out(evaluator, options, diagnosis.check_trials);
+  for (const Explained& one : all) {
+    one.cause->share = {fitted.share(one), held_out.share(one)};
+    one.cause->change = change_of(evaluator, one, options);
+  }
+  if (is_ambiguous) {
+    settle_ambiguity(levels, parameters, verdict);
+  } else {
+    sort_by_share(verdict.causes);
+    set_details_apart(levels, verdict);
+  }
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/discrepancy/select/findings.h"
+
+namespace pedicel::discrepancy {
+
+/// How much of the misfit each cause of the verdict explains, and how far it moves what is
+/// measured. J is the sum of squared whitened residuals, and N the number of samples.
+///
+/// - Modulus, density and damping that are off stand beside the other causes.
+/// - `share` of a cause is (J_without - J_all) / (J_nominal - N). `all` is the model with every
+///   cause; `without` has all others, refitted. Numbers that nothing asks for stay nominal in both.
+/// - `change` is the RMS of what these two models predict differently.
+/// - Causes are sorted by share. What explains too little becomes a detail.
+///
+/// Refits the best model once for each cause, and three times to find the parameters that are off.
+/// Does nothing unless the outcome is `named` or `ambiguous`.
+void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOptions& options,
+                 Diagnosis& diagnosis);
+
+}  // namespace pedicel::discrepancy

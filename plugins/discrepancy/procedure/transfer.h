@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/data/experiment.h"
+#include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+
+namespace pedicel::discrepancy {
+
+struct TransferOptions {
+  int threads = 1;
+  std::function<void(const std::string&, double)> progress;  ///< from any thread
+  const std::atomic<bool>* stop = nullptr;
+  DiagnosisSettings settings = {};
+};
+
+/// What effects that were found in one experiment do for another one.
+struct Transfer {
+  std::string refusal;               ///< why these data cannot be used; empty: they can
+  std::vector<std::string> effects;  ///< names of those that were carried over
+  /// `extended` is the model with the effects, their numbers as they came.
+  Errors fit, check;
+  std::optional<double> gain;  ///< over the refitted model, on the trials held out
+  /// Factors on modulus, density and damping: without the effects and with them.
+  std::vector<std::pair<std::string, double>> refitted, extended;
+  long simulations = 0;
+  bool stopped = false;
+
+  /// Whether the effects carry over, in a sentence.
+  std::string sentence() const;
+};
+
+/// Carries the effects of `extended` over to the plant of another experiment. Modulus, density and
+/// damping are fitted to its trials without the effects and with them; the effects' own numbers
+/// stay. Factors on the material in `extended` belong to the first plant and stay there. Throws
+/// InvalidFile where the effects do not fit the other plant.
+Transfer transfer(const plant::PlantFile& extended, const Experiment& experiment,
+                  const TransferOptions& options);
+
+std::string to_json(const Transfer& transfer);
+
+}  // namespace pedicel::discrepancy
