@@ -128,6 +128,10 @@ FruitLook FruitLook::apple() {
   return look;
 }
 
+FruitLook FruitLook::of(plant::Look look) {
+  return look == plant::Look::apple ? apple() : tomato();
+}
+
 void add_at(DrawList& list, const DrawList& shape, const Pose& X_WS) {
   for (render::Capsule c : shape.capsules) {
     c.p0 = X_WS * c.p0, c.p1 = X_WS * c.p1;

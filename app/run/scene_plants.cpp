@@ -100,8 +100,7 @@ class Builder {
     if (!built) return;
     ScenePlantModel made;
     made.info.name = file.name;
-    made.info.is_woody = wanted.source == ScenePlant::Source::mtg ||
-                         file.material.youngs_modulus.value_or(0.0) > 5.0e8;
+    made.info.look = file.look;
     made.info.sampled_nodes = built->nodes_sampled;
     made.info.residual = built->residual;
     made.info.residual_text = plant::residual_text(*built);

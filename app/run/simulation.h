@@ -40,8 +40,8 @@ struct SimulationOptions {
 struct PlantInfo {
   std::string name;           ///< as in the scene; "forest_3" in a grid
   std::vector<Blade> blades;  ///< leaves, for drawing
-  bool is_woody = false;      ///< drawn with bark
-  int sampled_nodes = 0;      ///< before simplification; 0: not from curves
+  plant::Look look = plant::Look::tomato;
+  int sampled_nodes = 0;  ///< before simplification; 0: not from curves
   /// How far it settles from the drawn shape, and that in words; absent where it sags freely.
   std::optional<cosserat::Residual> residual;
   std::string residual_text;
