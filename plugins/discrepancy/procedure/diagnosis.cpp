@@ -7,65 +7,58 @@
 
 namespace pedicel::discrepancy {
 
-Procedure::Procedure(const Experiment& experiment, const DiagnosisOptions& options)
-    : given_(experiment),
-      options_(options),
-      start_(std::chrono::steady_clock::now()),
-      log_(options.progress, options.note, result_.steps) {
-  result_.settings = options.settings;
-  findings_.settings = &options_.settings;
-  log_.settings(options.settings);
-  result_.admission = admit(experiment);
-}
-
 Diagnosis Procedure::run() {
-  if (result_.admission.refusal.empty()) {
-    prepare();
-    fit_baseline();
-    if (result_.verdict.outcome != Outcome::numerical && !stopped()) decide();
+  Verdict& verdict = state_.result.verdict;
+  if (state_.result.admission.refusal.empty()) {
+    baseline_.prepare();
+    baseline_.refit_parameters();
+    if (verdict.outcome != Outcome::numerical && !state_.stopped()) decide();
   } else {
-    result_.verdict.outcome = Outcome::bad_data;
-    result_.verdict.remainder = result_.admission.refusal;
+    verdict.outcome = Outcome::bad_data;
+    verdict.remainder = state_.result.admission.refusal;
   }
   return finished();
 }
 
 void Procedure::decide() {
-  look();
-  const bool wrong =
-      result_.before.raised || has_prior_shift(result_.base.hypothesis, options_.settings);
-  if (!wrong && !stopped()) look_at_check_trials();
-  if (objecting_ >= 0) {
-    Experiment other = given_;
-    const TrialSplit split{result_.fit_trials, result_.check_trials};
-    if (exchange_trials(other, split, objecting_)) {
-      log_.note("It is fitted in place of another one, and all begins anew.");
-      exchanged_ = std::move(other);
-      result_.exchanged = experiment().trials[objecting_].name;
-      return;
-    }
-  }
+  baseline_.look();
+  const bool wrong = state_.result.before.raised ||
+                     has_prior_shift(state_.result.base.hypothesis, state_.settings());
+  const int objecting = wrong || state_.stopped() ? -1 : baseline_.objecting_trial();
+  if (objecting >= 0 && exchanges(objecting)) return;
   if (wrong) {
-    search();
-    extend();
+    causes_.search();
+    causes_.extend();
   }
-  if (!stopped()) conclude_all();
+  if (!state_.stopped()) verdict_.write(causes_.instead_of(), objecting);
+}
+
+// Whether a trial can be fitted in place of another one. Then all begins anew: what was read of the
+// noise and refitted so far did not know it.
+bool Procedure::exchanges(int objecting) {
+  Experiment other = state_.given;
+  const TrialSplit split{state_.result.fit_trials, state_.result.check_trials};
+  if (!exchange_trials(other, split, objecting)) return false;
+  state_.log.note("It is fitted in place of another one, and all begins anew.");
+  exchanged_ = std::move(other);
+  state_.result.exchanged = state_.experiment().trials[objecting].name;
+  return true;
 }
 
 Diagnosis Procedure::finished() {
-  if (setup_) {
-    result_.position_noise = setup_->data().position_noise();
-    result_.force_noise = setup_->data().force_noise();
-    result_.verdict.simulations += setup_->simulations();
+  if (state_.setup) {
+    state_.result.position_noise = state_.setup->data().position_noise();
+    state_.result.force_noise = state_.setup->data().force_noise();
+    state_.result.verdict.simulations += state_.setup->simulations();
   }
-  if (simulators_) {
-    result_.verdict.simulations += simulators_->simulations();
-    simulators_->drop();
+  if (state_.simulators) {
+    state_.result.verdict.simulations += state_.simulators->simulations();
+    state_.simulators->drop();
   }
-  result_.stopped = stopped();
-  result_.verdict.seconds =
+  state_.result.stopped = state_.stopped();
+  state_.result.verdict.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  return std::move(result_);
+  return std::move(state_.result);
 }
 
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
