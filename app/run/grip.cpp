@@ -32,7 +32,7 @@ Grip::Grip(RobotControl& robot, coupling::ColliderSet& colliders)
     friction += std::abs(element.multiplier) * moves.friction;
     if (!moves.mimic) palm_ = element.parent;
   }
-  const double limit = robot_.robot().effort_limit(joint);
+  const double limit = robot_.robot().motors().effort_limit(joint);
   const double effort =
       std::isfinite(limit) ? limit : own_effort(robot_.description(), model.joint_names()[joint]);
   now_.press = std::max(0.0, effort - friction);

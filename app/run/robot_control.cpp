@@ -48,7 +48,7 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
   speed_ = manual_speed(robot_.model(), description);
   if (!scene.gripper.empty()) gripper_ = robot_.model().joint_index(scene.gripper);
   if (scene.gripper_force > 0.0 && gripper_ >= 0)
-    robot_.set_effort_limit(gripper_, scene.gripper_force);
+    robot_.motors().set_effort_limit(gripper_, scene.gripper_force);
   robot_.reset(q_, qd_);
   start_of_step_ = q_;
 }
@@ -60,9 +60,9 @@ void RobotControl::act(world::SimWorld& world, world::StepReport&) {
   else if (!trajectory_.empty())
     part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
   for (int i = 0; i < q_.size(); ++i) {
-    if (mode_ == "position") robot_.set_position_target(i, q_[i], qd_[i]);
-    if (mode_ == "velocity") robot_.set_velocity_target(i, qd_[i]);
-    if (mode_ == "torque") robot_.set_torque(i, 0.0);
+    if (mode_ == "position") robot_.motors().set_position_target(i, q_[i], qd_[i]);
+    if (mode_ == "velocity") robot_.motors().set_velocity_target(i, qd_[i]);
+    if (mode_ == "torque") robot_.motors().set_torque(i, 0.0);
   }
   robot_.begin_step(world.dt());
 }

@@ -76,13 +76,14 @@ TEST_P(SixAxes, MoveThroughWaypoints) {
   double worst = 0.0;
   for (int step = 1; step <= 840; ++step) {
     trajectory.sample(step * dt, q, qd);
-    robot.set_position_targets(q, qd);
+    robot.motors().set_position_targets(q, qd);
     world.step(robot, dt);
     worst = std::max(worst, (robot.positions() - q).cwiseAbs().maxCoeff());
   }
   EXPECT_LT(worst, 1e-3);
-  EXPECT_NEAR((robot.link_pose_W(GetParam().tool).position - Vec3(0.25, 0.05, 0.2)).norm(), 0.0,
-              1e-4);
+  EXPECT_NEAR(
+      (robot.link_pose_W(robot.link(GetParam().tool)).position - Vec3(0.25, 0.05, 0.2)).norm(), 0.0,
+      1e-4);
 }
 
 }  // namespace
