@@ -209,7 +209,7 @@ class Run {
     result_.ms_per_step_p95 = percentile(milliseconds_, 0.95);
     result_.largest_stretch = simulation_.measurements().largest_stretch();
     result_.state_hash = simulation_.state_hash();
-    result_.residual = simulation_.worst_residual();
+    result_.residual = worst_residual(simulation_.plants());
     result_.events = recorder_.events();
     add_limits();
     simulation_.measurements().set_wall_seconds(result_.wall);

@@ -45,7 +45,7 @@ struct RunResult {
   double ms_per_step_p50 = 0.0, ms_per_step_p95 = 0.0;
   double largest_stretch = 0.0;  ///< 1
   std::uint64_t state_hash = 0;
-  std::string residual;  ///< Simulation::worst_residual()
+  std::string residual;  ///< worst_residual() of its plants
   std::string error;     ///< why it ended early; empty: it did not
   std::vector<world::ExpectationResult> verdicts;
   std::optional<Comparison> comparison;  ///< with measured values
