@@ -23,7 +23,7 @@ Json section(const std::vector<Parameter>& parameters) {
 }  // namespace
 
 void write_meta(const std::filesystem::path& path, const Simulation& simulation,
-                const RunResult& result) {
+                const SceneResult& result) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(result.state_hash));
   const world::Scene& scene = simulation.scene();

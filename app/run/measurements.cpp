@@ -25,7 +25,7 @@ Measurements::Measurements(const cosserat::RodSystem& rods, const PlantStep& pla
   }
 }
 
-void Measurements::observe(const world::SimWorld& world, const world::StepReport& report) {
+void Measurements::observe(const world::SimWorld& world, const world::WorldReport& report) {
   time_ = world.time();
   penetration_ = std::max(penetration_, report.deepest_overlap);
   for (int p = 0; p < rods_.size(); ++p) observe_plant(p);

@@ -55,7 +55,7 @@ PlantStep::PlantStep(cosserat::RodSystem& rods, coupling::ColliderSet& colliders
                      LinkPose link_pose)
     : rods_(rods), colliders_(colliders), link_pose_(std::move(link_pose)), contacts_(colliders) {}
 
-void PlantStep::act(world::SimWorld& world, world::StepReport& report) {
+void PlantStep::act(world::SimWorld& world, world::WorldReport& report) {
   move_colliders();
   rods_.step(world.dt(), world.settings().gravity);
   rough_steps_.resize(rods_.size(), 0);
@@ -71,7 +71,7 @@ void PlantStep::move_colliders() {
   colliders_.update(poses_);
 }
 
-void PlantStep::sum_up(const Vec3& gravity, world::StepReport& report) {
+void PlantStep::sum_up(const Vec3& gravity, world::WorldReport& report) {
   contacts_.begin();
   for (int p = 0; p < rods_.size(); ++p) {
     contacts_.add(p, rods_.model(p), rods_.contact_forces(p));
@@ -89,7 +89,7 @@ void PlantStep::sum_up(const Vec3& gravity, world::StepReport& report) {
 }
 
 // Names the organ of the worst error, and of a fatal one the quantity.
-void PlantStep::judge(int plant, world::StepReport& report) const {
+void PlantStep::judge(int plant, world::WorldReport& report) const {
   const cosserat::StepReport& own = rods_.report(plant);
   const cosserat::RodModel& model = rods_.model(plant);
   const cosserat::RodState& state = rods_.state(plant);

@@ -53,7 +53,7 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
   start_of_step_ = q_;
 }
 
-void RobotControl::act(world::SimWorld& world, world::StepReport&) {
+void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
   start_of_step_ = robot_.positions();
   if (goal_)
     approach_goal(world.dt());
@@ -103,7 +103,7 @@ void RobotControl::approach_goal(double dt) {
   }
 }
 
-void RobotControl::Reader::act(world::SimWorld&, world::StepReport& report) {
+void RobotControl::Reader::act(world::SimWorld&, world::WorldReport& report) {
   robot_.end_step();
   const Eigen::VectorXd& q = robot_.positions();
   if (q.allFinite()) return;

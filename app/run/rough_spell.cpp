@@ -20,7 +20,7 @@ std::string strongest(const Simulation& simulation) {
 
 }  // namespace
 
-void RoughSpell::look(const Simulation& simulation, const world::StepReport& report) {
+void RoughSpell::look(const Simulation& simulation, const world::WorldReport& report) {
   if (!(report.errors & world::plant_not_converged)) {
     row_ = 0;
     return;

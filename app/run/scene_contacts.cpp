@@ -37,7 +37,7 @@ void SceneContacts::add_colliders(const SceneAssets& assets) {
 void SceneContacts::add_grip(const SceneAssets& assets) {
   const bool grips = robot_ && robot_->gripper() >= 0 && scene_.robot->control != "torque" &&
                      assets.rods.solver == cosserat::SolverKind::direct;
-  if (grips) grip_ = std::make_unique<Grip>(*robot_, colliders_);
+  if (grips) grip_ = std::make_unique<GripperStep>(*robot_, colliders_);
 }
 
 void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& diagnostics) {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/run/grip.h"
+#include "pedicel/app/run/gripper_step.h"
 #include "pedicel/app/run/plant_step.h"
 #include "pedicel/app/run/reaction.h"
 #include "pedicel/app/run/robot_control.h"
@@ -47,7 +47,7 @@ class SceneContacts {
   coupling::ColliderSet colliders_;
   std::vector<coupling::ColliderSource*> sources_;  // of rods_
   std::vector<cosserat::SelfContact*> self_contacts_;
-  std::unique_ptr<Grip> grip_;  // null without a gripper that its motor moves
+  std::unique_ptr<GripperStep> grip_;  // null without a gripper that its motor moves
   std::unique_ptr<PlantStep> plant_step_;
   std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
 };

@@ -26,7 +26,7 @@ SceneLoads::SceneLoads(const std::vector<world::SceneLoad>& loads, cosserat::Rod
   }
 }
 
-void SceneLoads::act(world::SimWorld& world, world::StepReport&) {
+void SceneLoads::act(world::SimWorld& world, world::WorldReport&) {
   const double time = world.time();
   for (const FruitLoad& one : loads_) {
     const world::SceneLoad& load = *one.load;

@@ -17,7 +17,7 @@ class SceneLoads : public world::Participant {
              Diagnostics& diagnostics);
 
   world::Phase phase() const override { return world::Phase::commands; }
-  void act(world::SimWorld& world, world::StepReport& report) override;
+  void act(world::SimWorld& world, world::WorldReport& report) override;
 
  private:
   struct FruitLoad {

@@ -41,7 +41,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  const world::StepReport& step() { return world_.step(); }
+  const world::WorldReport& step() { return world_.step(); }
 
   /// Goes on with the constants of other assets (stiffness, mass, thresholds, solver and contact
   /// settings); loads, bodies and robot stay. Throws UsageError where can_change_to() is false.

@@ -22,7 +22,7 @@ TEST_P(ShippedScene, MeetsItsOwnCriteria) {
   options.video = false;
   options.comparison = false;  // tests/unit/app/solver_comparison_test.cpp
   options.quiet = true;
-  const app::RunResult result = app::run_with_sweep(*scene, options);
+  const app::SceneResult result = app::run_with_sweep(*scene, options);
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_EQ(result.verdicts.size(), scene->expectations.size());
   for (const world::ExpectationResult& verdict : result.verdicts)

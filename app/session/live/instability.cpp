@@ -5,7 +5,7 @@
 namespace pedicel::app {
 
 Instability instability_of(const Simulation& simulation, double last_good_time) {
-  const world::StepReport& report = simulation.world().report();
+  const world::WorldReport& report = simulation.world().report();
   Instability found;
   found.last_good_time = last_good_time;
   found.culprit = report.culprit;
@@ -20,7 +20,7 @@ Instability instability_of(const Simulation& simulation, double last_good_time) 
   }
   found.error = "unstable at " + io::format_number(report.time, 6) +
                 " s: " + (found.culprit.empty() ? "" : found.culprit + ": ") +
-                world::remedy(static_cast<world::StepError>(report.errors & world::fatal_errors));
+                world::remedy(static_cast<world::WorldError>(report.errors & world::fatal_errors));
   return found;
 }
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/run/grip.h"
+#include "pedicel/app/run/gripper_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ double own_effort(const robot::RobotDescription& robot, const std::string& joint
 
 }  // namespace
 
-Grip::Grip(RobotControl& robot, coupling::ColliderSet& colliders)
+GripperStep::GripperStep(RobotControl& robot, coupling::ColliderSet& colliders)
     : robot_(robot), colliders_(colliders), drive_(colliders.add_drive()) {
   const robot::KinematicModel& model = robot_.robot().model();
   const int joint = robot_.gripper();
@@ -47,7 +47,7 @@ Grip::Grip(RobotControl& robot, coupling::ColliderSet& colliders)
 
 // Where it was stopped, it is looked at from where it stands: Bullet has moved it on, perhaps to
 // the other side of what it holds.
-void Grip::begin(double dt) {
+void GripperStep::begin(double dt) {
   robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
   now_.start = robot_.start_of_step()[joint];
@@ -57,7 +57,7 @@ void Grip::begin(double dt) {
   tell_colliders();
 }
 
-void Grip::tell_colliders() {
+void GripperStep::tell_colliders() {
   const robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
   now_.lower = std::max(robot.model().lower()[joint], now_.start - farthest_back);
@@ -73,7 +73,7 @@ void Grip::tell_colliders() {
 
 // Plants that it presses at once do not know of each other within a step: the one that stops it
 // first counts.
-void Grip::end(double dt) {
+void GripperStep::end(double dt) {
   robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
   double position = now_.aim, load = 0.0;
@@ -91,7 +91,7 @@ void Grip::end(double dt) {
 
 // Whatever the motors can bear moves nothing: they know of it (Robot, "Control"). A moment is
 // handed on as two forces.
-void Grip::push_palm() {
+void GripperStep::push_palm() {
   robot::Robot& robot = robot_.robot();
   for (const int c : pressed_) {
     const coupling::ContactSum& sum = contacts_->colliders()[c];
