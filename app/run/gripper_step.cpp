@@ -25,20 +25,24 @@ GripperStep::GripperStep(RobotControl& robot, coupling::ColliderSet& colliders)
     : robot_(robot), colliders_(colliders), drive_(colliders.add_drive()) {
   const robot::KinematicModel& model = robot_.robot().model();
   const int joint = robot_.gripper();
+  // Of all joints that follow the one that is driven, as its motor feels it.
   double friction = 0.0;
   for (const robot::KinematicModel::Element& element : model.elements()) {
     if (element.dof != joint) continue;
     const robot::Joint& moves = robot_.description().joints[element.joint];
     friction += std::abs(element.multiplier) * moves.friction;
+    // The fingers hang on what carries the driven one.
     if (!moves.mimic) palm_ = element.parent;
   }
   const double limit = robot_.robot().motors().effort_limit(joint);
   const double effort =
       std::isfinite(limit) ? limit : own_effort(robot_.description(), model.joint_names()[joint]);
+  // Closing, friction takes from the motor; held open, it helps.
   now_.press = std::max(0.0, effort - friction);
   now_.hold = effort + friction;
   for (int c = 0; c < colliders_.size(); ++c) {
     const coupling::Collider& collider = colliders_.collider(c);
+    // The fingers, and whatever is fixed to them.
     if (collider.body == robot_body && model.moves(joint, collider.link)) pressed_.push_back(c);
   }
   now_.reference = now_.start = now_.aim = robot_.robot().positions()[joint];
@@ -60,11 +64,13 @@ void GripperStep::begin(double dt) {
 void GripperStep::tell_colliders() {
   const robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
+  // Limits bound how far a plant may push it back.
   now_.lower = std::max(robot.model().lower()[joint], now_.start - farthest_back);
   now_.upper = std::min(robot.model().upper()[joint], now_.start + farthest_back);
   colliders_.set_drive(drive_, now_);
   for (const int c : pressed_) {
     const int link = colliders_.collider(c).link;
+    // At the world's origin, since a drive tells its motion as a twist there.
     const Vec3 origin_L = robot.link_poses()[link].inverse() * Vec3(0, 0, 0);
     robot.model().jacobian(robot.link_poses(), link, origin_L, jacobian_);
     colliders_.press(c, drive_, jacobian_.col(joint).head<3>(), jacobian_.col(joint).tail<3>());
@@ -79,6 +85,7 @@ void GripperStep::end(double dt) {
   double position = now_.aim, load = 0.0;
   for (const coupling::ColliderSource* source : sources_) {
     const cosserat::DriveEnd& end = source->drive_ends()[drive_];
+    // Loads add up, wherever it stops.
     load += end.load;
     if (std::abs(end.position - now_.aim) > std::abs(position - now_.aim)) position = end.position;
   }

@@ -10,12 +10,14 @@ SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
                              cosserat::RodSystem& rods, RobotControl* robot,
                              Diagnostics& diagnostics)
     : scene_(assets.scene), world_(world), rods_(rods), robot_(robot) {
+  // The grip marks the colliders that it presses, before the sources look at what touches.
   add_colliders(assets);
   add_grip(assets);
   for (int p = 0; p < rods_.size(); ++p) add_sources(assets, p, diagnostics);
   plant_step_ = std::make_unique<PlantStep>(
       rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
   if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
+  // One way: plants feel the robot, and the robot moves as if they were not there.
   if (!assets.coupling.two_way) return;
   reaction_ = std::make_unique<Reaction>(world_, robot_, colliders_);
   if (grip_) grip_->pass_on(plant_step_->contacts());
@@ -25,6 +27,7 @@ SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
 
 void SceneContacts::add_colliders(const SceneAssets& assets) {
   if (scene_.ground) add_ground_collider(colliders_, *scene_.ground);
+  // Bodies that come later are fruits that came off; plants do not feel those.
   for (int b = 0; b < world_.body_count(); ++b)
     add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
   if (robot_)
@@ -42,6 +45,7 @@ void SceneContacts::add_grip(const SceneAssets& assets) {
 
 void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& diagnostics) {
   auto source = std::make_unique<coupling::ColliderSource>(colliders_, assets.coupling);
+  // A plant drawn through a link would be shot out in the first step.
   const std::vector<coupling::Overlap> overlaps =
       source->ignore_touching(rods_.model(p), rods_.state(p));
   for (const StartOverlap& overlap : start_overlaps(rods_.model(p), colliders_, overlaps))
@@ -76,6 +80,7 @@ SourcePosition SceneContacts::place_of(const coupling::Collider& collider) const
 
 Pose SceneContacts::link_pose(const coupling::Collider& collider) const {
   if (collider.body == robot_body) return robot_->link_pose(collider.link);
+  // The ground never moves, so its field is given in the world.
   if (collider.body == ground_body) return Pose{};
   return world_.body_pose(collider.body);
 }

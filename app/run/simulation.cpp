@@ -18,7 +18,9 @@ world::WorldSettings world_settings(const world::Scene& scene) {
 /// Robot with its program, bodies, ground and loads: what stands in a world beside its plants.
 std::string things_of(world::Scene scene) {
   world::Scene things;
+  // Compared as text, so that no field can be forgotten in a comparison.
   things.robot = std::move(scene.robot);
+  // Recorded poses are played by a command; a run does not know them.
   if (things.robot) things.robot->recorded.clear();
   things.bodies = std::move(scene.bodies);
   things.ground = scene.ground;
@@ -37,14 +39,17 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
       world_(world_settings(scene_)),
       notes_(assets_->notes) {
   Diagnostics diagnostics;
+  // Plants first: loads, waypoints and contacts name their fruits.
   rods_ = std::make_unique<cosserat::RodSystem>(assets_->rods, scene_.threads);
   add_plants();
   add_bodies();
   loads_ = std::make_unique<SceneLoads>(scene_.loads, *rods_, diagnostics);
   add_robot(diagnostics);
+  // Contacts are set up where all things stand, so nothing may be missing by now.
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), diagnostics);
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
+  // Participants of one phase act in the order in which they join.
   world_.add(*loads_);
   contacts_->join();
   world_.add(*measurements_);
@@ -77,6 +82,7 @@ const std::vector<PlantInfo>& Simulation::plants() const {
 
 bool Simulation::can_change_to(const SceneAssets& assets) const {
   const coupling::CouplingSettings &now = assets_->coupling, &then = assets.coupling;
+  // These decide what is set up once, so they cannot change under way.
   const bool same_contacts = now.margin == then.margin && now.two_way == then.two_way &&
                              now.self_contact == then.self_contact;
   const bool same_world =
@@ -96,6 +102,7 @@ void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
   for (int p = 0; p < rods_->size(); ++p) rods_->change_constants(p, assets->models[p]);
   rods_->change_settings(assets->rods);
   contacts_->change_settings(assets->coupling);
+  // References into the first assets stay: scene, meshes, fields.
   if (!first_assets_) first_assets_ = assets_;
   assets_ = std::move(assets);
 }
@@ -114,6 +121,7 @@ std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
     if (anchor.kind != world::Anchor::Kind::fruit) continue;
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
       if (fruit_name(model, f) != anchor.name) continue;
+      // As soon as it is off, a fruit is a body of its own name.
       const int body = world_.body_index(anchor.name);  // it has come off
       if (body >= 0) return world_.body_pose(body).position;
       return cosserat::point_on(model, rods_->state(p), model.fruits[f].element,
@@ -125,6 +133,7 @@ std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
 
 std::uint64_t Simulation::state_hash() const {
   StateHash hash;
+  // The order is part of the hash: in another one it is another number.
   world_.add_to(hash);
   rods_->add_to(hash);
   if (robot_) robot_->add_to(hash);

@@ -32,15 +32,18 @@ void Baseline::refit_parameters() {
   state_.log.say("refitting modulus, density and damping", 0.02);
   Evaluator evaluator = state_.setup->evaluator();
   const Hypothesis start = baseline_start(evaluator, state_.fit_options(), state_.result.unseen);
+  // Short first: over a whole record a wrong frequency is out of phase, and a fit stays there.
   const std::array horizons{state_.settings().budget.baseline_horizon, 1.0};
   state_.log.noise(state_.setup->data());
   state_.result.base = fit_growing(evaluator, start, state_.fit_options(), horizons);
   state_.log.fit("Baseline", state_.result.base, state_.setup->samples());
   if (state_.stopped()) return;
+  // Noise is read from what a good model leaves, so mesh and step come first.
   refine();
   if (state_.stopped()) return;
   state_.setup->renew_noise(state_.result.base.hypothesis);
   Evaluator again = state_.setup->evaluator();
+  // Fewer were free as long as the noise was read from a worse model.
   if (add_plainly_seen(again, state_.fit_options(), state_.result.unseen,
                        state_.result.base.hypothesis)) {
     state_.log.note("With the noise as it is read now these data see more of the parameters.");
@@ -64,6 +67,7 @@ void Baseline::refine() {
        }});
   state_.result.numerics = state_.setup->numerics();
   state_.result.numerical_error = check.largest;
+  // A correction is itself uncertain: a share of it may be left.
   state_.numerical = state_.settings().accuracy.left_uncorrected * check.correction;
   state_.findings.parameter_shift = check.parameter_shift;
   if (check.largest > state_.settings().accuracy.numerical_limit && !is_masked(check)) {
@@ -77,6 +81,7 @@ void Baseline::refine() {
                   text(": the numerical error was %.2g of the noise and was corrected for.",
                        state_.result.numerical_error));
   state_.setup->renew();
+  // What the mesh alone could explain must not become a cause.
   state_.result.base.hypothesis.add(mesh_nuisance());
   refit_base();
 }
@@ -108,6 +113,7 @@ void Baseline::look() {
 // What acts in a held-out trial alone is not seen in those that are fitted.
 int Baseline::objecting_trial() {
   Evaluator evaluator = state_.setup->evaluator();
+  // What the model leaves everywhere is no reason to blame one trial.
   const double dispersion = std::max(1.0, 2.0 * state_.result.base.cost / state_.setup->samples());
   double most = 0.0;
   int objecting = -1;
@@ -118,6 +124,7 @@ int Baseline::objecting_trial() {
     const double excess =
         held_out_excess(held_out_model(evaluator, state_.result.base, check), samples, dispersion) -
         1.0;
+    // The mean square of n normal residuals has the variance 2 / n.
     const double deviations = excess / std::sqrt(2.0 / std::max(1, samples));
     state_.log.note("What is left of trial " + state_.experiment().trials[t].name +
                     text(", held out, is %.3g deviations above the noise.", deviations));

@@ -47,6 +47,7 @@ RefitOptions CauseSearch::refit_options(double from, double to, const std::strin
 }
 
 void CauseSearch::search() {
+  // At the mesh, the step and with the corrections that the baseline ended with.
   state_.simulators->renew_fine();
   state_.result.ranking =
       refit_all(state_.simulators->workers(), state_.result.base, state_.causes,
@@ -59,6 +60,8 @@ void CauseSearch::search() {
   if (state_.result.ranking.empty() ||
       state_.result.ranking.front().evidence < state_.settings().levels.worth_naming)
     return;
+  // Asked for before more causes are added: three that imitate a force take long and explain
+  // nothing.
   if (leaves_much(state_.result.ranking.front().fit) && one_force_does_more()) return;
   state_.result.best = state_.result.ranking.front().fit;
   state_.findings.chain = {state_.result.ranking.front()};
@@ -72,6 +75,7 @@ bool CauseSearch::leaves_much(const FitSummary& model) const {
 bool CauseSearch::one_force_does_more() {
   const Candidate& best = state_.result.ranking.front();
   const double noise = 0.5 * state_.setup->samples();
+  // Of what can be explained: noise is left by every model.
   const double left = (best.fit.cost - noise) / std::max(1.0, state_.result.base.cost - noise);
   const std::string sentence = "the best known cause, " + best.cause +
                                text(", leaves %.2g %% of what is wrong", 100.0 * left);
@@ -97,6 +101,7 @@ void CauseSearch::extend() {
       return;
     }
     const double from = 0.5 + 0.15 * static_cast<double>(state_.findings.chain.size());
+    // The most significant directions alone: each candidate takes a fit.
     const std::vector<Cause> likely =
         screened(state_.causes, directions, state_.settings().budget.screened);
     const std::vector<Candidate> next =
@@ -110,10 +115,12 @@ void CauseSearch::extend() {
                          least_gain_beside(state_.findings.chain, state_.settings())) +
                     text("for the held-out trials %.4g.", first.held_out.gain));
     if (!is_another_cause(first)) return;
+    // The chain begins anew with this one; what it leaves is looked at again.
     if (eliminates_first(first)) continue;
     state_.findings.chain.push_back(first);
     state_.result.best = first.fit;
   }
+  // The last one added was not looked at yet, and the verdict needs what is left.
   if (!state_.findings.chain.empty()) look_again();
 }
 
@@ -152,6 +159,7 @@ bool CauseSearch::is_another_cause(const Candidate& next) const {
 bool CauseSearch::eliminates_first(const Candidate& next) {
   if (state_.findings.chain.size() != 1 || state_.stopped()) return false;
   const auto known = std::ranges::find(state_.result.ranking, next.cause, &Candidate::cause);
+  // Not tried alone in the first round, so there is no place for it in the order.
   if (known == state_.result.ranking.end()) return false;
   const FitSummary& first = state_.findings.chain.front().fit;
   Evaluator evaluator = state_.setup->evaluator();
@@ -168,6 +176,7 @@ bool CauseSearch::eliminates_first(const Candidate& next) {
                        least_gain_beside({alone}, state_.settings())));
   if (brought >= least_gain_beside({alone}, state_.settings())) return false;
   alone.held_out = state_.held_out_by(alone.fit);
+  // Fitted with the fine simulator, to its end.
   alone.whole = alone.fine = true;
   std::vector<Candidate> ranking = state_.result.ranking;
   ranking[known - state_.result.ranking.begin()] = std::move(alone);

@@ -24,7 +24,9 @@ void Procedure::decide() {
   baseline_.look();
   const bool wrong = state_.result.before.raised ||
                      has_prior_shift(state_.result.base.hypothesis, state_.settings());
+  // Only where nothing else is wrong: a wrong model misses held-out trials, too.
   const int objecting = wrong || state_.stopped() ? -1 : baseline_.objecting_trial();
+  // An effect in that trial alone is seen once the trial is fitted.
   if (objecting >= 0 && exchanges(objecting)) return;
   if (wrong) {
     causes_.search();

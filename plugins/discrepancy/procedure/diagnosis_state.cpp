@@ -12,6 +12,7 @@ DiagnosisState::DiagnosisState(const Experiment& experiment, const DiagnosisOpti
   result.settings = options.settings;
   findings.settings = &options.settings;
   log.settings(options.settings);
+  // All that follows goes by the admitted experiment, where outliers are left out.
   result.admission = admit(experiment);
 }
 
@@ -32,6 +33,7 @@ bool DiagnosisState::base_misses_the_data() const {
 
 void DiagnosisState::correct_at(const FitSummary& model) {
   setup->correct_at(model);
+  // The same mesh and step: the fine simulators still hold.
   if (setup->numerics() == result.numerics) return;
   result.numerics = setup->numerics();
   log.note(text("Here nodes every %.3g mm and a step of %.3g ms", 1e3 * result.numerics.distance,

@@ -24,6 +24,7 @@ std::vector<Direction> ModelCheck::directions_at(const FitSummary& model) {
 Alarm ModelCheck::judged(std::vector<Direction>& directions, const FitSummary& model) const {
   if (state_.stopped()) return {};
   Alarm alarm = judge(directions, model, state_.numerical, state_.options.seed, state_.settings());
+  // The directed tests see known causes best; this one sees what none of them is.
   alarm.residual_power = residual_power(state_.setup->data(), state_.fit_options().trials, model,
                                         state_.numerical, state_.settings());
   alarm.raised = alarm.raised || alarm.residual_power.shows();
@@ -31,6 +32,7 @@ Alarm ModelCheck::judged(std::vector<Direction>& directions, const FitSummary& m
 }
 
 bool ModelCheck::explained_by_junctions(const Alarm& before, FitSummary& model) {
+  // More than this no mesh explains.
   if (!before.raised || before.statistic > state_.settings().levels.beyond_mesh) return false;
   const Hypothesis junctions = junction_nuisance(state_.experiment(), state_.settings().evidence);
   if (junctions.size() == 0) return false;
@@ -38,6 +40,7 @@ bool ModelCheck::explained_by_junctions(const Alarm& before, FitSummary& model) 
   with.add(junctions);
   Evaluator evaluator = state_.setup->evaluator();
   FitOptions few = state_.fit_options();
+  // A rough fit tells whether the junctions take it; if not, it was for nothing.
   few.iterations = std::min(state_.settings().budget.junction_iterations, few.iterations);
   FitSummary found = fit(evaluator, with, few);
   CoarseModel coarse(*state_.setup, found);

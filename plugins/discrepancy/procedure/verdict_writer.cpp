@@ -28,6 +28,7 @@ void VerdictWriter::write(const std::string& instead_of, int objecting) {
   // What is left of the best model is the best sample of the noise.
   if (!state_.findings.chain.empty()) state_.setup->renew_noise(state_.result.best.hypothesis);
   if (state_.findings.chain.empty() && instead_of.empty()) see_what_is_needed();
+  // Predicted with the fine simulator, since these numbers are shown.
   predict();
   measure_errors(state_.findings, state_.result);
   state_.findings.symptoms =
@@ -39,6 +40,7 @@ void VerdictWriter::write(const std::string& instead_of, int objecting) {
     measure_errors(state_.findings, state_.result);
   }
   judge_named(instead_of, objecting);
+  // Beside whatever else was concluded, since these were left out before all fits.
   conclude_outliers(state_.result);
   judge_stalks();
   report_parameters(state_.findings, state_.result);
@@ -88,6 +90,7 @@ void VerdictWriter::ask_for_one_force() {
     return;
   const MissingForce& force = force_.find(
       0.96, weights.worthwhile_force * (state_.result.base.cost - state_.result.best.cost));
+  // Then what was named stands.
   if (!force.found || force.fit.why == "not run") return;
   // With the noise as it was read last.
   Evaluator evaluator = state_.setup->evaluator();
