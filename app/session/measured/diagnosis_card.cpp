@@ -69,7 +69,7 @@ DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis) {
   for (const auto& cause : verdict.causes) card.causes.push_back(cause_of(cause));
   card.gain = discrepancy::gain_text(diagnosis);
   card.competing_models = competing_models_of(diagnosis);
-  std::tie(card.detectable_limits, card.unseen) = discrepancy::hiding_texts(verdict);
+  std::tie(card.detectable_limits, card.unseen) = discrepancy::detectable_limit_texts(verdict);
   return card;
 }
 
