@@ -61,7 +61,8 @@ TEST_F(Edits, TheLookIsSaidAndNothingElseChanges) {
   EXPECT_EQ(plant(), wanted);
   run("set plant look p tomato");
   EXPECT_EQ(plant().look, plant::Look::tomato);
-  EXPECT_THAT(refusal("set plant look p pear"), HasSubstr("look \"pear\", expected tomato or apple"));
+  EXPECT_THAT(refusal("set plant look p pear"),
+              HasSubstr("look \"pear\", expected tomato or apple"));
 }
 
 TEST_F(Edits, SmoothingMovesInnerPointsOnly) {
