@@ -128,6 +128,10 @@ FruitLook FruitLook::apple() {
   return look;
 }
 
+FruitLook FruitLook::of(plant::Look look) {
+  return look == plant::Look::apple ? apple() : tomato();
+}
+
 void add_at(DrawList& list, const DrawList& shape, const Pose& X_WS) {
   for (render::Capsule c : shape.capsules) {
     c.p0 = X_WS * c.p0, c.p1 = X_WS * c.p1;
@@ -147,7 +151,7 @@ void add_at(DrawList& list, const DrawList& shape, const Pose& X_WS) {
     list.boxes.push_back({X_WS * b.pose, b.half_extents, b.material});
   for (const render::MeshInstance& m : shape.meshes)
     list.meshes.push_back({m.mesh, X_WS * m.pose, m.material});
-  for (const render::BladeTriangle& t : shape.blades)
+  for (const render::BladeFace& t : shape.blades)
     list.blades.push_back({X_WS * t.a, X_WS * t.b, X_WS * t.c, t.material});
   for (const render::Line& l : shape.lines)
     list.lines.push_back({X_WS * l.a, X_WS * l.b, l.colour, l.width});

@@ -4,6 +4,7 @@
 
 #include "pedicel/app/run/blade.h"
 #include "pedicel/core/frames.h"
+#include "pedicel/plant/model/plant_model.h"
 #include "pedicel/render/draw_list.h"
 #include "pedicel/robot/description.h"
 #include "pedicel/world/bodies.h"
@@ -23,6 +24,7 @@ struct FruitLook {
 
   static FruitLook tomato() { return {}; }
   static FruitLook apple();
+  static FruitLook of(plant::Look look);
 };
 
 /// Adds `shape`, which is given in its own frame, at X_WS. Its ground is left out.

@@ -90,6 +90,10 @@ PlantLook PlantLook::apple() {
   return look;
 }
 
+PlantLook PlantLook::of(plant::Look look) {
+  return look == plant::Look::apple ? apple() : tomato();
+}
+
 PlantDrawing::PlantDrawing(const RodModel& model, std::vector<Blade> blades, const PlantLook& look)
     : model_(model), blades_(std::move(blades)), is_leaf_(model.organs.size(), 0), look_(look) {
   for (const Blade& blade : blades_)

@@ -17,6 +17,7 @@ struct PlantLook {
 
   static PlantLook tomato() { return {}; }
   static PlantLook apple();
+  static PlantLook of(plant::Look look);
 };
 
 /// A plant prepared for drawing.

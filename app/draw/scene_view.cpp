@@ -5,21 +5,11 @@
 
 namespace pedicel::app {
 
-namespace {
-
-const FruitLook& fruit_look(const PlantInfo& plant) {
-  static const FruitLook tomato = FruitLook::tomato(), apple = FruitLook::apple();
-  return plant.is_woody ? apple : tomato;
-}
-
-}  // namespace
-
 SceneView::SceneView(const Simulation& simulation) : simulation_(simulation) {
   plants_.reserve(simulation.plants().size());
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const PlantInfo& plant = simulation.plants()[p];
-    plants_.emplace_back(simulation.rods().model(p), plant.blades,
-                         plant.is_woody ? PlantLook::apple() : PlantLook::tomato());
+    plants_.emplace_back(simulation.rods().model(p), plant.blades, PlantLook::of(plant.look));
   }
   if (simulation.robot()) links_ = robot_shapes(simulation.robot()->description());
 }
@@ -49,8 +39,9 @@ void SceneView::add_bodies(render::DrawList& list) {
     for (const Detached& fruit : simulation_.plant_step().detached()) {
       if (fruit.body != b) continue;
       const double radius = simulation_.rods().model(fruit.plant).fruits[fruit.event.fruit].radius;
-      bodies_.back() = fruit_shape(fruit_look(simulation_.plants()[fruit.plant]), fruit.event.fruit,
-                                   radius, fruit.event.stub_length, fruit.event.stub_radius);
+      bodies_.back() =
+          fruit_shape(FruitLook::of(simulation_.plants()[fruit.plant].look), fruit.event.fruit,
+                      radius, fruit.event.stub_length, fruit.event.stub_radius);
     }
   }
   for (int b = 0; b < world.body_count(); ++b) add_at(list, bodies_[b], world.body_pose(b));

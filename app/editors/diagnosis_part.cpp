@@ -81,10 +81,10 @@ void DiagnosisPart::draw_card(Ui& ui) {
     heading(ui, card_.outcome == "unknown" ? "What is left" : "What it gains");
     paragraph(card_.gain);
   }
-  draw_rivals(ui);
-  if (!card_.could_hide.empty() || !card_.unseen.empty()) {
+  draw_competing_models(ui);
+  if (!card_.detectable_limits.empty() || !card_.unseen.empty()) {
     if (!ImGui::CollapsingHeader("What could still hide")) return draw_next(ui);
-    if (!card_.could_hide.empty()) paragraph(listed(card_.could_hide));
+    if (!card_.detectable_limits.empty()) paragraph(listed(card_.detectable_limits));
     if (!card_.unseen.empty()) note("These data cannot see at any size: " + listed(card_.unseen));
   }
   draw_next(ui);
@@ -107,17 +107,17 @@ void DiagnosisPart::draw_causes(Ui& ui) {
   }
 }
 
-void DiagnosisPart::draw_rivals(Ui& ui) {
-  if (card_.rivals.empty()) return;
+void DiagnosisPart::draw_competing_models(Ui& ui) {
+  if (card_.competing_models.empty()) return;
   heading(ui, "What else it could have been");
-  for (const DiagnosisCard::Rival& rival : card_.rivals) {
+  for (const DiagnosisCard::CompetingModel& model : card_.competing_models) {
     // The reason says how far it is behind where that is what decides.
-    const bool said = rival.why.find(" nats ") != std::string::npos;
+    const bool said = model.why.find(" nats ") != std::string::npos;
     if (said)
-      paragraph(rival.name);
+      paragraph(model.name);
     else
-      row(rival.name.c_str(), number_text(rival.behind, 3) + " nats");
-    note(rival.why);
+      row(model.name.c_str(), number_text(model.behind, 3) + " nats");
+    note(model.why);
   }
 }
 

@@ -9,7 +9,7 @@ namespace pedicel::app {
 struct Ui;
 
 /// The part of the panel of measured data that is about the diagnosis: start, progress and cancel,
-/// then the card with its rivals and what to do next.
+/// then the card with the competing models and what to do next.
 class DiagnosisPart {
  public:
   /// The button that begins it, or how far it is.
@@ -21,7 +21,7 @@ class DiagnosisPart {
   void draw_progress(Ui& ui);
   void draw_card(Ui& ui);
   void draw_causes(Ui& ui);
-  void draw_rivals(Ui& ui);
+  void draw_competing_models(Ui& ui);
   void draw_next(Ui& ui);
   void draw_buttons(Ui& ui);
 

@@ -131,6 +131,7 @@ class WorldPanel : public Panel {
     ImGui::PushID(plant.c_str());
     if (ImGui::CollapsingHeader(plant.c_str(), ImGuiTreeNodeFlags_DefaultOpen)) {
       shape(ui, plant);
+      look(ui, plant);
       sampling(ui, plant);
       heading(ui, "Effects");
       draw_effects(ui, plant);
@@ -139,22 +140,33 @@ class WorldPanel : public Panel {
   }
 
   static void shape(Ui& ui, const std::string& plant) {
-    const plant::Shape now = ui.session.document().plant(plant).shape;
+    const bool unloaded = ui.session.document().plant(plant).shape == plant::Shape::rest;
     ImGui::TextColored(palette().dim, "The drawing is");
-    struct Choice {
-      const char *label, *word, *what;
-      plant::Shape shape;
-    };
-    constexpr std::array<Choice, 2> choices = {
-        {{"how it hangs", "drawn", "Under its own weight the plant hangs as it is drawn",
-          plant::Shape::drawn},
-         {"unloaded", "rest", "The drawing is the plant without weight: it sags from there",
-          plant::Shape::rest}}};
-    for (const Choice& choice : choices) {
-      if (&choice != choices.data()) stay_in_row(choice.label);
-      if (ImGui::RadioButton(choice.label, now == choice.shape) && now != choice.shape)
-        ui.run(Command("set shape", {{"plant", plant}, {"shape", choice.word}}));
-      tip(choice.what);
+    choose(ui, plant, "set shape", "shape", unloaded,
+           {{{"how it hangs", "drawn", "Under its own weight the plant hangs as it is drawn"},
+             {"unloaded", "rest", "The drawing is the plant without weight: it sags from there"}}});
+  }
+
+  static void look(Ui& ui, const std::string& plant) {
+    const bool apple = ui.session.document().plant(plant).look == plant::Look::apple;
+    ImGui::TextColored(palette().dim, "It looks like");
+    choose(ui, plant, "set plant look", "look", apple,
+           {{{"a tomato", "tomato", "Green stems and tomatoes; no motion changes"},
+             {"an apple tree", "apple", "Bark and apples; no motion changes"}}});
+  }
+
+  struct Choice {
+    const char *label, *word, *what;
+  };
+
+  /// Two buttons in a row, of which `now` is chosen; another one runs the command with its word.
+  static void choose(Ui& ui, const std::string& plant, const char* command, const char* argument,
+                     std::size_t now, const std::array<Choice, 2>& choices) {
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+      if (c > 0) stay_in_row(choices[c].label);
+      if (ImGui::RadioButton(choices[c].label, now == c) && now != c)
+        ui.run(Command(command, {{"plant", plant}, {argument, choices[c].word}}));
+      tip(choices[c].what);
     }
   }
 

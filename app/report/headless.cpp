@@ -32,11 +32,11 @@ double percentile(std::vector<double> values, double share) {
 }
 
 // "unstable at 1.6375 s: truss/stalk_5: it moves at 2e4 m/s: lower dt, ..."
-std::string unstable(const world::StepReport& report) {
+std::string unstable(const world::WorldReport& report) {
   std::string text = "unstable at " + io::format_number(report.time, 6) + " s: ";
   for (const std::string& part : {report.culprit, report.cause})
     if (!part.empty()) text += part + ": ";
-  return text + world::remedy(static_cast<world::StepError>(report.errors & world::fatal_errors));
+  return text + world::remedy(static_cast<world::WorldError>(report.errors & world::fatal_errors));
 }
 
 /// The folder of a run, taken once there is something to write: what was there goes now.
@@ -96,7 +96,7 @@ class Run {
     say_start();
   }
 
-  RunResult go() {
+  SceneResult go() {
     picture_now();
     const long before = simulation_.world().steps();
     const long steps = options_.steps
@@ -126,7 +126,7 @@ class Run {
     if (wants_history_ && pictures_ && pictures_->available())
       view_.fill(history_.next(), strain_history_);
     const Timer timer;
-    const world::StepReport& report = simulation_.step();
+    const world::WorldReport& report = simulation_.step();
     milliseconds_.push_back(1.0e3 * timer.seconds());
     result_.wall += timer.seconds();
     ++result_.steps;
@@ -209,7 +209,7 @@ class Run {
     result_.ms_per_step_p95 = percentile(milliseconds_, 0.95);
     result_.largest_stretch = simulation_.measurements().largest_stretch();
     result_.state_hash = simulation_.state_hash();
-    result_.residual = simulation_.worst_residual();
+    result_.residual = worst_residual(simulation_.plants());
     result_.events = recorder_.events();
     add_limits();
     simulation_.measurements().set_wall_seconds(result_.wall);
@@ -338,7 +338,7 @@ class Run {
   std::unique_ptr<PictureTaker> pictures_;
   FrameHistory history_;
   Frame frame_;
-  RunResult result_;
+  SceneResult result_;
   Timer progress_;
   world::SceneVideo video_;
   std::vector<double> milliseconds_;
@@ -356,7 +356,7 @@ const std::vector<std::string>& files_of_a_run() {
   return names;
 }
 
-RunResult run_scene(const world::Scene& scene, const RunOptions& options) {
+SceneResult run_scene(const world::Scene& scene, const RunOptions& options) {
   return Run(scene, options).go();
 }
 
@@ -380,7 +380,7 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
 
 }  // namespace
 
-std::string to_json(const world::Scene& scene, const RunResult& result) {
+std::string to_json(const world::Scene& scene, const SceneResult& result) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(result.state_hash));
   nlohmann::ordered_json json = {{"scene", scene.name},

@@ -38,14 +38,14 @@ struct RunOptions {
 };
 
 /// What a run leaves behind, beside its files.
-struct RunResult {
+struct SceneResult {
   int exit_code = 0;
   long steps = 0;
   double simulated = 0.0, wall = 0.0;  ///< s; wall: the steps alone
   double ms_per_step_p50 = 0.0, ms_per_step_p95 = 0.0;
   double largest_stretch = 0.0;  ///< 1
   std::uint64_t state_hash = 0;
-  std::string residual;  ///< Simulation::worst_residual()
+  std::string residual;  ///< worst_residual() of its plants
   std::string error;     ///< why it ended early; empty: it did not
   std::vector<world::ExpectationResult> verdicts;
   std::optional<Comparison> comparison;  ///< with measured values
@@ -66,13 +66,13 @@ const std::vector<std::string>& files_of_a_run();
 /// its video, and judges its expectations (those over a sweep are left out). Throws InvalidFile for
 /// a scene that cannot be built, Stopped while it is built, and io::WriteError for an output that
 /// cannot be written. Where stop_requested it ends with its files closed (stop_exit_code()).
-RunResult run_scene(const world::Scene& scene, const RunOptions& options);
+SceneResult run_scene(const world::Scene& scene, const RunOptions& options);
 
 /// Runs a scene, and its sweep where it has one (each value in a folder of its own, without video),
 /// and writes report.html. The result is that of the main run with the sweep's verdicts added.
-RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options);
+SceneResult run_with_sweep(const world::Scene& scene, const RunOptions& options);
 
 /// A result for machines.
-std::string to_json(const world::Scene& scene, const RunResult& result);
+std::string to_json(const world::Scene& scene, const SceneResult& result);
 
 }  // namespace pedicel::app

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pedicel/app/report/version.h"
+#include "pedicel/app/run/scene_assets.h"
 #include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
@@ -22,12 +23,12 @@ Json section(const std::vector<Parameter>& parameters) {
 }  // namespace
 
 void write_meta(const std::filesystem::path& path, const Simulation& simulation,
-                const RunResult& result) {
+                const SceneResult& result) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(result.state_hash));
   const world::Scene& scene = simulation.scene();
-  cosserat::RodSettings rods = simulation.rod_settings();
-  coupling::CouplingSettings coupling = simulation.coupling_settings();
+  cosserat::RodSettings rods = simulation.assets()->rods;
+  coupling::CouplingSettings coupling = simulation.assets()->coupling;
   Json json = {{"program", "pedicel"},
                {"version", version()},
                {"git_hash", git_hash()},

@@ -9,6 +9,6 @@ namespace pedicel::app {
 /// Writes the sidecar of log.csv: version, seed, step, hash, machine, and every described parameter
 /// with its value and unit, so that a run can be repeated. Throws io::WriteError.
 void write_meta(const std::filesystem::path& path, const Simulation& simulation,
-                const RunResult& result);
+                const SceneResult& result);
 
 }  // namespace pedicel::app

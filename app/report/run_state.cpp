@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "pedicel/app/report/version.h"
+#include "pedicel/app/run/scene_assets.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
@@ -66,8 +67,8 @@ std::uint64_t model_hash(const Simulation& simulation) {
   hash.add(simulation.state_hash());
   hash.add(simulation.scene().dt);
   hash.add(simulation.scene().gravity);
-  cosserat::RodSettings rods = simulation.rod_settings();
-  coupling::CouplingSettings coupling = simulation.coupling_settings();
+  cosserat::RodSettings rods = simulation.assets()->rods;
+  coupling::CouplingSettings coupling = simulation.assets()->coupling;
   hash.add(static_cast<std::uint64_t>(rods.solver));
   hash.add(static_cast<std::uint64_t>(rods.integrator));
   add(hash, cosserat::parameters_of(rods));

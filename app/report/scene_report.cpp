@@ -22,7 +22,7 @@ std::string joined(const std::vector<double>& values) {
   return text;
 }
 
-std::vector<ReportExpectation> expectations_of(const RunResult& result) {
+std::vector<ReportExpectation> expectations_of(const SceneResult& result) {
   std::vector<ReportExpectation> all;
   for (const world::ExpectationResult& verdict : result.verdicts)
     all.push_back({world::to_string(verdict.expectation), joined(verdict.measured), verdict.met});
@@ -34,7 +34,7 @@ std::vector<ReportExpectation> expectations_of(const RunResult& result) {
   return all;
 }
 
-ReportTable events_of(const RunResult& result) {
+ReportTable events_of(const SceneResult& result) {
   ReportTable table;
   if (result.events.empty()) return table;
   table.header = {"time (s)",   "organ",     "cause",         "stretch",
@@ -46,7 +46,7 @@ ReportTable events_of(const RunResult& result) {
   return table;
 }
 
-std::vector<io::LinePlot> plots_of(const RunResult& result) {
+std::vector<io::LinePlot> plots_of(const SceneResult& result) {
   Diagnostics diagnostics;
   const io::CsvTable log = io::read_csv(result.folder / "log.csv", {true, true}, diagnostics);
   std::vector<io::PlotEvent> events;
@@ -55,7 +55,7 @@ std::vector<io::LinePlot> plots_of(const RunResult& result) {
 }
 
 /// The picture of a run that shows most: the last one just before a break, else the last.
-std::optional<std::filesystem::path> telling_picture(const RunResult& run) {
+std::optional<std::filesystem::path> telling_picture(const SceneResult& run) {
   std::optional<std::filesystem::path> best;
   for (const std::filesystem::path& picture : run.pictures) {
     const auto is_break = [](const std::filesystem::path& p) {
@@ -115,7 +115,7 @@ void add_comparison(const SolverComparison& comparison, io::OutputFolder& output
   io::write_file_atomically(output.file("solvers.csv"), to_csv(comparison));
 }
 
-std::vector<std::pair<std::string, std::string>> numbers_of(const RunResult& result) {
+std::vector<std::pair<std::string, std::string>> numbers_of(const SceneResult& result) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(result.state_hash));
   std::vector<std::pair<std::string, std::string>> all = {
@@ -145,7 +145,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const world::Scene&
 
 }  // namespace
 
-void write_scene_report(const world::Scene& scene, const RunResult& result,
+void write_scene_report(const world::Scene& scene, const SceneResult& result,
                         const std::vector<SweepRun>& sweep,
                         const std::optional<SolverComparison>& comparison) {
   RunSummary summary;

@@ -38,7 +38,7 @@ class Runs {
       world::apply_override(one, "rods.solver", "position_based");
       world::apply_override(one, "rods.substeps", std::to_string(substeps));
     }
-    const RunResult result = run_scene(one, options_);
+    const SceneResult result = run_scene(one, options_);
     return {substeps > 0 ? "position-based" : "direct", std::max(substeps, 1),
             measured_in(quantity_, result), 0.0, result.real_time_factor()};
   }

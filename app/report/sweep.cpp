@@ -20,7 +20,7 @@ std::string text_of(double value) {
 }
 
 // "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
-void say(const std::string& label, const RunResult& result) {
+void say(const std::string& label, const SceneResult& result) {
   std::string text = "sweep " + label + ":";
   for (const world::ExpectationResult& verdict : result.verdicts)
     text +=
@@ -85,7 +85,7 @@ const world::Expectation* measured_by(const world::Scene& scene) {
   return scene.expectations.empty() ? nullptr : &scene.expectations.front();
 }
 
-double measured_in(const world::Expectation& wanted, const RunResult& run) {
+double measured_in(const world::Expectation& wanted, const SceneResult& run) {
   for (const world::ExpectationResult& verdict : run.verdicts) {
     const world::Expectation& e = verdict.expectation;
     if (e.quantity == wanted.quantity && e.fruit == wanted.fruit && e.plant == wanted.plant &&
@@ -95,8 +95,8 @@ double measured_in(const world::Expectation& wanted, const RunResult& run) {
   return std::nan("");
 }
 
-RunResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
-  RunResult result = run_scene(scene, options);
+SceneResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
+  SceneResult result = run_scene(scene, options);
   std::vector<SweepRun> runs;
   if (scene.sweep && result.exit_code != 4 && !stop_requested)
     runs = run_sweep(scene, options, result.output.get());

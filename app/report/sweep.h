@@ -7,7 +7,7 @@ namespace pedicel::app {
 /// One value of a sweep and its run.
 struct SweepRun {
   double value = 0.0;
-  RunResult result;
+  SceneResult result;
 };
 
 /// The scene of one value of its sweep: what is expected over the sweep is measured in its run, and
@@ -19,6 +19,6 @@ world::Scene scene_of_value(const world::Scene& scene, double value);
 const world::Expectation* measured_by(const world::Scene& scene);
 
 /// What a run measured of the thing that an expectation is about; NaN where it did not.
-double measured_in(const world::Expectation& wanted, const RunResult& run);
+double measured_in(const world::Expectation& wanted, const SceneResult& run);
 
 }  // namespace pedicel::app

@@ -24,6 +24,7 @@ Field field_of(const robot::Geometry& g, const MeshDistances& meshes) {
     case robot::Geometry::Kind::mesh:
       break;
   }
+  // By the mesh, not by the link: many links share one.
   return meshes.at(g.mesh.get());
 }
 
@@ -68,6 +69,7 @@ void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
     const std::vector<robot::Collision>& collisions = robot.links[l].collisions;
     for (std::size_t c = 0; c < collisions.size(); ++c) {
       coupling::Collider collider;
+      // All parts of a link have one name: forces on a link are summed by it.
       collider.name = name + "/" + robot.links[l].name;
       collider.body = robot_body;
       collider.link = static_cast<int>(l);

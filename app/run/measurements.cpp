@@ -8,6 +8,7 @@ namespace pedicel::app {
 
 namespace {
 
+// No expectation holds for NaN, in whichever way it compares.
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -25,16 +26,18 @@ Measurements::Measurements(const cosserat::RodSystem& rods, const PlantStep& pla
   }
 }
 
-void Measurements::observe(const world::SimWorld& world, const world::StepReport& report) {
+void Measurements::observe(const world::SimWorld& world, const world::WorldReport& report) {
   time_ = world.time();
   penetration_ = std::max(penetration_, report.deepest_overlap);
   for (int p = 0; p < rods_.size(); ++p) observe_plant(p);
+  // Its rise goes on being measured where it flies.
   for (const Detached& fruit : plants_.detached()) {
     double& top = records_[fruit.plant].fruit_top[fruit.event.fruit];
     top = std::max(top, world.body_pose(fruit.body).position.z());
   }
   for (int c = 0; c < colliders_.size(); ++c) {
     double& largest = link_force_[colliders_.collider(c).name];
+    // By name: parts of a link count together as the largest of them.
     largest = std::max(largest, plants_.contacts().colliders()[c].normal);
   }
 }
@@ -46,6 +49,7 @@ void Measurements::observe_plant(int plant) {
   for (int e = 0; e < model.size(); ++e) {
     if (!state.alive[e]) continue;
     const cosserat::Strain strain = cosserat::strain_of(model, state, e);
+    // From the drawing, not from the first step: a plant that jumps at once has drifted.
     record.drift =
         std::max(record.drift, (state.position[e] - model.elements[e].drawn_position).norm());
     record.stretch = std::max(record.stretch, strain.stretch.norm());
@@ -85,6 +89,7 @@ double Measurements::value(const world::Expectation& e, const world::SimWorld& w
 
 double Measurements::of_fruit(const world::Expectation& e, const world::SimWorld& world) const {
   const Detached* detached = find_detached(e.fruit);
+  // What never came off is not measured, so the expectation fails.
   if (e.quantity == "detach_time_s") return detached ? detached->event.time : not_measured;
   if (e.quantity == "detach_strain_1") return detached ? detached->event.stretch : not_measured;
   if (e.quantity == "detach_bend_rad") return detached ? detached->event.bend : not_measured;
@@ -94,6 +99,7 @@ double Measurements::of_fruit(const world::Expectation& e, const world::SimWorld
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
       if (fruit_name(model, f) != e.fruit) continue;
       if (e.quantity == "fruit_rise_m")
+        // Also of one that fell down later.
         return records_[p].fruit_top[f] - records_[p].fruit_start[f];
       if (detached) return world.body_pose(detached->body).position.z();
       return cosserat::point_on(model, rods_.state(p), model.fruits[f].element,
@@ -138,6 +144,7 @@ double Measurements::fruits_in(const world::Expectation& e, const world::SimWorl
       std::count_if(plants_.detached().begin(), plants_.detached().end(), [&](const Detached& d) {
         if (!e.fruit.empty() && e.fruit != d.fruit) return false;
         const Vec3 p = into * world.body_pose(d.body).position;
+        // In the body's own frame, since a tray may have been moved.
         return (p.array() >= bounds.first.array()).all() &&
                (p.array() <= bounds.second.array()).all();
       }));
@@ -168,6 +175,7 @@ double Measurements::end_drop(const std::string& plant) const {
     for (const cosserat::Element& element : model.elements)
       if (element.parent >= 0) carries[element.parent] = 1;
     for (int e = 0; e < model.size(); ++e) {
+      // Ends are what nothing grows from; a broken one is on the ground.
       if (carries[e] || !rods_.state(p).alive[e]) continue;
       sum += model.elements[e].drawn_position.z() - rods_.state(p).position[e].z();
       ++ends;

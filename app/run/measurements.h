@@ -16,7 +16,7 @@ class Measurements : public world::Observer {
   Measurements(const cosserat::RodSystem& rods, const PlantStep& plants,
                const coupling::ColliderSet& colliders);
 
-  void observe(const world::SimWorld& world, const world::StepReport& report) override;
+  void observe(const world::SimWorld& world, const world::WorldReport& report) override;
   void set_wall_seconds(double seconds) { wall_seconds_ = seconds; }
 
   /// The measured value; NaN where it could not be measured (a fruit that never came off).

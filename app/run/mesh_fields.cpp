@@ -38,6 +38,7 @@ void choose(std::vector<MeshField>& fields) {
   double all = 0.0;
   for (MeshField* field : by_size) {
     const double samples = samples_of(*field);
+    // One mesh has a bound, and so has the robot as a whole.
     field->exact_near = samples > most_fine_samples || all + samples > most_robot_samples;
     if (!field->exact_near) all += samples;
   }
@@ -54,6 +55,7 @@ std::shared_ptr<const geometry::SignedDistance> build(const MeshField& field,
                                                       ThreadPool& pool,
                                                       geometry::GridReport& report) {
   GridDistance grid = geometry::cached_grid(*field.mesh, field.grid, folder, &pool, &report);
+  // A grid answers in one look-up; the exact distance walks a tree of triangles.
   if (!field.exact_near) return std::make_shared<GridDistance>(std::move(grid));
   return std::make_shared<geometry::NearExactDistance>(geometry::MeshDistance(*field.mesh),
                                                        std::move(grid), field.grid, near_band);
@@ -86,6 +88,7 @@ std::vector<MeshField> plan_mesh_fields(const robot::RobotDescription& robot) {
   for (const robot::Link& link : robot.links)
     for (const robot::Collision& collision : link.collisions) {
       const robot::Geometry& shape = collision.geometry;
+      // Two links with one mesh share one grid.
       const auto same = [&](const MeshField& f) { return f.mesh == shape.mesh.get(); };
       if (shape.kind != robot::Geometry::Kind::mesh ||
           std::any_of(fields.begin(), fields.end(), same))
@@ -119,6 +122,7 @@ std::vector<std::string> large_mesh_warnings(const robot::RobotDescription& robo
 MeshDistances exact_mesh_fields(const robot::RobotDescription& robot) {
   MeshDistances distances;
   for (const MeshField& field : plan_mesh_fields(robot))
+    // Without plants nobody asks for distances in a step, so no grid is worth its time.
     distances[field.mesh] = std::make_shared<geometry::MeshDistance>(*field.mesh);
   return distances;
 }

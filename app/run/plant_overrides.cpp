@@ -21,6 +21,7 @@ void apply_plant_overrides(plant::PlantFile& plant, const std::vector<world::Set
                            Diagnostics& diagnostics) {
   for (const world::Setting& setting : settings) {
     const plant::PlantNumber* number = plant::find_plant_number(setting.key);
+    // Each setting by itself: one that is wrong does not hide the others.
     if (!number) {
       diagnostics.error(setting.where,
                         "unknown key \"" + setting.key + "\", expected one of: " + all_keys());
@@ -32,6 +33,7 @@ void apply_plant_overrides(plant::PlantFile& plant, const std::vector<world::Set
                                            io::bounds_text(number->bounds));
       continue;
     }
+    // In their order: a later setting of the same key counts.
     plant::set_number(plant, *number, *value);
   }
 }

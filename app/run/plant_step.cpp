@@ -55,13 +55,16 @@ PlantStep::PlantStep(cosserat::RodSystem& rods, coupling::ColliderSet& colliders
                      LinkPose link_pose)
     : rods_(rods), colliders_(colliders), link_pose_(std::move(link_pose)), contacts_(colliders) {}
 
-void PlantStep::act(world::SimWorld& world, world::StepReport& report) {
+void PlantStep::act(world::SimWorld& world, world::WorldReport& report) {
+  // Bullet has moved the links; plants feel them where they are now.
   move_colliders();
   rods_.step(world.dt(), world.settings().gravity);
   rough_steps_.resize(rods_.size(), 0);
   sum_up(world.settings().gravity, report);
+  // After the forces were summed up: the step in which it broke counts.
   for (int p = 0; p < rods_.size(); ++p)
     for (const cosserat::DetachEvent& event : rods_.detached(p)) release(world, p, event);
+  // Last, since it moves the links and bodies against which the plants were solved.
   if (reaction_) reaction_(contacts_);
 }
 
@@ -71,12 +74,13 @@ void PlantStep::move_colliders() {
   colliders_.update(poses_);
 }
 
-void PlantStep::sum_up(const Vec3& gravity, world::StepReport& report) {
+void PlantStep::sum_up(const Vec3& gravity, world::WorldReport& report) {
   contacts_.begin();
   for (int p = 0; p < rods_.size(); ++p) {
     contacts_.add(p, rods_.model(p), rods_.contact_forces(p));
     judge(p, report);
     const cosserat::StepReport& own = rods_.report(p);
+    // A search that fails is as rough as one that ends too early.
     const bool rough = own.errors & (cosserat::not_converged | cosserat::line_search_failed);
     const bool counts = rough && !is_squeezed(own, rods_.contact_forces(p));
     rough_steps_[p] = counts ? rough_steps_[p] + 1 : 0;
@@ -89,16 +93,18 @@ void PlantStep::sum_up(const Vec3& gravity, world::StepReport& report) {
 }
 
 // Names the organ of the worst error, and of a fatal one the quantity.
-void PlantStep::judge(int plant, world::StepReport& report) const {
+void PlantStep::judge(int plant, world::WorldReport& report) const {
   const cosserat::StepReport& own = rods_.report(plant);
   const cosserat::RodModel& model = rods_.model(plant);
   const cosserat::RodState& state = rods_.state(plant);
   const int quickest = fastest_of(state);
   const double speed = quickest < 0 ? 0.0 : state.velocity[quickest].norm();
+  // Speed is looked at as well: a run that flies apart may converge in each step.
   const bool lost = (own.errors & cosserat::not_finite) || rough_steps_[plant] > most_rough_steps ||
                     speed > fastest;
   if (lost) report.errors |= world::plant_not_finite;
   if (own.errors & cosserat::not_converged) report.errors |= world::plant_not_converged;
+  // The first culprit of a step stays, unless another plant is lost.
   if (!lost && (!own.errors || !report.culprit.empty())) return;
   const int element = own.element >= 0 && !(speed > fastest) ? own.element : quickest;
   if (element >= 0) report.culprit = model.organs[model.elements[element].organ];
@@ -109,11 +115,13 @@ void PlantStep::release(world::SimWorld& world, int plant, const cosserat::Detac
   const cosserat::RodModel& model = rods_.model(plant);
   const cosserat::Fruit& fruit = model.fruits[event.fruit];
   Detached record{plant, event, fruit_name(model, event.fruit), -1, {}};
+  // NaN says that there is none; zero would be a place.
   record.tool.position.setConstant(std::numeric_limits<double>::quiet_NaN());
   if (tool_) record.tool = tool_();
   world::BodyDescription body = world::fruit_body(record.fruit, fruit.radius, event.mass,
                                                   event.stub_length, event.stub_radius);
   body.pose = {event.position_W, event.orientation};
+  // It goes on as it moved, so that a jerk is the plant's doing and not ours.
   body.velocity = event.velocity_W;
   body.angular_velocity = event.angular_velocity_W;
   record.body = world.add_body(body);

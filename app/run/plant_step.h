@@ -38,15 +38,15 @@ class PlantStep : public world::Participant {
   }
 
   world::Phase phase() const override { return world::Phase::plants; }
-  void act(world::SimWorld& world, world::StepReport& report) override;
+  void act(world::SimWorld& world, world::WorldReport& report) override;
 
   const coupling::ContactReport& contacts() const { return contacts_; }
   const std::vector<Detached>& detached() const { return detached_; }
 
  private:
   void move_colliders();
-  void sum_up(const Vec3& gravity, world::StepReport& report);
-  void judge(int plant, world::StepReport& report) const;
+  void sum_up(const Vec3& gravity, world::WorldReport& report);
+  void judge(int plant, world::WorldReport& report) const;
   void release(world::SimWorld& world, int plant, const cosserat::DetachEvent& event);
 
   cosserat::RodSystem& rods_;

@@ -10,12 +10,14 @@ using coupling::ContactSum;
 Reaction::Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders)
     : world_(world), robot_(robot), colliders_(colliders) {
   pushes_.reserve(colliders.size());
+  // Plants need to know how far things give way in the very first step, too.
   const std::vector<ContactSum> none(colliders.size());
   for (int i = 0; i < colliders.size(); ++i) colliders.set_give(i, give_of(i, none));
 }
 
 void Reaction::act(const coupling::ContactReport& contacts) {
   if (robot_) push_robot(contacts);
+  // Robot and bodies do not know of each other here: Bullet couples them in its next step.
   push_bodies(contacts);
   for (int i = 0; i < colliders_.size(); ++i)
     colliders_.set_give(i, give_of(i, contacts.colliders()));
@@ -28,6 +30,7 @@ void Reaction::push_robot(const coupling::ContactReport& contacts) {
     if (colliders_.collider(i).body == robot_body && sum.contacts > 0 && !is_gripping(i))
       pushes_.push_back({colliders_.collider(i).link, sum.force_W, sum.place_W, sum.moment_W});
   }
+  // Also without pushes: the motors have to hear that nothing pushes any more.
   robot_->robot().push_back(pushes_, world_.dt());
 }
 
@@ -35,12 +38,13 @@ void Reaction::push_bodies(const coupling::ContactReport& contacts) {
   for (int i = 0; i < colliders_.size(); ++i) {
     const ContactSum& sum = contacts.colliders()[i];
     const int body = colliders_.collider(i).body;
+    // The ground and the robot have numbers below 0.
     if (body < 0 || sum.contacts == 0) continue;
     world_.push_back_body(body, sum.force_W, sum.place_W, sum.moment_W);
   }
 }
 
-// What a gripper holds is the grip's own affair (app/run/grip.h).
+// What a gripper holds is the grip's own affair (GripperStep).
 bool Reaction::is_gripping(int collider) const {
   return colliders_.placement(collider).drive >= 0;
 }
@@ -55,6 +59,7 @@ Vec3 Reaction::place_of(int collider, const std::vector<ContactSum>& sums) const
 // backward Euler allows. Contacts on the same collider are counted where they are found
 // (ContactPoint::give), those on other colliders of the same robot as they were in the step before.
 double Reaction::give_of(int i, const std::vector<ContactSum>& sums) const {
+  // How far a gripper gives way is solved with the plant (GripperStep).
   if (is_gripping(i)) return 0.0;
   const Collider& own = colliders_.collider(i);
   const Vec3 place = place_of(i, sums);
@@ -68,6 +73,7 @@ double Reaction::give_of(int i, const std::vector<ContactSum>& sums) const {
       mobility +=
           contacts * robot_->robot().mobility(own.link, place, other.link, place_of(j, sums));
   }
+  // A force acts for dt, and what it moves goes on for dt: m/N.
   return mobility * world_.dt() * world_.dt();
 }
 

@@ -27,6 +27,7 @@ Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
   for (int i = 0; i < model.dofs(); ++i) {
     const robot::JointType type =
         description.joints[description.joint(model.joint_names()[i])].type;
+    // Slow enough to follow by eye, whatever a URDF allows.
     const double own = type == robot::JointType::prismatic ? 0.25 : 1.0;
     speed[i] = speed[i] > 0.0 ? std::min(speed[i], own) : own;
   }
@@ -43,26 +44,29 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
       tool_offset_(scene.tool_offset) {
   q_ = robot_.model().neutral();
   qd_ = Eigen::VectorXd::Zero(q_.size());
+  // Joints that the scene leaves out stay where the model is neutral.
   for (const auto& [joint, value] : scene.joints) q_[robot_.model().joint_index(joint)] = value;
   q_ = robot_.model().clamped(q_);
   speed_ = manual_speed(robot_.model(), description);
   if (!scene.gripper.empty()) gripper_ = robot_.model().joint_index(scene.gripper);
   if (scene.gripper_force > 0.0 && gripper_ >= 0)
-    robot_.set_effort_limit(gripper_, scene.gripper_force);
+    robot_.motors().set_effort_limit(gripper_, scene.gripper_force);
   robot_.reset(q_, qd_);
   start_of_step_ = q_;
 }
 
-void RobotControl::act(world::SimWorld& world, world::StepReport&) {
+void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
+  // A grip measures from here how far Bullet has moved it.
   start_of_step_ = robot_.positions();
   if (goal_)
     approach_goal(world.dt());
   else if (!trajectory_.empty())
+    // A target is where the joint shall be at the end of this step.
     part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
   for (int i = 0; i < q_.size(); ++i) {
-    if (mode_ == "position") robot_.set_position_target(i, q_[i], qd_[i]);
-    if (mode_ == "velocity") robot_.set_velocity_target(i, qd_[i]);
-    if (mode_ == "torque") robot_.set_torque(i, 0.0);
+    if (mode_ == "position") robot_.motors().set_position_target(i, q_[i], qd_[i]);
+    if (mode_ == "velocity") robot_.motors().set_velocity_target(i, qd_[i]);
+    if (mode_ == "torque") robot_.motors().set_torque(i, 0.0);
   }
   robot_.begin_step(world.dt());
 }
@@ -70,7 +74,9 @@ void RobotControl::act(world::SimWorld& world, world::StepReport&) {
 void RobotControl::go_to(const Eigen::VectorXd& q) {
   // A program may be ahead of a robot that could not keep up.
   if (follows_program()) q_ = robot_.model().clamped(robot_.positions());
+  // A goal by hand ends the program, and only a new one takes over again.
   goal_ = robot_.model().clamped(q);
+  // Else the program would go on where it was, as soon as the goal is reached.
   trajectory_ = lap_ = {};
 }
 
@@ -103,7 +109,8 @@ void RobotControl::approach_goal(double dt) {
   }
 }
 
-void RobotControl::Reader::act(world::SimWorld&, world::StepReport& report) {
+void RobotControl::Reader::act(world::SimWorld&, world::WorldReport& report) {
+  // Read out as soon as Bullet is done: plants need the links' new poses.
   robot_.end_step();
   const Eigen::VectorXd& q = robot_.positions();
   if (q.allFinite()) return;

@@ -24,7 +24,7 @@ class RobotControl : public world::Participant {
 
   world::Phase phase() const override { return world::Phase::control; }
   /// Sets the program's targets for the end of this step and hands them to Bullet.
-  void act(world::SimWorld& world, world::StepReport& report) override;
+  void act(world::SimWorld& world, world::WorldReport& report) override;
   /// After Bullet's part of the step: reads where the robot is now. To be added to the world before
   /// the plants.
   world::Participant& reader() { return reader_; }
@@ -77,7 +77,7 @@ class RobotControl : public world::Participant {
    public:
     explicit Reader(robot::Robot& robot) : robot_(robot) {}
     world::Phase phase() const override { return world::Phase::plants; }
-    void act(world::SimWorld& world, world::StepReport& report) override;
+    void act(world::SimWorld& world, world::WorldReport& report) override;
 
    private:
     robot::Robot& robot_;

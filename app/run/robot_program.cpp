@@ -17,6 +17,7 @@ std::vector<robot::Waypoint> waypoints_of(const world::SceneRobot& scene,
                                           const RobotControl& control, const FindPlace& find,
                                           Diagnostics& diagnostics) {
   std::vector<robot::Waypoint> all;
+  // A waypoint without an orientation keeps the one before it, the first the start's.
   Quat orientation = control.tool_pose().rotation;
   for (const world::SceneWaypoint& given : scene.waypoints) {
     robot::Waypoint waypoint;
@@ -25,6 +26,7 @@ std::vector<robot::Waypoint> waypoints_of(const world::SceneRobot& scene,
     waypoint.where = given.where;
     orientation = given.orientation.value_or(orientation);
     waypoint.orientation_W = orientation;
+    // Planned for the link; the scene speaks of the point that grasps.
     waypoint.position_W = given.position - orientation * scene.tool_offset;
     if (given.at.kind != world::Anchor::Kind::none) {
       const std::optional<Vec3> place = find(given.at);
@@ -32,6 +34,7 @@ std::vector<robot::Waypoint> waypoints_of(const world::SceneRobot& scene,
         diagnostics.error(given.where,
                           "at: \"" + given.at.name +
                               "\" is not there, expected a fruit, body or plant of this scene");
+      // Planned once, for where it is at the start: a program does not look.
       waypoint.position_W += place.value_or(Vec3::Zero());
     }
     if (given.gripper && !scene.gripper.empty()) waypoint.joints[scene.gripper] = *given.gripper;
@@ -49,6 +52,7 @@ void check_start(const world::SceneRobot& scene, const robot::KinematicModel& mo
     if (dof < 0) continue;
     const auto place = scene.joints_where.find(joint);
     const SourcePosition& where = place == scene.joints_where.end() ? scene.where : place->second;
+    // A start beyond the limits would be moved by Bullet in the first step, with a jerk.
     if (const auto fault = robot::outside_range(model, dof, value, slack))
       diagnostics.error(where, "joints: " + *fault);
     else if (const auto doubt = robot::many_turns(model, dof, value))
@@ -95,6 +99,7 @@ void plan(const world::SceneRobot& scene, RobotControl& control, const FindPlace
     control.set_trajectory(robot::read_trajectory_csv(scene.trajectory, control.description(),
                                                       model, start, diagnostics));
   } else if (!scene.waypoints.empty()) {
+    // Not planned with a place missing: one fault would become several.
     const auto waypoints = waypoints_of(scene, control, find, diagnostics);
     if (diagnostics.error_count() == before)
       control.set_trajectory(robot::plan_cartesian(model, waypoints, start, {}, diagnostics));
@@ -124,6 +129,7 @@ std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
   auto control = std::make_unique<RobotControl>(scene, description, world);
   plan(scene, *control, find, diagnostics);
   if (diagnostics.error_count() > before) return nullptr;
+  // Without motors an arm is meant to fall.
   if (scene.control != "torque")
     if (const auto weakness =
             robot::too_weak_to_hold(description, control->robot().model(),

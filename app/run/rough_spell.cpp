@@ -8,6 +8,7 @@ namespace pedicel::app {
 
 namespace {
 
+// Half a second at the usual step: a knock is over by then.
 constexpr int worth_saying = 100;  // steps
 
 // "gantry/gripper": what pushes plants most; empty where nothing does.
@@ -20,12 +21,13 @@ std::string strongest(const Simulation& simulation) {
 
 }  // namespace
 
-void RoughSpell::look(const Simulation& simulation, const world::StepReport& report) {
+void RoughSpell::look(const Simulation& simulation, const world::WorldReport& report) {
   if (!(report.errors & world::plant_not_converged)) {
     row_ = 0;
     return;
   }
   if (row_++ == 0) from_ = report.time;
+  // Only the longest is told, and as it is while it lasts: who presses may be gone after it.
   if (row_ <= std::max(longest_, worth_saying)) return;
   longest_ = row_;
   const std::string presser = strongest(simulation);

@@ -11,7 +11,7 @@ namespace pedicel::app {
 class RoughSpell {
  public:
   /// After every step.
-  void look(const Simulation& simulation, const world::StepReport& report);
+  void look(const Simulation& simulation, const world::WorldReport& report);
   /// "warning: no equilibrium in 212 steps in a row from 0.8 s: p/stem, pressed by ..."; empty
   /// where none was long enough to be said.
   std::string warning() const;

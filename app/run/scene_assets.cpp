@@ -22,8 +22,10 @@ SceneAssets::SceneAssets(const world::Scene& given, const SimulationOptions& opt
     models.push_back(std::move(plant.model));
     plants.push_back(std::move(plant.info));
   }
+  // Goes on after faults in plants, so that all faults are told at once.
   if (scene.robot) robot = read_robot(*scene.robot, options.packages, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  // Grids take seconds, and only plants ask for them in every step.
   if (robot) robot_fields = models.empty() ? exact_fields_of(*robot) : fields_of(*robot, notes);
   for (const Diagnostic& warning : diagnostics.all()) notes.push_back(to_string(warning));
 }

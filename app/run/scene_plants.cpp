@@ -50,19 +50,23 @@ class Builder {
   void add(const ScenePlant& wanted) {
     if (wanted.source == ScenePlant::Source::built_in) return add_reference(wanted);
     const auto edited = options_.edited.find(wanted.name);
+    // A plant that is edited goes before its file, also where that is faulty by now.
     const bool is_edited = edited != options_.edited.end();
     std::optional<plant::PlantFile> file =
         is_edited ? std::optional(edited->second) : read_file(wanted, diagnostics_, notes_);
+    // One that was emptied by hand is no fault: nothing is drawn yet.
     if (!file || (is_edited && file->curves.empty())) return;
     apply_plant_overrides(*file, wanted.set, diagnostics_);
     if (diagnostics_.has_errors()) return;
     say_if_large(*file);
     const int count = wanted.repeat[0] * wanted.repeat[1];
     for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
+      // The first one tells how large they are; a thousand more may not fit into memory.
       if (i == 1 && !is_affordable(wanted, count)) return;
       Pose pose = wanted.pose;
       pose.position.x() += wanted.spacing.x() * (i % wanted.repeat[0]);
       pose.position.y() += wanted.spacing.y() * (i / wanted.repeat[0]);
+      // Names in logs and expectations must tell the copies apart.
       file->name = count > 1 ? wanted.name + "_" + std::to_string(i) : wanted.name;
       add_file(*file, wanted, pose);
     }
@@ -100,8 +104,7 @@ class Builder {
     if (!built) return;
     ScenePlantModel made;
     made.info.name = file.name;
-    made.info.is_woody = wanted.source == ScenePlant::Source::mtg ||
-                         file.material.youngs_modulus.value_or(0.0) > 5.0e8;
+    made.info.look = file.look;
     made.info.sampled_nodes = built->nodes_sampled;
     made.info.residual = built->residual;
     made.info.residual_text = plant::residual_text(*built);
@@ -143,6 +146,7 @@ std::filesystem::path source_of(const ScenePlant& plant) {
 std::optional<plant::PlantFile> read_scene_plant(const ScenePlant& plant,
                                                  Diagnostics& diagnostics) {
   const std::filesystem::path source = source_of(plant);
+  // An optional file that is absent has no kind to look for.
   if (source.empty()) return std::nullopt;
   // The fallback of an MTG is a plant file, and so is what has no name that tells.
   const bool own = source == plant.file;

@@ -1,10 +1,6 @@
 #include "pedicel/app/run/simulation.h"
 
-#include <algorithm>
-
-#include "pedicel/app/run/colliders.h"
 #include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/run/start_overlaps.h"
 #include "pedicel/core/check.h"
 #include "pedicel/world/scene_writer.h"
 
@@ -22,7 +18,9 @@ world::WorldSettings world_settings(const world::Scene& scene) {
 /// Robot with its program, bodies, ground and loads: what stands in a world beside its plants.
 std::string things_of(world::Scene scene) {
   world::Scene things;
+  // Compared as text, so that no field can be forgotten in a comparison.
   things.robot = std::move(scene.robot);
+  // Recorded poses are played by a command; a run does not know them.
   if (things.robot) things.robot->recorded.clear();
   things.bodies = std::move(scene.bodies);
   things.ground = scene.ground;
@@ -31,19 +29,6 @@ std::string things_of(world::Scene scene) {
 }
 
 }  // namespace
-
-/// The scene's loads act before the plants move.
-class Simulation::LoadStep : public world::Participant {
- public:
-  explicit LoadStep(Simulation& simulation) : simulation_(simulation) {}
-  world::Phase phase() const override { return world::Phase::commands; }
-  void act(world::SimWorld& world, world::StepReport&) override {
-    simulation_.apply_loads(world.time());
-  }
-
- private:
-  Simulation& simulation_;
-};
 
 Simulation::Simulation(const world::Scene& scene, const SimulationOptions& options)
     : Simulation(std::make_shared<const SceneAssets>(scene, options)) {}
@@ -54,13 +39,20 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
       world_(world_settings(scene_)),
       notes_(assets_->notes) {
   Diagnostics diagnostics;
-  rods_ = std::make_unique<cosserat::RodSystem>(rod_settings(), scene_.threads);
+  // Plants first: loads, waypoints and contacts name their fruits.
+  rods_ = std::make_unique<cosserat::RodSystem>(assets_->rods, scene_.threads);
   add_plants();
   add_bodies();
-  add_loads(diagnostics);
+  loads_ = std::make_unique<SceneLoads>(scene_.loads, *rods_, diagnostics);
   add_robot(diagnostics);
+  // Contacts are set up where all things stand, so nothing may be missing by now.
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
-  add_contacts(diagnostics);
+  contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), diagnostics);
+  measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
+  // Participants of one phase act in the order in which they join.
+  world_.add(*loads_);
+  contacts_->join();
+  world_.add(*measurements_);
   for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
 }
 
@@ -68,14 +60,6 @@ Simulation::~Simulation() = default;
 
 void Simulation::add_plants() {
   for (const cosserat::RodModel& model : assets_->models) rods_->add_plant(model);
-}
-
-std::string Simulation::worst_residual() const {
-  const PlantInfo* worst = nullptr;
-  for (const PlantInfo& plant : plants())
-    if (plant.residual && (!worst || plant.residual->largest > worst->residual->largest))
-      worst = &plant;
-  return worst ? worst->residual_text : "";
 }
 
 void Simulation::add_bodies() {
@@ -92,75 +76,19 @@ void Simulation::add_robot(Diagnostics& diagnostics) {
   world_.add(robot_->reader());
 }
 
-void Simulation::add_contacts(Diagnostics& diagnostics) {
-  if (scene_.ground) add_ground_collider(colliders_, *scene_.ground);
-  for (int b = 0; b < world_.body_count(); ++b)
-    add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
-  if (robot_)
-    add_robot_colliders(colliders_, robot_->name(), robot_->description(), assets_->robot_fields,
-                        robot_->link_poses());
-  const bool grips = robot_ && robot_->gripper() >= 0 && scene_.robot->control != "torque" &&
-                     rod_settings().solver == cosserat::SolverKind::direct;
-  if (grips) grip_ = std::make_unique<Grip>(*robot_, colliders_);
-  for (int p = 0; p < rods_->size(); ++p) add_contact_sources(p, diagnostics);
-  plant_step_ = std::make_unique<PlantStep>(
-      *rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
-  if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
-  if (coupling_settings().two_way) {
-    reaction_ = std::make_unique<Reaction>(world_, robot_.get(), colliders_);
-    if (grip_) grip_->pass_on(plant_step_->contacts());
-    plant_step_->set_reaction(
-        [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
-  }
-  load_step_ = std::make_unique<LoadStep>(*this);
-  measurements_ = std::make_unique<Measurements>(*rods_, *plant_step_, colliders_);
-  world_.add(*load_step_);
-  if (grip_) world_.add(grip_->before());
-  world_.add(*plant_step_);
-  if (grip_) world_.add(grip_->after());
-  world_.add(*measurements_);
-}
-
-// Where the scene says what a collider belongs to.
-SourcePosition Simulation::place_of(const coupling::Collider& collider) const {
-  if (collider.body == robot_body) return scene_.robot->where;
-  return {scene_.file.string(), 0, 0};
-}
-
-void Simulation::add_contact_sources(int p, Diagnostics& diagnostics) {
-  auto source = std::make_unique<coupling::ColliderSource>(colliders_, coupling_settings());
-  const std::vector<coupling::Overlap> overlaps =
-      source->ignore_touching(rods_->model(p), rods_->state(p));
-  for (const StartOverlap& overlap : start_overlaps(rods_->model(p), colliders_, overlaps))
-    diagnostics.warning(place_of(colliders_.collider(overlap.collider)), overlap.text);
-  collider_sources_.push_back(source.get());
-  if (grip_) grip_->add(*source);
-  rods_->add_contact_source(p, std::move(source));
-  if (!coupling_settings().self_contact) return;
-  auto own = std::make_unique<cosserat::SelfContact>(
-      rods_->model(p), coupling::self_contact_settings(coupling_settings()));
-  self_contacts_.push_back(own.get());
-  rods_->add_contact_source(p, std::move(own));
-}
-
 const std::vector<PlantInfo>& Simulation::plants() const {
   return assets_->plants;
 }
-const cosserat::RodSettings& Simulation::rod_settings() const {
-  return assets_->rods;
-}
-const coupling::CouplingSettings& Simulation::coupling_settings() const {
-  return assets_->coupling;
-}
 
 bool Simulation::can_change_to(const SceneAssets& assets) const {
-  const coupling::CouplingSettings &now = coupling_settings(), &then = assets.coupling;
+  const coupling::CouplingSettings &now = assets_->coupling, &then = assets.coupling;
+  // These decide what is set up once, so they cannot change under way.
   const bool same_contacts = now.margin == then.margin && now.two_way == then.two_way &&
                              now.self_contact == then.self_contact;
   const bool same_world =
       scene_.dt == assets.scene.dt && scene_.gravity == assets.scene.gravity &&
       scene_.threads == assets.scene.threads && scene_.file == assets.scene.file &&
-      things_of(scene_) == things_of(assets.scene) && rod_settings().solver == assets.rods.solver;
+      things_of(scene_) == things_of(assets.scene) && assets_->rods.solver == assets.rods.solver;
   if (!same_contacts || !same_world || rods_->size() != static_cast<int>(assets.models.size()))
     return false;
   for (int p = 0; p < rods_->size(); ++p)
@@ -173,48 +101,10 @@ void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
     throw UsageError("Simulation::change_to: another scene, must differ in constants only");
   for (int p = 0; p < rods_->size(); ++p) rods_->change_constants(p, assets->models[p]);
   rods_->change_settings(assets->rods);
-  for (coupling::ColliderSource* source : collider_sources_)
-    source->change_settings(assets->coupling);
-  for (cosserat::SelfContact* own : self_contacts_)
-    own->change_settings(coupling::self_contact_settings(assets->coupling));
+  contacts_->change_settings(assets->coupling);
+  // References into the first assets stay: scene, meshes, fields.
   if (!first_assets_) first_assets_ = assets_;
   assets_ = std::move(assets);
-}
-
-Pose Simulation::link_pose(const coupling::Collider& collider) const {
-  if (collider.body == robot_body) return robot_->link_pose(collider.link);
-  if (collider.body == ground_body) return Pose{};
-  return world_.body_pose(collider.body);
-}
-
-void Simulation::add_loads(Diagnostics& diagnostics) {
-  for (const world::SceneLoad& load : scene_.loads) {
-    bool found = false;
-    for (int p = 0; p < rods_->size(); ++p) {
-      const cosserat::RodModel& model = rods_->model(p);
-      for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
-        if (fruit_name(model, f) != load.target) continue;
-        found = true;
-        loads_.push_back({&load, p, f, rods_->loads(p).size()});
-        rods_->loads(p).push_back({model.fruits[f].element, model.fruits[f].back, {}, {}});
-        rods_->loads(p).back().force_W.setZero();
-        rods_->loads(p).back().moment_W.setZero();
-      }
-    }
-    if (!found)
-      diagnostics.error(load.where,
-                        "load on \"" + load.target + "\", expected PLANT/FRUIT of this scene");
-  }
-}
-
-void Simulation::apply_loads(double time) {
-  for (const FruitLoad& one : loads_) {
-    const world::SceneLoad& load = *one.load;
-    double share = time >= load.from && time < load.to ? 1.0 : 0.0;
-    if (load.ramp) share *= (time - load.from) / (load.to - load.from);
-    if (rods_->state(one.plant).fruit_gone[one.fruit]) share = 0.0;
-    rods_->loads(one.plant)[one.slot].force_W = share * load.force;
-  }
 }
 
 std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
@@ -231,6 +121,7 @@ std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
     if (anchor.kind != world::Anchor::Kind::fruit) continue;
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
       if (fruit_name(model, f) != anchor.name) continue;
+      // As soon as it is off, a fruit is a body of its own name.
       const int body = world_.body_index(anchor.name);  // it has come off
       if (body >= 0) return world_.body_pose(body).position;
       return cosserat::point_on(model, rods_->state(p), model.fruits[f].element,
@@ -242,6 +133,7 @@ std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
 
 std::uint64_t Simulation::state_hash() const {
   StateHash hash;
+  // The order is part of the hash: in another one it is another number.
   world_.add_to(hash);
   rods_->add_to(hash);
   if (robot_) robot_->add_to(hash);

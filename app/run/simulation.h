@@ -9,16 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/run/blade.h"
-#include "pedicel/app/run/grip.h"
 #include "pedicel/app/run/measurements.h"
-#include "pedicel/app/run/plant_step.h"
-#include "pedicel/app/run/reaction.h"
-#include "pedicel/app/run/robot_control.h"
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/standing.h"
-#include "pedicel/coupling/collider_source.h"
-#include "pedicel/coupling/coupling_settings.h"
+#include "pedicel/app/run/plant_info.h"
+#include "pedicel/app/run/scene_contacts.h"
+#include "pedicel/app/run/scene_loads.h"
 #include "pedicel/plant/plant_file.h"
 #include "pedicel/world/scene.h"
 #include "pedicel/world/sim_world.h"
@@ -36,17 +30,6 @@ struct SimulationOptions {
   std::vector<std::filesystem::path> leaf_folders = {};
 };
 
-/// A plant of the simulation and what is known of it beyond its rods.
-struct PlantInfo {
-  std::string name;           ///< as in the scene; "forest_3" in a grid
-  std::vector<Blade> blades;  ///< leaves, for drawing
-  bool is_woody = false;      ///< drawn with bark
-  int sampled_nodes = 0;      ///< before simplification; 0: not from curves
-  /// How far it settles from the drawn shape, and that in words; absent where it sags freely.
-  std::optional<cosserat::Residual> residual;
-  std::string residual_text;
-};
-
 /// A scene brought to life: Bullet's world, the robot, the plants and what they feel of each other.
 class Simulation {
  public:
@@ -58,7 +41,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  const world::StepReport& step() { return world_.step(); }
+  const world::WorldReport& step() { return world_.step(); }
 
   /// Goes on with the constants of other assets (stiffness, mass, thresholds, solver and contact
   /// settings); loads, bodies and robot stay. Throws UsageError where can_change_to() is false.
@@ -74,15 +57,10 @@ class Simulation {
   /// To act on the plants between two steps.
   cosserat::RodSystem& rods() { return *rods_; }
   const std::vector<PlantInfo>& plants() const;
-  /// Of the plant that settles farthest from its drawing: residual_text; empty where none is drawn
-  /// as it hangs.
-  std::string worst_residual() const;
-  const PlantStep& plant_step() const { return *plant_step_; }
-  const coupling::ColliderSet& colliders() const { return colliders_; }
+  const PlantStep& plant_step() const { return contacts_->plant_step(); }
+  const coupling::ColliderSet& colliders() const { return contacts_->colliders(); }
   const Measurements& measurements() const { return *measurements_; }
   Measurements& measurements() { return *measurements_; }
-  const cosserat::RodSettings& rod_settings() const;
-  const coupling::CouplingSettings& coupling_settings() const;
   /// Null where the scene has no robot.
   const RobotControl* robot() const { return robot_.get(); }
   RobotControl* robot() { return robot_.get(); }
@@ -99,36 +77,16 @@ class Simulation {
   void add_plants();
   void add_bodies();
   void add_robot(Diagnostics& diagnostics);
-  void add_contacts(Diagnostics& diagnostics);
-  void add_contact_sources(int plant, Diagnostics& diagnostics);
-  SourcePosition place_of(const coupling::Collider& collider) const;
-  void add_loads(Diagnostics& diagnostics);
-  Pose link_pose(const coupling::Collider& collider) const;
-  void apply_loads(double time);
-
-  /// A load of the scene on the fruit that it names.
-  struct FruitLoad {
-    const world::SceneLoad* load;
-    int plant, fruit;
-    std::size_t slot;  // in RodSystem::loads()
-  };
-  class LoadStep;
 
   std::shared_ptr<const SceneAssets> first_assets_;  // that it was built from, once others count
   std::shared_ptr<const SceneAssets> assets_;        // whose constants count
   const world::Scene& scene_;
   world::SimWorld world_;
   std::unique_ptr<cosserat::RodSystem> rods_;
-  std::vector<coupling::ColliderSource*> collider_sources_;  // of rods_
-  std::vector<cosserat::SelfContact*> self_contacts_;
   std::unique_ptr<RobotControl> robot_;
-  coupling::ColliderSet colliders_;
-  std::unique_ptr<Grip> grip_;  // null without a gripper that its motor moves
-  std::unique_ptr<PlantStep> plant_step_;
-  std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
+  std::unique_ptr<SceneLoads> loads_;
+  std::unique_ptr<SceneContacts> contacts_;
   std::unique_ptr<Measurements> measurements_;
-  std::unique_ptr<LoadStep> load_step_;
-  std::vector<FruitLoad> loads_;
   std::vector<std::string> notes_;
 };
 

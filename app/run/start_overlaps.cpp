@@ -12,6 +12,7 @@ namespace pedicel::app {
 
 namespace {
 
+// Less is rounding in a file.
 constexpr double worth_saying = 1.0e-5;  // m
 
 using Pairs = std::set<std::pair<int, int>>;  // (element, collider)
@@ -41,10 +42,12 @@ std::vector<StartOverlap> start_overlaps(const cosserat::RodModel& model,
   for (const coupling::Overlap& one : overlaps) {
     const cosserat::CollisionShape& shape = model.shapes[one.shape];
     if (one.depth < worth_saying) continue;
+    // A stem in the ground or in a pot is meant to be there.
     if (grows_out_of(model, overlapping, shape.element, one.collider)) continue;
     const std::string& name = colliders.collider(one.collider).name;
     coupling::Overlap& worst =
         deepest.try_emplace({name, organ_of(model, shape)}, one).first->second;
+    // A pair counts as ignored as soon as one of its shapes is.
     const bool is_ignored = worst.is_ignored || one.is_ignored;
     if (one.depth > worst.depth) worst = one;
     worst.is_ignored = is_ignored;
@@ -56,6 +59,7 @@ std::vector<StartOverlap> start_overlaps(const cosserat::RodModel& model,
                                 names.first + " overlaps " + names.second + " by " +
                                     io::format_number(1.0e3 * one.depth, 2) + " mm at the start" +
                                     (one.is_ignored ? ", and does not touch it there" : "")});
+  // The deepest first: that is the one to mend.
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<StartOverlap> all;

@@ -90,7 +90,7 @@ bool DrawTool::press_organ(Ui& ui, const SceneFrame& frame) {
   const ImVec2 foot = frame.project(now).value_or(pressed_at_);
   grip_ = ImVec2(pressed_at_.x - foot.x, pressed_at_.y - foot.y);
   stems_.emplace(*plant_file(ui.session, plant_));
-  foot_ = StemPlace{plant_, organ->place.curve, organ->place.at, organ->place.at, drawn, now};
+  foot_ = StemHit{plant_, organ->place.curve, organ->place.at, organ->place.at, drawn, now};
   ui.selection = ui.hover;
   hand_ = Hand::organ;
   ui.session.begin_gesture();
@@ -101,14 +101,14 @@ bool DrawTool::press_organ(Ui& ui, const SceneFrame& frame) {
 void DrawTool::move_organ(Ui& ui, const SceneFrame& frame) {
   if (!mouse_moved()) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const render::Ray ray = frame.ray(ImVec2(mouse.x - grip_.x, mouse.y - grip_.y));
+  const geometry::Ray ray = frame.ray(ImVec2(mouse.x - grip_.x, mouse.y - grip_.y));
   const Pose pose = plant_pose(ui.session, plant_), to_plant = pose.inverse();
   const auto place =
       stems_->under_ray(to_plant * Vec3(ray.origin - moved_), to_plant.rotation * ray.direction,
                         0.0, frame.angle(organ_reach * ui.scale));
   if (!place) return;
   const Vec3 drawn = pose * place->point;
-  foot_ = StemPlace{plant_, place->stem, place->at, place->at, drawn, drawn + moved_};
+  foot_ = StemHit{plant_, place->stem, place->at, place->at, drawn, drawn + moved_};
   ui.run(Command("move organ",
                  {{"plant", plant_}, {"name", organ_}, {"stem", place->stem}, {"at", place->at}}));
 }
@@ -126,7 +126,7 @@ void DrawTool::move_point(Ui& ui, const SceneFrame& frame) {
   const DrawPlane plane = ui.draw.plane == PlaneChoice::ground    ? ground_plane(now.z())
                           : ui.draw.plane == PlaneChoice::upright ? upright_plane(view, now)
                                                                   : view_plane(view, now);
-  if (const auto to = meet(ray_of(frame.ray(ImGui::GetIO().MousePos)), plane))
+  if (const auto to = meet(frame.ray(ImGui::GetIO().MousePos), plane))
     ui.run(Command("move point", {{"plant", plant_},
                                   {"stem", stem_},
                                   {"point", point_},
@@ -144,7 +144,7 @@ void DrawTool::remove_selected(Ui& ui) {
   if (!curve) return;
   const std::string stem = curve->name;
   if (ui.selection.to_tip) {
-    const auto place = stem_place(ui, ui.selection);
+    const auto place = stem_hit(ui, ui.selection);
     if (place &&
         ui.remove(Command("trim stem", {{"plant", plant}, {"stem", stem}, {"at", place->at}})))
       ui.selection = {};

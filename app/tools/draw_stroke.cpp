@@ -36,7 +36,7 @@ double length_of(const std::vector<plant::StrokeSample>& stroke) {
 }
 
 /// m, of the stem that a stroke begins on, there.
-double radius_at(const Session& session, const StemPlace& foot) {
+double radius_at(const Session& session, const StemHit& foot) {
   const auto curve = drawn_curve(session, foot.plant, foot.stem);
   return curve ? curve->radius(foot.at * curve->length()) : 0.0;
 }
@@ -96,12 +96,12 @@ void DrawTool::begin_stroke(Ui& ui, const SceneFrame& frame) {
               curve->tangent(foot_->at * curve->length());
     projector_->start_on_stem(foot_->now_W, along);
   }
-  const auto first = projector_->place(ray_of(frame.ray(ImGui::GetIO().MousePos)));
+  const auto first = projector_->place(frame.ray(ImGui::GetIO().MousePos));
   stroke_ = {{first.value_or(start), 1.0}};
 }
 
 void DrawTool::extend_stroke(const Ui&, const SceneFrame& frame) {
-  const auto at = projector_->place(ray_of(frame.ray(ImGui::GetIO().MousePos)));
+  const auto at = projector_->place(frame.ray(ImGui::GetIO().MousePos));
   if (!at || (*at - stroke_.front().position).norm() > farthest) return;
   if ((*at - stroke_.back().position).norm() > nearest) stroke_.push_back({*at, thickness_});
 }
@@ -146,7 +146,7 @@ void DrawTool::end_stroke(Ui& ui) {
   ui.selection = {};
 }
 
-void DrawTool::put_organ(Ui& ui, const StemPlace& place) {
+void DrawTool::put_organ(Ui& ui, const StemHit& place) {
   const DrawMode& d = ui.draw;
   const bool fruit = d.thing == DrawThing::fruit;
   const std::string name = unused_name(ui.session, place.plant, fruit ? "fruit" : "leaf");

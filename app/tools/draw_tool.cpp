@@ -20,7 +20,7 @@ bool DrawTool::update(Ui& ui, const SceneFrame& frame) {
     return false;
   }
   if (hand_ == Hand::idle) {
-    foot_ = stem_place(ui, ui.hover);
+    foot_ = stem_hit(ui, ui.hover);
     const bool camera = ImGui::GetIO().KeyAlt || ImGui::GetIO().KeyCtrl;
     if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(0) && !camera) press(ui, frame);
     return true;

@@ -47,7 +47,7 @@ class DrawTool {
   void begin_stroke(Ui& ui, const SceneFrame& frame);
   void extend_stroke(const Ui& ui, const SceneFrame& frame);
   void end_stroke(Ui& ui);
-  void put_organ(Ui& ui, const StemPlace& place);
+  void put_organ(Ui& ui, const StemHit& place);
   void move_point(Ui& ui, const SceneFrame& frame);
   void move_radius(Ui& ui);
   void move_organ(Ui& ui, const SceneFrame& frame);
@@ -58,7 +58,7 @@ class DrawTool {
   void add_stroke(render::DrawList& list, const Ui& ui, const SceneFrame& frame) const;
 
   Hand hand_ = Hand::idle;
-  std::optional<StemPlace> foot_;  // where the stroke begins, or would begin
+  std::optional<StemHit> foot_;  // where the stroke begins, or would begin
 
   // A stroke: places (m, W) with how thick it is there (1: as the options say).
   std::vector<plant::StrokeSample> stroke_;

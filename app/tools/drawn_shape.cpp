@@ -62,7 +62,7 @@ std::optional<StemShape> shape_of(const std::vector<plant::StrokeSample>& stroke
   }
 }
 
-std::optional<StemPlace> stem_place(const Ui& ui, const Selection& hit) {
+std::optional<StemHit> stem_hit(const Ui& ui, const Selection& hit) {
   if (hit.kind != Selection::Kind::element || hit.plant < 0 ||
       hit.plant >= static_cast<int>(ui.snapshot->plants.size()))
     return {};
@@ -72,8 +72,7 @@ std::optional<StemPlace> stem_place(const Ui& ui, const Selection& hit) {
   const std::string name = model.organs[static_cast<std::size_t>(organ)];
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) return {};
-  StemPlace place{
-      name.substr(0, slash), name.substr(slash + 1), 0.0, 0.0, hit.place_W, hit.place_W};
+  StemHit place{name.substr(0, slash), name.substr(slash + 1), 0.0, 0.0, hit.place_W, hit.place_W};
   const auto curve = drawn_curve(ui.session, place.plant, place.stem);
   if (!curve) return {};
   // The organ's rods lie from the stem's foot on: what comes before the place, over all of it.

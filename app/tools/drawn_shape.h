@@ -11,7 +11,7 @@
 namespace pedicel::app {
 
 /// A place on a stem of the document.
-struct StemPlace {
+struct StemHit {
   std::string plant, stem;
   double at = 0.0;              ///< 1, fraction of the stem's drawn length, from its first point
   double from_foot = 0.0;       ///< 1, the same from its foot, as the rods lie
@@ -21,7 +21,7 @@ struct StemPlace {
 
 /// The stem under the pointer as the document knows it; nothing where that is no stem of a plant
 /// that can be edited.
-std::optional<StemPlace> stem_place(const Ui& ui, const Selection& hit);
+std::optional<StemHit> stem_hit(const Ui& ui, const Selection& hit);
 
 /// The drawn curve of a stem, in its plant's frame; nothing for an unknown one.
 std::optional<geometry::Curve> drawn_curve(const Session& session, const std::string& plant,

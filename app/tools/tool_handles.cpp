@@ -24,7 +24,8 @@ double distance_to(const ImVec2& p, const ImVec2& a, const ImVec2& b) {
 
 /// m from `point` along a unit direction to the place of that line nearest to the ray; nothing
 /// where one looks along it.
-std::optional<double> along_line(const render::Ray& ray, const Vec3& point, const Vec3& direction) {
+std::optional<double> along_line(const geometry::Ray& ray, const Vec3& point,
+                                 const Vec3& direction) {
   const double cosine = direction.dot(ray.direction), across = 1.0 - cosine * cosine;
   if (across < 1e-3) return {};
   const Vec3 w = point - ray.origin;
@@ -115,11 +116,10 @@ void ToolHandles::press(const SceneFrame& frame, Part part) {
   start_ = pose_;
   start_axes_ = axes_;
   amount_ = 0.0;
-  const render::Ray ray = frame.ray(ImGui::GetIO().MousePos);
+  const geometry::Ray ray = frame.ray(ImGui::GetIO().MousePos);
   const Vec3 back = (frame.camera.eye - frame.camera.target).normalized();
   grabbed_W_ = pose_.position;
-  if (part == Part::knob)
-    grabbed_W_ = meet(ray_of(ray), {pose_.position, back}).value_or(grabbed_W_);
+  if (part == Part::knob) grabbed_W_ = meet(ray, {pose_.position, back}).value_or(grabbed_W_);
   if (shifts(part)) {
     const Vec3 along = direction(axis_of(part));
     grabbed_W_ += along_line(ray, pose_.position, along).value_or(0.0) * along;
@@ -148,12 +148,12 @@ void ToolHandles::move(Ui& ui, const SceneFrame& frame) {
     return;
   }
   if (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f) return;
-  const render::Ray ray = frame.ray(io.MousePos);
+  const geometry::Ray ray = frame.ray(io.MousePos);
   const Vec3 axis = direction(axis_of(dragged_));
   Pose pose = start_;
   if (dragged_ == Part::knob) {
     const Vec3 back = (frame.camera.eye - frame.camera.target).normalized();
-    const auto at = meet(ray_of(ray), {grabbed_W_, back});
+    const auto at = meet(ray, {grabbed_W_, back});
     if (!at) return;
     pose.position += *at - grabbed_W_;
     amount_ = (*at - grabbed_W_).norm();
@@ -164,7 +164,7 @@ void ToolHandles::move(Ui& ui, const SceneFrame& frame) {
     pose.position += amount_ * axis;
   } else {
     const Vec3 arm = grabbed_W_ - start_.position;
-    const auto at = meet(ray_of(ray), {start_.position, axis});
+    const auto at = meet(ray, {start_.position, axis});
     // Seen from its edge, a ring is turned along its tangent.
     if (std::abs(axis.dot(ray.direction)) < 0.2 || !at) {
       const Vec3 tangent = axis.cross(arm).normalized();

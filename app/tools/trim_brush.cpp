@@ -43,8 +43,8 @@ void TrimBrush::clear() {
   way_.clear();
 }
 
-void TrimBrush::add(const StemPlace& place) {
-  const auto held = std::ranges::find_if(cuts_, [&](const StemPlace& one) {
+void TrimBrush::add(const StemHit& place) {
+  const auto held = std::ranges::find_if(cuts_, [&](const StemHit& one) {
     return one.plant == place.plant && one.stem == place.stem;
   });
   if (held == cuts_.end())
@@ -53,7 +53,7 @@ void TrimBrush::add(const StemPlace& place) {
     *held = place;
 }
 
-void TrimBrush::cut(const StemPlace& place) {
+void TrimBrush::cut(const StemHit& place) {
   cuts_ = {place};
 }
 
@@ -73,7 +73,7 @@ void TrimBrush::extend(const Ui& ui, const SceneFrame& frame, const ImVec2& to) 
       hit.plant = static_cast<int>(p), hit.element = e;
       hit.back = (1.0 - *along) * plant.model->elements[static_cast<std::size_t>(e)].length;
       hit.place_W = near + *along * (far - near);
-      if (const auto place = stem_place(ui, hit)) add(*place);
+      if (const auto place = stem_hit(ui, hit)) add(*place);
     }
   }
   last_ = to;
@@ -87,7 +87,7 @@ void TrimBrush::apply(Ui& ui) {
     return clear();
   }
   ui.session.begin_gesture();
-  for (const StemPlace& cut : cuts_) {
+  for (const StemHit& cut : cuts_) {
     const plant::PlantFile* file = plant_file(ui.session, cut.plant);
     if (file && file->curve_index(cut.stem) >= 0)
       ui.run(Command("trim stem", {{"plant", cut.plant}, {"stem", cut.stem}, {"at", cut.at}}));
@@ -99,12 +99,12 @@ void TrimBrush::apply(Ui& ui) {
 
 void TrimBrush::add_to(render::DrawList& list, const Ui& ui, const SceneFrame& frame) const {
   for (std::size_t i = 1; i < way_.size(); ++i) {
-    const render::Ray a = frame.ray(way_[i - 1]), b = frame.ray(way_[i]);
+    const geometry::Ray a = frame.ray(way_[i - 1]), b = frame.ray(way_[i]);
     const double near = 2.0 * frame.camera.near_plane;  // in front of everything
     list.lines.push_back(
         {a.origin + near * a.direction, b.origin + near * b.direction, going, 2.0f});
   }
-  for (const StemPlace& cut : cuts_) {
+  for (const StemHit& cut : cuts_) {
     list.spheres.push_back({cut.now_W,
                             4.0 * frame.angle(1.0) * (cut.now_W - frame.camera.eye).norm(),
                             {going, 0.5f, 0.2f}});
@@ -112,7 +112,7 @@ void TrimBrush::add_to(render::DrawList& list, const Ui& ui, const SceneFrame& f
   }
 }
 
-void add_beyond(render::DrawList& list, const Snapshot& snapshot, const StemPlace& place) {
+void add_beyond(render::DrawList& list, const Snapshot& snapshot, const StemHit& place) {
   const auto from = find_organ(snapshot, place.plant + "/" + place.stem, place.from_foot);
   if (!from) return;
   const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(from->plant)];

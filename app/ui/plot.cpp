@@ -12,7 +12,7 @@ namespace pedicel::app {
 
 namespace {
 
-struct Frame {
+struct PlotArea {
   ImVec2 low, high;  // px: upper left and lower right of the lines' place
   const PlotView& view;
 
@@ -50,7 +50,7 @@ double spacing(const std::vector<double>& ticks) {
   return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
 }
 
-void draw_grid(ImDrawList& list, const Frame& frame, const char* x_label) {
+void draw_grid(ImDrawList& list, const PlotArea& frame, const char* x_label) {
   const float em = ImGui::GetFontSize();
   const ImU32 grid = colour_u32(palette().line, 0.6f), ink = colour_u32(palette().dim);
   const PlotView& v = frame.view;
@@ -78,7 +78,7 @@ void draw_grid(ImDrawList& list, const Frame& frame, const char* x_label) {
 }
 
 /// A line with at most two values a pixel: the least and the most of those that fall on it.
-void draw_line(ImDrawList& list, const Frame& frame, const PlotLine& line) {
+void draw_line(ImDrawList& list, const PlotArea& frame, const PlotLine& line) {
   const auto from = std::ranges::lower_bound(line.x, frame.view.x_low);
   std::size_t i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, from - line.x.begin() - 1));
   std::vector<ImVec2> points;
@@ -106,7 +106,7 @@ void draw_line(ImDrawList& list, const Frame& frame, const PlotLine& line) {
   flush();
 }
 
-void draw_values(ImDrawList& list, const Frame& frame, const std::vector<PlotLine>& lines) {
+void draw_values(ImDrawList& list, const PlotArea& frame, const std::vector<PlotLine>& lines) {
   const double at = frame.value_x(ImGui::GetIO().MousePos.x);
   const float x = frame.x(at);
   list.AddLine(ImVec2(x, frame.low.y), ImVec2(x, frame.high.y), colour_u32(palette().dim, 0.6f));
@@ -128,7 +128,7 @@ void zoom(double& low, double& high, double about, double factor) {
   high = about + factor * (high - about);
 }
 
-void move_view(PlotView& view, const Frame& frame, const std::vector<PlotLine>& lines) {
+void move_view(PlotView& view, const PlotArea& frame, const std::vector<PlotLine>& lines) {
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2.0f)) {
     view.follows = false;
@@ -149,15 +149,15 @@ void move_view(PlotView& view, const Frame& frame, const std::vector<PlotLine>& 
   if (ImGui::IsMouseDoubleClicked(0)) view.follows = true, show_all(lines, view);
 }
 
-Frame frame_of(const ImVec2& corner, const ImVec2& size, const PlotView& view) {
+PlotArea frame_of(const ImVec2& corner, const ImVec2& size, const PlotView& view) {
   const float em = ImGui::GetFontSize();
   return {ImVec2(corner.x + 4.2f * em, corner.y + 0.5f * em),
           ImVec2(corner.x + size.x - 0.6f * em, corner.y + size.y - 1.5f * em), view};
 }
 
 /// Where a box of that size hides the fewest values of the lines; the upper right one if alike.
-ImVec2 emptiest_corner(const Frame& frame, const std::vector<PlotLine>& lines, const ImVec2& size,
-                       float pad) {
+ImVec2 emptiest_corner(const PlotArea& frame, const std::vector<PlotLine>& lines,
+                       const ImVec2& size, float pad) {
   const float left = frame.low.x + pad, right = frame.high.x - pad - size.x;
   const float top = frame.low.y + pad, bottom = frame.high.y - pad - size.y;
   ImVec2 best(right, top);
@@ -219,7 +219,7 @@ void draw_plot(const char* id, const std::vector<PlotLine>& lines, PlotView& vie
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(id, size);
   if (view.follows) show_all(lines, view);
-  const Frame frame = frame_of(corner, size, view);
+  const PlotArea frame = frame_of(corner, size, view);
   if (frame.high.x - frame.low.x < em || frame.high.y - frame.low.y < em) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(frame.low, frame.high, colour_u32(palette().window, 0.6f), 3.0f);
@@ -232,7 +232,7 @@ void draw_plot(const char* id, const std::vector<PlotLine>& lines, PlotView& vie
 }
 
 void name_lines(const std::vector<PlotLine>& lines, const PlotView& view) {
-  const Frame frame = frame_of(ImGui::GetItemRectMin(), ImGui::GetItemRectSize(), view);
+  const PlotArea frame = frame_of(ImGui::GetItemRectMin(), ImGui::GetItemRectSize(), view);
   const float pad = 0.4f * ImGui::GetFontSize(), height = ImGui::GetTextLineHeight();
   ImVec2 size(2 * pad, 2 * pad + static_cast<float>(lines.size()) * height);
   for (const PlotLine& line : lines)

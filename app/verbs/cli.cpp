@@ -76,7 +76,7 @@ RunOptions options_of_run(const RunArguments& a) {
 }
 
 int end_of_run(const world::Scene& scene, const RunArguments& a, const RunOptions& options,
-               const RunResult& result) {
+               const SceneResult& result) {
   if (a.json) std::cout << to_json(scene, result) << std::endl;
   if (!a.quiet) say(Verbosity::lines, "written to %s", options.out.string().c_str());
   return result.exit_code;

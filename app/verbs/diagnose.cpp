@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 
 #include "pedicel/app/verbs/experiment_run.h"
@@ -20,6 +21,7 @@ namespace {
 struct DiagnoseArguments : ExperimentArguments {
   std::vector<std::string> with;      // folders
   std::vector<std::string> settings;  // NAME=VALUE
+  double time_limit = std::numeric_limits<double>::infinity();  // s
   bool verbose = false;
 };
 
@@ -62,12 +64,16 @@ int run(const DiagnoseArguments& a) {
   options.threads = a.thread_count();
   options.seed = static_cast<std::uint64_t>(a.seed);
   options.stop = &stop_requested;
+  options.time_limit = a.time_limit;
+  // From now on a signal ends the search, and what is known is written.
+  stop_in_good_order();
+  bool stopped = false;
+  options.cut_short = [&stopped] { stopped = stop_requested.exchange(false); };
   options.progress = progress.callback(a.quiet);
   if (a.verbose)
     options.note = [&progress](const std::string& sentence) { progress.note(sentence); };
   discrepancy::Diagnosis diagnosis = discrepancy::diagnose(experiment, options);
   progress.end(diagnosis.stopped);
-  if (diagnosis.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("diagnosis_", experiment);
   a.write(folder,
           [&](const std::filesystem::path& in) { write_diagnosis(in, experiment, diagnosis); });
@@ -75,7 +81,7 @@ int run(const DiagnoseArguments& a) {
     std::cout << to_json(diagnosis.verdict) << std::endl;
   else
     std::cout << headline(diagnosis.verdict) << "\nwritten to " << folder.string() << std::endl;
-  return exit_code(diagnosis.verdict.outcome);
+  return stopped ? stop_exit_code() : exit_code(diagnosis.verdict.outcome);
 }
 
 }  // namespace
@@ -97,6 +103,9 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
                    "NAME=VALUE, repeatable: a setting of `pedicel manual diagnosis_settings`, as "
                    "levels.clear_odds=4")
       ->allow_extra_args(false);
+  verb->add_option("--time-limit", a->time_limit,
+                   "s after which the search ends, and what is known is written")
+      ->check(CLI::PositiveNumber);
   verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
   return [a] { return run(*a); };
 }

@@ -44,7 +44,7 @@ class SceneWorld : public ParallelWorld {
   }
   std::uint64_t state_hash() const override { return simulation_.state_hash(); }
   std::string failure() const override {
-    return fatal_errors_ ? world::remedy(static_cast<world::StepError>(fatal_errors_)) : "";
+    return fatal_errors_ ? world::remedy(static_cast<world::WorldError>(fatal_errors_)) : "";
   }
 
  private:

@@ -38,11 +38,11 @@ std::string header_of(const io::CsvTable& table, const world::Scene& scene) {
   return text + ",breaks_1,stretch_max_1\n";
 }
 
-int code_of(const RunResult& run) {
+int code_of(const SceneResult& run) {
   return run.exit_code == exit_unmet ? exit_ok : run.exit_code;
 }
 
-std::string line_of(const io::CsvTable& table, std::size_t row, const RunResult& run) {
+std::string line_of(const io::CsvTable& table, std::size_t row, const SceneResult& run) {
   std::string text = std::to_string(row + 1) + "," + std::to_string(code_of(run));
   for (const double value : table.rows[row]) text += "," + io::exact_number(value);
   for (const world::ExpectationResult& verdict : run.verdicts)
@@ -60,12 +60,12 @@ io::CsvTable read_param_sweep(const std::filesystem::path& path) {
   return table;
 }
 
-RunResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
-                          const RunOptions& options) {
+SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
+                            const RunOptions& options) {
   std::vector<world::Scene> scenes;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     scenes.push_back(scene_of_row(scene, table, row));
-  RunResult all;
+  SceneResult all;
   all.folder = options.out;
   stop_in_good_order();
   all.output = std::make_shared<io::OutputFolder>(options.out, files_of_a_run());
@@ -79,7 +79,7 @@ RunResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
     one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
     one.out = all.output->file(folder_of(row) + "/");
     try {
-      const RunResult run = run_scene(scenes[row], one);
+      const SceneResult run = run_scene(scenes[row], one);
       text += line_of(table, row, run);
       say(Verbosity::lines, "%s: exit code %d, %.2f x real time", folder_of(row).c_str(),
           code_of(run), run.real_time_factor());

@@ -16,7 +16,7 @@ io::CsvTable read_param_sweep(const std::filesystem::path& path);
 /// expects something of, as measured. What is expected is not judged: that is of the scene's own
 /// values. Exit code 4 where a run is unstable. Throws UsageError for a key or a value that is
 /// impossible, before anything runs.
-RunResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
-                          const RunOptions& options);
+SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
+                            const RunOptions& options);
 
 }  // namespace pedicel::app

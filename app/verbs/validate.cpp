@@ -94,7 +94,7 @@ std::string check_scene(const std::filesystem::path& path, const Options& given,
   // Builds everything that the scene names, and runs none of it.
   const Simulation simulation(*scene, options);
   for (const std::string& note : simulation.notes()) warn(note, diagnostics);
-  return simulation.worst_residual();
+  return worst_residual(simulation.plants());
 }
 
 // The plant is built, too.

@@ -15,7 +15,7 @@ void take(Selection& best, Selection found) {
 }
 
 void pick_stems(Selection& hit, Selection& missed, const Snapshot& snapshot, int p,
-                const render::Ray& ray, double slack) {
+                const geometry::Ray& ray, double slack) {
   const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
   const cosserat::RodModel& model = *plant.model;
   for (int e = 0; e < model.size(); ++e) {
@@ -34,7 +34,7 @@ void pick_stems(Selection& hit, Selection& missed, const Snapshot& snapshot, int
   }
 }
 
-void pick_fruits(Selection& best, const Snapshot& snapshot, int p, const render::Ray& ray) {
+void pick_fruits(Selection& best, const Snapshot& snapshot, int p, const geometry::Ray& ray) {
   const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
   const cosserat::RodModel& model = *plant.model;
   for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
@@ -54,7 +54,7 @@ void pick_fruits(Selection& best, const Snapshot& snapshot, int p, const render:
 }
 
 /// A leaf's blade stands for the element at its first corner.
-void pick_blades(Selection& best, const Snapshot& snapshot, int p, const render::Ray& ray) {
+void pick_blades(Selection& best, const Snapshot& snapshot, int p, const geometry::Ray& ray) {
   if (static_cast<std::size_t>(p) >= snapshot.assets->plants.size()) return;
   const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
   for (const Blade& blade : snapshot.assets->plants[static_cast<std::size_t>(p)].blades) {
@@ -77,7 +77,7 @@ void pick_blades(Selection& best, const Snapshot& snapshot, int p, const render:
   }
 }
 
-double hit_box(const render::Ray& ray, const render::Box& box) {
+double hit_box(const geometry::Ray& ray, const render::Box& box) {
   const Pose to_box = box.pose.inverse();
   const Vec3 o = to_box * ray.origin, d = to_box.rotation * ray.direction;
   double from = 0.0, to = 1e9;
@@ -89,9 +89,9 @@ double hit_box(const render::Ray& ray, const render::Box& box) {
   return from <= to ? from : -1.0;
 }
 
-double hit_mesh(const render::Ray& ray, const render::MeshInstance& instance) {
+double hit_mesh(const geometry::Ray& ray, const render::MeshInstance& instance) {
   const Pose to_mesh = instance.pose.inverse();
-  const render::Ray local{to_mesh * ray.origin, to_mesh.rotation * ray.direction};
+  const geometry::Ray local{to_mesh * ray.origin, to_mesh.rotation * ray.direction};
   double best = -1.0;
   for (const auto& t : instance.mesh->triangles) {
     const auto& v = instance.mesh->vertices;
@@ -104,10 +104,10 @@ double hit_mesh(const render::Ray& ray, const render::MeshInstance& instance) {
 }
 
 /// The nearest hit of a rigid shape, given in its own frame; negative: none.
-double hit_shape(const render::Ray& ray, const RigidShapes::Shape& rigid, const Pose& X_WS) {
+double hit_shape(const geometry::Ray& ray, const RigidShapes::Shape& rigid, const Pose& X_WS) {
   const render::DrawList& shape = rigid.list;
   const Pose to_shape = X_WS.inverse();
-  const render::Ray local{to_shape * ray.origin, to_shape.rotation * ray.direction};
+  const geometry::Ray local{to_shape * ray.origin, to_shape.rotation * ray.direction};
   const Eigen::AlignedBox3d& box = rigid.box;
   if (box.isEmpty() || hit_sphere(local, box.center(), 0.5 * box.diagonal().norm()) < 0.0)
     return -1.0;
@@ -127,7 +127,7 @@ double hit_shape(const render::Ray& ray, const RigidShapes::Shape& rigid, const 
 }
 
 void pick_rigid(Selection& best, const Snapshot& snapshot, const RigidShapes& shapes,
-                const render::Ray& ray) {
+                const geometry::Ray& ray) {
   const auto consider = [&](Kind kind, std::size_t index, double distance) {
     if (distance < 0.0) return;
     Selection found;
@@ -145,7 +145,7 @@ void pick_rigid(Selection& best, const Snapshot& snapshot, const RigidShapes& sh
 
 }  // namespace
 
-double hit_sphere(const render::Ray& ray, const Vec3& centre, double radius) {
+double hit_sphere(const geometry::Ray& ray, const Vec3& centre, double radius) {
   const Vec3 offset = ray.origin - centre;
   const double b = offset.dot(ray.direction);
   const double c = offset.squaredNorm() - radius * radius;
@@ -155,7 +155,7 @@ double hit_sphere(const render::Ray& ray, const Vec3& centre, double radius) {
   return near >= 0.0 ? near : (far >= 0.0 ? 0.0 : -1.0);
 }
 
-NearAxis near_axis(const render::Ray& ray, const Vec3& a, const Vec3& b) {
+NearAxis near_axis(const geometry::Ray& ray, const Vec3& a, const Vec3& b) {
   const Vec3 axis = b - a, offset = a - ray.origin;
   const double length2 = axis.squaredNorm();
   const double d = axis.dot(ray.direction);
@@ -168,7 +168,7 @@ NearAxis near_axis(const render::Ray& ray, const Vec3& a, const Vec3& b) {
   return {along, (place - ray.origin - distance * ray.direction).norm(), distance};
 }
 
-double hit_triangle(const render::Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c) {
+double hit_triangle(const geometry::Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
   const Vec3 p = ray.direction.cross(ac);
   const double det = ab.dot(p);
@@ -182,11 +182,7 @@ double hit_triangle(const render::Ray& ray, const Vec3& a, const Vec3& b, const 
   return ac.dot(q) / det;
 }
 
-Ray ray_of(const render::Ray& ray) {
-  return {ray.origin, ray.direction};
-}
-
-Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render::Ray& ray,
+Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const geometry::Ray& ray,
                double slack) {
   Selection best, missed;
   if (snapshot.assets) {
@@ -202,7 +198,7 @@ Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render
   const double ground = snapshot.assets && snapshot.assets->scene.ground
                             ? snapshot.assets->scene.ground->height
                             : 0.0;
-  const auto floor = meet(ray_of(ray), ground_plane(ground));
+  const auto floor = meet(ray, ground_plane(ground));
   best.distance = floor ? (*floor - ray.origin).norm() : 2.0;
   best.place_W = ray.origin + best.distance * ray.direction;
   return best;

@@ -6,6 +6,7 @@
 #include "pedicel/app/session/live/snapshot.h"
 #include "pedicel/app/ui/view_state.h"
 #include "pedicel/app/view/rigid_shapes.h"
+#include "pedicel/geometry/ray.h"
 #include "pedicel/render/camera.h"
 
 namespace pedicel::app {
@@ -16,20 +17,18 @@ namespace pedicel::app {
 /// met at its rods and blades. Another part of a plant that is hit squarely is preferred to one
 /// that is missed. Nothing hit: kind none, and `place_W` is where the ray meets the ground, or at
 /// the target's depth.
-Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const render::Ray& ray,
+Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const geometry::Ray& ray,
                double slack);
 
 /// Distances along a ray (unit direction); negative where it misses.
-double hit_sphere(const render::Ray& ray, const Vec3& centre, double radius);
+double hit_sphere(const geometry::Ray& ray, const Vec3& centre, double radius);
 /// A capsule's axis nearest to the ray: `along` is the fraction from `a` to `b`, `gap` the distance
 /// between the ray and the axis (m), `distance` along the ray (m).
 struct NearAxis {
   double along = 0.0, gap = 0.0, distance = 0.0;
 };
-NearAxis near_axis(const render::Ray& ray, const Vec3& a, const Vec3& b);
+NearAxis near_axis(const geometry::Ray& ray, const Vec3& a, const Vec3& b);
 /// Moeller and Trumbore 1997; negative where it misses.
-double hit_triangle(const render::Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c);
-/// The same ray for the session's planes and surfaces (draw_surface.h).
-Ray ray_of(const render::Ray& ray);
+double hit_triangle(const geometry::Ray& ray, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace pedicel::app

@@ -14,9 +14,9 @@ RigidShapes::Shape with_box(render::DrawList list) {
 
 render::DrawList look_of(const BodyInfo& info, const SceneAssets& assets) {
   if (info.fruit < 0 || info.description.parts.empty()) return body_shape(info.description);
-  const bool woody = assets.plants[static_cast<std::size_t>(info.plant)].is_woody;
-  return fruit_shape(woody ? FruitLook::apple() : FruitLook::tomato(), info.fruit,
-                     info.description.parts.front().radius, info.stub_length, info.stub_radius);
+  const plant::Look look = assets.plants[static_cast<std::size_t>(info.plant)].look;
+  return fruit_shape(FruitLook::of(look), info.fruit, info.description.parts.front().radius,
+                     info.stub_length, info.stub_radius);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ void SceneMouse::move_pull(Ui& ui, const SceneFrame& frame) {
     return ui.session.control().move_pull(grabbed_W_ + frame.angle(up) * way);
   }
   const DrawPlane across = view_plane(frame.camera.target - frame.camera.eye, grabbed_W_);
-  const auto at = meet(ray_of(frame.ray(ImGui::GetIO().MousePos)), across);
+  const auto at = meet(frame.ray(ImGui::GetIO().MousePos), across);
   if (!at) return;
   Vec3 target = *at;
   if (ImGui::GetIO().KeyShift) target.head<2>() = grabbed_W_.head<2>();
@@ -126,7 +126,7 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
   }
   if (hovered && io.MouseWheel != 0.0f) {
     const double steps = ui.preferences.invert_wheel ? -io.MouseWheel : io.MouseWheel;
-    const render::Ray ray = frame.ray(io.MousePos);
+    const geometry::Ray ray = frame.ray(io.MousePos);
     const Vec3 forward = (frame.camera.target - frame.camera.eye).normalized();
     // The place under the pointer; beside things at most as far as the target, so that the wheel
     // does not fly past it towards the floor behind.

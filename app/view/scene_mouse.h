@@ -16,7 +16,7 @@ struct SceneFrame {
   int width() const { return std::max(1, static_cast<int>(size.x)); }
   int height() const { return std::max(1, static_cast<int>(size.y)); }
   /// The ray through a place of the window.
-  render::Ray ray(const ImVec2& at) const {
+  geometry::Ray ray(const ImVec2& at) const {
     return camera.unproject(at.x - low.x, at.y - low.y, width(), height());
   }
   /// Where a point of the world lies in the window; nothing behind the eye.

@@ -73,10 +73,9 @@ void SnapshotView::follow(const Snapshot& snapshot) {
   for (std::size_t p = 0; p < plants_.size(); ++p) {
     if (plants_[p].model == snapshot.plants[p].model) continue;
     const PlantInfo& info = snapshot.assets->plants[p];
-    plants_[p] = {
-        snapshot.plants[p].model, snapshot.assets,
-        std::make_unique<PlantDrawing>(*snapshot.plants[p].model, info.blades,
-                                       info.is_woody ? PlantLook::apple() : PlantLook::tomato())};
+    plants_[p] = {snapshot.plants[p].model, snapshot.assets,
+                  std::make_unique<PlantDrawing>(*snapshot.plants[p].model, info.blades,
+                                                 PlantLook::of(info.look))};
   }
 }
 

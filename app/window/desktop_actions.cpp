@@ -1,3 +1,7 @@
+#include "pedicel/app/window/desktop_actions.h"
+
+#include <imgui.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +10,7 @@
 #include "pedicel/app/session/session_files.h"
 #include "pedicel/app/session/session_robot.h"
 #include "pedicel/app/ui/free_file_name.h"
-#include "pedicel/app/window/desktop.h"
+#include "pedicel/app/window/gui_input.h"
 
 namespace pedicel::app {
 
@@ -24,9 +28,47 @@ double next_speed(double now, int direction) {
   return at == speeds.end() ? 0.0 : *at;
 }
 
+/// Undo, redo, copy, cut, paste, choose all: those of the text that is typed.
+bool edits_text(const Binding& binding) {
+  constexpr std::array keys{Key::z, Key::y, Key::c, Key::x, Key::v, Key::a};
+  return binding.control && std::ranges::find(keys, binding.key) != keys.end();
+}
+
+/// What neither the document nor the run nor the view behind a dialog feels.
+bool acts_over_dialogs(Action action) {
+  switch (action) {
+    case Action::cancel:
+    case Action::reload:  // of a file that could not be read
+    case Action::help:
+    case Action::info:
+    case Action::screenshot:
+    case Action::video:
+    case Action::full_screen:
+    case Action::larger_text:
+    case Action::smaller_text:
+    case Action::quit:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
-void Desktop::perform_all() {
+void DesktopActions::ask_by_keys() {
+  const ImGuiIO& io = ImGui::GetIO();
+  for (const Binding& binding : bindings()) {
+    if (ui_.dialog != Dialog::none && !acts_over_dialogs(binding.action)) continue;
+    // While a text is typed, only what cannot be part of it.
+    if (types_text() && (edits_text(binding) || (!binding.control && binding.key < Key::f1)))
+      continue;
+    if (binding.control != io.KeyCtrl || binding.shift != io.KeyShift) continue;
+    const bool repeats = binding.action == Action::step || binding.action == Action::step_back;
+    if (ImGui::IsKeyPressed(static_cast<int>(binding.key), repeats)) ui_.ask(binding.action);
+  }
+}
+
+void DesktopActions::perform_all() {
   while (!ui_.actions.empty()) {
     const Action action = ui_.actions.front();
     ui_.actions.pop_front();
@@ -34,7 +76,7 @@ void Desktop::perform_all() {
   }
 }
 
-void Desktop::perform(Action action) {
+void DesktopActions::perform(Action action) {
   RunControl& control = ui_.session.control();
   switch (action) {
     case Action::play_pause:
@@ -84,7 +126,7 @@ void Desktop::perform(Action action) {
   }
 }
 
-void Desktop::perform_file(Action action) {
+void DesktopActions::perform_file(Action action) {
   switch (action) {
     case Action::open:
       ui_.dialog = Dialog::open;
@@ -102,15 +144,15 @@ void Desktop::perform_file(Action action) {
       take_screenshot();
       break;
     case Action::video:
-      toggle_video();
+      film_.toggle();
       break;
     default:
       break;
   }
 }
 
-void Desktop::take_screenshot() {
-  const auto picture = ui_.view.panels_in_pictures ? window_picture() : scene_picture(1280, 720);
+void DesktopActions::take_screenshot() {
+  const auto picture = ui_.view.panels_in_pictures ? window_.picture() : scene_.picture(1280, 720);
   if (!picture) return;
   const std::filesystem::path path = free_file_name(ui_.output_stem().string(), ".png");
   try {

@@ -4,7 +4,7 @@
 #include "pedicel/app/editors/point_editor.h"
 #include "pedicel/app/editors/thing_editor.h"
 #include "pedicel/app/tools/draw_tool.h"
-#include "pedicel/app/window/desktop.h"
+#include "pedicel/app/window/desktop_actions.h"
 
 /// Actions that change the plants, or what is chosen of them.
 namespace pedicel::app {
@@ -32,7 +32,7 @@ int child_element(const cosserat::RodModel& model, int element) {
 
 }  // namespace
 
-void Desktop::perform_edit(Action action) {
+void DesktopActions::perform_edit(Action action) {
   const auto walk = [&](auto neighbour) {
     if (ui_.selection.kind != Selection::Kind::element) return;
     const auto& model = *ui_.snapshot->plants[static_cast<std::size_t>(ui_.selection.plant)].model;
@@ -60,16 +60,16 @@ void Desktop::perform_edit(Action action) {
       smooth_points(ui_);
       break;
     case Action::select_child:
-      if (!draw_tool_->thicken(1.0)) walk(child_element);
+      if (!scene_.draw_tool().thicken(1.0)) walk(child_element);
       break;
     case Action::select_parent:
-      if (!draw_tool_->thicken(-1.0)) walk(parent_element);
+      if (!scene_.draw_tool().thicken(-1.0)) walk(parent_element);
       break;
     case Action::duplicate:
       duplicate_thing(ui_);
       break;
     case Action::remove:
-      if (!remove_thing(ui_)) draw_tool_->remove_selected(ui_);
+      if (!remove_thing(ui_)) scene_.draw_tool().remove_selected(ui_);
       break;
     case Action::accept:
       break;
@@ -78,7 +78,7 @@ void Desktop::perform_edit(Action action) {
         ImGui::ClosePopupToLevel(0, false);  // a list, a menu
       else if (ui_.dialog != Dialog::none)
         ui_.dialog = Dialog::none;
-      else if (draw_tool_->cancel(ui_))
+      else if (scene_.draw_tool().cancel(ui_))
         break;
       else if (ui_.draw.on)
         ui_.draw.on = false;

@@ -1,31 +1,29 @@
 #include <algorithm>
 
-#include "pedicel/app/draw/pictures.h"
-#include "pedicel/app/session/live/organ_place.h"
-#include "pedicel/app/window/desktop.h"
+#include "pedicel/app/window/desktop_actions.h"
 #include "pedicel/app/window/framing.h"
 
 /// Actions that change how the scene is seen.
 namespace pedicel::app {
 
-void Desktop::perform_view(Action action) {
+void DesktopActions::perform_view(Action action) {
   Preferences& p = ui_.preferences;
   const int cameras =
       ui_.snapshot->assets ? static_cast<int>(ui_.snapshot->assets->scene.cameras.size()) : 0;
   switch (action) {
     case Action::frame_all:
-      ui_.frame_box = list_.bounds();
+      ui_.frame_box = scene_.bounds();
       break;
     case Action::frame_selection: {
-      const Eigen::AlignedBox3d box = frame_of(ui_, view_.shapes());
-      ui_.frame_box = box.isEmpty() ? list_.bounds() : box;
+      const Eigen::AlignedBox3d box = frame_of(ui_, scene_.shapes());
+      ui_.frame_box = box.isEmpty() ? scene_.bounds() : box;
       break;
     }
     case Action::previous_camera:
-      if (cameras) use_camera((std::max(ui_.view.camera, 0) + cameras - 1) % cameras);
+      if (cameras) scene_.use_camera((std::max(ui_.view.camera, 0) + cameras - 1) % cameras);
       break;
     case Action::next_camera:
-      if (cameras) use_camera((ui_.view.camera + 1) % cameras);
+      if (cameras) scene_.use_camera((ui_.view.camera + 1) % cameras);
       break;
     case Action::panels: {
       const bool any = p.show_left || p.show_right || p.show_bottom;
@@ -69,26 +67,6 @@ void Desktop::perform_view(Action action) {
     default:
       break;
   }
-}
-
-void Desktop::use_camera(int index) {
-  if (!ui_.snapshot->assets) return;
-  const auto& cameras = ui_.snapshot->assets->scene.cameras;
-  if (index < 0 || index >= static_cast<int>(cameras.size())) return;
-  const world::SceneCamera& camera = cameras[static_cast<std::size_t>(index)];
-  // What follows something that is not there starts about the middle of the scene.
-  const Vec3 middle = list_.bounds().isEmpty() ? Vec3(Vec3::Zero()) : Vec3(list_.bounds().center());
-  camera_.set(camera_of(camera, place_of(*ui_.snapshot, camera.follow).value_or(middle)));
-  ui_.view.camera = index;
-}
-
-void Desktop::follow_camera() {
-  if (ui_.view.camera < 0 || !ui_.snapshot->assets) return;
-  const auto& cameras = ui_.snapshot->assets->scene.cameras;
-  const auto index = static_cast<std::size_t>(ui_.view.camera);
-  if (index >= cameras.size() || cameras[index].follow.kind == world::Anchor::Kind::none) return;
-  if (const auto place = place_of(*ui_.snapshot, cameras[index].follow))
-    camera_.set(camera_of(cameras[index], *place));
 }
 
 }  // namespace pedicel::app

@@ -70,7 +70,7 @@ void OffscreenFilm::begin(const FilmRequest& request) {
 /// The camera that was asked for, and after what it follows.
 void OffscreenFilm::look() {
   const int index = camera_index(*session_.snapshot(), request_.camera);
-  if (index >= 0) desktop_->use_camera(index);
+  if (index >= 0) desktop_->scene().use_camera(index);
 }
 
 void OffscreenFilm::add() {
@@ -82,8 +82,8 @@ void OffscreenFilm::add() {
   if (first_) desktop_->frame();
   first_ = false;
   const auto picture = request_.with_interface
-                           ? desktop_->window_picture()
-                           : desktop_->scene_picture(request_.size[0], request_.size[1]);
+                           ? desktop_->window().picture()
+                           : desktop_->scene().picture(request_.size[0], request_.size[1]);
   written([&] { video_->add(picture.value()); });
 }
 

@@ -96,12 +96,12 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   for (int i = 0; i < 5; ++i) {
     desktop.frame();
     if (!request.camera.empty())
-      desktop.use_camera(camera_index(*session.snapshot(), request.camera));
+      desktop.scene().use_camera(camera_index(*session.snapshot(), request.camera));
   }
   desktop.frame();
   const auto picture = request.with_interface
-                           ? desktop.window_picture()
-                           : desktop.scene_picture(request.size[0], request.size[1]);
+                           ? desktop.window().picture()
+                           : desktop.scene().picture(request.size[0], request.size[1]);
   render::write_png(request.screenshot, picture.value());
   return 0;
 }

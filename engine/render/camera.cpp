@@ -59,7 +59,7 @@ PixelPoint Camera::project(const Vec3& p_W, int width, int height) const {
   return {0.5 * width + scale * p.x(), 0.5 * height - scale * p.y(), depth};
 }
 
-Ray Camera::unproject(double x, double y, int width, int height) const {
+geometry::Ray Camera::unproject(double x, double y, int width, int height) const {
   const double f = focal_length(height);
   const Vec3 p((x - 0.5 * width) / f, (0.5 * height - y) / f, -1.0);
   return {eye, (axes(*this).transpose() * p).normalized()};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pedicel/core/frames.h"
+#include "pedicel/geometry/ray.h"
 
 namespace pedicel::render {
 
@@ -10,12 +11,6 @@ using Mat4 = Eigen::Matrix4d;
 struct PixelPoint {
   double x = 0.0, y = 0.0;  ///< px; the centre of the first pixel is (0.5, 0.5)
   double depth = 0.0;       ///< m along the view axis; negative behind the eye
-};
-
-/// A ray in world coordinates.
-struct Ray {
-  Vec3 origin;
-  Vec3 direction;  ///< unit
 };
 
 /// A pinhole camera that looks from `eye` to `target`. World frame, Z up, m and rad.
@@ -35,7 +30,7 @@ struct Camera {
   /// Where a world point lies in a picture of that size.
   PixelPoint project(const Vec3& p_W, int width, int height) const;
   /// The ray through a pixel position.
-  Ray unproject(double x, double y, int width, int height) const;
+  geometry::Ray unproject(double x, double y, int width, int height) const;
 
   /// Pixels that a length of 1 m across the view axis covers at 1 m depth.
   double focal_length(int height) const;

@@ -107,7 +107,7 @@ Eigen::AlignedBox3d DrawList::bounds() const {
   for (const Box& b : boxes) extend_corners(b.pose, {-b.half_extents, b.half_extents});
   for (const MeshInstance& m : meshes)
     if (m.mesh) extend_corners(m.pose, mesh_bounds(*m.mesh));
-  for (const BladeTriangle& t : blades) all.extend(t.a).extend(t.b).extend(t.c);
+  for (const BladeFace& t : blades) all.extend(t.a).extend(t.b).extend(t.c);
   for (const Line& l : lines) all.extend(l.a).extend(l.b);
   return all;
 }

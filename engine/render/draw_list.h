@@ -90,7 +90,7 @@ struct MeshInstance {
 };
 
 /// A flat triangle seen and lit from both sides, letting some light through: a leaf blade.
-struct BladeTriangle {
+struct BladeFace {
   Vec3 a, b, c;  ///< W, m
   Material material;
 };
@@ -119,7 +119,7 @@ class DrawList {
   std::vector<Sphere> spheres;
   std::vector<Box> boxes;
   std::vector<MeshInstance> meshes;
-  std::vector<BladeTriangle> blades;
+  std::vector<BladeFace> blades;
   std::vector<Line> lines;
   std::optional<Ground> ground = Ground{};
   /// Drawn over the rest, half transparent as one thing (nothing of it shows through itself),

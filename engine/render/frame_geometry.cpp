@@ -174,7 +174,7 @@ void FrameGeometry::add_solids(const DrawList& list, const Detail& detail) {
 }
 
 void FrameGeometry::add_thin(const DrawList& list) {
-  for (const BladeTriangle& t : list.blades) {
+  for (const BladeFace& t : list.blades) {
     std::vector<float>& floats = batch(Kind::blade, shapes_.blade());
     for (const Vec3* corner : {&t.a, &t.b, &t.c}) put(floats, *corner);
     put(floats, t.material);

@@ -24,7 +24,8 @@ void describe(const GlFunctions& gl, std::span<const int> sizes, GLuint location
 
 }  // namespace
 
-InstancedMesh::InstancedMesh(const GlFunctions& gl, const MeshData& data, const Layout& layout)
+InstancedMesh::InstancedMesh(const GlFunctions& gl, const MeshData& data,
+                             const VertexLayout& layout)
     : gl_(gl),
       instance_(layout.instance.begin(), layout.instance.end()),
       first_location_(static_cast<GLuint>(layout.base.size())),

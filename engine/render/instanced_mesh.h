@@ -15,7 +15,7 @@ struct MeshData {
 };
 
 /// Numbers of floats of consecutive vertex attributes.
-struct Layout {
+struct VertexLayout {
   std::span<const int> base;      ///< of the shape's own vertices, from location 0
   std::span<const int> instance;  ///< of what is said once an instance, from the next location
 };
@@ -23,7 +23,7 @@ struct Layout {
 /// A shape in graphics memory, drawn many times with one call.
 class InstancedMesh {
  public:
-  InstancedMesh(const GlFunctions& gl, const MeshData& data, const Layout& layout);
+  InstancedMesh(const GlFunctions& gl, const MeshData& data, const VertexLayout& layout);
   ~InstancedMesh();
   InstancedMesh(const InstancedMesh&) = delete;
   InstancedMesh& operator=(const InstancedMesh&) = delete;

@@ -35,7 +35,7 @@ MeshData unit_cube() {
 
 }  // namespace
 
-Layout mesh_layout() {
+VertexLayout mesh_layout() {
   return {mesh_base, mesh_instance};
 }
 
@@ -94,7 +94,7 @@ UnitMeshes::UnitMeshes(const GlFunctions& gl) {
   constexpr int splits[levels] = {1, 2, 3, 4};
   const auto make = [&](const MeshData& data, std::span<const int> base,
                         std::span<const int> instance) {
-    return std::make_unique<InstancedMesh>(gl, data, Layout{base, instance});
+    return std::make_unique<InstancedMesh>(gl, data, VertexLayout{base, instance});
   };
   for (int i = 0; i < levels; ++i) {
     tubes_[0][i] = make(unit_tube(sides[i], 1, 0), tube_base, tube_instance);

@@ -35,7 +35,7 @@ class UnitMeshes {
 };
 
 /// Attribute sizes of a loaded mesh and its instances (rows of the pose, colour, surface).
-Layout mesh_layout();
+VertexLayout mesh_layout();
 
 /// A sphere of radius 1 as an octahedron whose faces are split `times` in two along every edge.
 MeshData unit_sphere(int times);

@@ -4,18 +4,11 @@
 #include <vector>
 
 #include "pedicel/robot/dynamics.h"
+#include "pedicel/robot/joint_motors.h"
 #include "pedicel/robot/joint_rows.h"
 #include "pedicel/robot/multibody.h"
 
 namespace pedicel::robot {
-
-/// What one degree of freedom is told to do.
-struct JointCommand {
-  ControlMode mode = ControlMode::position;
-  double position = 0.0;  ///< rad or m
-  double velocity = 0.0;  ///< rad/s or m/s
-  double torque = 0.0;    ///< N m or N
-};
 
 /// Turns commands into feed-forward torques and constraint rows of one step; see README, "Control".
 class JointDrive {

@@ -36,24 +36,23 @@ struct Robot::Impl {
         model(description, checked(settings).base_pose),
         multibody(description, model, settings, world),
         drive(description, model, settings, multibody),
+        motors(description, model, drive),
         dynamics(description, model) {
     q.setZero(model.dofs());
     qd = torques = recoil = q;
-    commands.resize(model.dofs());
     forces.reserve(1024);  // a step allocates only beyond this many contacts
   }
 
   void place_joints(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity);
   void read();
   const Jacobian& jacobian(int link, const Vec3& point_W) const;
-  int checked_joint(int joint) const;
-  int checked_link(const std::string& link) const;
 
   RobotDescription description;
   RobotSettings settings;
   KinematicModel model;
   MultiBody multibody;
   JointDrive drive;
+  JointMotors motors;
   mutable Dynamics dynamics;  // only its work space changes
   mutable Jacobian work_jacobian;
   Eigen::LLT<Eigen::MatrixXd> mass;  // at q
@@ -61,7 +60,6 @@ struct Robot::Impl {
   Eigen::VectorXd q, qd, torques;
   std::vector<Pose> poses;
   std::vector<Twist> twists;
-  std::vector<JointCommand> commands;
   std::vector<LinkForce> forces;
 };
 
@@ -88,19 +86,6 @@ void Robot::Impl::read() {
 const Jacobian& Robot::Impl::jacobian(int link, const Vec3& point_W) const {
   model.jacobian(poses, link, poses[link].inverse() * point_W, work_jacobian);
   return work_jacobian;
-}
-
-int Robot::Impl::checked_joint(int joint) const {
-  if (joint < 0 || joint >= model.dofs())
-    throw UsageError("robot '" + description.name + "': joint index " + std::to_string(joint) +
-                     ", expected 0 to " + std::to_string(model.dofs() - 1));
-  return joint;
-}
-
-int Robot::Impl::checked_link(const std::string& link) const {
-  const int index = model.link_index(link);
-  if (index < 0) throw UsageError("robot '" + description.name + "': no link '" + link + "'");
-  return index;
 }
 
 Robot::Robot(const RobotDescription& description, const RobotSettings& settings,
@@ -135,6 +120,12 @@ const std::vector<Pose>& Robot::link_poses() const {
 const std::vector<Twist>& Robot::link_twists() const {
   return impl_->twists;
 }
+JointMotors& Robot::motors() {
+  return impl_->motors;
+}
+const JointMotors& Robot::motors() const {
+  return impl_->motors;
+}
 btMultiBody& Robot::multibody() {
   return impl_->multibody.body();
 }
@@ -148,57 +139,15 @@ double Robot::joint_position(const std::string& joint) const {
   throw UsageError("robot '" + robot.description.name + "': no joint '" + joint + "' that moves");
 }
 
-const Pose& Robot::link_pose_W(const std::string& link) const {
-  return impl_->poses[impl_->checked_link(link)];
-}
-
-const Twist& Robot::link_twist_W(const std::string& link) const {
-  return impl_->twists[impl_->checked_link(link)];
-}
-
-void Robot::set_position_target(int joint, double position, double velocity) {
-  const KinematicModel& m = impl_->model;
-  JointCommand& command = impl_->commands[impl_->checked_joint(joint)];
-  command.mode = ControlMode::position;
-  command.position = std::clamp(position, m.lower()[joint], m.upper()[joint]);
-  command.velocity = velocity;
-}
-
-void Robot::set_position_targets(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
-  for (int i = 0; i < model().dofs(); ++i) set_position_target(i, q[i], qd[i]);
-}
-
-void Robot::set_velocity_target(int joint, double velocity) {
-  JointCommand& command = impl_->commands[impl_->checked_joint(joint)];
-  command.mode = ControlMode::velocity;
-  command.velocity = velocity;
-}
-
-void Robot::set_torque(int joint, double torque) {
-  JointCommand& command = impl_->commands[impl_->checked_joint(joint)];
-  command.mode = ControlMode::torque;
-  command.torque = torque;
-}
-
-ControlMode Robot::mode(int joint) const {
-  return impl_->commands[impl_->checked_joint(joint)].mode;
-}
-
-void Robot::set_effort_limit(int joint, double effort) {
-  impl_->checked_joint(joint);
-  if (!(effort > 0.0))
-    throw UsageError("robot '" + description().name + "': effort limit of '" +
-                     model().joint_names()[joint] + "', expected more than 0");
-  impl_->drive.set_effort_limit(joint, std::min(effort, model().effort_limits()[joint]));
-}
-
-double Robot::effort_limit(int joint) const {
-  return impl_->drive.effort_limit(impl_->checked_joint(joint));
+int Robot::link(const std::string& name) const {
+  const int index = model().link_index(name);
+  if (index < 0) throw UsageError("robot '" + description().name + "': no link '" + name + "'");
+  return index;
 }
 
 void Robot::place_joint(int joint, double position, double velocity) {
   Impl& robot = *impl_;
-  robot.q[robot.checked_joint(joint)] = position;
+  robot.q[robot.motors.checked(joint)] = position;
   robot.qd[joint] = velocity;
   robot.place_joints(robot.q, robot.qd);
   robot.multibody.update_colliders();
@@ -206,7 +155,7 @@ void Robot::place_joint(int joint, double position, double velocity) {
 }
 
 void Robot::add_motor_load(int joint, double load) {
-  const double effort = effort_limit(joint);
+  const double effort = motors().effort_limit(joint);
   impl_->torques[joint] = std::clamp(impl_->torques[joint] + load, -effort, effort);
 }
 
@@ -244,7 +193,7 @@ double Robot::mobility(int a, const Vec3& point_a_W, int b, const Vec3& point_b_
 
 void Robot::begin_step(double dt) {
   for (const LinkForce& f : impl_->forces) impl_->multibody.add_force(f.link, f.force_W, f.point_W);
-  impl_->drive.begin(impl_->commands, impl_->q, impl_->qd, impl_->forces, dt);
+  impl_->drive.begin(impl_->motors.commands(), impl_->q, impl_->qd, impl_->forces, dt);
   impl_->forces.clear();
 }
 
@@ -264,7 +213,7 @@ void Robot::reset(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
   impl_->recoil.setZero();
   impl_->drive.expect_recoil(impl_->recoil);
   impl_->mass.compute(impl_->dynamics.mass_matrix(q));
-  for (int i = 0; i < model().dofs(); ++i) set_position_target(i, q[i]);
+  for (int i = 0; i < model().dofs(); ++i) motors().set_position_target(i, q[i]);
   impl_->read();
 }
 

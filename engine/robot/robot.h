@@ -7,6 +7,7 @@
 
 #include "pedicel/core/parameter.h"
 #include "pedicel/core/state_hash.h"
+#include "pedicel/robot/joint_motors.h"
 #include "pedicel/robot/kinematics.h"
 
 class btMultiBody;
@@ -27,8 +28,6 @@ struct RobotSettings {
 
   std::vector<Parameter> parameters();
 };
-
-enum class ControlMode { position, velocity, torque };
 
 /// What a restart needs; valid for the same robot only.
 struct RobotState {
@@ -63,6 +62,9 @@ class Robot {
   const KinematicModel& model() const;
   const RobotSettings& settings() const;
 
+  /// Index of a link by its URDF name. Throws UsageError where there is none.
+  int link(const std::string& name) const;
+
   // Measured, as of the last end_step() or reset().
   const Eigen::VectorXd& positions() const;   ///< rad or m, dofs
   const Eigen::VectorXd& velocities() const;  ///< rad/s or m/s, dofs
@@ -74,23 +76,12 @@ class Robot {
   double joint_position(const std::string& joint) const;
   const Pose& link_pose_W(int link) const { return link_poses()[link]; }
   const Twist& link_twist_W(int link) const { return link_twists()[link]; }
-  const Pose& link_pose_W(const std::string& link) const;    ///< throws UsageError
-  const Twist& link_twist_W(const std::string& link) const;  ///< throws UsageError
-  const std::vector<Pose>& link_poses() const;               ///< all links
+  const std::vector<Pose>& link_poses() const;  ///< all links
   const std::vector<Twist>& link_twists() const;
 
-  // Commands; they stay until changed. Targets outside the limits are moved into them.
-  /// Where the joint shall be at the end of the next step, and how fast it moves there.
-  void set_position_target(int joint, double position, double velocity = 0.0);
-  /// The same for all joints (a sample of a Trajectory at the end of the next step).
-  void set_position_targets(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
-  void set_velocity_target(int joint, double velocity);
-  void set_torque(int joint, double torque);
-  ControlMode mode(int joint) const;
-  /// Limits what a motor may apply (N m or N; a gripper that must not crush): never more than the
-  /// URDF's effort. Throws UsageError where it is not positive.
-  void set_effort_limit(int joint, double effort);
-  double effort_limit(int joint) const;
+  /// What the joints are told to do.
+  JointMotors& motors();
+  const JointMotors& motors() const;
 
   /// Force (N) on a link at a point, world frame, for the next step only (two-way coupling).
   void add_external_force(int link, const Vec3& force_W, const Vec3& point_W);

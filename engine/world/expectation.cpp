@@ -12,7 +12,7 @@ namespace pedicel::world {
 
 namespace {
 
-constexpr std::array<Quantity, 18> quantities = {{
+constexpr std::array<MeasuredQuantity, 18> quantities = {{
     {"detached_count", "[plant]", "fruits that came off"},
     {"detached_by_stretch_count", "[fruit] [plant]", "fruits whose stretch passed its threshold"},
     {"detached_by_bend_count", "[fruit] [plant]", "fruits whose bend passed its threshold"},
@@ -92,7 +92,7 @@ bool holds_over_sweep(const Expectation& e, std::span<const double> values) {
 
 }  // namespace
 
-std::span<const Quantity> known_quantities() {
+std::span<const MeasuredQuantity> known_quantities() {
   return quantities;
 }
 

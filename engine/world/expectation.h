@@ -11,14 +11,14 @@ namespace pedicel::world {
 
 /// A number that a run is judged by. `subjects` names the keys that say of what it is measured; the
 /// ones in brackets may be left out (then: of all).
-struct Quantity {
+struct MeasuredQuantity {
   std::string_view name;  ///< with its unit, as log columns
   std::string_view subjects;
   std::string_view sentence;
 };
 
 /// Every quantity that a scene may expect something of.
-std::span<const Quantity> known_quantities();
+std::span<const MeasuredQuantity> known_quantities();
 
 /// A pass criterion: a quantity and a bound, or how it changes over a sweep.
 struct Expectation {

@@ -42,7 +42,7 @@ void Recorder::open() {
   event_log_ = std::make_unique<io::CsvWriter>(folder_ / "events.csv", event_columns);
 }
 
-void Recorder::observe(const SimWorld& world, const StepReport& /*report*/) {
+void Recorder::observe(const SimWorld& world, const WorldReport& /*report*/) {
   // The small addition keeps a time such as 0.1 from falling short of its own multiple.
   const long due = static_cast<long>(std::floor(world.time() * rate_ + 1e-9));
   if (due == last_due_) return;

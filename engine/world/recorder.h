@@ -39,7 +39,7 @@ class Recorder : public Observer {
   /// Opens the files and writes their headers. Throws io::WriteError.
   void open();
 
-  void observe(const SimWorld& world, const StepReport& report) override;
+  void observe(const SimWorld& world, const WorldReport& report) override;
   void add_event(const Event& event);
 
   const std::vector<std::string>& columns() const { return columns_; }

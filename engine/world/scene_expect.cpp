@@ -6,28 +6,28 @@ namespace pedicel::world::sections {
 
 namespace {
 
-const Quantity* find_quantity(const std::string& name) {
-  for (const Quantity& quantity : known_quantities())
+const MeasuredQuantity* find_quantity(const std::string& name) {
+  for (const MeasuredQuantity& quantity : known_quantities())
     if (quantity.name == name) return &quantity;
   return nullptr;
 }
 
 std::string quantity_names() {
   std::string names;
-  for (const Quantity& quantity : known_quantities())
+  for (const MeasuredQuantity& quantity : known_quantities())
     names += (names.empty() ? "" : ", ") + std::string(quantity.name);
   return names;
 }
 
 /// Whether the quantity takes a subject, and whether it must be named.
 enum class Need { no, may, must };
-Need need_of(const Quantity& quantity, const std::string& subject) {
+Need need_of(const MeasuredQuantity& quantity, const std::string& subject) {
   const std::string_view text = quantity.subjects;
   if (text.find("[" + subject + "]") != std::string_view::npos) return Need::may;
   return text.find(subject) != std::string_view::npos ? Need::must : Need::no;
 }
 
-void read_subjects(io::YamlMap& map, const Quantity& quantity, Expectation& e) {
+void read_subjects(io::YamlMap& map, const MeasuredQuantity& quantity, Expectation& e) {
   const std::pair<const char*, std::string*> subjects[] = {
       {"fruit", &e.fruit}, {"body", &e.body}, {"plant", &e.plant}, {"link", &e.link}};
   for (const auto& [key, value] : subjects) {
@@ -102,11 +102,12 @@ Expectation read_expectation(const io::YamlNode& node) {
   expectation.where = node.position();
   const auto name = map.required("quantity");
   if (name) expectation.quantity = name->text("quantity");
-  const Quantity* quantity = find_quantity(expectation.quantity);
+  const MeasuredQuantity* quantity = find_quantity(expectation.quantity);
   if (name && !quantity)
     name->error("quantity \"" + expectation.quantity +
                 "\" is unknown, expected one of: " + quantity_names());
-  read_subjects(map, quantity ? *quantity : Quantity{"", "[fruit] [body] [plant] [link]", ""},
+  read_subjects(map,
+                quantity ? *quantity : MeasuredQuantity{"", "[fruit] [body] [plant] [link]", ""},
                 expectation);
   read_test(map, expectation);
   map.finish();

@@ -83,7 +83,7 @@ void SimWorld::run(Phase phase) {
   report_.seconds[static_cast<int>(phase)] = timer.seconds();
 }
 
-const StepReport& SimWorld::step() {
+const WorldReport& SimWorld::step() {
   report_.errors = no_error;
   report_.culprit.clear();
   report_.cause.clear();

@@ -47,8 +47,8 @@ class SimWorld {
   void set_recorder(Observer* recorder) { recorder_ = recorder; }
 
   /// commands -> control -> Bullet -> plants -> observers -> recorder.
-  const StepReport& step();
-  const StepReport& report() const { return report_; }
+  const WorldReport& step();
+  const WorldReport& report() const { return report_; }
 
   /// Adds a body; returns its index. May be called from within a step (a fruit that came off): it
   /// then moves from the next one on. Throws UsageError where it has no parts, a part without size,
@@ -90,7 +90,7 @@ class SimWorld {
   std::vector<Participant*> participants_;
   std::vector<Observer*> observers_;
   Observer* recorder_ = nullptr;
-  StepReport report_;
+  WorldReport report_;
   long steps_ = 0;
 };
 

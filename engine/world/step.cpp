@@ -10,7 +10,7 @@ std::string_view name_of(Phase phase) {
   return names[static_cast<int>(phase)];
 }
 
-std::string remedy(StepError error) {
+std::string remedy(WorldError error) {
   switch (error) {
     case no_error:
       return "";
@@ -26,7 +26,7 @@ std::string remedy(StepError error) {
   return "";
 }
 
-double StepReport::wall_seconds() const {
+double WorldReport::wall_seconds() const {
   return std::accumulate(seconds.begin(), seconds.end(), 0.0);
 }
 

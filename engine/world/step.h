@@ -21,21 +21,22 @@ inline constexpr int phase_count = 6;
 std::string_view name_of(Phase phase);
 
 /// What went wrong in a step; each bit's remedy is in remedy().
-enum StepError : unsigned {
+enum WorldError : unsigned {
   no_error = 0,
   plant_not_converged = 1,  ///< a rod solver's last change is too large: the step counts, inexactly
   plant_not_finite = 2,     ///< a plant's positions are no numbers any more, or beyond all bounds
   robot_not_finite = 4,
   body_not_finite = 8,
 };
-std::string remedy(StepError error);
+std::string remedy(WorldError error);
 
 /// The errors after which a run cannot go on (exit code 4).
 inline constexpr unsigned fatal_errors = plant_not_finite | robot_not_finite | body_not_finite;
 
-struct StepReport {
+/// What a step of the world did, all of its phases together.
+struct WorldReport {
   double time = 0.0;             ///< s, at the end of the step
-  unsigned errors = no_error;    ///< bits of StepError
+  unsigned errors = no_error;    ///< bits of WorldError
   std::string culprit;           ///< the organ, joint or body of the worst error; empty: none
   std::string cause;             ///< of a fatal error: which quantity, and its value
   double worst_residual = 0.0;   ///< m or rad, of the rods' last iteration
@@ -54,14 +55,14 @@ class Participant {
  public:
   virtual ~Participant() = default;
   virtual Phase phase() const = 0;
-  virtual void act(SimWorld& world, StepReport& report) = 0;
+  virtual void act(SimWorld& world, WorldReport& report) = 0;
 };
 
 /// Looks at the world after each step.
 class Observer {
  public:
   virtual ~Observer() = default;
-  virtual void observe(const SimWorld& world, const StepReport& report) = 0;
+  virtual void observe(const SimWorld& world, const WorldReport& report) = 0;
 };
 
 }  // namespace pedicel::world

@@ -156,6 +156,8 @@ PlantFile read_plant(YamlMap& map) {
   plant.name = map.text("name");
   plant.shape =
       map.choice("shape", {"drawn", "rest"}, "drawn") == "rest" ? Shape::rest : Shape::drawn;
+  plant.look =
+      map.choice("look", {"tomato", "apple"}, "tomato") == "apple" ? Look::apple : Look::tomato;
   if (const auto material = map.optional("material")) plant.material = read_material(*material);
   if (const auto sampling = map.required("sampling")) {
     YamlMap inner(*sampling, "sampling");

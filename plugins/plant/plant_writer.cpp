@@ -145,6 +145,7 @@ std::string effect_text(const Effect& effect) {
 std::string plant_text(const PlantFile& plant) {
   std::string text = "format: pedicel-plant\nversion: 1\nname: " + word(plant.name) + "\n";
   text += plant.shape == Shape::rest ? "shape: rest\n" : "shape: drawn\n";
+  if (plant.look == Look::apple) text += "look: apple\n";
   const FlowMap material = material_map(plant.material);
   if (!material.empty()) text += "material: " + material.text() + "\n";
   text += "sampling: " +

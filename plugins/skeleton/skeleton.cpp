@@ -74,6 +74,7 @@ PlantFile skeleton_plant(const std::vector<SkeletonNode>& nodes, const std::stri
   PEDICEL_ASSERT(!nodes.empty());
   PlantFile plant;
   plant.name = name;
+  plant.look = Look::apple;  // what people digitise are trees
   plant.material = {options.youngs_modulus, options.poisson_ratio, options.density,
                     options.damping_time};
   plant.connect = options.connect;

@@ -37,7 +37,7 @@ struct SkeletonNode {
 /// own radius; a diameter that is missing is the one before it on the axis, then the one behind it,
 /// then the parent's. Points that repeat the one before are left out, and so are axes without an
 /// extent: what they carry starts at the same place. The first node is the root; parents stand
-/// before their children.
+/// before their children. It has the look of an apple tree.
 PlantFile skeleton_plant(const std::vector<SkeletonNode>& nodes, const std::string& name,
                          const MtgOptions& options);
 

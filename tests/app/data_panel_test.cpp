@@ -62,7 +62,7 @@ class DataPanelTest : public ::testing::Test {
   /// Pixels of the scene that are near to a hue, as a share.
   double share_of(const render::Colour& colour) {
     const render::Image image = desk_.picture();
-    const SceneFrame& scene = desk_.desktop().scene();
+    const SceneFrame& scene = desk_.desktop().scene().frame();
     long found = 0, all = 0;
     for (int y = static_cast<int>(scene.low.y); y < scene.low.y + scene.size.y; ++y)
       for (int x = static_cast<int>(scene.low.x); x < scene.low.x + scene.size.x; ++x, ++all) {

@@ -106,14 +106,16 @@ class Desk {
   void drop(const std::string& path) { platform_->send(InputEvent::drop(path)), drain(); }
 
   /// Where a point of the world is in the window.
-  ImVec2 at(const Vec3& p_W) { return desktop_->scene().project(p_W).value_or(ImVec2(-1, -1)); }
+  ImVec2 at(const Vec3& p_W) {
+    return desktop_->scene().frame().project(p_W).value_or(ImVec2(-1, -1));
+  }
   void show(const std::string& panel) {
     ui().show_panel = panel;
     frames(6);  // a scroll bar comes after the first, and then all gets narrower
   }
   std::shared_ptr<const Snapshot> snapshot() { return session_->snapshot(); }
   const render::GlFunctions* gl() const { return platform_->gl(); }
-  render::Image picture() { return desktop_->window_picture().value(); }
+  render::Image picture() { return desktop_->window().picture().value(); }
 
  private:
   std::unique_ptr<ScriptedPlatform> platform_;

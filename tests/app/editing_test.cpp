@@ -102,7 +102,7 @@ TEST_F(Editing, ARadiusHandleIsDraggedAcrossTheStem) {
   desk_.frames(2);
   std::optional<RadiusHandle> handle;
   for (const RadiusHandle& one :
-       radius_handles(curve("stem"), Pose{}, desk_.desktop().scene(), 1.0))
+       radius_handles(curve("stem"), Pose{}, desk_.desktop().scene().frame(), 1.0))
     if (one.point == 1 && one.away.x > 0.5f) handle = one;
   ASSERT_TRUE(handle);
   const float px = static_cast<float>(0.004 / handle->metres);
@@ -229,7 +229,7 @@ TEST_F(Editing, TheTrimBrushCutsWhatItCrosses) {
 
 TEST_F(Editing, TheWheelMakesAStrokeThicker) {
   const ImVec2 from = desk_.at(Vec3(0, 0, 0.2));
-  const ViewCamera camera = desk_.desktop().camera();
+  const ViewCamera camera = desk_.desktop().scene().camera();
   desk_.ui().draw.radius_min = desk_.ui().draw.radius_max = 0.002;
   desk_.move(from.x, from.y);
   desk_.button(0, true);
@@ -242,7 +242,7 @@ TEST_F(Editing, TheWheelMakesAStrokeThicker) {
   ASSERT_EQ(plant().curves.size(), 3u) << desk_.ui().notice;
   EXPECT_NEAR(plant().curves[2].radius.front(), 0.002, 1e-6);
   EXPECT_NEAR(plant().curves[2].radius.back(), 0.002 * std::pow(1.1, 6), 1e-5);
-  EXPECT_TRUE(desk_.desktop().camera() == camera) << "the wheel is the stroke's";
+  EXPECT_TRUE(desk_.desktop().scene().camera() == camera) << "the wheel is the stroke's";
   expect_one_step();
 }
 

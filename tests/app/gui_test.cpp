@@ -105,26 +105,26 @@ TEST_F(Gui, StepsForwardAndBack) {
 }
 
 TEST_F(Gui, DragsTurnPanAndDolly) {
-  const ViewCamera start = desk_.desktop().camera();
+  const ViewCamera start = desk_.desktop().scene().camera();
   desk_.drag({ImVec2(free_x, free_y), ImVec2(free_x + 60, free_y + 20)});
-  EXPECT_EQ(desk_.desktop().camera().target(), start.target());
-  EXPECT_FALSE(desk_.desktop().camera() == start) << "a left drag turns";
+  EXPECT_EQ(desk_.desktop().scene().camera().target(), start.target());
+  EXPECT_FALSE(desk_.desktop().scene().camera() == start) << "a left drag turns";
   desk_.drag({ImVec2(free_x, free_y), ImVec2(free_x + 60, free_y)}, 1);
-  EXPECT_GT((desk_.desktop().camera().target() - start.target()).norm(), 0.01)
+  EXPECT_GT((desk_.desktop().scene().camera().target() - start.target()).norm(), 0.01)
       << "a right drag moves";
-  const double before = desk_.desktop().camera().distance();
+  const double before = desk_.desktop().scene().camera().distance();
   desk_.move(free_x, free_y);
   desk_.wheel(2);
-  EXPECT_LT(desk_.desktop().camera().distance(), before);
+  EXPECT_LT(desk_.desktop().scene().camera().distance(), before);
 }
 
 TEST_F(Gui, BlenderPresetTurnsWithTheMiddleButton) {
   desk_.ui().preferences.mouse = MousePreset::blender;
-  const ViewCamera start = desk_.desktop().camera();
+  const ViewCamera start = desk_.desktop().scene().camera();
   desk_.drag({ImVec2(free_x, free_y), ImVec2(free_x + 60, free_y + 20)});
-  EXPECT_TRUE(desk_.desktop().camera() == start);
+  EXPECT_TRUE(desk_.desktop().scene().camera() == start);
   desk_.drag({ImVec2(free_x, free_y), ImVec2(free_x + 60, free_y + 20)}, 2);
-  EXPECT_FALSE(desk_.desktop().camera() == start);
+  EXPECT_FALSE(desk_.desktop().scene().camera() == start);
 }
 
 TEST_F(Gui, AClickChoosesAFruitAndEscLetsGo) {
@@ -167,8 +167,9 @@ TEST_F(Gui, CtrlRightDragPushesAlongTheView) {
   ASSERT_TRUE(desk_.snapshot()->pull.active);
   const Vec3 pushed = desk_.snapshot()->pull.target_W - start;
   EXPECT_GT(pushed.norm(), 0.02);
-  EXPECT_GT(pushed.normalized().dot((start - desk_.desktop().scene().camera.eye).normalized()),
-            0.999);
+  EXPECT_GT(
+      pushed.normalized().dot((start - desk_.desktop().scene().frame().camera.eye).normalized()),
+      0.999);
   desk_.button(1, false);
   desk_.hold(Key::left_control, false);
   desk_.settle();
@@ -346,18 +347,18 @@ TEST_F(Gui, ACameraThatFollowsGoesWithTheFruit) {
   text.insert(cameras, "  - {name: with, eye: [0.3, -0.3, 0.1], follow: {fruit: truss/fruit_5}}\n");
   std::ofstream(path) << text;
   desk_.open(path);
-  const Vec3 start = desk_.desktop().camera().target();
+  const Vec3 start = desk_.desktop().scene().camera().target();
   EXPECT_NEAR((start - fruit_place(4)).norm(), 0.0, 1e-9);
   desk_.session().control().run_for(2.6);
   desk_.settle();
-  const Vec3 pulled = desk_.desktop().camera().target();
+  const Vec3 pulled = desk_.desktop().scene().camera().target();
   EXPECT_NEAR((pulled - fruit_place(4)).norm(), 0.0, 1e-9);
   EXPECT_GT((pulled - start).norm(), 1e-3);
   desk_.drag({ImVec2(free_x, free_y), ImVec2(free_x + 60, free_y)}, 1);
-  const Vec3 by_hand = desk_.desktop().camera().target();
+  const Vec3 by_hand = desk_.desktop().scene().camera().target();
   desk_.session().control().run_for(0.3);
   desk_.settle();
-  EXPECT_EQ(desk_.desktop().camera().target(), by_hand) << "it is led by hand now";
+  EXPECT_EQ(desk_.desktop().scene().camera().target(), by_hand) << "it is led by hand now";
 }
 
 TEST_F(Gui, EditsThatAreNotSavedAreAskedAbout) {
@@ -403,8 +404,8 @@ TEST_F(Gui, FFramesWhatIsChosen) {
     desk_.key(Key::home);
     desk_.key(Key::f);
     desk_.frames(2);
-    EXPECT_LT((desk_.desktop().camera().target() - middle).norm(), 0.02);
-    EXPECT_LT(desk_.desktop().camera().distance(), nearer_than);
+    EXPECT_LT((desk_.desktop().scene().camera().target() - middle).norm(), 0.02);
+    EXPECT_LT(desk_.desktop().scene().camera().distance(), nearer_than);
   };
   choose_fruit(desk_.ui(), "truss", "fruit_2");
   framed(fruit_place(1), 0.25);
@@ -444,11 +445,11 @@ TEST_F(Gui, TheProfilerHasItsFiguresAndPlotsNameTheirLines) {
 }
 
 TEST_F(Gui, TabHidesThePanelsAndTheSceneGrows) {
-  const float before = desk_.desktop().scene().size.x;
+  const float before = desk_.desktop().scene().frame().size.x;
   desk_.key(Key::tab);
-  EXPECT_GT(desk_.desktop().scene().size.x, before + 300);
+  EXPECT_GT(desk_.desktop().scene().frame().size.x, before + 300);
   desk_.key(Key::tab);
-  EXPECT_EQ(desk_.desktop().scene().size.x, before);
+  EXPECT_EQ(desk_.desktop().scene().frame().size.x, before);
 }
 
 TEST(Platforms, AnUnknownOneListsTheKnown) {
@@ -467,7 +468,7 @@ TEST(Platforms, TheNullPlatformDoesEverythingButPictures) {
   desk.key(Key::right);
   desk.settle();
   EXPECT_EQ(desk.snapshot()->step, 1);
-  EXPECT_FALSE(desk.desktop().window_picture());
+  EXPECT_FALSE(desk.desktop().window().picture());
 }
 
 }  // namespace

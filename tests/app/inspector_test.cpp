@@ -89,9 +89,10 @@ TEST_F(Inspector, ABreakIsToldMarkedAndGoneTo) {
 TEST_F(Inspector, AClickOnTheLineOfTimeGoesThere) {
   run("stop robot");
   run("run 2");
-  const LayoutAreas areas{desk_.desktop().scene().low,
-                          ImVec2(desk_.desktop().scene().low.x + desk_.desktop().scene().size.x,
-                                 desk_.desktop().scene().low.y + desk_.desktop().scene().size.y)};
+  const LayoutAreas areas{
+      desk_.desktop().scene().frame().low,
+      ImVec2(desk_.desktop().scene().frame().low.x + desk_.desktop().scene().frame().size.x,
+             desk_.desktop().scene().frame().low.y + desk_.desktop().scene().frame().size.y)};
   const double middle = 0.5 * (areas.scene_min.x + areas.scene_max.x);
   desk_.click(middle, areas.scene_max.y + 0.5 * time_line_height(desk_.ui()));
   desk_.settle();
@@ -112,12 +113,12 @@ TEST_F(Inspector, AnImportedPlantIsFramed) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "far.plant.yaml";
   io::write_file_atomically(file,
                             io::read_file(scene_file("../../plants/cherry_tomato.plant.yaml")));
-  desk_.desktop().camera().look_at(Vec3(5, 5, 0));
+  desk_.desktop().scene().camera().look_at(Vec3(5, 5, 0));
   desk_.ui().import_plant(file);
   desk_.settle();
   const PlantSnapshot& plant = desk_.snapshot()->plants.back();
   const ImVec2 at = desk_.at(plant.state.position[0]);
-  const SceneFrame& scene = desk_.desktop().scene();
+  const SceneFrame& scene = desk_.desktop().scene().frame();
   EXPECT_GT(at.x, scene.low.x);
   EXPECT_LT(at.x, scene.low.x + scene.size.x);
   EXPECT_TRUE(desk_.ui().frame_plant.empty());
@@ -132,10 +133,10 @@ TEST_F(Inspector, BackspaceLeavesTheRobotInTheHand) {
 }
 
 TEST_F(Inspector, TheEyeStaysAboveTheGround) {
-  const SceneFrame& scene = desk_.desktop().scene();
+  const SceneFrame& scene = desk_.desktop().scene().frame();
   const ImVec2 from(scene.low.x + 30, scene.low.y + 0.8f * scene.size.y);
   desk_.drag({from, ImVec2(from.x, from.y - 200), ImVec2(from.x, from.y - 400)});
-  EXPECT_GT(desk_.desktop().camera().camera().eye.z(), 0.0);
+  EXPECT_GT(desk_.desktop().scene().camera().camera().eye.z(), 0.0);
 }
 
 // Two sidebars would leave the scene nothing.
@@ -144,7 +145,7 @@ TEST(Narrow, OneSidebarGivesWay) {
   if (!desk.available()) GTEST_SKIP() << desk.why();
   desk.draw_coarsely();
   desk.open(scene_file("cherry_tomato_pull_aside.scene.yaml"));
-  EXPECT_GT(desk.desktop().scene().size.x, 0.5f * 640);
+  EXPECT_GT(desk.desktop().scene().frame().size.x, 0.5f * 640);
   desk.show("View");
   EXPECT_TRUE(desk.ui().preferences.show_right);
   EXPECT_FALSE(desk.ui().preferences.show_left);

@@ -99,13 +99,13 @@ TEST_F(NewHands, AMistypedPathKeepsTheDialog) {
 }
 
 TEST_F(NewHands, AWarningLeavesTheSceneWhereItIs) {
-  const float before = desk_.desktop().scene().size.y;
+  const float before = desk_.desktop().scene().frame().size.y;
   ASSERT_FALSE(ui().preferences.show_bottom);
   run("new plant p");
   run("draw stem p stem 0,0,0;0,0,0.8;0,0,1.6 0.002");
   ASSERT_FALSE(desk_.session().messages().all().empty());
   EXPECT_EQ(desk_.session().messages().all().back().severity, Severity::warning);
-  EXPECT_EQ(desk_.desktop().scene().size.y, before);
+  EXPECT_EQ(desk_.desktop().scene().frame().size.y, before);
   EXPECT_THAT(ui().notice, HasSubstr("unstable"));
   EXPECT_TRUE(ui().unread) << "a mark says that there is more";
   desk_.show("Messages");
@@ -129,13 +129,13 @@ TEST_F(NewHands, ARefusalCanBeReadLater) {
 }
 
 TEST_F(NewHands, AnAddedRobotIsSeenAndItsPanelIsThere) {
-  desk_.desktop().camera().look_at(Vec3(4, 4, 0));
+  desk_.desktop().scene().camera().look_at(Vec3(4, 4, 0));
   desk_.frames(1);
   add_robot(ui(), scene_file("../robots/stalk6/stalk6.urdf"));
   desk_.settle();
   desk_.frames(6);
   EXPECT_TRUE(place_of("right", "Joints"));
-  const SceneFrame& frame = desk_.desktop().scene();
+  const SceneFrame& frame = desk_.desktop().scene().frame();
   for (const Pose& link : desk_.snapshot()->robot.links) {
     const ImVec2 at = desk_.at(link.position);
     EXPECT_GT(at.x, frame.low.x);

@@ -5,7 +5,7 @@
 namespace pedicel::app {
 namespace {
 
-const render::Ray along_x{Vec3(-1, 0, 0), Vec3(1, 0, 0)};
+const geometry::Ray along_x{Vec3(-1, 0, 0), Vec3(1, 0, 0)};
 
 TEST(Picking, ASphereIsHitAtItsNearSide) {
   EXPECT_NEAR(hit_sphere(along_x, Vec3(2, 0.3, 0), 0.5), 3 - 0.4, 1e-12);

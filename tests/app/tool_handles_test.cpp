@@ -28,7 +28,8 @@ class ToolHandlesTest : public ::testing::Test {
   }
   ToolGoal goal() { return desk_.session().robot().tool_goal().value(); }
   ImVec2 grip(const std::string& part) {
-    const auto at = desk_.desktop().tool_handles().grip(part, desk_.desktop().scene());
+    const auto at =
+        desk_.desktop().scene().tool_handles().grip(part, desk_.desktop().scene().frame());
     EXPECT_TRUE(at) << "no handle " << part << " is seen";
     return at.value_or(ImVec2(0, 0));
   }
@@ -50,7 +51,7 @@ class ToolHandlesTest : public ::testing::Test {
     desk_.settle();
   }
   std::string keep(const std::string& name) {
-    const auto picture = desk_.desktop().window_picture();
+    const auto picture = desk_.desktop().window().picture();
     if (!picture) return "";
     const std::string path = ::testing::TempDir() + "/tool_" + name + ".png";
     render::write_png(path, *picture);
@@ -73,7 +74,7 @@ class ToolPicturesTest : public ToolHandlesTest {
 };
 
 TEST_F(ToolHandlesTest, AnArrowMovesTheToolAlongItsAxisAloneAndTheArmFollows) {
-  const ViewCamera camera = desk_.desktop().camera();
+  const ViewCamera camera = desk_.desktop().scene().camera();
   const Pose before = goal().asked_W;
   pull("z", 40);
   const Pose after = goal().asked_W;
@@ -82,7 +83,7 @@ TEST_F(ToolHandlesTest, AnArrowMovesTheToolAlongItsAxisAloneAndTheArmFollows) {
   EXPECT_LT(moved.z(), 0.3);
   EXPECT_NEAR(moved.head<2>().norm(), 0.0, 1e-9);
   EXPECT_NEAR(after.rotation.angularDistance(before.rotation), 0.0, 1e-9);
-  EXPECT_TRUE(desk_.desktop().camera() == camera) << "the view stays";
+  EXPECT_TRUE(desk_.desktop().scene().camera() == camera) << "the view stays";
   // The pointer is still on the arrow: the tool has gone as far as the hand.
   const ImVec2 tip = grip("z");
   EXPECT_NEAR(std::hypot(tip.x - ImGui::GetIO().MousePos.x, tip.y - ImGui::GetIO().MousePos.y), 0.0,
@@ -115,7 +116,7 @@ TEST_F(ToolHandlesTest, TheKnobMovesAcrossTheView) {
   const Vec3 before = goal().asked_W.position;
   drag("knob", 25, -15);
   const Vec3 moved = goal().asked_W.position - before;
-  const render::Camera camera = desk_.desktop().scene().camera;
+  const render::Camera camera = desk_.desktop().scene().frame().camera;
   EXPECT_GT(moved.norm(), 0.01);
   EXPECT_NEAR(moved.dot((camera.target - camera.eye).normalized()), 0.0, 1e-6);
 }
@@ -134,7 +135,7 @@ TEST_F(ToolHandlesTest, OutOfReachTheArmGoesAsNearAsItCan) {
 TEST_F(ToolPicturesTest, OutOfReachIsSaidInWordsAndColour) {
   const auto red_share = [&] {
     const render::Image image = desk_.picture();
-    const SceneFrame& scene = desk_.desktop().scene();
+    const SceneFrame& scene = desk_.desktop().scene().frame();
     long found = 0;
     for (int y = static_cast<int>(scene.low.y); y < scene.low.y + scene.size.y; ++y)
       for (int x = static_cast<int>(scene.low.x); x < scene.low.x + scene.size.x; ++x) {
@@ -170,13 +171,13 @@ TEST_F(ToolHandlesTest, EscGivesTheDragUpAndGPutsTheHandlesAway) {
   desk_.settle();
   EXPECT_NEAR((goal().asked_W.position - before).norm(), 0.0, 1e-9);
   desk_.key(Key::g);
-  EXPECT_FALSE(desk_.desktop().tool_handles().grip("x", desk_.desktop().scene()));
-  const ViewCamera camera = desk_.desktop().camera();
+  EXPECT_FALSE(desk_.desktop().scene().tool_handles().grip("x", desk_.desktop().scene().frame()));
+  const ViewCamera camera = desk_.desktop().scene().camera();
   desk_.drag({at, ImVec2(at.x + 30, at.y)});
-  EXPECT_FALSE(desk_.desktop().camera() == camera) << "the left button is the view's again";
+  EXPECT_FALSE(desk_.desktop().scene().camera() == camera) << "the left button is the view's again";
   desk_.key(Key::g);
   desk_.show("View");
-  EXPECT_FALSE(desk_.desktop().tool_handles().grip("x", desk_.desktop().scene()))
+  EXPECT_FALSE(desk_.desktop().scene().tool_handles().grip("x", desk_.desktop().scene().frame()))
       << "only while the robot is looked at";
 }
 

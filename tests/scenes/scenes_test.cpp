@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pedicel/app/report/headless.h"
+#include "pedicel/world/scene_reader.h"
 #include "scenes/shipped_scenes.h"
 
 namespace pedicel {
@@ -15,15 +16,13 @@ TEST_P(ShippedScene, MeetsItsOwnCriteria) {
   const auto scene = world::read_scene(GetParam(), diagnostics);
   ASSERT_TRUE(scene) << diagnostics.text();
   ASSERT_FALSE(scene->expectations.empty()) << "a scene without a criterion shows nothing";
-  if (const std::string missing = missing_file(*scene); !missing.empty())
-    GTEST_SKIP() << missing << " is not there";
   app::RunOptions options;
   options.out = std::filesystem::path(::testing::TempDir()) / "pedicel_scenes" / scene->name;
   options.pictures = false;
   options.video = false;
   options.comparison = false;  // tests/unit/app/solver_comparison_test.cpp
   options.quiet = true;
-  const app::RunResult result = app::run_with_sweep(*scene, options);
+  const app::SceneResult result = app::run_with_sweep(*scene, options);
   EXPECT_EQ(result.exit_code, 0) << result.error;
   EXPECT_EQ(result.verdicts.size(), scene->expectations.size());
   for (const world::ExpectationResult& verdict : result.verdicts)

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/world/scene_reader.h"
 #include "places.h"
 
 namespace pedicel {
@@ -26,15 +25,6 @@ inline std::vector<std::filesystem::path> shipped_scenes() {
 inline std::string scene_name(const ::testing::TestParamInfo<std::filesystem::path>& tested) {
   const std::string name = tested.param.filename().string();
   return name.substr(0, name.find('.'));
-}
-
-/// The optional file that this machine lacks and without which the scene has nothing to show; empty
-/// where the scene can be run.
-inline std::string missing_file(const world::Scene& scene) {
-  for (const world::ScenePlant& plant : scene.plants)
-    if (plant.optional && plant.fallback.empty() && !std::filesystem::exists(plant.file))
-      return plant.file.string();
-  return {};
 }
 
 }  // namespace pedicel

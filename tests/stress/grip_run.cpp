@@ -59,7 +59,7 @@ class Judge {
  public:
   Judge(const GripCase& one, GripOutcome& outcome) : one_(one), outcome_(outcome) {}
 
-  void step(const app::Simulation& sim, const world::StepReport& report) {
+  void step(const app::Simulation& sim, const world::WorldReport& report) {
     const double dt = sim.world().dt();
     outcome_.unsolved += (report.errors & world::plant_not_converged) != 0;
     outcome_.broken = !sim.plant_step().detached().empty();
@@ -85,7 +85,7 @@ class Judge {
   }
 
  private:
-  void say_fault(const world::StepReport& report) {
+  void say_fault(const world::WorldReport& report) {
     if (!outcome_.fault.empty()) return;
     if (report.errors & world::fatal_errors)
       outcome_.fault = sentence("unstable at %.4f s: %s", report.time, report.culprit.c_str());

@@ -194,15 +194,13 @@ void draw_plant(Random& random, StressCase& one) {
       PEDICEL_SOURCE_DIR "/plants/cherry_tomato.plant.yaml",
       PEDICEL_SOURCE_DIR "/plants/greenhouse_tomato.plant.yaml",
       PEDICEL_SOURCE_DIR "/plants/young_plant.plant.yaml"};
-  static const std::vector<fs::path> digitised = {
-      PEDICEL_SHARED_DIR "/data/apple_tree/agraf_skeleton.csv",
-      PEDICEL_SHARED_DIR "/data/apple_tree/agraf.mtg",
-      PEDICEL_SHARED_DIR "/data/apple_tree/apricot.mtg"};
+  static const std::vector<fs::path> trees = {PEDICEL_SOURCE_DIR "/plants/apple_tree.mtg",
+                                              PEDICEL_SOURCE_DIR "/plants/apple_tree.plant.yaml"};
   const double kind = random.uniform();
   if (kind < 0.35) {
-    const auto& files = kind < 0.05 ? digitised : shipped;
+    const auto& files = kind < 0.05 ? trees : shipped;
     const fs::path& path = files[random.integer(0, static_cast<int>(files.size()) - 1)];
-    if (auto model = fs::exists(path) ? plant_of_file(random, path, one) : std::nullopt) {
+    if (auto model = plant_of_file(random, path, one)) {
       one.plant_name = path.filename().string();
       one.plant = std::move(*model);
       return;

@@ -99,6 +99,13 @@ void set_shape(Document& document, const Command& c) {
   edited(document, c).shape = word == "rest" ? plant::Shape::rest : plant::Shape::drawn;
 }
 
+void set_look(Document& document, const Command& c) {
+  const std::string& word = c.word("look");
+  if (word != "tomato" && word != "apple")
+    throw UsageError("look \"" + word + "\", expected tomato or apple");
+  edited(document, c).look = word == "apple" ? plant::Look::apple : plant::Look::tomato;
+}
+
 void set_root(Document& document, const Command& c) {
   edited(document, c).root = c.point("to");
 }
@@ -133,6 +140,11 @@ std::vector<CommandDescription> plant_value_commands() {
        {plant_name, {"shape", Kind::word, true, "drawn or rest"}},
        "Whether the drawing is how the plant hangs, or its unloaded shape.",
        set_shape},
+      {"set plant look",
+       d,
+       {plant_name, {"look", Kind::word, true, "tomato or apple"}},
+       "What the plant is drawn as; it changes no motion.",
+       set_look},
       {"set root",
        d,
        {plant_name, {"to", Kind::point, true, "m, in the plant's frame"}},

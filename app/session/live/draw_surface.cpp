@@ -28,7 +28,7 @@ DrawPlane tangent_plane(const Vec3& tangent, const Vec3& view_direction, const V
   return {point, -facing.normalized()};
 }
 
-std::optional<Vec3> meet(const Ray& ray, const DrawPlane& plane) {
+std::optional<Vec3> meet(const geometry::Ray& ray, const DrawPlane& plane) {
   const double slope = ray.direction.dot(plane.normal);
   if (std::abs(slope) < 1.0e-3) return std::nullopt;
   const double depth = (plane.point - ray.origin).dot(plane.normal) / slope;
@@ -48,7 +48,7 @@ Surfaces::Surfaces(const Snapshot& snapshot) {
                         snapshot.assets->robot_fields, snapshot.robot.links);
 }
 
-std::optional<SurfaceHit> Surfaces::hit(const Ray& ray, double reach) const {
+std::optional<SurfaceHit> Surfaces::hit(const geometry::Ray& ray, double reach) const {
   constexpr double close = 1.0e-5;  // m
   std::optional<SurfaceHit> best;
   for (int c = 0; c < colliders_.size(); ++c) {
@@ -79,13 +79,13 @@ void StrokeProjector::start_on_stem(const Vec3& point, const Vec3& tangent) {
   tangent_ = tangent;
 }
 
-std::optional<Vec3> StrokeProjector::on_surface(const Ray& ray) const {
+std::optional<Vec3> StrokeProjector::on_surface(const geometry::Ray& ray) const {
   const auto hit = surfaces_ ? surfaces_->hit(ray) : std::nullopt;
   if (!hit) return std::nullopt;
   return Vec3(hit->point + options_.offset * hit->normal);
 }
 
-void StrokeProjector::choose_plane(const Ray& ray) {
+void StrokeProjector::choose_plane(const geometry::Ray& ray) {
   begun_ = true;
   if (options_.plane == StrokePlane::ground) {
     plane_ = ground_plane(options_.ground + options_.offset);
@@ -102,7 +102,7 @@ void StrokeProjector::choose_plane(const Ray& ray) {
   }
 }
 
-std::optional<Vec3> StrokeProjector::place(const Ray& ray) {
+std::optional<Vec3> StrokeProjector::place(const geometry::Ray& ray) {
   if (!begun_) {
     choose_plane(ray);
     if (start_) return start_;  // exactly where the snap was shown

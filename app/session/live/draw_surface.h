@@ -5,15 +5,10 @@
 
 #include "pedicel/app/session/live/snapshot.h"
 #include "pedicel/coupling/collider.h"
+#include "pedicel/geometry/ray.h"
 
 /// From rays to places in the world: what a stroke is drawn on.
 namespace pedicel::app {
-
-struct Ray {
-  Vec3 origin = Vec3::Zero();      ///< m, W
-  Vec3 direction = Vec3::UnitX();  ///< unit, W
-  Vec3 at(double depth) const { return origin + depth * direction; }
-};
 
 struct DrawPlane {
   Vec3 point = Vec3::Zero();    ///< m, W
@@ -28,7 +23,7 @@ DrawPlane ground_plane(double height);
 /// Holds a stem's direction and faces the view as well as that allows.
 DrawPlane tangent_plane(const Vec3& tangent, const Vec3& view_direction, const Vec3& point);
 /// Where a ray meets a plane in front of it; nothing where it runs along it (within 1e-3 rad).
-std::optional<Vec3> meet(const Ray& ray, const DrawPlane& plane);
+std::optional<Vec3> meet(const geometry::Ray& ray, const DrawPlane& plane);
 
 struct SurfaceHit {
   Vec3 point = Vec3::Zero();    ///< m, W
@@ -43,7 +38,7 @@ class Surfaces {
   explicit Surfaces(const Snapshot& snapshot);
   /// The first surface that a ray meets within `reach` (m): sphere tracing (J. C. Hart, The Visual
   /// Computer 12, 1996, 527-545) through the distance fields that the plants feel.
-  std::optional<SurfaceHit> hit(const Ray& ray, double reach = 20.0) const;
+  std::optional<SurfaceHit> hit(const geometry::Ray& ray, double reach = 20.0) const;
 
  private:
   coupling::ColliderSet colliders_;
@@ -71,13 +66,13 @@ class StrokeProjector {
   void set_fallback(const Vec3& point) { fallback_ = point; }
 
   /// Nothing where the ray meets nothing to draw on.
-  std::optional<Vec3> place(const Ray& ray);
+  std::optional<Vec3> place(const geometry::Ray& ray);
   /// The plane that the stroke has settled on, to be shown; nothing on surfaces.
   const std::optional<DrawPlane>& plane() const { return plane_; }
 
  private:
-  void choose_plane(const Ray& ray);
-  std::optional<Vec3> on_surface(const Ray& ray) const;
+  void choose_plane(const geometry::Ray& ray);
+  std::optional<Vec3> on_surface(const geometry::Ray& ray) const;
 
   ProjectorOptions options_;
   Vec3 view_direction_, fallback_ = Vec3::Zero();

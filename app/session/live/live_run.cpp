@@ -22,9 +22,9 @@ void LiveRun::act(Input input) {
   input(*this);
 }
 
-const world::StepReport& LiveRun::step() {
+const world::WorldReport& LiveRun::step() {
   while (next_ < done_.size() && done_[next_].step <= steps()) done_[next_++].input(*this);
-  const world::StepReport& report = simulation_->step();
+  const world::WorldReport& report = simulation_->step();
   known_steps_ = std::max(known_steps_, steps());
   return report;
 }

@@ -31,7 +31,7 @@ class LiveRun {
   using Input = std::function<void(LiveRun&)>;
   void act(Input input);
   /// One step; what was done to the run at its number is done again.
-  const world::StepReport& step();
+  const world::WorldReport& step();
   /// To the beginning; what was done stays known.
   void rewind();
   /// Forgets what was done, and goes to the beginning.

@@ -82,7 +82,7 @@ Vec3 Pull::body_force() const {
   return k * (target_W_ - point()) - 2.0 * std::sqrt(k * mass) * world.body_velocity(body_);
 }
 
-void Pull::act(world::SimWorld& world, world::StepReport&) {
+void Pull::act(world::SimWorld& world, world::WorldReport&) {
   if (!active()) return;
   if (in_ && !on_plant()) {
     take_out();

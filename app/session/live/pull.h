@@ -33,7 +33,7 @@ class Pull : public world::Participant {
   void renew();
 
   world::Phase phase() const override { return world::Phase::commands; }
-  void act(world::SimWorld& world, world::StepReport& report) override;
+  void act(world::SimWorld& world, world::WorldReport& report) override;
 
  private:
   bool on_plant() const;

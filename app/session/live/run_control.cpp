@@ -17,66 +17,68 @@ void RunControl::build(MakeAssets make, std::uint64_t document_hash, bool restar
   impl_->thread.ask_build({std::move(make), document_hash, restart});
 }
 void RunControl::play() {
-  impl_->thread.ask([](RunThread& t) { t.play(); });
+  impl_->thread.ask([](RunPlayer& player) { player.play(); });
 }
 void RunControl::pause() {
-  impl_->thread.ask([](RunThread& t) { t.pause(); });
+  impl_->thread.ask([](RunPlayer& player) { player.pause(); });
 }
 void RunControl::step(long count) {
-  impl_->thread.ask([count](RunThread& t) { t.advance(count); });
+  impl_->thread.ask([count](RunPlayer& player) { player.advance(count); });
 }
 void RunControl::run_for(double duration) {
-  impl_->thread.ask([duration](RunThread& t) {
-    if (t.run()) t.advance(std::lround(duration / t.run()->simulation().world().dt()));
+  impl_->thread.ask([duration](RunPlayer& player) {
+    if (player.run())
+      player.advance(std::lround(duration / player.run()->simulation().world().dt()));
   });
 }
 void RunControl::step_back(long count) {
-  impl_->thread.ask([count](RunThread& t) { t.go_to(t.position() - count); });
+  impl_->thread.ask([count](RunPlayer& player) { player.go_to(player.position() - count); });
 }
 void RunControl::go_to_step(long step) {
-  impl_->thread.ask([step](RunThread& t) { t.go_to(step); });
+  impl_->thread.ask([step](RunPlayer& player) { player.go_to(step); });
 }
 void RunControl::take_back_to(long step) {
-  impl_->thread.ask([step](RunThread& t) {
-    t.go_to(step);
-    t.act([](LiveRun&) {});  // nothing is done from here on
+  impl_->thread.ask([step](RunPlayer& player) {
+    player.go_to(step);
+    player.act([](LiveRun&) {});  // nothing is done from here on
   });
 }
 void RunControl::reset() {
-  impl_->thread.ask([](RunThread& t) { t.reset(); });
+  impl_->thread.ask([](RunPlayer& player) { player.reset(); });
 }
 void RunControl::set_speed(double speed) {
-  impl_->thread.ask([speed](RunThread& t) { t.set_speed(speed); });
+  impl_->thread.ask([speed](RunPlayer& player) { player.set_speed(speed); });
 }
 
 void RunControl::hold_at(std::optional<double> time) {
-  impl_->thread.ask([time](RunThread& t) { t.hold_at(time); });
+  impl_->thread.ask([time](RunPlayer& player) { player.hold_at(time); });
 }
 
 void RunControl::begin_pull(const PullPlace& place, const Vec3& target_W) {
-  impl_->thread.ask([place, target_W](RunThread& t) {
-    t.act([place, target_W](LiveRun& run) { run.pull().begin(place, target_W); });
+  impl_->thread.ask([place, target_W](RunPlayer& player) {
+    player.act([place, target_W](LiveRun& run) { run.pull().begin(place, target_W); });
   });
 }
 void RunControl::move_pull(const Vec3& target_W) {
-  impl_->thread.ask(
-      [target_W](RunThread& t) { t.act([target_W](LiveRun& run) { run.pull().move(target_W); }); });
+  impl_->thread.ask([target_W](RunPlayer& player) {
+    player.act([target_W](LiveRun& run) { run.pull().move(target_W); });
+  });
 }
 void RunControl::end_pull() {
-  impl_->thread.ask([](RunThread& t) { t.act([](LiveRun& run) { run.pull().end(); }); });
+  impl_->thread.ask([](RunPlayer& player) { player.act([](LiveRun& run) { run.pull().end(); }); });
 }
 
 void RunControl::move_robot(const Eigen::VectorXd& q) {
-  impl_->thread.ask([q](RunThread& t) {
-    t.act([q](LiveRun& run) {
+  impl_->thread.ask([q](RunPlayer& player) {
+    player.act([q](LiveRun& run) {
       if (RobotControl* robot = run.simulation().robot()) robot->go_to(q);
     });
   });
 }
 
 void RunControl::play_trajectory(robot::Trajectory trajectory) {
-  impl_->thread.ask([trajectory = std::move(trajectory)](RunThread& t) {
-    t.act([trajectory](LiveRun& run) {
+  impl_->thread.ask([trajectory = std::move(trajectory)](RunPlayer& player) {
+    player.act([trajectory](LiveRun& run) {
       if (RobotControl* robot = run.simulation().robot())
         robot->set_trajectory(trajectory, run.simulation().world().time());
     });
@@ -84,8 +86,8 @@ void RunControl::play_trajectory(robot::Trajectory trajectory) {
 }
 
 void RunControl::play_loop(robot::Trajectory lead, robot::Trajectory lap) {
-  impl_->thread.ask([lead = std::move(lead), lap = std::move(lap)](RunThread& t) {
-    t.act([lead, lap](LiveRun& run) {
+  impl_->thread.ask([lead = std::move(lead), lap = std::move(lap)](RunPlayer& player) {
+    player.act([lead, lap](LiveRun& run) {
       if (RobotControl* robot = run.simulation().robot())
         robot->set_loop(lead, lap, run.simulation().world().time());
     });
@@ -93,8 +95,8 @@ void RunControl::play_loop(robot::Trajectory lead, robot::Trajectory lap) {
 }
 
 void RunControl::stop_robot() {
-  impl_->thread.ask([](RunThread& t) {
-    t.act([](LiveRun& run) {
+  impl_->thread.ask([](RunPlayer& player) {
+    player.act([](LiveRun& run) {
       if (RobotControl* robot = run.simulation().robot()) robot->stop();
     });
   });
@@ -110,10 +112,10 @@ std::vector<BuildNews> RunControl::take_news() {
   return impl_->thread.take_news();
 }
 RunLog& RunControl::log() {
-  return impl_->thread.log;
+  return impl_->thread.log();
 }
 const RunLog& RunControl::log() const {
-  return impl_->thread.log;
+  return impl_->thread.log();
 }
 void RunControl::wait() const {
   impl_->thread.wait();
@@ -121,8 +123,9 @@ void RunControl::wait() const {
 
 std::uint64_t RunControl::state_hash() const {
   std::uint64_t hash = 0;
-  impl_->thread.ask(
-      [&hash](RunThread& t) { hash = t.run() ? t.run()->simulation().state_hash() : 0; });
+  impl_->thread.ask([&hash](RunPlayer& player) {
+    hash = player.run() ? player.run()->simulation().state_hash() : 0;
+  });
   impl_->thread.wait();
   return hash;
 }

@@ -1,23 +1,13 @@
 #include "pedicel/app/session/live/run_thread.h"
 
-#include <algorithm>
-
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
-#include "pedicel/core/timer.h"
 
 namespace pedicel::app {
 
 using std::chrono::steady_clock;
 
-namespace {
-
-/// A simulation that has fallen back by more than this no longer tries to catch up.
-constexpr std::chrono::milliseconds most_behind{100};
-
-}  // namespace
-
-RunThread::RunThread() : snapshot_(std::make_shared<const Snapshot>()) {
+RunThread::RunThread() {
   thread_ = std::thread([this] { loop(); });
 }
 
@@ -25,7 +15,7 @@ RunThread::~RunThread() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
-    stopping_ = true;
+    player_.stop_replay();
   }
   wake_.notify_all();
   thread_.join();
@@ -53,12 +43,6 @@ void RunThread::wait() {
   idle_.wait(lock, [this] { return requests_.empty() && !build_ && !busy_ && !working_; });
 }
 
-std::shared_ptr<const Snapshot> RunThread::snapshot() {
-  taken_ = true;
-  const std::lock_guard lock(snapshot_mutex_);
-  return snapshot_;
-}
-
 std::vector<BuildNews> RunThread::take_news() {
   const std::lock_guard lock(mutex_);
   return std::exchange(news_, {});
@@ -69,20 +53,23 @@ void RunThread::loop() {
     if (take_request()) continue;
     {
       std::unique_lock lock(mutex_);
-      working_ = has_steps();
+      working_ = player_.has_steps();
       idle_.notify_all();
       wait_for_work(lock);
       if (stop_) return;
       if (!requests_.empty() || build_) continue;
     }
-    if (stop_requested) {
-      pause();
-      continue;
-    }
-    if (is_held() || (to_do_ == 0 && mode_ != RunMode::playing)) continue;
-    if (to_do_ == 0 && !held_ && speed_ > 0.0 && steady_clock::now() < due()) continue;
-    one_step();
+    if (stop_requested)
+      player_.pause();
+    else
+      step_if_due();
   }
+}
+
+void RunThread::step_if_due() {
+  if (player_.is_at_rest()) return;
+  const auto due = player_.due();
+  if (!due || steady_clock::now() >= *due) player_.step();
 }
 
 // Builds first: what was asked for after an edit is meant for what was edited.
@@ -104,56 +91,40 @@ bool RunThread::take_request() {
     }
   }
   if (build)
-    do_build(std::move(*build));
+    do_build(*build);
   else
     guarded(request);
   const std::lock_guard lock(mutex_);
-  working_ = has_steps();
+  working_ = player_.has_steps();
   return true;
 }
 
 // What cannot be done is told; the thread lives on.
 void RunThread::guarded(const Request& request) {
   try {
-    request(*this);
+    request(player_);
   } catch (const std::exception& fault) {
     BuildNews news;
     news.problems.push_back({Severity::error, {}, fault.what()});
-    const std::lock_guard lock(mutex_);
-    news_.push_back(std::move(news));
+    tell(std::move(news));
   }
 }
 
-bool RunThread::is_held() const {
-  constexpr double slack = 1e-9;  // s
-  return held_ && run_ && run_->simulation().world().time() >= *held_ - slack;
-}
-
-bool RunThread::has_steps() const {
-  return !is_held() && (to_do_ > 0 || (held_ && mode_ == RunMode::playing));
+void RunThread::tell(BuildNews news) {
+  const std::lock_guard lock(mutex_);
+  news_.push_back(std::move(news));
 }
 
 bool RunThread::has_work() const {
-  return stop_ || !requests_.empty() || build_ || has_steps();
+  return stop_ || !requests_.empty() || build_ || player_.has_steps();
 }
 
 void RunThread::wait_for_work(std::unique_lock<std::mutex>& lock) {
   const auto ready = [this] { return has_work(); };
-  if (mode_ != RunMode::playing || is_held())
+  if (player_.is_at_rest())
     wake_.wait(lock, ready);
-  else if (speed_ > 0.0)
-    wake_.wait_until(lock, due(), ready);
-}
-
-steady_clock::time_point RunThread::due() const {
-  const double ahead = run_->simulation().world().time() - clock_time_;
-  return clock_start_ + std::chrono::duration_cast<steady_clock::duration>(
-                            std::chrono::duration<double>(ahead / speed_));
-}
-
-void RunThread::start_clock() {
-  clock_start_ = steady_clock::now();
-  clock_time_ = run_ ? run_->simulation().world().time() : 0.0;
+  else if (const auto due = player_.due())
+    wake_.wait_until(lock, *due, ready);
 }
 
 double RunThread::building_for() const {
@@ -162,124 +133,12 @@ double RunThread::building_for() const {
   return std::chrono::duration<double>(steady_clock::now().time_since_epoch() - since).count();
 }
 
-void RunThread::do_build(Build build) {
+void RunThread::do_build(const Build& build) {
   building_since_ = steady_clock::now().time_since_epoch().count();
-  BuildNews news;
-  news.document_hash = build.document_hash;
-  const RunMode before = mode_;
-  try {
-    if (run_ == nullptr || build.restart) {
-      mode_ = RunMode::building;
-      publish(true);
-    }
-    const std::shared_ptr<const SceneAssets> assets = build.make();
-    news.restarted = build.restart || !run_ || !run_->simulation().can_change_to(*assets);
-    mode_ = before == RunMode::empty ? RunMode::paused : before;
-    take_assets(assets, news.restarted);
-    document_hash_ = build.document_hash;
-    news.built = true;
-    news.notes = assets->notes;
-  } catch (const InvalidFile& fault) {
-    mode_ = before;
-    news.problems = fault.all();
-  } catch (const std::exception& fault) {
-    mode_ = before;
-    news.problems.push_back({Severity::error, {}, fault.what()});
-  }
+  BuildNews news = player_.build(build.make, build.document_hash, build.restart);
   building_since_ = 0;
-  publish(true);
-  const std::lock_guard lock(mutex_);
-  news_.push_back(std::move(news));
-}
-
-void RunThread::take_assets(const std::shared_ptr<const SceneAssets>& assets, bool restart) {
-  if (!restart) {
-    run()->change_to(assets);
-    kept_.clear();
-    maker_.forget_models();
-    return;
-  }
-  auto run = std::make_unique<LiveRun>(assets);  // may throw: the one that runs goes on then
-  run_ = std::move(run);
-  kept_.clear();
-  shown_.reset();
-  maker_.forget(true);
-  log.begin(run_->simulation());
-  if (mode_ == RunMode::unstable) mode_ = RunMode::paused;
-  error_.clear();
-  rates_ = RunRates{};
-  start_clock();
-}
-
-void RunThread::play() {
-  if (!run_ || mode_ == RunMode::unstable || !run()) return;
-  mode_ = RunMode::playing;
-  to_do_ = 0;
-  start_clock();
-  publish(true);
-}
-
-void RunThread::pause() {
-  to_do_ = 0;
-  if (mode_ == RunMode::playing) mode_ = RunMode::paused;
-  rates_.rest();
-  publish(true);
-}
-
-void RunThread::advance(long steps) {
-  if (!run_ || mode_ == RunMode::unstable || steps <= 0) return;
-  if (shown_ && show(*shown_ + steps)) return;
-  if (!run()) return;
-  mode_ = RunMode::paused;
-  to_do_ += steps;
-}
-
-void RunThread::reset() {
-  if (!run_) return;
-  to_do_ = 0;
-  kept_.clear();
-  shown_.reset();
-  run_->reset();
-  maker_.forget(false);
-  log.begin(run_->simulation());
-  error_.clear();
-  if (mode_ == RunMode::unstable) mode_ = RunMode::paused;
-  start_clock();
-  publish(true);
-}
-
-void RunThread::set_speed(double speed) {
-  speed_ = std::max(0.0, speed);
-  start_clock();
-  publish(true);
-}
-
-void RunThread::hold_at(std::optional<double> time) {
-  held_ = time;
-  start_clock();
-}
-
-void RunThread::act(LiveRun::Input input) {
-  if (!run()) return;
-  run_->act(std::move(input));
-  keep_anew();
-  if (mode_ != RunMode::playing) publish(true);
-}
-
-void RunThread::one_step() {
-  const double before = run_->simulation().world().time();
-  const Timer timer;
-  run_->step();
-  rates_.step(timer.seconds(), run_->simulation().world().dt());
-  log.observe(run_->simulation());
-  if (keeps_steps()) keep_step();
-  if (to_do_ > 0) --to_do_;
-  if (speed_ > 0.0 && steady_clock::now() > due() + most_behind) start_clock();
-  if (run_->unstable()) {
-    last_good_time_ = before;
-    check_stability();
-  }
-  publish(is_held() || (to_do_ == 0 && mode_ != RunMode::playing));
+  player_.publish(true);
+  tell(std::move(news));
 }
 
 }  // namespace pedicel::app

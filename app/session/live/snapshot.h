@@ -77,7 +77,7 @@ struct Snapshot {
   std::shared_ptr<const SceneAssets> assets;  ///< null: nothing was built yet
   long step = 0;
   double time = 0.0;  ///< s
-  world::StepReport report;
+  world::WorldReport report;
   std::vector<PlantSnapshot> plants;
   std::vector<BodySnapshot> bodies;
   RobotSnapshot robot;

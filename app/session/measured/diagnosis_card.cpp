@@ -11,7 +11,7 @@ namespace {
 
 using discrepancy::Outcome;
 
-constexpr std::size_t most_rivals = 5;
+constexpr std::size_t most_competing = 5;
 
 std::string next_step(const discrepancy::Verdict& verdict) {
   if (!verdict.next_experiment.empty()) return verdict.next_experiment;
@@ -40,17 +40,18 @@ DiagnosisCard::Cause cause_of(const discrepancy::NamedCause& cause) {
           place.empty() ? "the whole" : place, numbers, cause.because, cause.evidence};
 }
 
-std::vector<DiagnosisCard::Rival> rivals_of(const discrepancy::Diagnosis& diagnosis) {
-  std::vector<DiagnosisCard::Rival> rivals;
+std::vector<DiagnosisCard::CompetingModel> competing_models_of(
+    const discrepancy::Diagnosis& diagnosis) {
+  std::vector<DiagnosisCard::CompetingModel> models;
   const auto& causes = diagnosis.verdict.causes;
   for (const discrepancy::Candidate& candidate : diagnosis.ranking) {
     const bool named = std::ranges::any_of(
         causes, [&](const auto& cause) { return cause.name == candidate.cause; });
-    if (named || rivals.size() == most_rivals) continue;
-    rivals.push_back({candidate.cause, discrepancy::why_it_lost(candidate, diagnosis),
+    if (named || models.size() == most_competing) continue;
+    models.push_back({candidate.cause, discrepancy::why_it_lost(candidate, diagnosis),
                       diagnosis.ranking.front().evidence - candidate.evidence});
   }
-  return rivals;
+  return models;
 }
 
 }  // namespace
@@ -67,8 +68,8 @@ DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis) {
   card.remainder = discrepancy::remainder_text(verdict);
   for (const auto& cause : verdict.causes) card.causes.push_back(cause_of(cause));
   card.gain = discrepancy::gain_text(diagnosis);
-  card.rivals = rivals_of(diagnosis);
-  std::tie(card.could_hide, card.unseen) = discrepancy::hiding_texts(verdict);
+  card.competing_models = competing_models_of(diagnosis);
+  std::tie(card.detectable_limits, card.unseen) = discrepancy::detectable_limit_texts(verdict);
   return card;
 }
 

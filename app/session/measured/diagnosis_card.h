@@ -14,7 +14,7 @@ struct DiagnosisCard {
     std::string because;
     double evidence = 0.0;  ///< nats
   };
-  struct Rival {
+  struct CompetingModel {
     std::string name, why;  ///< why it lost
     double behind = 0.0;    ///< nats
   };
@@ -24,10 +24,10 @@ struct DiagnosisCard {
   std::string remainder;  ///< what is still unexplained, as sentences; may be empty
   std::vector<Cause> causes;
   std::string gain;
-  std::vector<Rival> rivals;
-  std::vector<std::string> could_hide;  ///< sizes below which it would not have been seen
-  std::vector<std::string> unseen;      ///< causes that these data cannot see at all
-  std::string next;                     ///< what to do next; never empty
+  std::vector<CompetingModel> competing_models;
+  std::vector<std::string> detectable_limits;  ///< sizes below which it would not have been seen
+  std::vector<std::string> unseen;             ///< causes that these data cannot see at all
+  std::string next;                            ///< what to do next; never empty
 };
 
 DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis);

@@ -19,6 +19,7 @@ namespace {
 double deviations(const Findings& findings, const FitSummary& model, const FitSummary& base,
                   const std::string& name) {
   const int p = model.hypothesis.factor_on(name);
+  // By ratio: half and twice are equally far from nominal.
   const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
   const int shifted = base.hypothesis.factor_on(name);
   const double shift = shifted >= 0 && shifted < findings.parameter_shift.size()
@@ -28,6 +29,7 @@ double deviations(const Findings& findings, const FitSummary& model, const FitSu
   const Levels& levels = findings.settings->levels;
   const bool may_be_nominal =
       std::abs(u) < levels.needed_deviations * error + shift + levels.least_factor_change;
+  // Zero stands for none, since no needed factor is exactly at 1.
   return may_be_nominal ? 0.0 : u / error;
 }
 
@@ -92,11 +94,13 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
     (found ? verdict.causes : verdict.details)
         .push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
   }
+  // Nothing far out: the model is as good as the data.
   verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
   if (verdict.causes.size() != 1) {
     diagnosis.best = diagnosis.base;  // nothing to be better than
     return;
   }
+  // Those that stand in for it are weighed against it.
   const double evidence = verdict.causes.front().evidence;
   for (const auto& [instead, behind] : needed.instead) {
     const std::string& name = instead.hypothesis.name;
@@ -113,6 +117,7 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
       verdict.causes.push_back(findings.named(other, instead, last, verdict.fit));
     }
   }
+  // Only now: all have to be there to be compared.
   keep_likely(needed.names.front(), findings.settings->levels, verdict);
   if (verdict.causes.size() > 1) verdict.outcome = Outcome::ambiguous;
 }
@@ -135,6 +140,7 @@ int more_numbers(const Candidate& competitor, const Candidate& best) {
 // better than by chance, is no other explanation: a wind of no speed is drag. Nor is one whose fit
 // turned into the best one. (What would win without one of the trials does better there.)
 bool contains(const Candidate& competitor, const Candidate& best, bool turns) {
+  // It has turned into the best one.
   if (competitor.limit_of == best.cause) return true;
   return !turns && is_special_case(best, competitor) && competitor.evidence < best.evidence &&
          said_by_data(competitor) - said_by_data(best) <=
@@ -157,6 +163,7 @@ bool explains_as_well(const Candidate& competitor, const Candidate& best, double
 // numbers gain by chance.
 bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
                           const Candidate& best) {
+  // Of two trials one may well decide; that is no reason to doubt it.
   if (findings.fit_trials.size() < 3) return false;
   const double chance =
       is_special_case(best, competitor) ? gain_by_chance(more_numbers(competitor, best)) : 0.0;
@@ -166,6 +173,7 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
     const Eigen::Index size = findings.data->size(std::span(&t, 1));
     const double here = 0.5 * (competitor.fit.residual.segment(row, size).squaredNorm() -
                                best.fit.residual.segment(row, size).squaredNorm());
+    // Clearly ahead without it: then one trial alone has decided.
     if (all - here < -findings.settings->levels.clear_margin - chance) return true;
     row += size;
   }
@@ -176,11 +184,13 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
 void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   if (!diagnosis.after.raised) return;
+  // Noise costs half a unit a sample in every model, so only what is above it can be explained.
   const double excess_before = diagnosis.base.cost - 0.5 * findings.samples();
   const double excess_after = diagnosis.best.cost - 0.5 * findings.samples();
   const double left = excess_after / std::max(excess_before, 1.0);
   verdict.remainder =
       text("%.2g %% of what the refitted model left above the noise", 100.0 * std::max(left, 0.0));
+  // Everything that was found together, since the remainder is what all of it leaves.
   double gain = 0.0;
   for (const Candidate& found : findings.chain)
     gain += found.gain + std::max(0.0, found.held_out.gain);
@@ -190,6 +200,8 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
       0.5 *
       std::pow(std::max(diagnosis.after.statistic, other.shows() ? other.deviations : 0.0), 2);
   const Levels& levels = findings.settings->levels;
+  // Both as a share and in noise: a large share of little is no finding, nor is a little beside
+  // much.
   const bool much =
       left > levels.remainder_share && findings.excess(diagnosis.best) > levels.small_excess;
   if (!much && missed <= levels.missed_share * gain) return;
@@ -209,6 +221,7 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
   for (std::size_t i = 1; i < diagnosis.ranking.size(); ++i) {
     const Candidate& competitor = diagnosis.ranking[i];
     const double behind = best.evidence - competitor.evidence;
+    // In order: what follows was not fitted, or explains less than nothing.
     if (!competitor.whole || competitor.evidence < 0.0) break;
     const bool turns = wins_without_a_trial(findings, competitor, best);
     const bool beaten =
@@ -219,7 +232,10 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
                                    behind, said_by_data(best) - said_by_data(competitor)) +
                               text(" %g more numbers", more_numbers(competitor, best)) +
                               (turns ? "; one trial alone decides between them." : "."));
+    // Beside several causes each competing model would have to be fitted with the others; it was
+    // not.
     if (beaten || findings.chain.size() > 1 || contains(competitor, best, turns)) {
+      // What is named is not its own competitor.
       const bool found = std::ranges::any_of(
           findings.chain, [&](const Candidate& named) { return named.cause == competitor.cause; });
       if (!found) verdict.competing.push_back({competitor.cause, behind});
@@ -234,6 +250,7 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
 void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
   const Eigen::VectorXd& without = diagnosis.base.residual;
   const Eigen::VectorXd& with = findings.chain.front().fit.residual;
+  // Fitted to other trials, or not at all: nothing to compare.
   if (without.size() != with.size() || with.size() == 0) return;
   const Decoys decoys =
       decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with),
@@ -243,6 +260,7 @@ void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
       text(" Decoys of it gain less: %.3g nats backwards in time, %.3g at other markers,",
            decoys.reversed, decoys.exchanged) +
       text(" of %.3g.", decoys.own);
+  // A cause must gain by its shape, not by its size: a decoy has the same size.
   if (decoys.lose(findings.settings->levels.clear_margin)) return;
   verdict.outcome = Outcome::unknown;
   verdict.remainder =
@@ -256,6 +274,7 @@ void show_trials_left_out(const Findings& findings, NamedCause& cause) {
       fit.jacobian.rows() != findings.data->size(findings.fit_trials))
     return;
   std::vector<Eigen::Index> rows;
+  // To first order (Cook 1977): refitting without each trial would take as long as the search.
   for (const int t : findings.fit_trials) rows.push_back(findings.data->size(std::span(&t, 1)));
   double most = 0.0;
   for (const LeftOut& without : leave_one_out(fit, rows))
@@ -274,6 +293,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
     verdict.causes.push_back(findings.named(findings.chain[c], diagnosis.best,
                                             base_effects + static_cast<int>(c), verdict.fit));
   verdict.outcome = Outcome::named;
+  // Each of these may only lower the verdict: named, then ambiguous, then unknown.
   weigh_competing_models(findings, diagnosis, base_effects);
   judge_remainder(findings, diagnosis);
   show_decoys(findings, diagnosis);
@@ -317,6 +337,7 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
   measure(diagnosis.fit_trials, diagnosis.verdict.fit);
   measure(diagnosis.check_trials, diagnosis.verdict.check);
   const Errors& check = diagnosis.verdict.check;
+  // Without something above the noise to gain, a gain would divide by nothing.
   if (!check.refitted) return;
   const double noise = scatter(findings, diagnosis.check_trials);
   const auto gain_over = [&](double error) -> std::optional<double> {

@@ -1,5 +1,6 @@
 #include "pedicel/discrepancy/procedure/diagnosis.h"
 
+#include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/data/trial_split.h"
 #include "pedicel/discrepancy/procedure/diagnosis_procedure.h"
 #include "pedicel/discrepancy/select/continuation.h"
@@ -7,72 +8,85 @@
 
 namespace pedicel::discrepancy {
 
-Procedure::Procedure(const Experiment& experiment, const DiagnosisOptions& options)
-    : given_(experiment),
-      options_(options),
-      start_(std::chrono::steady_clock::now()),
-      log_(options.progress, options.note, result_.steps) {
-  result_.settings = options.settings;
-  findings_.settings = &options_.settings;
-  log_.settings(options.settings);
-  result_.admission = admit(experiment);
-}
-
 Diagnosis Procedure::run() {
-  if (result_.admission.refusal.empty()) {
-    prepare();
-    fit_baseline();
-    if (result_.verdict.outcome != Outcome::numerical && !stopped()) decide();
-  } else {
-    result_.verdict.outcome = Outcome::bad_data;
-    result_.verdict.remainder = result_.admission.refusal;
+  Verdict& verdict = state_.result.verdict;
+  if (!state_.result.admission.refusal.empty()) {
+    verdict.outcome = Outcome::bad_data;
+    verdict.remainder = state_.result.admission.refusal;
+    return finished();
+  }
+  try {
+    search();
+  } catch (const Stopped&) {
+    // Building and settling a plant hear the signal, too.
+    if (!state_.options.cut_short) throw;
+  }
+  if (state_.options.cut_short && state_.stopped()) {
+    deadline_.release();
+    state_.options.cut_short();
+    verdict_.write_partial();
+    exchanged_.reset();
   }
   return finished();
 }
 
+void Procedure::search() {
+  baseline_.prepare();
+  baseline_.refit_parameters();
+  if (state_.result.verdict.outcome != Outcome::numerical && !state_.stopped()) decide();
+}
+
 void Procedure::decide() {
-  look();
-  const bool wrong =
-      result_.before.raised || has_prior_shift(result_.base.hypothesis, options_.settings);
-  if (!wrong && !stopped()) look_at_check_trials();
-  if (objecting_ >= 0) {
-    Experiment other = given_;
-    const TrialSplit split{result_.fit_trials, result_.check_trials};
-    if (exchange_trials(other, split, objecting_)) {
-      log_.note("It is fitted in place of another one, and all begins anew.");
-      exchanged_ = std::move(other);
-      result_.exchanged = experiment().trials[objecting_].name;
-      return;
-    }
-  }
+  baseline_.look();
+  const bool wrong = state_.result.before.raised ||
+                     has_prior_shift(state_.result.base.hypothesis, state_.settings());
+  // Only where nothing else is wrong: a wrong model misses held-out trials, too.
+  const int objecting = wrong || state_.stopped() ? -1 : baseline_.objecting_trial();
+  // An effect in that trial alone is seen once the trial is fitted.
+  if (objecting >= 0 && exchanges(objecting)) return;
   if (wrong) {
-    search();
-    extend();
+    causes_.search();
+    causes_.extend();
   }
-  if (!stopped()) conclude_all();
+  if (!state_.stopped()) verdict_.write(causes_.instead_of(), objecting);
+}
+
+// Whether a trial can be fitted in place of another one. Then all begins anew: what was read of the
+// noise and refitted so far did not know it.
+bool Procedure::exchanges(int objecting) {
+  Experiment other = state_.given;
+  const TrialSplit split{state_.result.fit_trials, state_.result.check_trials};
+  if (!exchange_trials(other, split, objecting)) return false;
+  state_.log.note("It is fitted in place of another one, and all begins anew.");
+  exchanged_ = std::move(other);
+  state_.result.exchanged = state_.experiment().trials[objecting].name;
+  return true;
 }
 
 Diagnosis Procedure::finished() {
-  if (setup_) {
-    result_.position_noise = setup_->data().position_noise();
-    result_.force_noise = setup_->data().force_noise();
-    result_.verdict.simulations += setup_->simulations();
+  if (state_.setup) {
+    state_.result.position_noise = state_.setup->data().position_noise();
+    state_.result.force_noise = state_.setup->data().force_noise();
+    state_.result.verdict.simulations += state_.setup->simulations();
   }
-  if (simulators_) {
-    result_.verdict.simulations += simulators_->simulations();
-    simulators_->drop();
+  if (state_.simulators) {
+    state_.result.verdict.simulations += state_.simulators->simulations();
+    state_.simulators->drop();
   }
-  result_.stopped = stopped();
-  result_.verdict.seconds =
+  state_.result.stopped = state_.stopped() && !state_.result.verdict.partial;
+  state_.result.verdict.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  return std::move(result_);
+  return std::move(state_.result);
 }
 
-Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
-  Procedure first(experiment, options);
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& asked) {
+  Deadline deadline(asked.stop, asked.time_limit);
+  DiagnosisOptions options = asked;
+  options.stop = deadline.flag();
+  Procedure first(experiment, options, deadline);
   Diagnosis found = first.run();
   if (!first.exchanged()) return found;
-  Diagnosis again = Procedure(*first.exchanged(), options).run();
+  Diagnosis again = Procedure(*first.exchanged(), options, deadline).run();
   again.exchanged = found.exchanged;
   again.steps.insert(again.steps.begin(), found.steps.begin(), found.steps.end());
   again.verdict.simulations += found.verdict.simulations;

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ struct DiagnosisOptions {
   std::function<void(const std::string&, double)> progress;
   std::function<void(const std::string&)> note;  ///< each finding, as a sentence
   const std::atomic<bool>* stop = nullptr;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< s, of the search
+  /// Called once where `stop` or the time limit cut the search short. Then what is known is
+  /// concluded, and the verdict is `partial`. Without it a diagnosis that is stopped is not
+  /// complete.
+  std::function<void()> cut_short;
   DiagnosisSettings settings = {};
 };
 

@@ -28,6 +28,7 @@ std::vector<Variant> variants_of(const std::vector<Hypothesis>& models) {
 
 /// The same plant and markers without trials.
 Experiment empty_copy(const Experiment& experiment) {
+  // Not its trials, nor what went wrong in them.
   Experiment copy;
   copy.plant = experiment.plant;
   copy.markers = experiment.markers;
@@ -39,12 +40,14 @@ Experiment empty_copy(const Experiment& experiment) {
 // Where the grip rests, by the likeliest model of the plant itself.
 bool find_rest(Experiment probe, Variant variant, const DesignScales& scales,
                const Numerics& numerics, const Vec3& gravity, long& simulations, Vec3& rest) {
+  // Where the grip is, not where a faulty sensor sees it.
   std::erase_if(variant.effects, is_of_sensor);
   std::erase_if(probe.effects, is_of_sensor);
   probe.markers = {{"grip", scales.grip}};
   Trial trial;
   trial.name = "rest";
   trial.gravity = gravity;
+  // Two samples are the fewest that make a trial.
   trial.markers.time = {0.0, numerics.dt};
   trial.markers.value = Eigen::MatrixXd::Zero(2, 3);
   probe.trials = {trial};
@@ -70,6 +73,7 @@ Separation separation_of(const DataSet& data, int trial, const Prediction& a, co
   Eigen::VectorXd ra(size), rb(size);
   data.residual(trial, a, 1.0, ra);
   data.residual(trial, b, 1.0, rb);
+  // Whitened: noise that lasts over many samples counts as one.
   result.total = (ra - rb).norm();
   const Eigen::MatrixXd difference =
       data.scaled_residual(trial, a) - data.scaled_residual(trial, b);
@@ -105,6 +109,7 @@ std::vector<Tried> try_designs(Experiment designs, const DataSet& data,
   std::vector<Prediction> all = simulator.run(requests);
   simulations += simulator.simulations();
   DataSet measured(designs);
+  // As these people measure, not as the design would like.
   measured.set_noise(data.position_noise(), data.force_noise());
   std::vector<Tried> tried;
   for (std::size_t t = 0; t < list.size(); ++t) {
@@ -114,11 +119,13 @@ std::vector<Tried> try_designs(Experiment designs, const DataSet& data,
       one.predictions.push_back(std::move(all[t * variants.size() + v]));
       healthy = healthy && one.predictions.back().healthy;
     }
+    // A trial in which one of the models breaks down cannot be promised to people.
     if (!healthy) continue;
     one.nearest.total = std::numeric_limits<double>::infinity();
     for (std::size_t v = 1; v < variants.size(); ++v) {
       const Separation s =
           separation_of(measured, static_cast<int>(t), one.predictions[0], one.predictions[v]);
+      // A design is worth what it does against the hardest of the others.
       if (s.total >= one.nearest.total) continue;
       one.nearest = s;
       one.other = static_cast<int>(v);
@@ -237,6 +244,7 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
   if (tried.empty()) return by_hand(models);
   const auto better = [enough](const Tried& a, const Tried& b) {
     const bool ea = a.nearest.total >= enough, eb = b.nearest.total >= enough;
+    // One that separates goes before all that do not; among those, time counts.
     if (ea != eb) return eb;
     return ea ? a.worth() < b.worth() : a.nearest.total < b.nearest.total;
   };
@@ -271,6 +279,7 @@ NextExperiment next_look(const Experiment& experiment, const DataSet& data,
         sum += r(i, c) * r(i, c), count += 1.0;
         if (std::abs(r(i, c)) > peak) peak = std::abs(r(i, c)), at = i;
       }
+      // By the mean over a record: one outlier asks for no experiment.
       if (count == 0.0 || std::sqrt(sum / count) <= most) continue;
       most = std::sqrt(sum / count);
       trial = t, column = c, sample = at;

@@ -144,7 +144,7 @@ std::string listed(const std::vector<std::string>& words) {
 }
 
 void add_hiding(io::HtmlReport& page, const Verdict& v) {
-  const auto [small, never] = hiding_texts(v);
+  const auto [small, never] = detectable_limit_texts(v);
   if (small.empty() && never.empty()) return;
   page.subheading("What could still hide in these data");
   const std::string first =

@@ -151,7 +151,8 @@ std::string gain_text(const Diagnosis& d) {
   return text;
 }
 
-std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const Verdict& verdict) {
+std::pair<std::vector<std::string>, std::vector<std::string>> detectable_limit_texts(
+    const Verdict& verdict) {
   std::pair<std::vector<std::string>, std::vector<std::string>> lists;
   for (const DetectableLimit& hide : verdict.detectable_limits) {
     const bool seen = std::isfinite(hide.smallest) && !hide.parameter.empty();

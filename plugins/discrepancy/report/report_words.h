@@ -35,7 +35,8 @@ std::string gain_text(const Diagnosis& diagnosis);
 
 /// "extra_mass: mass from 0.004 kg on", for causes that could hide; those that nothing would show
 /// are in the second list.
-std::pair<std::vector<std::string>, std::vector<std::string>> hiding_texts(const Verdict& verdict);
+std::pair<std::vector<std::string>, std::vector<std::string>> detectable_limit_texts(
+    const Verdict& verdict);
 
 /// What has been decided, and on what: the sentence below the headline.
 std::string certainty_text(const Diagnosis& diagnosis);

@@ -33,12 +33,14 @@ Eigen::VectorXd solve_others(Eigen::MatrixXd matrix, Eigen::VectorXd right,
 std::optional<Hypothesis> linear_start(const FitSummary& base, const Direction& direction,
                                        const DiagnosisSettings& settings) {
   const double size = length(direction);
+  // Too little is seen of it for a size.
   if (size < no_change || std::abs(direction.statistic) < settings.budget.least_statistic)
     return {};
   const double share = direction.has_threshold ? 1.0 : direction.statistic / size;
   for (const FreeParameter& free : direction.start.free) {
     const bool one_sided = free.vanishes == Vanishes::at_infinity ||
                            (free.vanishes == Vanishes::at_zero && free.logarithmic);
+    // A cause cannot be less than absent.
     if (share < 0.0 && one_sided) return {};
   }
   Hypothesis both = base.hypothesis;
@@ -61,6 +63,8 @@ bool is_ladder(const Cause& cause, const Budget& budget) {
 // Of those that do as well as the best one, as all thresholds that do nothing.
 int lowest_of_best(const Scan& found, double tie) {
   int lowest = 0;
+  // A threshold that nothing reaches cannot be told from a higher one; the lowest is the most
+  // informative.
   while (found.cost[lowest] > found.cost[found.best] + tie) ++lowest;
   return lowest;
 }

@@ -42,6 +42,8 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   const Budget& budget = options.settings->budget;
   FitSummary best;
   const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
+  // Over the first part only: in a long record a start that is out of phase falls into the next
+  // swing.
   options.horizon = budget.candidate_horizon;
   options.iterations = std::min(budget.first_iterations, options.iterations);
   options.least_step = budget.rough_step;
@@ -65,6 +67,7 @@ struct Limits {
   double least = std::numeric_limits<double>::infinity();  // of those
   double base = 0.0;
   double at(double share) const {
+    // Where nobody gains much yet, being behind tells nothing.
     if (base - least < budget->large_gain) return std::numeric_limits<double>::infinity();
     return least + std::max(budget->lost_by, share * (base - least));
   }
@@ -74,6 +77,7 @@ struct Limits {
 std::vector<Hypothesis> by_cost(const std::vector<Hypothesis>& starts, const Scan& scanned) {
   std::vector<double> closeness;
   for (const double cost : scanned.cost) closeness.push_back(-cost);
+  // The closest start is fitted first: how far it gets bounds what the others are worth.
   std::vector<Hypothesis> sorted;
   for (const int i : first_by(closeness, static_cast<int>(starts.size())))
     sorted.push_back(starts[i]);
@@ -97,6 +101,7 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
   for (const Hypothesis& start : by_cost(starts, scanned)) {
     found.push_back(fit(evaluator, start, few, base.jacobian));
     closeness.push_back(-objective(found.back()));
+    // The closest start is this far off, so those behind it are lost as well.
     if (found.front().cost > limits.at(budget.lost_at_once)) break;
   }
   FitSummary best;
@@ -105,6 +110,7 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
     keep_better(best, goes_on ? refit(evaluator, found[i], rest) : std::move(found[i]));
   }
   const std::array growing_horizons{0.5 * budget.candidate_horizon, budget.candidate_horizon, 1.0};
+  // Dear, so only for a cause that may still win.
   if (best.cost <= most && scanned.cost[scanned.best] >= base.cost)
     keep_better(best, fit_growing(evaluator, starts[scanned.best], options, growing_horizons));
   return best;
@@ -114,6 +120,8 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
 template <class Task>
 void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& options, double from,
                double to, const Task& task) {
+  // Workers take the next task when they are free; each result has its own place, so any number of
+  // threads gives the same.
   ThreadPool pool(static_cast<int>(workers.size()));
   std::atomic<int> next{0}, done{0};
   pool.for_each(static_cast<int>(workers.size()), [&](int worker) {
@@ -144,6 +152,8 @@ class Refits {
 
   std::vector<Candidate> run() {
     for (std::size_t i = 0; i < causes_.size(); ++i) candidates_[i].cause = causes_[i].name;
+    // A base that misses the data is a bad place to be linear about: then short fits rank, else
+    // scores do.
     if (2.0 * base_.cost > options_.fit.settings->evidence.far_from_data * samples_)
       fit_first_parts();
     else
@@ -151,6 +161,7 @@ class Refits {
     choose_whole(score_);
     const std::string foremost_cause = std::ranges::max(candidates_, {}, &Candidate::gain).cause;
     for (Candidate& candidate : candidates_)
+      // Look-alikes are told apart by whole fits alone: scores of one family differ by little.
       if (effects::same_family(candidate.cause, foremost_cause) ||
           !continuations(candidate.cause).empty())
         candidate.whole = true;
@@ -164,6 +175,7 @@ class Refits {
     std::vector<int> first(whole.begin(), others), behind(others, whole.end());
     longest_first(behind);
     fit_whole(first, Limits{&budget_}, 0.5, 0.6);
+    // The foremost set the mark for the rest.
     Limits limits{&budget_, base_.cost, base_.cost};
     for (const int i : first) limits.least = std::min(limits.least, candidates_[i].fit.cost);
     fit_whole(behind, limits, 0.6, 0.7);
@@ -171,8 +183,10 @@ class Refits {
     const std::vector<int> near = leading(whole, budget_.lost_early);
     refit_coarse(near, budget_.whole_iterations, 0.7);
     std::vector<int> moving = leading(near, budget_.lost_late);
+    // What has converged gains nothing by more steps.
     std::erase_if(moving, [&](int i) { return candidates_[i].fit.converged; });
     refit_coarse(moving, options_.fit.iterations, 0.75);
+    // Stopped before it was its turn: no candidate, rather than one with a cost of zero.
     std::erase_if(candidates_, [](const Candidate& c) { return c.fit.why == "not run"; });
     std::vector<Candidate*> all;
     for (Candidate& candidate : candidates_)
@@ -189,6 +203,7 @@ class Refits {
     const double early_cost =
         0.5 * coarse_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
     std::vector<std::size_t> starts(causes_.size(), 1);
+    // A second start for those that the linear model believes in.
     for (const int i : first_by(score_, budget_.whole_candidates)) starts[i] = 2;
     std::vector<int> all(causes_.size());
     std::iota(all.begin(), all.end(), 0);
@@ -240,6 +255,7 @@ class Refits {
   FitOptions rough(int iterations) const {
     FitOptions few = options_.fit;
     few.iterations = iterations;
+    // A ranking needs no more digits than the gap that it has to tell.
     few.least_step = budget_.rough_step;
     return few;
   }
@@ -249,12 +265,15 @@ class Refits {
     const FitOptions few = rough((placed ? 2 : 1) * budget_.whole_iterations);
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
+    // What the first part found is a start like any other.
     if (candidate.fit.jacobian.size() > 0) starts.push_back(candidate.fit.hypothesis);
     std::ranges::move(
         best_linear_starts(evaluator, base_, candidate.cause, directions_, options_.fit),
         std::back_inserter(starts));
     auto plain = best_plain_start(evaluator, base_, causes_[i], options_.fit);
     if (plain) starts.push_back(std::move(*plain));
+    // No direction scores and no start does anything: a small one, so that the cause is tried at
+    // all.
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     const std::vector<Direction> back = continuations(candidate.cause);
@@ -264,6 +283,7 @@ class Refits {
                              limits);
     if (candidate.fit.cost > limits.at(budget_.lost_early) && back.empty()) return;
     candidate.fit = slide_along(evaluator, std::move(candidate.fit), few);
+    // An anisotropy turned by a right angle says nearly the same; behind a ridge it may be better.
     if (const auto twin = twin_of(candidate.fit.hypothesis))
       keep_better(candidate.fit, fit(evaluator, *twin, few, base_.jacobian));
     for (const Direction& start : back)
@@ -288,6 +308,7 @@ class Refits {
           continued(base_.hypothesis, from->fit.hypothesis, cause, budget_.gust_start);
       Evaluator& evaluator = coarse_.front();
       starts = by_cost(starts, scan(evaluator, starts, options_.fit));
+      // The scan has told which are worth a fit.
       starts.resize(std::min(static_cast<std::size_t>(budget_.special_starts), starts.size()));
       keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * budget_.whole_iterations),
                                     Look{budget_.extended_iterations, budget_.extended_starts},
@@ -353,11 +374,13 @@ class Refits {
                                                           : could_be_near(candidate);
         if (candidate.whole && !candidate.fine && near) open.push_back(&candidate);
       }
+      // Fine fits change the order, and the order says who needs one: until both agree.
       if (open.empty()) return;
       share_out(fine_, static_cast<int>(open.size()), options_, 0.8, 1.0,
                 [&](Evaluator& evaluator, int i) {
                   const bool to_the_end = is_near_the_best(*open[i]);
                   FitOptions options = options_.fit;
+                  // A few iterations tell whether it comes near; most do not.
                   if (!to_the_end)
                     options.iterations = std::min(budget_.fine_iterations, options.iterations);
                   if (!begun.contains(open[i]->cause)) start_with_fine(evaluator, *open[i]);
@@ -380,6 +403,8 @@ class Refits {
   // Gains, evidence and order of all, after the fits of some have `changed`.
   void rank(const std::vector<Candidate*>& changed, std::vector<Evaluator>& workers) {
     if (stopped()) return;
+    // One scale for all, from the best fit: else a bad model would be judged by the noise that it
+    // makes.
     const double dispersion = dispersion_of(candidates_, base_, samples_);
     judge_held_out(changed, workers, dispersion);
     weigh(candidates_, base_, samples_, dispersion, *options_.fit.settings);
@@ -393,6 +418,7 @@ class Refits {
     check.trials = options_.check_trials;
     if (kept_.empty()) {
       base_held_out_ = held_out_model(fine_.front(), base_, check);
+      // All keys before the threads begin: a map may not grow under them.
       for (const Candidate* candidate : changed) kept_[candidate->cause] = {};
     }
     share_out(workers, static_cast<int>(changed.size()), options_, 1.0, 1.0,

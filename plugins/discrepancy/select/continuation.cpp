@@ -17,6 +17,7 @@ Eigen::VectorXd way_of(const Hypothesis& model, double deviations) {
   const Eigen::VectorXd u = model.unknowns();
   for (int p = 0; p < model.size(); ++p) {
     const FreeParameter& free = model.free[p];
+    // Only what is known beforehand can be pulled away from what is known.
     if (free.name != "factor" || free.prior <= 0.0) continue;
     const double step = free.to_unknown(free.prior_centre) - u[p];
     if (std::abs(step) > deviations * free.prior) way[p] = step;
@@ -44,6 +45,7 @@ TakenOver taken_over(const FitSummary& base, const Direction& direction,
                      const Eigen::VectorXd& change) {
   const Eigen::VectorXd own = direction.change + base.jacobian * direction.nuisance_step;
   const double square = own.squaredNorm();
+  // Below its threshold such a cause does nothing, so its direction says nothing of its size.
   if (direction.has_threshold || square < no_change) return {};
   const double size = -own.dot(change) / square;
   return {size, (change + size * own).norm() / std::max(change.norm(), no_change)};
@@ -57,6 +59,7 @@ Hypothesis at_part(const Hypothesis& model, const FitSummary& base, const Eigen:
   for (int p = 0; p < way.size(); ++p) {
     if (way[p] == 0.0) continue;
     u[p] = base.hypothesis.unknowns()[p] + part * way[p];
+    // Held by a narrow prior: the data may still pull at it.
     held.free[p].prior = held_to;
     held.free[p].prior_centre = held.free[p].to_value(u[p]);
   }
@@ -71,6 +74,7 @@ Hypothesis grown(const Hypothesis& model, const FitSummary& base, double factor)
   added.effects.assign(model.effects.begin() + static_cast<std::ptrdiff_t>(known),
                        model.effects.end());
   added.free.assign(model.free.begin() + base.hypothesis.size(), model.free.end());
+  // Indices count from the first effect of the hypothesis that they stand in.
   for (FreeParameter& free : added.free) free.effect -= static_cast<int>(known);
   Hypothesis result = model;
   result.effects.resize(known);
@@ -108,6 +112,7 @@ std::vector<Direction> likest_continuations(const FitSummary& base, const std::s
   for (const Direction& direction : directions) {
     if (direction.cause != cause) continue;
     const TakenOver found = taken_over(base, direction, change);
+    // The cause must undo most of what the pulled factor does, and with the sign that it can have.
     if (found.size > 0.0 && found.left < budget.continuation_unlike)
       like.emplace_back(found.left, &direction);
   }
@@ -123,6 +128,7 @@ std::optional<FitSummary> continue_to_prior(Evaluator& evaluator, const FitSumma
                                             const Direction& cause, const FitOptions& options) {
   const Budget& budget = options.settings->budget;
   const Eigen::VectorXd way = way_of(base.hypothesis, budget.continuation_way);
+  // Short enough that each step starts within reach of its minimum.
   const int steps =
       std::clamp(static_cast<int>(std::ceil(way.cwiseAbs().maxCoeff() / budget.continuation_step)),
                  1, budget.continuation_steps);
@@ -135,13 +141,16 @@ std::optional<FitSummary> continue_to_prior(Evaluator& evaluator, const FitSumma
   model.add(cause.start.shrunk(taken_over(base, cause, change_at(1)).size).bounded());
   model.name = cause.cause;
   for (int step = 1; step <= steps; ++step) {
+    // The cause takes over what the factor gives up; linear between two steps.
     if (step > 1) model = grown(model, base, change_at(step).norm() / change_at(step - 1).norm());
     const Hypothesis held =
         at_part(model, base, way, static_cast<double>(step) / steps, budget.continuation_hold);
     const FitSummary found = fit(evaluator, held, few, base.jacobian);
+    // Once the trail is lost, further steps lead elsewhere.
     if (!(found.cost < budget.continuation_lost * base.cost)) return {};
     model.set_unknowns(found.hypothesis.unknowns());
   }
+  // At the end the factors are free again: the data have the last word.
   return slide_along(evaluator, fit(evaluator, model, options, base.jacobian), options);
 }
 

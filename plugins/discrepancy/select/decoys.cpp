@@ -16,6 +16,7 @@ double gain_along(const Eigen::VectorXd& residual, const Eigen::VectorXd& direct
 double decoy_gain(const Eigen::VectorXd& residual, const Eigen::VectorXd& change,
                   const Eigen::VectorXd& decoy, double too_alike) {
   const double cosine = change.dot(decoy) / std::max(change.norm() * decoy.norm(), 1e-300);
+  // A change that is even in time is its own decoy, and refutes nothing.
   return std::abs(cosine) > too_alike ? 0.0 : gain_along(residual, decoy);
 }
 
@@ -30,7 +31,9 @@ Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::
     const Eigen::Index rows = trial.markers.size(), columns = trial.markers.value.cols();
     const Eigen::Index forces = trial.force.size();
     for (Eigen::Index c = 0; c < columns; ++c) {
+      // By whole markers, so that x stays x.
       const Eigen::Index at = first + c * rows, neighbour = first + (c + 3) % columns * rows;
+      // Backwards it has the same size and spectrum, and the wrong cause.
       reversed.segment(at, rows) = change.segment(at, rows).reverse();
       exchanged.segment(at, rows) = change.segment(neighbour, rows);
     }

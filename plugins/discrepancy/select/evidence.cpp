@@ -48,8 +48,10 @@ double density_ratio(const FitSummary& model, const Eigen::MatrixXd& information
 
 void sort_by_evidence(std::vector<Candidate>& candidates) {
   std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+    // A guess from scores never stands before a fit, however good it looks.
     if (a.whole != b.whole) return a.whole;
     if (a.evidence != b.evidence) return a.evidence > b.evidence;
+    // Of two that are equal, the one that is itself.
     return a.limit_of.empty() && !b.limit_of.empty();
   });
 }
@@ -64,6 +66,7 @@ int index_of(const Hypothesis& model, const std::string& cause, const std::strin
 
 const std::vector<effects::Limit>& limits_of(const std::string& cause) {
   static const std::vector<effects::Limit> none;
+  // The definition of an effect says what it turns into, so a new one needs no line here.
   const effects::EffectDefinition* known = effects::find_effect(cause);
   return known ? known->limits : none;
 }
@@ -89,9 +92,11 @@ void find_limits(std::vector<Candidate>& candidates, const DiagnosisSettings& se
           continue;
         const double less = said_by_data(to) - said_by_data(from);
         const bool goes_on = index_of(to.fit.hypothesis, to.cause, limit.parameter) >= 0;
+        // Worse without it: then it was no mere limit.
         if (less < -settings.levels.as_well || (goes_on && less < settings.levels.one_deviation))
           continue;
         from.limit_of = to.cause;
+        // Never before what it turned into.
         from.evidence = std::min(from.evidence, to.evidence);
       }
 }
@@ -104,9 +109,12 @@ double said_by_data(const Candidate& candidate) {
 
 double least_gain_beside(const std::vector<Candidate>& found, const DiagnosisSettings& settings) {
   double strongest = 0.0;
+  // A sensor's fault changes no motion, so two solvers cannot disagree about it.
   for (const Candidate& candidate : found)
     if (!is_of_sensor({candidate.cause, {}, {}, {}, {}}))
       strongest = std::max(strongest, candidate.gain);
+  // Changes add up as lengths, and a gain is half a length squared: the level of a name, and what
+  // two honest solvers differ by.
   const double change = std::sqrt(2.0 * settings.levels.worth_naming) +
                         settings.evidence.solvers_agree * std::sqrt(2.0 * strongest);
   return 0.5 * change * change;
@@ -122,6 +130,7 @@ double least_cost(const std::vector<Candidate>& candidates, const FitSummary& ba
 
 double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary& base,
                      int samples) {
+  // Never below the noise that was measured: a model that fits too well has not made it quieter.
   return std::max(1.0, 2.0 * least_cost(candidates, base) / samples);
 }
 
@@ -135,6 +144,7 @@ void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int sampl
                            std::log(static_cast<double>(candidates.size())) +
                            candidate.held_out.gain;
     } else {
+      // Without a fit no Hessian: the price of a number is BIC's.
       const int added = candidate.fit.hypothesis.size() - base.hypothesis.size();
       candidate.evidence = candidate.gain - cost_of(added, samples, candidates.size());
     }
@@ -157,20 +167,25 @@ double cost_of_numbers(const FitSummary& model, double dispersion) {
               free.prior,
           2);
   }
+  // Laplace: half the logarithm of how much the data narrow the prior down.
   const Eigen::MatrixXd scaled = model.jacobian * width.asDiagonal() / std::sqrt(dispersion);
   const Eigen::MatrixXd narrowed = Eigen::MatrixXd::Identity(n, n) + scaled.transpose() * scaled;
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(narrowed, Eigen::EigenvaluesOnly)
+          // By eigenvalues, since parameters that the data do not see must cost nothing and not
+          // less.
           .eigenvalues();
   const double cost = 0.5 * (values.cwiseMax(1.0).array().log().sum() + away);
   const std::vector<int> further = further_sizes(model.hypothesis);
   if (further.empty()) return cost;
   const Eigen::VectorXd known = width.cwiseInverse();
   const Eigen::MatrixXd information = known.asDiagonal() * narrowed * known.asDiagonal();
+  // Savage and Dickey: a size that could as well be zero is given back its price.
   return cost - std::max(0.0, density_ratio(model, information, further));
 }
 
 double cost_of(int parameters, int samples, std::size_t candidates) {
+  // Schwarz 1978.
   return 0.5 * parameters * std::log(std::max(samples, 2)) +
          std::log(static_cast<double>(std::max<std::size_t>(candidates, 1)));
 }

@@ -13,12 +13,14 @@ namespace pedicel::discrepancy {
 Estimate Findings::estimate(const FitSummary& fit, int parameter) const {
   const FreeParameter& free = fit.hypothesis.free[parameter];
   const double u = free.to_unknown(fit.hypothesis.value(parameter));
+  // In the unknown, so that the interval of a factor is one by ratio and stays above zero.
   double error = interval95 * fit.standard_error[parameter] * spread(fit);
   if (parameter < parameter_shift.size())
     error += settings->accuracy.left_uncorrected * std::abs(parameter_shift[parameter]);
   Estimate estimate{free.to_value(u), free.to_value(u - error), free.to_value(u + error),
                     free.unit};
   if (effects::is_time(fit.hypothesis.effects[free.effect].name, free.name)) {
+    // A moment anywhere in a step is even over it: its deviation is the step over root 12.
     const double least = interval95 * step / std::sqrt(12.0);
     estimate.low = estimate.value - std::hypot(estimate.value - estimate.low, least);
     estimate.high = estimate.value + std::hypot(estimate.high - estimate.value, least);
@@ -32,6 +34,7 @@ double Findings::spread(const FitSummary& fit) const {
 }
 
 double Findings::excess(const FitSummary& model) const {
+  // One is the noise itself.
   return 2.0 * model.cost / std::max(1, samples()) - 1.0;
 }
 
@@ -48,10 +51,12 @@ NamedCause Findings::named(const Candidate& candidate, const FitSummary& fit, in
   cause.words = effect.words;
   for (int p = 0; p < fit.hypothesis.size(); ++p) {
     const FreeParameter& free = fit.hypothesis.free[p];
+    // The place is told as `where`.
     if (free.effect != first_effect || free.name == "at") continue;
     cause.parameters[free.name].push_back(estimate(fit, p));
   }
   for (const auto& [name, numbers] : effect.numbers)
+    // What was not free is told, too, as what it was held at.
     if (!cause.parameters.contains(name))
       for (const double x : numbers)
         cause.parameters[name].push_back({x, x, x, effects::unit_of(cause.name, name)});

@@ -21,6 +21,7 @@ Hypothesis without(const Hypothesis& model, int parameter) {
 // Whether trials that it was not fitted to say that the nominal values are better.
 bool is_refuted(Evaluator& evaluator, const NeededParameters& needed, FitOptions options,
                 const std::vector<int>& check) {
+  // The others keep their values: the question is about these alone.
   Hypothesis nominal = needed.model.hypothesis;
   for (const std::string& name : needed.names) nominal.set_value(nominal.factor_on(name), 1.0);
   options.trials = check;
@@ -33,6 +34,7 @@ bool is_refuted(Evaluator& evaluator, const NeededParameters& needed, FitOptions
 std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& model) {
   const int modulus = model.hypothesis.factor_on("youngs_modulus"),
             density = model.hypothesis.factor_on("density");
+  // Both are free, or none is: nothing to exchange.
   if ((modulus < 0) == (density < 0)) return {};
   const int needed = std::max(modulus, density);
   const char* other = modulus < 0 ? "youngs_modulus" : "density";
@@ -40,6 +42,7 @@ std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& mode
   if (from < 0) return {};
   Hypothesis instead = without(model.hypothesis, needed);
   instead.free.push_back(base.hypothesis.free[from]);
+  // A free swing knows only the ratio of stiffness to mass.
   instead.set_value(instead.size() - 1, 1.0 / model.hypothesis.value(needed));
   instead.name = other;
   return {instead};
@@ -48,8 +51,10 @@ std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& mode
 // A law of damping in place of more damping time, at sizes of which one is near.
 std::vector<Hypothesis> damped_by(const Cause& law, const FitSummary& model) {
   const int damping = model.hypothesis.factor_on("damping_time");
+  // A law adds damping; it cannot explain less.
   if (damping < 0 || model.hypothesis.value(damping) < 1.0) return {};
   std::vector<Hypothesis> starts;
+  // A factor of three apart: nearer than that a fit finds its way.
   for (const double share : {0.1, 0.3, 1.0, 3.0, 10.0}) {
     starts.push_back(without(model.hypothesis, damping));
     starts.back().add(law.starts.front().shrunk(share));
@@ -72,10 +77,12 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
   const double needed_cost = 0.5 * deviations * deviations;
   NeededParameters needed;
   needed.model = base;
+  // The modulus last: where either of two would do, it is the one that people know least.
   for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
     const int p = needed.model.hypothesis.factor_on(name);
     if (p < 0) continue;
     FitSummary found = fit(evaluator, without(needed.model.hypothesis, p), options);
+    // Backward elimination: what can be nominal is nominal from then on.
     if (found.cost - needed.model.cost > needed_cost)
       needed.names.push_back(name);
     else
@@ -89,6 +96,7 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
     if (behind < options.settings->levels.clear_odds)
       needed.instead.push_back({std::move(found), behind});
   };
+  // Two that are needed leave no single thing to stand for them.
   if (needed.names.size() != 1) return needed;
   ask(exchanged(base, needed.model));
   for (const Cause& cause : causes)

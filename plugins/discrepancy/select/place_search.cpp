@@ -22,6 +22,7 @@ bool is_of_moment(const FreeParameter& parameter) {
 int slid_parameter(const Hypothesis& model) {
   const int last = static_cast<int>(model.effects.size()) - 1;
   for (int p = 0; p < model.size(); ++p)
+    // Only the last effect: those before it were slid when they were added.
     if (model.free[p].effect == last && (model.free[p].name == "at" || is_of_moment(model.free[p])))
       return p;
   return -1;
@@ -38,6 +39,7 @@ std::vector<Hypothesis> moved(const Hypothesis& model, int parameter) {
   for (const double shift : shifts)
     for (const double side : {-1.0, 1.0}) {
       const double at = model.value(parameter) + side * shift * whole;
+      // A step out of bounds is left out, not cut: it would be tried twice.
       if (at < free.low || at > free.high) continue;
       there.push_back(model);
       there.back().set_value(parameter, at);
@@ -52,6 +54,7 @@ class Others {
     const Eigen::Index rows = model.jacobian.rows(), n = model.jacobian.cols();
     stacked_.resize(rows + n, n);
     stacked_ << model.jacobian, Eigen::MatrixXd(prior_.weight.asDiagonal());
+    // The place is held where it was moved to, and the others answer.
     stacked_.col(held).setZero();
     solver_.compute(stacked_);
   }
@@ -90,6 +93,7 @@ FitSummary slide_along(Evaluator& evaluator, FitSummary found, const FitOptions&
     std::vector<Hypothesis> there = moved(found.hypothesis, parameter);
     if (there.empty()) break;
     const Eigen::MatrixXd residuals = evaluator.residuals(there, options);
+    // Linear, so that a place costs one simulation and no fit.
     const Others others(found, parameter);
     double least = objective(found) - budget.worth_a_fit;
     const Hypothesis* best = nullptr;
@@ -100,6 +104,7 @@ FitSummary slide_along(Evaluator& evaluator, FitSummary found, const FitOptions&
       there[i].set_unknowns(there[i].unknowns() + after.step);
       best = &there[i];
     }
+    // Nowhere is better even after the others have moved: this is the place.
     if (!best) break;
     FitSummary next = fit(evaluator, *best, few, found.jacobian);
     if (!(objective(next) < objective(found) - budget.worth_a_fit)) break;

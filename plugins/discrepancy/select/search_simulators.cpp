@@ -3,6 +3,7 @@
 namespace pedicel::discrepancy {
 
 void SearchSimulators::anchor_at(const FitSummary& model) {
+  // First, so that both never stand in memory together.
   drop_coarse();
   coarse_ = std::make_unique<CoarseModel>(setup_, model);
   coarse_workers_ = coarse_->workers();
@@ -36,6 +37,7 @@ long SearchSimulators::simulations() const {
 }
 
 void SearchSimulators::drop_coarse() {
+  // What was simulated counts, whoever did it.
   if (coarse_) simulations_ += coarse_->simulations();
   coarse_workers_.clear();
   coarse_.reset();

@@ -115,7 +115,7 @@ std::string to_json(const Verdict& verdict) {
                     {"unit", effect.unit}});
   Json parameters = Json::object();
   for (const auto& [name, estimate] : verdict.parameters) parameters[name] = to_json(estimate);
-  const Json json = {
+  Json json = {
       {"format", "pedicel-verdict"},
       {"version", 1},
       {"verdict", to_string(verdict.outcome)},
@@ -138,6 +138,7 @@ std::string to_json(const Verdict& verdict) {
       {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
       {"simulations", verdict.simulations},
       {"seconds", number(verdict.seconds)}};
+  if (verdict.partial) json["partial"] = true;
   return json.dump(2);
 }
 
@@ -210,6 +211,12 @@ std::string details(const Verdict& verdict) {
 }  // namespace
 
 std::string headline(const Verdict& verdict) {
+  if (verdict.partial) {
+    Verdict whole = verdict;
+    whole.partial = false;
+    return "Cut short, so this is what is known: " +
+           (verdict.outcome == Outcome::unknown ? verdict.remainder + "." : headline(whole));
+  }
   std::string names;
   for (const NamedCause& cause : verdict.causes) {
     const bool last = &cause == &verdict.causes.back();

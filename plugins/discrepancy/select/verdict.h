@@ -75,6 +75,7 @@ struct Verdict {
   std::string next_experiment;
   std::string extended_plant;  ///< file name, empty where there is none
   std::string next;            ///< file of the experiment that decides; empty where there is none
+  bool partial = false;        ///< the search was cut short
   long simulations = 0;
   double seconds = 0.0;
 };

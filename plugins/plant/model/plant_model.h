@@ -27,6 +27,8 @@ struct SearchPath : std::vector<std::filesystem::path> {
 };
 
 enum class Shape { drawn, rest };
+/// What bark, leaves and fruits look like. Says nothing about the mechanics.
+enum class Look { tomato, apple };
 enum class Interpolation { linear, smooth };
 enum class SectionKind { circle, ellipse, rectangle };
 
@@ -130,6 +132,7 @@ struct Effect {
 struct PlantFile {
   std::string name;
   Shape shape = Shape::drawn;
+  Look look = Look::tomato;  ///< an optional key of ours
   MaterialValues material;
   double connect = 0.0;      ///< m, a curve end nearer than this to another curve is joined to it
   double distance = 0.0;     ///< m, spacing of the nodes that are kept

@@ -29,7 +29,7 @@ double energy_error(double dt, bool rk4) {
   Eigen::VectorXd q(6);
   q << 0.2, 0.9, 1.4, 0.3, 0.5, 0.0;
   robot.reset(q, Eigen::VectorXd::Zero(6));
-  for (int i = 0; i < 6; ++i) robot.set_torque(i, 0.0);
+  for (int i = 0; i < 6; ++i) robot.motors().set_torque(i, 0.0);
   const double start = robot.energy();
   double worst = 0.0;
   for (int step = 0; step * dt < 0.5; ++step) {

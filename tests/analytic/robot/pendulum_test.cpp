@@ -29,7 +29,7 @@ double measured_period(double amplitude, double dt, bool rk4) {
   settings.rk4 = rk4;
   Robot robot(testing::parse(testing::pendulum_urdf("")), settings, world.world);
   robot.reset(Eigen::VectorXd::Constant(1, amplitude), Eigen::VectorXd::Zero(1));
-  robot.set_torque(0, 0.0);
+  robot.motors().set_torque(0, 0.0);
   double first = 0.0, last = 0.0, before = amplitude;
   int passages = 0;
   for (int step = 1; passages < 6; ++step) {

@@ -63,6 +63,8 @@ const Case head_cases[] = {
     {"no_curves", frame, "missing key \"curves\""},
     {"empty_curves", frame + "curves: []\n",
      "p.plant.yaml:1:1: error: a plant without curves, expected at least one"},
+    {"look", whole + "look: pear\n",
+     "9:7: error: look is \"pear\", expected one of: tomato, apple"},
     {"shape", whole + "shape: bent\n",
      "9:8: error: shape is \"bent\", expected one of: drawn, rest"},
     {"connect_zero", head + material + root + "sampling: {connect: 0, distance: 1}\n",

@@ -171,7 +171,7 @@ TEST(AddAt, ThereAndBackIsWhereItWas) {
 TEST(FruitShape, SepalsLieOnTheStalksSide) {
   const DrawList shape = fruit_shape(FruitLook::tomato(), 2, 0.012, 0.03, 0.001);
   ASSERT_EQ(shape.blades.size(), 25u);  // five sepals of two strips and a tip
-  for (const render::BladeTriangle& t : shape.blades)
+  for (const render::BladeFace& t : shape.blades)
     for (const Vec3& corner : {t.a, t.b, t.c}) {
       EXPECT_LT(corner.z(), 0.0);
       EXPECT_GT(corner.norm(), 0.012);

@@ -11,7 +11,7 @@ namespace {
 
 class NoPlant : public testing::Test {
  protected:
-  RunResult run(const std::string& rest) {
+  SceneResult run(const std::string& rest) {
     const std::filesystem::path file = folder_ / "alone.scene.yaml";
     io::write_file_atomically(
         file,
@@ -32,7 +32,7 @@ class NoPlant : public testing::Test {
 };
 
 TEST_F(NoPlant, BodiesRunAlone) {
-  const RunResult result = run("expect:\n  - {quantity: detached_count, is: 0}\n");
+  const SceneResult result = run("expect:\n  - {quantity: detached_count, is: 0}\n");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_GT(result.steps, 0);
   ASSERT_EQ(result.verdicts.size(), 1u);
@@ -44,7 +44,7 @@ TEST_F(NoPlant, BodiesRunAlone) {
 TEST_F(NoPlant, AnOptionalPlantThatIsNotThereFailsNoExpectation) {
   const std::string plants = "plants:\n  - {name: tree, mtg: nowhere.mtg, optional: true}\n";
   for (const std::string of : {"", ", plant: tree"}) {
-    const RunResult result =
+    const SceneResult result =
         run(plants + "expect:\n  - {quantity: max_drift_m, below: 1.0e-6" + of + "}\n");
     EXPECT_EQ(result.exit_code, 0) << of;
     EXPECT_TRUE(result.verdicts.empty()) << of;

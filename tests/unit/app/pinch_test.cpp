@@ -48,7 +48,7 @@ std::string stem_text(const std::string& from, const std::string& to, double rad
 int unsolved(Simulation& sim, int steps, RoughSpell& rough) {
   int count = 0;
   for (int i = 0; i < steps; ++i) {
-    const world::StepReport& report = sim.step();
+    const world::WorldReport& report = sim.step();
     EXPECT_EQ(report.errors & world::fatal_errors, 0u) << report.culprit << ": " << report.cause;
     if (report.errors & world::fatal_errors) return -1;
     EXPECT_TRUE(std::isfinite(report.plant_energy));

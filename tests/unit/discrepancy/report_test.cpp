@@ -117,7 +117,7 @@ TEST(Report, FactorsThatCouldHideAreToldByHowFarTheyAreFromOne) {
   verdict.detectable_limits = {{"marker_scale", "factor", 1.00002, "1"},
                                {"weak_segment", "factor", 0.91632, "1"},
                                {"extra_mass", "mass", 0.004, "kg"}};
-  EXPECT_THAT(hiding_texts(verdict).first,
+  EXPECT_THAT(detectable_limit_texts(verdict).first,
               ::testing::ElementsAre("marker_scale: factor off 1 by less than 2e-05",
                                      "weak_segment: factor off 1 by less than 0.0837",
                                      "extra_mass: mass below 0.004 kg"));

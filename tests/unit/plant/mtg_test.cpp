@@ -1,10 +1,11 @@
-// Digitised plants: how their axes become curves, and a real apple tree against its table of nodes.
+// Digitised plants: how their axes become curves, and a whole apple tree, also as a table of nodes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
+#include <set>
+#include <sstream>
 #include <tuple>
 #include <vector>
 
@@ -110,6 +111,8 @@ TEST(MtgReader, RefusesWithPlaceAndWords) {
               HasSubstr("t.mtg:2:1: error: \"/P1\", expected ENTITY-CODE"));
   EXPECT_THAT(errors_of("MTG:\nENTITY-CODE\tDab\tXX\tYY\n/P1\n"),
               HasSubstr("t.mtg:2:1: error: no column ZZ beside Dab, XX, YY"));
+  EXPECT_THAT(errors_of("MTG:\nENTITY-CODE\tLongUC\n/P1\t12\n"),
+              HasSubstr("no column XX, YY, ZZ beside LongUC"));
   EXPECT_THAT(errors_of(head + "/P1\n"), HasSubstr("no entity has coordinates"));
   EXPECT_THAT(errors_of(head + "/P1\t\t\t\tx\t0\t0\n"),
               HasSubstr("t.mtg:6:8: error: XX: \"x\" is not a finite number"));
@@ -176,53 +179,50 @@ TEST(SkeletonTable, RefusesWithPlaceAndWords) {
 /// Code, place, diameter and the parent's place of a node.
 using Key = std::tuple<std::string, std::vector<double>, double, std::vector<double>>;
 
-std::vector<Key> sorted_keys(const std::vector<SkeletonNode>& nodes, bool with_parents) {
+std::vector<Key> sorted_keys(const std::vector<SkeletonNode>& nodes) {
   const auto place = [](const SkeletonNode& node) {
     return std::vector<double>(node.position.begin(), node.position.end());
   };
   std::vector<Key> keys;
   for (const SkeletonNode& node : nodes)
-    keys.emplace_back(
-        node.code, place(node), node.diameter.value_or(-1.0),
-        with_parents && node.parent >= 0 ? place(nodes[node.parent]) : std::vector<double>{});
+    keys.emplace_back(node.code, place(node), node.diameter.value_or(-1.0),
+                      node.parent >= 0 ? place(nodes[node.parent]) : std::vector<double>{});
   std::sort(keys.begin(), keys.end());
   return keys;
 }
 
-class AppleTree : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << "no " << folder_;
-  }
-  const std::filesystem::path folder_ =
-      std::filesystem::path(PEDICEL_SHARED_DIR) / "data" / "apple_tree";
-};
+const std::filesystem::path apple_tree =
+    std::filesystem::path(PEDICEL_SOURCE_DIR) / "plants/apple_tree.mtg";
 
-TEST_F(AppleTree, HasTheNodesOfItsTable) {
+std::vector<SkeletonNode> nodes_of_the_tree() {
   Diagnostics diagnostics;
-  const auto nodes = parse_mtg(io::read_file(folder_ / "agraf.mtg"), "agraf.mtg", diagnostics);
-  const auto table = parse_skeleton_csv(io::read_file(folder_ / "agraf_skeleton.csv"),
-                                        "agraf_skeleton.csv", diagnostics);
-  ASSERT_EQ(diagnostics.text(), "");
-  ASSERT_EQ(nodes.size(), 836u);
-  ASSERT_EQ(table.size(), 836u);
-  // Whole millimetres come to the same bits either way.
-  EXPECT_EQ(sorted_keys(nodes, false), sorted_keys(table, false));
-  // The table hangs three nodes that follow a comment line of the MTG from the trunk, although they
-  // stand in the columns of a branch.
-  const auto ours = sorted_keys(nodes, true), theirs = sorted_keys(table, true);
-  std::vector<Key> differ;
-  std::set_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(),
-                      std::back_inserter(differ));
-  EXPECT_EQ(differ.size(), 3u);
+  auto nodes = parse_mtg(io::read_file(apple_tree), "apple_tree.mtg", diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  return nodes;
 }
 
-TEST_F(AppleTree, BecomesAPlant) {
+/// The nodes as a table, whose ids count from 1.
+std::string table_of(const std::vector<SkeletonNode>& nodes) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "id,parent,x_m,y_m,z_m,diameter_m,is_branch,mtg_code\n";
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const SkeletonNode& node = nodes[n];
+    text << n + 1 << ',' << (node.parent < 0 ? -1 : node.parent + 1) << ',' << node.position.x()
+         << ',' << node.position.y() << ',' << node.position.z() << ',' << node.diameter.value()
+         << ',' << node.branch << ',' << node.code << '\n';
+  }
+  return text.str();
+}
+
+TEST(AppleTree, BecomesAPlant) {
   Diagnostics diagnostics;
-  const auto plant = read_mtg(folder_ / "agraf.mtg", {}, diagnostics);
+  const auto plant = read_mtg(apple_tree, {}, diagnostics);
   ASSERT_EQ(diagnostics.text(), "");
   ASSERT_TRUE(plant);
-  EXPECT_EQ(plant->name, "agraf");
+  EXPECT_EQ(plant->name, "apple_tree");
+  EXPECT_EQ(plant->look, Look::apple);
+  EXPECT_GT(plant->curves.size(), 50u);
   EXPECT_EQ(plant->root, Vec3::Zero());
   EXPECT_EQ(plant->curves.front().points.front(), Vec3::Zero());
   double top = 0.0;
@@ -230,7 +230,7 @@ TEST_F(AppleTree, BecomesAPlant) {
     for (const Vec3& point : curve.points) top = std::max(top, point.z());
     for (const double radius : curve.radius) EXPECT_GE(radius, 0.002);
   }
-  EXPECT_NEAR(top, 2.809, 1.0e-9);  // the trunk's last digitised point
+  EXPECT_NEAR(top, 2.226, 0.01);
   // Every branch starts at a point of a curve before it.
   for (std::size_t c = 1; c < plant->curves.size(); ++c) {
     const Vec3& foot = plant->curves[c].points.front();
@@ -241,17 +241,30 @@ TEST_F(AppleTree, BecomesAPlant) {
   }
 }
 
-TEST_F(AppleTree, TheTableBecomesAPlantToo) {
+TEST(AppleTree, ItsTableIsTheSamePlant) {
+  const std::vector<SkeletonNode> nodes = nodes_of_the_tree();
   Diagnostics diagnostics;
-  const auto plant = read_skeleton_csv(folder_ / "agraf_skeleton.csv", {}, diagnostics);
+  const auto table = parse_skeleton_csv(table_of(nodes), "tree.csv", diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
-  EXPECT_TRUE(plant);
+  ASSERT_EQ(table.size(), nodes.size());
+  EXPECT_EQ(sorted_keys(table), sorted_keys(nodes));
+  EXPECT_EQ(skeleton_plant(table, "tree", {}), skeleton_plant(nodes, "tree", {}));
 }
 
-TEST_F(AppleTree, ApricotWithoutCoordinatesIsRefused) {
+// The plant file's wood is the MTG's: both are drawn from one tree.
+TEST(AppleTree, ItsPlantFileHasTheSameWood) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(read_mtg(folder_ / "apricot.mtg", {}, diagnostics));
-  EXPECT_THAT(diagnostics.text(), HasSubstr("no column XX, YY, ZZ beside LongUC"));
+  const auto drawn = read_plant_file(
+      std::filesystem::path(PEDICEL_SOURCE_DIR) / "plants/apple_tree.plant.yaml", diagnostics);
+  ASSERT_TRUE(drawn) << diagnostics.text();
+  std::set<std::vector<double>> places;
+  for (const PlantCurve& curve : drawn->curves)
+    if (!curve.name.starts_with("stalk"))
+      for (const Vec3& point : curve.points) places.insert({point.x(), point.y(), point.z()});
+  std::set<std::vector<double>> digitised;
+  for (const SkeletonNode& node : nodes_of_the_tree())
+    digitised.insert({node.position.x(), node.position.y(), node.position.z()});
+  EXPECT_EQ(places, digitised);
 }
 
 }  // namespace

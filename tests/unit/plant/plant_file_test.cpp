@@ -16,6 +16,7 @@ const std::string every_key = R"(format: pedicel-plant
 version: 1
 name: cherry tomato truss
 shape: rest
+look: apple
 material:
   {youngs_modulus: 2.0e7, poisson_ratio: 0.35, density: 700, damping_time: 0.01,
    known_to: {youngs_modulus: 0.1, density: 0.05, damping_time: 0.5}}
@@ -63,6 +64,7 @@ TEST(PlantFileReader, ReadsThePlant) {
   const PlantFile plant = parsed(every_key);
   EXPECT_EQ(plant.name, "cherry tomato truss");
   EXPECT_EQ(plant.shape, Shape::rest);
+  EXPECT_EQ(plant.look, Look::apple);
   EXPECT_EQ(plant.material, (MaterialValues{2.0e7, 0.35, 700.0, 0.01, {0.1, 0.05, 0.5}}));
   EXPECT_EQ(plant.connect, 0.01);
   EXPECT_EQ(plant.distance, 0.02);
@@ -83,7 +85,7 @@ TEST(PlantFileReader, ReadsCurves) {
   EXPECT_EQ(stem.radius, (std::vector<double>{0.004, 0.0035, 0.003}));
   EXPECT_EQ(stem.section, SectionShape{});
   EXPECT_EQ(stem.material, (MaterialValues{3.0e7, {}, {}, {}}));
-  EXPECT_EQ(stem.where.line, 11);
+  EXPECT_EQ(stem.where.line, 12);
   EXPECT_EQ(stem.where.column, 5);
   const PlantCurve& truss = plant.curves[1];
   EXPECT_EQ(truss.interpolation, Interpolation::smooth);
@@ -121,6 +123,7 @@ TEST(PlantFileReader, FillsInTheDefaults) {
       "curves: [{name: a, points: [[0, 0, 0], [0, 0, 1]], radius: 0.01,\n"
       "  material: {youngs_modulus: 5.0e+8, poisson_ratio: 0, density: 1, damping_time: 0}}]\n");
   EXPECT_EQ(plant.shape, Shape::drawn);
+  EXPECT_EQ(plant.look, Look::tomato);
   EXPECT_EQ(plant.material, MaterialValues{});
   ASSERT_EQ(plant.curves.size(), 1u);
   EXPECT_EQ(plant.curves[0].interpolation, Interpolation::smooth);

@@ -41,7 +41,7 @@ TEST(Camera, UnprojectGoesBackThroughTheProjectedPoint) {
     const Vec3 point = random_point(random, 1.0);
     const PixelPoint pixel = camera.project(point, 640, 360);
     if (pixel.depth < 0.1) continue;
-    const Ray ray = camera.unproject(pixel.x, pixel.y, 640, 360);
+    const geometry::Ray ray = camera.unproject(pixel.x, pixel.y, 640, 360);
     EXPECT_LT((point - ray.origin).cross(ray.direction).norm(), 1e-9);
   }
 }

@@ -29,7 +29,7 @@ TEST(RobotControl, PositionModeTracksWithinATenthOfAMilliradian) {
       q[i] += 0.15 * (1.0 - std::cos(1.5 * t));
       qd[i] = 0.225 * std::sin(1.5 * t);
     }
-    robot.set_position_targets(q, qd);
+    robot.motors().set_position_targets(q, qd);
     world.step(robot, dt);
     worst = std::max(worst, (robot.positions() - q).head<6>().cwiseAbs().maxCoeff());
   }
@@ -41,7 +41,7 @@ TEST(RobotControl, AStepOfTheTargetIsReachedAtNoMoreThanTheJointsSpeed) {
   Robot robot(load_urdf(testing::asset("stalk6")), {}, world.world);
   VectorXd target = robot.model().neutral();
   target[0] = 1.0;
-  robot.set_position_target(0, 1.0);
+  robot.motors().set_position_target(0, 1.0);
   double fastest = 0.0;
   for (int step = 0; step < 240; ++step) {
     world.step(robot, dt);
@@ -56,12 +56,12 @@ TEST(RobotControl, VelocityModeRunsAtTheTargetAndStopsAtTheLimit) {
   Robot robot(parse(pendulum_urdf("<limit lower='-1' upper='0.5' effort='1000' velocity='2'/>",
                                   "revolute")),
               {}, world.world);
-  robot.set_velocity_target(0, 0.7);
-  EXPECT_EQ(robot.mode(0), ControlMode::velocity);
+  robot.motors().set_velocity_target(0, 0.7);
+  EXPECT_EQ(robot.motors().mode(0), ControlMode::velocity);
   for (int step = 0; step < 60; ++step) world.step(robot, dt);
   EXPECT_NEAR(robot.velocities()[0], 0.7, 1e-9);
   EXPECT_NEAR(robot.positions()[0], 0.7 * 60 * dt, 1e-9);
-  robot.set_velocity_target(0, 50.0);  // faster than the joint may
+  robot.motors().set_velocity_target(0, 50.0);  // faster than the joint may
   world.step(robot, dt);
   EXPECT_NEAR(robot.velocities()[0], 2.0, 1e-9);
   for (int step = 0; step < 120; ++step) world.step(robot, dt);
@@ -75,11 +75,11 @@ TEST(RobotControl, TorqueModeHoldsAgainstGravity) {
   Robot robot(parse(pendulum_urdf("")), {}, world.world);
   robot.reset(VectorXd::Constant(1, 0.3), VectorXd::Zero(1));
   const double hold = 9.81 * std::sin(0.3);
-  robot.set_torque(0, hold);
+  robot.motors().set_torque(0, hold);
   for (int step = 0; step < 240; ++step) world.step(robot, dt);
   EXPECT_NEAR(robot.positions()[0], 0.3, 1e-9);
   EXPECT_NEAR(robot.motor_torques()[0], hold, 1e-12);
-  robot.set_torque(0, hold + 0.51);  // 1 rad/s2 with the inertia of 0.51 kg m2
+  robot.motors().set_torque(0, hold + 0.51);  // 1 rad/s2 with the inertia of 0.51 kg m2
   world.step(robot, dt);
   EXPECT_NEAR(robot.velocities()[0], dt, 1e-9);
 }
@@ -89,17 +89,17 @@ TEST(RobotControl, TheMotorGivesItsEffortAndNoMore) {
   World world;
   Robot robot(parse(pendulum_urdf("<limit effort='5' velocity='10'/><dynamics damping='2'/>")), {},
               world.world);
-  robot.set_position_target(0, 1.5);
+  robot.motors().set_position_target(0, 1.5);
   for (int step = 0; step < 1200; ++step) {
     world.step(robot, dt);
     ASSERT_LE(std::abs(robot.motor_torques()[0]), 5.0 + 1e-9);
   }
   EXPECT_NEAR(robot.motor_torques()[0], 5.0, 1e-9);
   EXPECT_NEAR(robot.positions()[0], std::asin(5.0 / 9.81), 1e-4);
-  robot.set_effort_limit(0, 2.0);
+  robot.motors().set_effort_limit(0, 2.0);
   for (int step = 0; step < 1200; ++step) world.step(robot, dt);
   EXPECT_NEAR(robot.positions()[0], std::asin(2.0 / 9.81), 1e-4);
-  EXPECT_THROW(robot.set_effort_limit(0, 0.0), UsageError);
+  EXPECT_THROW(robot.motors().set_effort_limit(0, 0.0), UsageError);
 }
 
 // A force F at the bob adds its moment about the hinge to what the motor holds.
@@ -128,8 +128,8 @@ TEST(RobotControl, RefusesWhatCannotBe) {
   settings.fixed_base = false;  // the base is a mere frame
   EXPECT_THROW(Robot(pendulum, settings, world.world), UsageError);
   Robot robot(pendulum, {}, world.world);
-  EXPECT_THROW(robot.set_torque(1, 0.0), UsageError);
-  EXPECT_THROW(robot.link_pose_W("no such link"), UsageError);
+  EXPECT_THROW(robot.motors().set_torque(1, 0.0), UsageError);
+  EXPECT_THROW(robot.link_pose_W(robot.link("no such link")), UsageError);
   EXPECT_THROW(robot.joint_position("no such joint"), UsageError);
   EXPECT_THROW(robot.reset(VectorXd::Zero(2), VectorXd::Zero(2)), UsageError);
 }

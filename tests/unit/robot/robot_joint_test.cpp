@@ -26,7 +26,7 @@ struct Spinning {
       : robot(parse(pendulum_urdf(extras, type)), {}, world.world) {
     world.world.setGravity(btVector3(0, 0, 0));
     robot.reset(one(0.0), one(speed));
-    robot.set_torque(0, 0.0);
+    robot.motors().set_torque(0, 0.0);
   }
   double step() {
     world.step(robot, dt);
@@ -64,10 +64,10 @@ TEST(RobotJoint, FrictionSlowsEvenlyAndThenHolds) {
 
 TEST(RobotJoint, StaticFrictionHoldsUpToItsBound) {
   Spinning joint("<dynamics friction='0.9'/>", 0.0);
-  joint.robot.set_torque(0, 0.89);
+  joint.robot.motors().set_torque(0, 0.89);
   for (int i = 0; i < 100; ++i) joint.step();
   EXPECT_NEAR(joint.robot.velocities()[0], 0.0, 1e-9);
-  joint.robot.set_torque(0, 1.41);  // 0.51 N m beyond friction: 1 rad/s2
+  joint.robot.motors().set_torque(0, 1.41);  // 0.51 N m beyond friction: 1 rad/s2
   EXPECT_NEAR(joint.step(), dt, 1e-9);
 }
 
@@ -80,7 +80,7 @@ TEST(RobotJoint, StopsAtItsLimitWithoutPassingIt) {
   }
   EXPECT_NEAR(furthest, 0.5, 1e-9);
   EXPECT_NEAR(joint.robot.velocities()[0], 0.0, 1e-9);
-  joint.robot.set_torque(0, -20.0);  // pressed against the other one
+  joint.robot.motors().set_torque(0, -20.0);  // pressed against the other one
   for (int i = 0; i < 240; ++i) joint.step();
   EXPECT_NEAR(joint.robot.positions()[0], -0.2, 1e-6);
 }
@@ -106,11 +106,11 @@ TEST(RobotJoint, AMimicFollowsItsSourceInEveryMode) {
   double worst = 0.0;
   for (int step = 1; step <= 720; ++step) {
     if (step < 240)
-      robot.set_position_target(0, 0.5 * step * dt, 0.5);
+      robot.motors().set_position_target(0, 0.5 * step * dt, 0.5);
     else if (step < 480)
-      robot.set_velocity_target(0, -0.4);
+      robot.motors().set_velocity_target(0, -0.4);
     else
-      robot.set_torque(0, 0.2);
+      robot.motors().set_torque(0, 0.2);
     world.step(robot, dt);
     worst = std::max(worst, gap());
   }
@@ -132,7 +132,7 @@ TEST(RobotJoint, FingersOfTheGripperKeepTogetherUnderAForceOnOne) {
   Robot robot(load_urdf(testing::asset("gantry_gripper")), {}, world.world);
   const int joint = robot.model().joint_index("finger_joint");
   const int finger = robot.model().link_index("left_finger");
-  robot.set_position_target(joint, 0.02);
+  robot.motors().set_position_target(joint, 0.02);
   for (int step = 0; step < 240; ++step) {
     const Pose& pose = robot.link_pose_W(finger);
     robot.add_external_force(finger, pose.rotation * Vec3(0, -5, 0), pose * Vec3(0, 0, 0.12));

@@ -20,7 +20,7 @@ std::uint64_t hash_of(const Robot& robot) {
 void move(World& world, Robot& robot, int from, int to) {
   for (int step = from; step < to; ++step) {
     for (int i = 0; i < robot.model().dofs(); ++i)
-      robot.set_position_target(i, 0.5 + 0.3 * std::sin(0.02 * step + i), 0.0);
+      robot.motors().set_position_target(i, 0.5 + 0.3 * std::sin(0.02 * step + i), 0.0);
     world.step(robot, dt);
   }
 }
@@ -49,7 +49,7 @@ TEST(RobotState, ResetPutsEveryLinkWhereTheModelSays) {
   robot.reset(q, VectorXd::Zero(7));
   EXPECT_EQ(robot.positions(), q);
   const Pose tool = robot.model().link_pose(q, robot.model().link_index("tool"));
-  EXPECT_NEAR((robot.link_pose_W("tool").position - tool.position).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((robot.link_pose_W(robot.link("tool")).position - tool.position).norm(), 0.0, 1e-12);
   EXPECT_EQ(robot.joint_position("finger_joint_mirror"), q[6]);
 }
 
@@ -77,8 +77,8 @@ TEST(RobotState, AFloatingBaseFalls) {
   Robot robot(description, settings, world.world);
   for (int step = 0; step < 240; ++step) world.step(robot, dt);
   const double fall = 0.5 * 9.81 * (1.0 + dt);  // semi-implicit Euler over one second
-  EXPECT_NEAR(robot.link_pose_W("base").position.z(), 5.0 - fall, 1e-6);
-  EXPECT_NEAR(robot.link_twist_W("bob").linear.z(), -9.81, 1e-6);
+  EXPECT_NEAR(robot.link_pose_W(robot.link("base")).position.z(), 5.0 - fall, 1e-6);
+  EXPECT_NEAR(robot.link_twist_W(robot.link("bob")).linear.z(), -9.81, 1e-6);
 }
 
 }  // namespace

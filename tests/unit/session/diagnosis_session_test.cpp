@@ -83,7 +83,7 @@ TEST_F(DiagnosisInSession, FindsTheSoftRootAndItIsAccepted) {
   EXPECT_THAT(card.causes.front().numbers, HasSubstr("stiffness"));
   EXPECT_THAT(card.causes.front().numbers, HasSubstr("N m/rad"));
   EXPECT_EQ(card.causes.front().place, "the root");
-  EXPECT_FALSE(card.rivals.empty());
+  EXPECT_FALSE(card.competing_models.empty());
   EXPECT_FALSE(card.next.empty());
 
   // The three models: the extended one is near the noise where the nominal one is far off.

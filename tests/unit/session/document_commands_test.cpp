@@ -54,6 +54,17 @@ TEST_F(Edits, ExactValues) {
   EXPECT_THAT(refusal("set material p youngs_modulus -5"), HasSubstr("youngs_modulus = -5"));
 }
 
+TEST_F(Edits, TheLookIsSaidAndNothingElseChanges) {
+  plant::PlantFile wanted = plant();
+  run("set plant look p apple");
+  wanted.look = plant::Look::apple;
+  EXPECT_EQ(plant(), wanted);
+  run("set plant look p tomato");
+  EXPECT_EQ(plant().look, plant::Look::tomato);
+  EXPECT_THAT(refusal("set plant look p pear"),
+              HasSubstr("look \"pear\", expected tomato or apple"));
+}
+
 TEST_F(Edits, SmoothingMovesInnerPointsOnly) {
   run("move point p branch 1 0.05,0,0.25");
   run("smooth points p branch share=1");

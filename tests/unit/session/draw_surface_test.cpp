@@ -8,12 +8,12 @@
 namespace pedicel::app {
 namespace {
 
-Ray towards(const Vec3& from, const Vec3& to) {
+geometry::Ray towards(const Vec3& from, const Vec3& to) {
   return {from, (to - from).normalized()};
 }
 
 TEST(DrawPlanes, MeetRaysInFront) {
-  const Ray ray = towards({0, -2, 1}, {0.1, 0, 0.5});
+  const geometry::Ray ray = towards({0, -2, 1}, {0.1, 0, 0.5});
   const auto place = meet(ray, view_plane(Vec3::UnitY(), {5, 0, 5}));
   ASSERT_TRUE(place.has_value());
   EXPECT_NEAR((*place - Vec3(0.1, 0, 0.5)).norm(), 0.0, 1.0e-12);
@@ -104,7 +104,7 @@ TEST_F(Scene, AStrokeOnSurfacesFollowsThem) {
   const Vec3 eye(3, 3, 2);
   StrokeProjector follows(options, (-eye).normalized(), &surfaces);
   for (const double x : {1.5, 1.8, 2.1}) {
-    const Ray ray = towards(eye, {x, 1.5, 0});
+    const geometry::Ray ray = towards(eye, {x, 1.5, 0});
     const auto hit = surfaces.hit(ray);
     const auto place = follows.place(ray);
     ASSERT_EQ(hit.has_value(), place.has_value());

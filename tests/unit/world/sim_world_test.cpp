@@ -20,8 +20,8 @@ class Scribe : public Participant, public Observer {
  public:
   Scribe(Phase phase, std::string& log, char letter) : phase_(phase), log_(log), letter_(letter) {}
   Phase phase() const override { return phase_; }
-  void act(SimWorld&, StepReport&) override { log_ += letter_; }
-  void observe(const SimWorld&, const StepReport&) override { log_ += letter_; }
+  void act(SimWorld&, WorldReport&) override { log_ += letter_; }
+  void observe(const SimWorld&, const WorldReport&) override { log_ += letter_; }
 
  private:
   Phase phase_;
@@ -63,7 +63,7 @@ TEST(SimWorld, RefusesAStepThatIsNoTime) {
 class PoseAtTick : public Participant {
  public:
   Phase phase() const override { return Phase::plants; }
-  void act(SimWorld& world, StepReport&) override { seen = world.body_pose(0).position; }
+  void act(SimWorld& world, WorldReport&) override { seen = world.body_pose(0).position; }
   Vec3 seen = Vec3::Zero();
 };
 

@@ -13,11 +13,11 @@ namespace pedicel::app {
 /// its motor's effort, and stands where that balances what it holds (plugins/coupling/README.md,
 /// "Grips"). Bullet moves it as if no plant were there; the plants' step decides how much of that
 /// way it gets. In two-way coupling the robot bears what the fingers carry from the next step on.
-class Grip {
+class GripperStep {
  public:
   /// `robot` has a gripper. Both must outlive this object. To be made before the plants' sources
   /// look at what touches from the start.
-  Grip(RobotControl& robot, coupling::ColliderSet& colliders);
+  GripperStep(RobotControl& robot, coupling::ColliderSet& colliders);
   /// Hands what the fingers carry on to the link that they hang on (two-way coupling).
   void pass_on(const coupling::ContactReport& contacts) { contacts_ = &contacts; }
   /// The contacts of one plant, which must outlive this object.
@@ -29,15 +29,17 @@ class Grip {
   world::Participant& after() { return after_; }
 
  private:
-  template <void (Grip::*function)(double dt)>
+  template <void (GripperStep::*function)(double dt)>
   class Part : public world::Participant {
    public:
-    explicit Part(Grip& grip) : grip_(grip) {}
+    explicit Part(GripperStep& grip) : grip_(grip) {}
     world::Phase phase() const override { return world::Phase::plants; }
-    void act(world::SimWorld& world, world::StepReport&) override { (grip_.*function)(world.dt()); }
+    void act(world::SimWorld& world, world::WorldReport&) override {
+      (grip_.*function)(world.dt());
+    }
 
    private:
-    Grip& grip_;
+    GripperStep& grip_;
   };
   void begin(double dt);
   void end(double dt);
@@ -47,8 +49,8 @@ class Grip {
   RobotControl& robot_;
   coupling::ColliderSet& colliders_;
   std::vector<const coupling::ColliderSource*> sources_;
-  Part<&Grip::begin> before_{*this};
-  Part<&Grip::end> after_{*this};
+  Part<&GripperStep::begin> before_{*this};
+  Part<&GripperStep::end> after_{*this};
   const coupling::ContactReport* contacts_ = nullptr;
   int drive_ = -1;
   int palm_ = 0;              // link

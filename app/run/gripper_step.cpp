@@ -1,4 +1,4 @@
-#include "pedicel/app/run/grip.h"
+#include "pedicel/app/run/gripper_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,24 +21,28 @@ double own_effort(const robot::RobotDescription& robot, const std::string& joint
 
 }  // namespace
 
-Grip::Grip(RobotControl& robot, coupling::ColliderSet& colliders)
+GripperStep::GripperStep(RobotControl& robot, coupling::ColliderSet& colliders)
     : robot_(robot), colliders_(colliders), drive_(colliders.add_drive()) {
   const robot::KinematicModel& model = robot_.robot().model();
   const int joint = robot_.gripper();
+  // Of all joints that follow the one that is driven, as its motor feels it.
   double friction = 0.0;
   for (const robot::KinematicModel::Element& element : model.elements()) {
     if (element.dof != joint) continue;
     const robot::Joint& moves = robot_.description().joints[element.joint];
     friction += std::abs(element.multiplier) * moves.friction;
+    // The fingers hang on what carries the driven one.
     if (!moves.mimic) palm_ = element.parent;
   }
-  const double limit = robot_.robot().effort_limit(joint);
+  const double limit = robot_.robot().motors().effort_limit(joint);
   const double effort =
       std::isfinite(limit) ? limit : own_effort(robot_.description(), model.joint_names()[joint]);
+  // Closing, friction takes from the motor; held open, it helps.
   now_.press = std::max(0.0, effort - friction);
   now_.hold = effort + friction;
   for (int c = 0; c < colliders_.size(); ++c) {
     const coupling::Collider& collider = colliders_.collider(c);
+    // The fingers, and whatever is fixed to them.
     if (collider.body == robot_body && model.moves(joint, collider.link)) pressed_.push_back(c);
   }
   now_.reference = now_.start = now_.aim = robot_.robot().positions()[joint];
@@ -47,7 +51,7 @@ Grip::Grip(RobotControl& robot, coupling::ColliderSet& colliders)
 
 // Where it was stopped, it is looked at from where it stands: Bullet has moved it on, perhaps to
 // the other side of what it holds.
-void Grip::begin(double dt) {
+void GripperStep::begin(double dt) {
   robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
   now_.start = robot_.start_of_step()[joint];
@@ -57,14 +61,16 @@ void Grip::begin(double dt) {
   tell_colliders();
 }
 
-void Grip::tell_colliders() {
+void GripperStep::tell_colliders() {
   const robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
+  // Limits bound how far a plant may push it back.
   now_.lower = std::max(robot.model().lower()[joint], now_.start - farthest_back);
   now_.upper = std::min(robot.model().upper()[joint], now_.start + farthest_back);
   colliders_.set_drive(drive_, now_);
   for (const int c : pressed_) {
     const int link = colliders_.collider(c).link;
+    // At the world's origin, since a drive tells its motion as a twist there.
     const Vec3 origin_L = robot.link_poses()[link].inverse() * Vec3(0, 0, 0);
     robot.model().jacobian(robot.link_poses(), link, origin_L, jacobian_);
     colliders_.press(c, drive_, jacobian_.col(joint).head<3>(), jacobian_.col(joint).tail<3>());
@@ -73,12 +79,13 @@ void Grip::tell_colliders() {
 
 // Plants that it presses at once do not know of each other within a step: the one that stops it
 // first counts.
-void Grip::end(double dt) {
+void GripperStep::end(double dt) {
   robot::Robot& robot = robot_.robot();
   const int joint = robot_.gripper();
   double position = now_.aim, load = 0.0;
   for (const coupling::ColliderSource* source : sources_) {
     const cosserat::DriveEnd& end = source->drive_ends()[drive_];
+    // Loads add up, wherever it stops.
     load += end.load;
     if (std::abs(end.position - now_.aim) > std::abs(position - now_.aim)) position = end.position;
   }
@@ -91,7 +98,7 @@ void Grip::end(double dt) {
 
 // Whatever the motors can bear moves nothing: they know of it (Robot, "Control"). A moment is
 // handed on as two forces.
-void Grip::push_palm() {
+void GripperStep::push_palm() {
   robot::Robot& robot = robot_.robot();
   for (const int c : pressed_) {
     const coupling::ContactSum& sum = contacts_->colliders()[c];

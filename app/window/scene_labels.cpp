@@ -1,10 +1,11 @@
+#include "pedicel/app/window/scene_labels.h"
+
 #include <imgui.h>
 
 #include "pedicel/app/session/live/organ_place.h"
 #include "pedicel/app/tools/draw_tool.h"
 #include "pedicel/app/ui/widgets.h"
 #include "pedicel/app/view/scene_marks.h"
-#include "pedicel/app/window/desktop.h"
 
 namespace pedicel::app {
 
@@ -28,21 +29,21 @@ void label(const SceneFrame& scene, const Vec3& place_W, const std::string& text
 
 }  // namespace
 
-void Desktop::draw_labels() {
-  const Snapshot& s = *ui_.snapshot;
+void draw_scene_labels(const Ui& ui, const SceneFrame& scene, const DrawTool& draw_tool) {
+  const Snapshot& s = *ui.snapshot;
   if (s.pull.active)
-    label(scene_, s.pull.target_W, quantity_text(s.pull.force_W.norm(), "N"), ui_.scale);
-  if (const std::string text = draw_tool_->label(ui_); ui_.draw.on && !text.empty())
-    label(scene_, draw_tool_->label_place(), text, ui_.scale);
+    label(scene, s.pull.target_W, quantity_text(s.pull.force_W.norm(), "N"), ui.scale);
+  if (const std::string text = draw_tool.label(ui); ui.draw.on && !text.empty())
+    label(scene, draw_tool.label_place(), text, ui.scale);
   for (const world::Event& event : recent_breaks(s))
     if (const auto place = place_of_break(s, event))
-      label(scene_, *place, event.organ + ": came off", ui_.scale);
+      label(scene, *place, event.organ + ": came off", ui.scale);
   if (s.culprit_plant >= 0 && s.culprit_element >= 0 &&
       s.culprit_plant < static_cast<int>(s.plants.size())) {
     const auto& state = s.plants[static_cast<std::size_t>(s.culprit_plant)].state;
     if (s.culprit_element < state.size())
-      label(scene_, state.position[static_cast<std::size_t>(s.culprit_element)], s.culprit,
-            ui_.scale);
+      label(scene, state.position[static_cast<std::size_t>(s.culprit_element)], s.culprit,
+            ui.scale);
   }
 }
 

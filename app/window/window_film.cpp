@@ -1,16 +1,18 @@
+#include "pedicel/app/window/window_film.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "pedicel/app/session/session_films.h"
 #include "pedicel/app/ui/free_file_name.h"
-#include "pedicel/app/window/desktop.h"
 #include "pedicel/app/window/film.h"
 
 /// Films of the window: what runs goes by simulated time, hands by the clock.
 namespace pedicel::app {
 
-void Desktop::toggle_video() {
+void WindowFilm::toggle() {
   if (!running())
     ui_.report(ui_.session.run(
         Command("record", {{"file", free_file_name(ui_.output_stem().string(), ".mp4").string()},
@@ -19,26 +21,37 @@ void Desktop::toggle_video() {
     ui_.say(ended.text);
 }
 
-void Desktop::begin(const FilmRequest& request) {
-  if (!target_) throw NoPictures("no film: nothing is drawn here");
+void WindowFilm::begin(const FilmRequest& request) {
+  const render::RenderTarget* target = window_.target();
+  if (!target) throw NoPictures("no film: nothing is drawn here");
   const int camera = camera_index(*ui_.snapshot, request.camera);
-  if (!request.camera.empty()) use_camera(camera);
+  if (!request.camera.empty()) scene_.use_camera(camera);
   // H.264 wants even sides.
-  film_ = request;
-  film_.size = request.with_interface
-                   ? std::array<int, 2>{target_->width() & ~1, target_->height() & ~1}
-                   : request.size;
-  video_ = open_film(request.file, film_.size[0], film_.size[1], request.fps);
-  next_video_picture_ = ui_.now;
-  film_time_ = ui_.snapshot->time;
-  ui_.session.control().hold_at(film_time_);
+  request_ = request;
+  request_.size = request.with_interface
+                      ? std::array<int, 2>{target->width() & ~1, target->height() & ~1}
+                      : request.size;
+  video_ = open_film(request.file, request_.size[0], request_.size[1], request.fps);
+  next_picture_ = ui_.now;
+  run_time_ = ui_.snapshot->time;
+  ui_.session.control().hold_at(run_time_);
   ui_.recording = ui_.filmed = true;
   ui_.say("film begun: " + video_->description());
 }
 
-std::string Desktop::end() {
+WindowFilm::WindowFilm(Ui& ui, ScenePane& scene, const WindowPainter& window)
+    : ui_(ui), scene_(scene), window_(window) {
+  if (!ui.session.films().maker()) ui.session.films().set_maker(this);
+}
+
+WindowFilm::~WindowFilm() {
+  if (video_) end();
+  if (ui_.session.films().maker() == this) ui_.session.films().set_maker(nullptr);
+}
+
+std::string WindowFilm::end() {
   const auto video = std::move(video_);
-  drop_film();
+  drop();
   try {
     video->finish();
   } catch (const render::OutputError& error) {
@@ -47,7 +60,7 @@ std::string Desktop::end() {
   return "film in " + std::filesystem::absolute(video->result()).string();
 }
 
-void Desktop::drop_film() {
+void WindowFilm::drop() {
   video_.reset();
   ui_.recording = ui_.filmed = false;
   ui_.session.control().hold_at({});
@@ -55,43 +68,43 @@ void Desktop::drop_film() {
 
 // Before a picture of a film is made the run goes on by what the film shows in that time, and waits
 // there: so pictures are as far apart as the film says, and the same on a slow machine.
-void Desktop::lead_film() {
-  picture_due_ = video_ && ui_.now >= next_video_picture_;
-  if (!picture_due_) return;
+void WindowFilm::lead_run() {
+  is_due_ = video_ && ui_.now >= next_picture_;
+  if (!is_due_) return;
   const RunControl& control = ui_.session.control();
   const auto before = control.snapshot();
-  const double step = (before->speed > 0.0 ? before->speed : 1.0) / film_.fps;
+  const double step = (before->speed > 0.0 ? before->speed : 1.0) / request_.fps;
   const double dt = before->assets ? before->assets->scene.dt : step;
   // Where the run was led elsewhere (reset, a step back, a pause) it goes on from there.
-  if (std::abs(before->time - film_time_) > 1.5 * dt) film_time_ = before->time;
-  film_time_ += step;
-  ui_.session.control().hold_at(film_time_);
+  if (std::abs(before->time - run_time_) > 1.5 * dt) run_time_ = before->time;
+  run_time_ += step;
+  ui_.session.control().hold_at(run_time_);
   control.wait();
   const auto now = control.snapshot();
-  film_runs_ = now->mode == RunMode::playing || now->step != before->step;
+  run_goes_on_ = now->mode == RunMode::playing || now->step != before->step;
 }
 
-void Desktop::add() {
-  if (!video_ || !picture_due_) return;
+void WindowFilm::add() {
+  if (!video_ || !is_due_) return;
   try {
-    const render::Image picture = film_picture();
+    const render::Image made = picture();
     // While nothing runs pictures are repeated where the machine is slow, so that hands move as
     // fast as they did.
     int copies = 0;
     do {
-      video_->add(picture);
-      next_video_picture_ += 1.0 / film_.fps;
-    } while (!film_runs_ && ui_.now >= next_video_picture_ && ++copies < 30);
-    next_video_picture_ = std::max(next_video_picture_, ui_.now);
+      video_->add(made);
+      next_picture_ += 1.0 / request_.fps;
+    } while (!run_goes_on_ && ui_.now >= next_picture_ && ++copies < 30);
+    next_picture_ = std::max(next_picture_, ui_.now);
   } catch (const std::exception& error) {
-    drop_film();
+    drop();
     ui_.say(std::string("the film has ended: ") + error.what());
   }
 }
 
-render::Image Desktop::film_picture() {
-  if (!film_.with_interface) return scene_picture(film_.size[0], film_.size[1]).value();
-  const render::Image whole = target_->read();
+render::Image WindowFilm::picture() {
+  if (!request_.with_interface) return scene_.picture(request_.size[0], request_.size[1]).value();
+  const render::Image whole = window_.target()->read();
   render::Image even(whole.width & ~1, whole.height & ~1);
   for (int y = 0; y < even.height; ++y)
     std::copy_n(whole.at(0, y), 3 * static_cast<std::size_t>(even.width), even.at(0, y));

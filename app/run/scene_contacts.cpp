@@ -1,0 +1,88 @@
+#include "pedicel/app/run/scene_contacts.h"
+
+#include "pedicel/app/run/colliders.h"
+#include "pedicel/app/run/scene_assets.h"
+#include "pedicel/app/run/start_overlaps.h"
+
+namespace pedicel::app {
+
+SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
+                             cosserat::RodSystem& rods, RobotControl* robot,
+                             Diagnostics& diagnostics)
+    : scene_(assets.scene), world_(world), rods_(rods), robot_(robot) {
+  // The grip marks the colliders that it presses, before the sources look at what touches.
+  add_colliders(assets);
+  add_grip(assets);
+  for (int p = 0; p < rods_.size(); ++p) add_sources(assets, p, diagnostics);
+  plant_step_ = std::make_unique<PlantStep>(
+      rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
+  if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
+  // One way: plants feel the robot, and the robot moves as if they were not there.
+  if (!assets.coupling.two_way) return;
+  reaction_ = std::make_unique<Reaction>(world_, robot_, colliders_);
+  if (grip_) grip_->pass_on(plant_step_->contacts());
+  plant_step_->set_reaction(
+      [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
+}
+
+void SceneContacts::add_colliders(const SceneAssets& assets) {
+  if (scene_.ground) add_ground_collider(colliders_, *scene_.ground);
+  // Bodies that come later are fruits that came off; plants do not feel those.
+  for (int b = 0; b < world_.body_count(); ++b)
+    add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
+  if (robot_)
+    add_robot_colliders(colliders_, robot_->name(), robot_->description(), assets.robot_fields,
+                        robot_->link_poses());
+}
+
+// A gripper stands where its motor balances what it holds. Only the direct solver tells how far a
+// plant gives way to it, and under torque control there is no motor that presses.
+void SceneContacts::add_grip(const SceneAssets& assets) {
+  const bool grips = robot_ && robot_->gripper() >= 0 && scene_.robot->control != "torque" &&
+                     assets.rods.solver == cosserat::SolverKind::direct;
+  if (grips) grip_ = std::make_unique<GripperStep>(*robot_, colliders_);
+}
+
+void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& diagnostics) {
+  auto source = std::make_unique<coupling::ColliderSource>(colliders_, assets.coupling);
+  // A plant drawn through a link would be shot out in the first step.
+  const std::vector<coupling::Overlap> overlaps =
+      source->ignore_touching(rods_.model(p), rods_.state(p));
+  for (const StartOverlap& overlap : start_overlaps(rods_.model(p), colliders_, overlaps))
+    diagnostics.warning(place_of(colliders_.collider(overlap.collider)), overlap.text);
+  sources_.push_back(source.get());
+  if (grip_) grip_->add(*source);
+  rods_.add_contact_source(p, std::move(source));
+  if (!assets.coupling.self_contact) return;
+  auto own = std::make_unique<cosserat::SelfContact>(
+      rods_.model(p), coupling::self_contact_settings(assets.coupling));
+  self_contacts_.push_back(own.get());
+  rods_.add_contact_source(p, std::move(own));
+}
+
+void SceneContacts::join() {
+  if (grip_) world_.add(grip_->before());
+  world_.add(*plant_step_);
+  if (grip_) world_.add(grip_->after());
+}
+
+void SceneContacts::change_settings(const coupling::CouplingSettings& settings) {
+  for (coupling::ColliderSource* source : sources_) source->change_settings(settings);
+  for (cosserat::SelfContact* own : self_contacts_)
+    own->change_settings(coupling::self_contact_settings(settings));
+}
+
+// Where the scene says what a collider belongs to.
+SourcePosition SceneContacts::place_of(const coupling::Collider& collider) const {
+  if (collider.body == robot_body) return scene_.robot->where;
+  return {scene_.file.string(), 0, 0};
+}
+
+Pose SceneContacts::link_pose(const coupling::Collider& collider) const {
+  if (collider.body == robot_body) return robot_->link_pose(collider.link);
+  // The ground never moves, so its field is given in the world.
+  if (collider.body == ground_body) return Pose{};
+  return world_.body_pose(collider.body);
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pedicel/app/run/gripper_step.h"
+#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/run/reaction.h"
+#include "pedicel/app/run/robot_control.h"
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/coupling/collider_source.h"
+#include "pedicel/coupling/coupling_settings.h"
+
+namespace pedicel::app {
+
+struct SceneAssets;
+
+/// What the plants of a scene touch: ground, bodies, robot, themselves. Plants within a step, and
+/// with two-way coupling what acts back.
+class SceneContacts {
+ public:
+  /// Where all things stand now. `robot` may be null; keeps references to all but the assets, whose
+  /// scene must outlive it. Warns of what overlaps from the start, and lets it alone.
+  SceneContacts(const SceneAssets& assets, world::SimWorld& world, cosserat::RodSystem& rods,
+                RobotControl* robot, Diagnostics& diagnostics);
+
+  /// Adds itself to the world's step: the gripper goes back to where it was stopped, plants move,
+  /// the gripper goes to where it stands.
+  void join();
+  /// Friction, stiffness and what else may change while it runs.
+  void change_settings(const coupling::CouplingSettings& settings);
+
+  const coupling::ColliderSet& colliders() const { return colliders_; }
+  const PlantStep& plant_step() const { return *plant_step_; }
+
+ private:
+  void add_colliders(const SceneAssets& assets);
+  void add_grip(const SceneAssets& assets);
+  void add_sources(const SceneAssets& assets, int plant, Diagnostics& diagnostics);
+  SourcePosition place_of(const coupling::Collider& collider) const;
+  Pose link_pose(const coupling::Collider& collider) const;
+
+  const world::Scene& scene_;
+  world::SimWorld& world_;
+  cosserat::RodSystem& rods_;
+  RobotControl* robot_;
+  coupling::ColliderSet colliders_;
+  std::vector<coupling::ColliderSource*> sources_;  // of rods_
+  std::vector<cosserat::SelfContact*> self_contacts_;
+  std::unique_ptr<GripperStep> grip_;  // null without a gripper that its motor moves
+  std::unique_ptr<PlantStep> plant_step_;
+  std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
+};
+
+}  // namespace pedicel::app

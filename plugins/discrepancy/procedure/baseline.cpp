@@ -1,0 +1,140 @@
+#include "pedicel/discrepancy/procedure/baseline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/discrepancy/fit/baseline_start.h"
+
+namespace pedicel::discrepancy {
+
+void Baseline::prepare() {
+  state_.log.say("reading the noise", 0.0);
+  for (const std::string& remark : state_.result.admission.remarks) state_.log.note(remark + ".");
+  // A marker that stands still scatters less than one that moves: what is stated is a lower
+  // bound, too.
+  state_.setup = std::make_unique<FitSetup>(state_.experiment(), state_.options.threads,
+                                            NoiseRule{}, state_.options.stop, state_.settings());
+  state_.simulators = std::make_unique<SearchSimulators>(*state_.setup);
+  state_.findings.data = &state_.setup->data();
+  state_.findings.fit_trials = state_.result.fit_trials = state_.fit_options().trials;
+  state_.result.check_trials = state_.setup->check_trials();
+  state_.causes = candidate_causes(state_.experiment(), scales_of(state_.experiment()));
+}
+
+void Baseline::refit_base() {
+  Evaluator evaluator = state_.setup->evaluator();
+  state_.result.base = fit(evaluator, state_.result.base.hypothesis, state_.fit_options());
+}
+
+void Baseline::refit_parameters() {
+  state_.log.say("refitting modulus, density and damping", 0.02);
+  Evaluator evaluator = state_.setup->evaluator();
+  const Hypothesis start = baseline_start(evaluator, state_.fit_options(), state_.result.unseen);
+  // Short first: over a whole record a wrong frequency is out of phase, and a fit stays there.
+  const std::array horizons{state_.settings().budget.baseline_horizon, 1.0};
+  state_.log.noise(state_.setup->data());
+  state_.result.base = fit_growing(evaluator, start, state_.fit_options(), horizons);
+  state_.log.fit("Baseline", state_.result.base, state_.setup->samples());
+  if (state_.stopped()) return;
+  // Noise is read from what a good model leaves, so mesh and step come first.
+  refine();
+  if (state_.stopped()) return;
+  state_.setup->renew_noise(state_.result.base.hypothesis);
+  Evaluator again = state_.setup->evaluator();
+  // Fewer were free as long as the noise was read from a worse model.
+  if (add_plainly_seen(again, state_.fit_options(), state_.result.unseen,
+                       state_.result.base.hypothesis)) {
+    state_.log.note("With the noise as it is read now these data see more of the parameters.");
+    refit_base();
+    state_.setup->renew_noise(state_.result.base.hypothesis);
+  }
+  refit_base();
+  state_.log.noise(state_.setup->data());
+  state_.log.fit("Baseline", state_.result.base, state_.setup->samples());
+}
+
+void Baseline::refine() {
+  const NumericsCheck check = state_.setup->refine(
+      state_.result.base,
+      {[this](int round) {
+         state_.log.say("checking our own numerical error", 0.05 + 0.03 * round);
+       },
+       [this](const NumericsCheck& coarse) {
+         state_.log.note(
+             text("Numerical error %.3g by step, %.3g by mesh", coarse.by_step, coarse.by_mesh));
+       }});
+  state_.result.numerics = state_.setup->numerics();
+  state_.result.numerical_error = check.largest;
+  // A correction is itself uncertain: a share of it may be left.
+  state_.numerical = state_.settings().accuracy.left_uncorrected * check.correction;
+  state_.findings.parameter_shift = check.parameter_shift;
+  if (check.largest > state_.settings().accuracy.numerical_limit && !is_masked(check)) {
+    state_.result.verdict.outcome = Outcome::numerical;
+    state_.result.verdict.remainder =
+        text("half the step and half the mesh still move the prediction by %.2g times the noise",
+             check.largest);
+  }
+  state_.log.note(text("Nodes every %.3g mm and a step of %.3g ms",
+                       1e3 * state_.result.numerics.distance, 1e3 * state_.result.numerics.dt) +
+                  text(": the numerical error was %.2g of the noise and was corrected for.",
+                       state_.result.numerical_error));
+  state_.setup->renew();
+  // What the mesh alone could explain must not become a cause.
+  state_.result.base.hypothesis.add(mesh_nuisance());
+  refit_base();
+}
+
+// Against a residual many times larger a numerical error above the noise does not matter.
+bool Baseline::is_masked(const NumericsCheck& check) const {
+  const double rms =
+      std::sqrt(2.0 * state_.result.base.cost / std::max(1, state_.setup->samples()));
+  return check.largest < state_.settings().accuracy.masked_verdict * rms;
+}
+
+void Baseline::look() {
+  state_.log.say("looking for anything that is wrong", 0.15);
+  check_.anchor_at(state_.result.base);
+  state_.result.directions = check_.directions_at(state_.result.base);
+  if (state_.stopped()) return;
+  state_.result.before = check_.judged(state_.result.directions, state_.result.base);
+  if (check_.explained_by_junctions(state_.result.before, state_.result.base)) {
+    // The base has more numbers now; a search for what pulled it starts from there.
+    check_.anchor_at(state_.result.base);
+    state_.result.directions = check_.directions_at(state_.result.base);
+    state_.result.before = check_.judged(state_.result.directions, state_.result.base);
+    state_.result.before.raised = false;
+  }
+  state_.result.best = state_.result.base;
+  state_.log.directions(state_.result.directions, state_.result.before);
+}
+
+// What acts in a held-out trial alone is not seen in those that are fitted.
+int Baseline::objecting_trial() {
+  Evaluator evaluator = state_.setup->evaluator();
+  // What the model leaves everywhere is no reason to blame one trial.
+  const double dispersion = std::max(1.0, 2.0 * state_.result.base.cost / state_.setup->samples());
+  double most = 0.0;
+  int objecting = -1;
+  for (const int t : state_.result.check_trials) {
+    FitOptions check = state_.fit_options();
+    check.trials = {t};
+    const int samples = state_.setup->data().samples(check.trials);
+    const double excess =
+        held_out_excess(held_out_model(evaluator, state_.result.base, check), samples, dispersion) -
+        1.0;
+    // The mean square of n normal residuals has the variance 2 / n.
+    const double deviations = excess / std::sqrt(2.0 / std::max(1, samples));
+    state_.log.note("What is left of trial " + state_.experiment().trials[t].name +
+                    text(", held out, is %.3g deviations above the noise.", deviations));
+    if (deviations < state_.settings().levels.held_out_deviations ||
+        excess < state_.settings().levels.held_out_excess || excess < most)
+      continue;
+    most = excess;
+    objecting = t;
+  }
+  return objecting;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,192 @@
+#include "pedicel/discrepancy/procedure/cause_search.h"
+
+#include <algorithm>
+
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/discrepancy/test/score_test.h"
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+// The base with the effects of `both` that stand behind those of `first`, from their numbers there.
+Hypothesis without_first(const Hypothesis& base, const Hypothesis& first, const Hypothesis& both) {
+  const int effects = static_cast<int>(first.effects.size());
+  Hypothesis second;
+  second.effects.assign(both.effects.begin() + effects, both.effects.end());
+  second.free.assign(both.free.begin() + first.size(), both.free.end());
+  for (FreeParameter& free : second.free) free.effect -= effects;
+  Hypothesis alone = base;
+  alone.set_unknowns(both.unknowns().head(base.size()));
+  alone.add(second);
+  alone.name = both.name;
+  return alone;
+}
+
+// Whether the data tell how large the effects from `first` on are: to a factor of e, one
+// deviation.
+bool has_a_size(const FitSummary& model, int first) {
+  for (int p = 0; p < model.hypothesis.size(); ++p) {
+    const FreeParameter& free = model.hypothesis.free[p];
+    const bool size = free.effect >= first && free.vanishes != Vanishes::never && free.prior <= 0.0;
+    if (size && free.logarithmic && model.standard_error[p] > 1.0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RefitOptions CauseSearch::refit_options(double from, double to, const std::string& what) {
+  RefitOptions refit{state_.fit_options(), state_.result.check_trials, {}, state_.options.stop};
+  refit.progress = [this, from, to, what](double share) {
+    state_.log.say(what, from + share * (to - from));
+  };
+  return refit;
+}
+
+void CauseSearch::search() {
+  // At the mesh, the step and with the corrections that the baseline ended with.
+  state_.simulators->renew_fine();
+  state_.result.ranking =
+      refit_all(state_.simulators->workers(), state_.result.base, state_.causes,
+                state_.result.directions, refit_options(0.2, 0.6, "refitting candidates"));
+  if (state_.stopped()) return;
+  for (std::size_t i = 0; i < std::min<std::size_t>(6, state_.result.ranking.size()); ++i)
+    if (state_.result.ranking[i].whole)
+      state_.log.fit(text("Evidence %.5g", state_.result.ranking[i].evidence),
+                     state_.result.ranking[i].fit, state_.setup->samples());
+  if (state_.result.ranking.empty() ||
+      state_.result.ranking.front().evidence < state_.settings().levels.worth_naming)
+    return;
+  // Asked for before more causes are added: three that imitate a force take long and explain
+  // nothing.
+  if (leaves_much(state_.result.ranking.front().fit) && one_force_does_more()) return;
+  state_.result.best = state_.result.ranking.front().fit;
+  state_.findings.chain = {state_.result.ranking.front()};
+}
+
+bool CauseSearch::leaves_much(const FitSummary& model) const {
+  return 2.0 * model.cost > state_.settings().evidence.much_left * state_.setup->samples();
+}
+
+// More known causes would but imitate what none of them is, slowly.
+bool CauseSearch::one_force_does_more() {
+  const Candidate& best = state_.result.ranking.front();
+  const double noise = 0.5 * state_.setup->samples();
+  // Of what can be explained: noise is left by every model.
+  const double left = (best.fit.cost - noise) / std::max(1.0, state_.result.base.cost - noise);
+  const std::string sentence = "the best known cause, " + best.cause +
+                               text(", leaves %.2g %% of what is wrong", 100.0 * left);
+  state_.log.note("One force is asked for: " + sentence + ".");
+  const MissingForce& force = force_.find(0.6);
+  if (!force.found || force.fit.why == "not run" ||
+      1.0 - force.share > state_.settings().evidence.left_by_force * left)
+    return false;
+  instead_of_ = sentence;
+  return true;
+}
+
+// Adds causes while something is left.
+void CauseSearch::extend() {
+  while (!state_.findings.chain.empty() &&
+         static_cast<int>(state_.findings.chain.size()) < state_.settings().budget.causes &&
+         !state_.stopped()) {
+    const std::vector<Direction> directions = look_again();
+    state_.log.directions(directions, state_.result.after);
+    if (!state_.result.after.raised || check_.leaves_little(state_.result.after)) return;
+    if (check_.explained_by_junctions(state_.result.after, state_.result.best)) {
+      state_.result.after.raised = false;
+      return;
+    }
+    const double from = 0.5 + 0.15 * static_cast<double>(state_.findings.chain.size());
+    // The most significant directions alone: each candidate takes a fit.
+    const std::vector<Cause> likely =
+        screened(state_.causes, directions, state_.settings().budget.screened);
+    const std::vector<Candidate> next =
+        refit_all(state_.simulators->workers(), state_.result.best, likely, directions,
+                  refit_options(from, from + 0.15, "looking for another cause"));
+    if (state_.stopped() || next.empty()) return;
+    const Candidate& first = next.front();
+    state_.log.fit(text("Beside what was found, evidence %.4g", first.evidence), first.fit,
+                   state_.setup->samples());
+    state_.log.note(text("It gains %.4g nats, of %.4g that another cause must; ", first.gain,
+                         least_gain_beside(state_.findings.chain, state_.settings())) +
+                    text("for the held-out trials %.4g.", first.held_out.gain));
+    if (!is_another_cause(first)) return;
+    // The chain begins anew with this one; what it leaves is looked at again.
+    if (eliminates_first(first)) continue;
+    state_.findings.chain.push_back(first);
+    state_.result.best = first.fit;
+  }
+  // The last one added was not looked at yet, and the verdict needs what is left.
+  if (!state_.findings.chain.empty()) look_again();
+}
+
+// What the model with all causes so far leaves. Where that is far from the base, our own error
+// is another one there.
+std::vector<Direction> CauseSearch::look_again() {
+  if (state_.base_misses_the_data()) {
+    state_.correct_at(state_.result.best);
+    Evaluator evaluator = state_.setup->evaluator();
+    state_.result.best = state_.findings.chain.back().fit =
+        refit(evaluator, state_.result.best, state_.fit_options());
+  }
+  check_.anchor_at(state_.result.best);
+  std::vector<Direction> directions = check_.directions_at(state_.result.best);
+  state_.result.after = check_.judged(directions, state_.result.best);
+  return directions;
+}
+
+// The held-out trials may ask for what those fitted to hardly show: that is no finding.
+bool CauseSearch::is_another_cause(const Candidate& next) const {
+  if (next.evidence < state_.settings().levels.worth_naming ||
+      next.gain < least_gain_beside(state_.findings.chain, state_.settings()) ||
+      !next.held_out.carries_over(state_.settings().evidence))
+    return false;
+  if (!has_a_size(next.fit, static_cast<int>(state_.result.best.hypothesis.effects.size())))
+    return false;
+  return std::ranges::all_of(state_.findings.chain, [&](const Candidate& found) {
+    return !effects::same_family(found.cause, next.cause) ||
+           next.gain > state_.settings().evidence.family_share * found.gain;
+  });
+}
+
+// What was found first may have stood in for this cause, whose own fit did not get so far from its
+// starts; from where it stands beside the first one it does. Then the first one must bring as much
+// beside it as any other cause, or is none.
+bool CauseSearch::eliminates_first(const Candidate& next) {
+  if (state_.findings.chain.size() != 1 || state_.stopped()) return false;
+  const auto known = std::ranges::find(state_.result.ranking, next.cause, &Candidate::cause);
+  // Not tried alone in the first round, so there is no place for it in the order.
+  if (known == state_.result.ranking.end()) return false;
+  const FitSummary& first = state_.findings.chain.front().fit;
+  Evaluator evaluator = state_.setup->evaluator();
+  Candidate alone = next;
+  alone.fit =
+      fit(evaluator,
+          without_first(state_.result.base.hypothesis, first.hypothesis, next.fit.hypothesis),
+          state_.fit_options());
+  const double dispersion = std::max(1.0, 2.0 * next.fit.cost / state_.setup->samples());
+  alone.gain = (state_.result.base.cost - alone.fit.cost) / dispersion;
+  const double brought = (alone.fit.cost - next.fit.cost) / dispersion;
+  state_.log.note(state_.findings.chain.front().cause + " beside " + next.cause +
+                  text(" brings %.4g nats, of %.4g that another cause must.", brought,
+                       least_gain_beside({alone}, state_.settings())));
+  if (brought >= least_gain_beside({alone}, state_.settings())) return false;
+  alone.held_out = state_.held_out_by(alone.fit);
+  // Fitted with the fine simulator, to its end.
+  alone.whole = alone.fine = true;
+  std::vector<Candidate> ranking = state_.result.ranking;
+  ranking[known - state_.result.ranking.begin()] = std::move(alone);
+  weigh(ranking, state_.result.base, state_.setup->samples(),
+        dispersion_of(ranking, state_.result.base, state_.setup->samples()), state_.settings());
+  if (ranking.front().cause != next.cause) return false;
+  state_.result.ranking = std::move(ranking);
+  state_.findings.chain = {state_.result.ranking.front()};
+  state_.result.best = state_.findings.chain.front().fit;
+  return true;
+}
+
+}  // namespace pedicel::discrepancy
