@@ -495,8 +495,8 @@ bool RodRows::healthy(int plant) const {
   });
 }
 
-RodRows::Change RodRows::change(int plant) const {
-  Change change;
+NewtonChange RodRows::change(int plant) const {
+  NewtonChange change;
   for (const auto [p, begin, end] : layout_.lanes_of_plant(plant)) {
     const Pack& pack = packs_[p];
     for (int lane = begin; lane < end; ++lane) {

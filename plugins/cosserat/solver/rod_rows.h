@@ -12,6 +12,7 @@
 #include "pedicel/cosserat/lanes/lane_layout.h"
 #include "pedicel/cosserat/model/rod_state.h"
 #include "pedicel/cosserat/solver/block_system.h"
+#include "pedicel/cosserat/solver/newton_change.h"
 
 namespace pedicel::cosserat {
 
@@ -132,12 +133,7 @@ class RodRows {
   /// J, where the last eliminate() was.
   double energy_before(int plant) const { return sum(plant, &Pack::energy_before); }
   bool healthy(int plant) const;
-  struct Change {
-    double turn = 0.0;     ///< rad, largest of an element
-    double shift = 0.0;    ///< 1, largest, in element lengths
-    double largest = 0.0;  ///< m or rad, of any unknown
-  };
-  Change change(int plant) const;
+  NewtonChange change(int plant) const;
   Vec6 change(int plant, int element) const;
   /// The element with the largest change, of `elements`.
   int largest_change(int plant, int elements) const;

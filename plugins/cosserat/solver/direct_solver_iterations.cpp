@@ -1,0 +1,220 @@
+// The part of DirectSolver that iterates: Newton, its contacts and its line search.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pedicel/core/stop.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
+
+namespace pedicel::cosserat {
+
+namespace {
+
+bool any(const std::vector<char>& flags) {
+  return std::find(flags.begin(), flags.end(), 1) != flags.end();
+}
+
+}  // namespace
+
+void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
+  std::fill(working_.begin(), working_.end(), 1);
+  while (any(working_)) {
+    rows_.set_active(working_);
+    linearise_touched(steps, dt, pool);
+    bool measured = false;
+    for (int p = 0; p < size(); ++p) {
+      rows_.set_share(p, working_[p] ? 1.0 : 0.0);
+      iterates_[p] = working_[p] && plants_[p].touched ? &plants_[p].iterate : nullptr;
+      measured =
+          measured ||
+          (working_[p] && plants_[p].control.is_searched(!plants_[p].contacts.only_with_itself()));
+    }
+    if (any_loops_) {
+      rows_.eliminate(pool);
+      pool.for_each(size(), [&](int p) {
+        if (working_[p] && plants_[p].loops) solve_loops(p, *steps[p].model);
+      });
+      rows_.substitute(pool);
+      rows_.move(pool, true, measured, iterates_);
+    } else {
+      rows_.solve_and_move(pool, measured, iterates_);
+    }
+    search(steps, measured, pool);
+    validate_contacts(steps, dt, pool);
+    for (int p = 0; p < size(); ++p) {
+      if (!working_[p]) continue;
+      Plant& plant = plants_[p];
+      const bool done = plant.control.is_done(plant.pressing(), settings_, steps[p].report);
+      if (done || (settling_ && stop_requested)) working_[p] = 0;  // settle() throws
+    }
+  }
+}
+
+// Contacts are found anew in every iteration, unless the search did so or they can be followed.
+void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
+  const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
+  for (int p = 0; p < size(); ++p)
+    iterates_[p] = wanted(p) && !plants_[p].iterate_is_here ? &plants_[p].iterate : nullptr;
+  if (std::any_of(iterates_.begin(), iterates_.end(), [](const RodState* s) { return s; }))
+    rows_.write_iterate(pool, iterates_);
+  for_each_plant(steps, pool, wanted, [&](int p) {
+    Plant& plant = plants_[p];
+    const RodModel& model = *steps[p].model;
+    if (!plant.contacts_are_here && !follow_contacts(p, steps[p])) find_contacts(p, steps[p], dt);
+    plant.contacts_are_here = false;
+    plant.extras.clear();
+    const double pressed = plant.contacts.energy();
+    plant.presses = pressed > 0.0;
+    plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
+  });
+  hand_over_blocks();
+}
+
+// To the rows, which may have the same ones already.
+void DirectSolver::hand_over_blocks() {
+  bool any = false, stay = only_contacts_;
+  only_contacts_ = true;
+  const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
+  for (int p = 0; p < size(); ++p) {
+    if (!wanted(p)) continue;
+    any = true;
+    only_contacts_ = only_contacts_ && plants_[p].extras.entries().empty();
+    stay = stay && only_contacts_ && plants_[p].contacts.blocks_stay();
+  }
+  if (any && stay) return;
+  rows_.clear_extras();
+  for (int p = 0; p < size(); ++p) {
+    if (!wanted(p) || plants_[p].loops) continue;
+    rows_.add_extras(p, plants_[p].extras.packed());
+    rows_.add_extras(p, plants_[p].contacts.blocks());
+  }
+}
+
+void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
+  Plant& plant = plants_[index];
+  plant.contacts.find(*step.model, *step.state, plant.iterate, dt, step.contacts);
+  plant.control.contacts_were_found();
+}
+
+// Where a plant touches only itself, a small way on it still touches where it did.
+bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
+  Plant& plant = plants_[index];
+  if (!plant.control.may_follow_contacts(settings_) ||
+      !std::all_of(step.contacts.begin(), step.contacts.end(),
+                   [](const ContactSource* s) { return s->is_within_plant(); }))
+    return false;
+  plant.contacts.follow(plant.iterate);
+  return true;
+}
+
+void DirectSolver::solve_loops(int index, const RodModel& model) {
+  Plant& plant = plants_[index];
+  BlockSystem& system = *plant.loops;
+  rows_.copy_blocks(index, system);
+  for (const DiagonalBlocks::Entry& entry : plant.extras.entries()) {
+    system.diagonal(entry.element) += entry.diagonal;
+    system.right_side(entry.element) += entry.right_side;
+  }
+  const ElementBlocks blocks = plant.contacts.blocks();
+  for (std::size_t i = 0; i < blocks.elements.size(); ++i) {
+    const int element = blocks.elements[i];
+    if (element >= 0) blocks.values[i].add_to(system.diagonal(element), system.right_side(element));
+  }
+  for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
+    system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
+  if (system.solve())
+    rows_.set_change(index, system);
+  else
+    plant.extra_energy = std::numeric_limits<double>::quiet_NaN();
+}
+
+// The whole of Newton's change has been made.
+void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool& pool) {
+  rows_.fetch_results();
+  for (int p = 0; p < size(); ++p)
+    if (working_[p]) start_search(p, *steps[p].model, steps[p].report);
+  if (!measured && any(searching_)) {
+    rows_.set_active(searching_);
+    rows_.measure(pool);
+  }
+  for (bool first = true; any(searching_); first = false) {
+    if (!first) {
+      rows_.set_active(searching_);
+      rows_.move(pool, false, true, iterates_);
+    }
+    for_each_plant(
+        steps, pool,
+        [&](int p) { return searching_[p] && (!first || plants_[p].control.share() == 1.0); },
+        [&](int p) { try_share(p, *steps[p].model, steps[p].report); });
+  }
+}
+
+void DirectSolver::start_search(int index, const RodModel& model, StepReport& report) {
+  Plant& plant = plants_[index];
+  const double energy = rows_.energy_before(index) + plant.extra_energy;
+  if (!rows_.healthy(index) || !std::isfinite(energy)) {
+    report.errors |= not_finite;
+    working_[index] = 0;
+    iterates_[index] = nullptr;
+    return;
+  }
+  plant.control.begin_search(rows_.change(index), energy);
+  const double share = plant.control.share();
+  if (share < 1.0) rows_.set_share(index, share);
+  searching_[index] = plant.control.is_searched(!plant.contacts.only_with_itself());
+  if (searching_[index] || !plant.touched) return;
+  plant.presses = plant.presses || plant.contacts.potential(model, plant.iterate) > 0.0;
+  plant.iterate_is_here = true;
+}
+
+void DirectSolver::try_share(int index, const RodModel& model, StepReport& report) {
+  Plant& plant = plants_[index];
+  double found = rows_.energy(index);
+  if (plant.touched) {
+    plant.pressed = plant.contacts.potential(model, plant.iterate);
+    plant.presses = plant.presses || plant.pressed > 0.0;
+    found += plant.attachments.potential(model, plant.iterate) + plant.pressed;
+  }
+  if (plant.control.accepts(found)) {
+    searching_[index] = 0;
+    plant.iterate_is_here = plant.touched;
+    return;
+  }
+  if (!plant.control.halve_share()) report.errors |= line_search_failed;
+  rows_.set_share(index, plant.control.share());
+}
+
+// A move by many radii may end deep in what it was not near before, which the search did not feel:
+// the next iteration would find energy there that nothing has put in. So contacts are found again
+// at its end, and it is cut until the potential with them has not risen by more than the known ones
+// hold. At the share 0 it has not risen.
+void DirectSolver::validate_contacts(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
+  for (int p = 0; p < size(); ++p) {
+    searching_[p] =
+        working_[p] && !steps[p].contacts.empty() && plants_[p].control.must_find_contacts_again();
+  }
+  while (any(searching_)) {
+    bool cut = false;
+    for (int p = 0; p < size(); ++p) {
+      if (!searching_[p]) continue;
+      Plant& plant = plants_[p];
+      const RodModel& model = *steps[p].model;
+      lend(&pool, p, steps[p]);
+      find_contacts(p, steps[p], dt);
+      plant.contacts_are_here = true;
+      const double found = rows_.energy(p) + plant.attachments.potential(model, plant.iterate) +
+                           plant.contacts.potential(model, plant.iterate);
+      lend(nullptr, p, steps[p]);
+      searching_[p] = !plant.control.accepts_new_contacts(found, plant.pressed);
+      if (!searching_[p]) continue;
+      plant.control.halve_share();
+      rows_.set_share(p, plant.control.share());
+      cut = true;
+    }
+    if (!cut) break;
+    rows_.set_active(searching_);
+    rows_.move(pool, false, true, iterates_);
+  }
+}
+
+}  // namespace pedicel::cosserat
