@@ -82,21 +82,21 @@ void DirectSolver::lend(ThreadPool* pool, int index, const PlantStep& step) {
 
 void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& gravity,
                          ThreadPool& pool) {
-  rows_.set_gravity(gravity);
+  rows_.store.gravity = gravity;
   for (int p = 0; p < size(); ++p) {
     Plant& plant = plants_[p];
     PlantStep& step = steps[p];
     step.report = {};
     states_[p] = step.state;
     unchanged_[p] = plant.stands_in_rows && !step.state_changed;
-    if (step.model_changed) rows_.read_model(p, *step.model);
+    if (step.model_changed) rows_.states.read_model(p, *step.model);
     const double before = step.state->previous_dt;
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
                              !plant.has_history ||
                              !IterationControl::suits_second_order(dt, before);
-    rows_.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root,
-                     plant.control.continues_acceleration());
-    rows_.set_extensions(p, *step.model, step.state->time, dt, settling_);
+    rows_.states.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root,
+                            plant.control.continues_acceleration());
+    rows_.extensions.begin_step(p, *step.model, step.state->time, dt, settling_);
     begin_memory(p, *step.model, *step.state);
     plant.touched = !step.loads.empty() || !step.contacts.empty() ||
                     !step.model->supports.empty() || plant.loops;
@@ -107,8 +107,8 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.control.begin_step();
   }
   std::fill(working_.begin(), working_.end(), 1);
-  rows_.set_active(working_);
-  rows_.prepare(pool, states_, unchanged_);
+  rows_.store.set_active(working_);
+  rows_.states.prepare(pool, states_, unchanged_);
   for_each_plant(
       steps, pool, [&](int p) { return plants_[p].touched; },
       [&](int p) {
@@ -125,7 +125,7 @@ void DirectSolver::begin_memory(int index, const RodModel& model, RodState& stat
   if (model.laws.empty()) return;
   const std::size_t joints = model.laws.size();
   if (state.joint_bias.size() == joints &&
-      state.joint_memory.size() == joints * rows_.branches(index))
+      state.joint_memory.size() == joints * rows_.extensions.branches(index))
     return;
   state.joint_bias.clear();
   start_memory(model, state);
@@ -137,23 +137,23 @@ void DirectSolver::begin_memory(int index, const RodModel& model, RodState& stat
 // along straight lines, and few iterations would leave the strain of that in the rods as energy.
 void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
   std::vector<char>& fast = searching_;
-  for (int p = 0; p < size(); ++p) fast[p] = IterationControl::is_fast(rows_.change(p));
+  for (int p = 0; p < size(); ++p) fast[p] = IterationControl::is_fast(rows_.elimination.change(p));
   if (std::ranges::find(fast, 1) == fast.end()) return;
-  rows_.set_active(fast);
+  rows_.store.set_active(fast);
   for (int p = 0; p < size(); ++p) {
     Plant& plant = plants_[p];
     iterates_[p] = fast[p] && plant.touched ? &plant.iterate : nullptr;
   }
-  rows_.compare_start(pool, iterates_);
+  rows_.search.compare_start(pool, iterates_);
   for (int p = 0; p < size(); ++p) {
     if (!fast[p]) continue;
     Plant& plant = plants_[p];
     const auto attached = [&](const RodState& state) {
       return plant.touched ? plant.attachments.potential(*steps[p].model, state) : 0.0;
     };
-    plant.iterate_is_here = rows_.energy(p) + attached(plant.iterate) <
-                            rows_.energy_before(p) + attached(*steps[p].state);
-    if (!plant.iterate_is_here) rows_.hold(p);
+    plant.iterate_is_here = rows_.search.energy(p) + attached(plant.iterate) <
+                            rows_.search.energy_before(p) + attached(*steps[p].state);
+    if (!plant.iterate_is_here) rows_.states.hold(p);
     fast[p] = 0;
   }
 }
@@ -203,7 +203,7 @@ void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Ve
 void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   for (int p = 0; p < size(); ++p)  // what steps in parts leave is not in the rows
     if (plants_[p].in_parts || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
-  rows_.finish(pool, states_);
+  rows_.states.finish(pool, states_);
   const auto all = [](int) { return true; };
   for_each_plant(steps, pool, all, [&](int p) {
     Plant& plant = plants_[p];
@@ -221,7 +221,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
       state.time += dt;
       return;
     }
-    if (report.errors != none) report.element = rows_.largest_change(p, state.size());
+    if (report.errors != none) report.element = rows_.elimination.largest_change(p, state.size());
     plant.contacts.finish(*steps[p].model, state);
     report.contacts = plant.contacts.carrying();
     report.deepest = plant.contacts.deepest();
@@ -230,7 +230,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
     state.previous_dt = plant.control.ends_roughly(plant.pressing(), converged) ? 0.0 : dt;
     state.time += dt;
   });
-  rows_.end_step();
+  rows_.states.end_step();
 }
 
 }  // namespace pedicel::cosserat

@@ -45,10 +45,10 @@ class DirectSolver : public RodSolver {
   /// The same in the caller's thread alone, which fetches meanwhile what it works on next.
   void step(std::span<PlantStep> plants, double dt, const Vec3& gravity,
             FetchAhead* ahead = nullptr) {
-    rows_.fetch_along(ahead);
+    rows_.store.fetch_along(ahead);
     step(plants, dt, gravity, alone_);
   }
-  void add_to(FetchAhead& ahead) const { rows_.add_to(ahead); }
+  void add_to(FetchAhead& ahead) const { rows_.store.add_to(ahead); }
   StepReport step(const RodModel& model, RodState& state, const StepInput& input) override;
 
   const std::vector<ContactForce>& contact_forces() const override { return contact_forces(0); }
@@ -64,7 +64,7 @@ class DirectSolver : public RodSolver {
   /// by `axis_share` of the way an iteration. settle() does so.
   void set_settling(bool settling, double axis_share = 1.0) {
     settling_ = settling;
-    rows_.set_axis_share(axis_share);
+    rows_.store.axis_share = axis_share;
   }
 
  private:

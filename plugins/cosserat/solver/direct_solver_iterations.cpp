@@ -19,25 +19,25 @@ bool any(const std::vector<char>& flags) {
 void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   std::fill(working_.begin(), working_.end(), 1);
   while (any(working_)) {
-    rows_.set_active(working_);
+    rows_.store.set_active(working_);
     linearise_touched(steps, dt, pool);
     bool measured = false;
     for (int p = 0; p < size(); ++p) {
-      rows_.set_share(p, working_[p] ? 1.0 : 0.0);
+      rows_.search.set_share(p, working_[p] ? 1.0 : 0.0);
       iterates_[p] = working_[p] && plants_[p].touched ? &plants_[p].iterate : nullptr;
       measured =
           measured ||
           (working_[p] && plants_[p].control.is_searched(!plants_[p].contacts.only_with_itself()));
     }
     if (any_loops_) {
-      rows_.eliminate(pool);
+      rows_.elimination.eliminate(pool);
       pool.for_each(size(), [&](int p) {
         if (working_[p] && plants_[p].loops) solve_loops(p, *steps[p].model);
       });
-      rows_.substitute(pool);
-      rows_.move(pool, true, measured, iterates_);
+      rows_.elimination.substitute(pool);
+      rows_.search.move(pool, true, measured, iterates_);
     } else {
-      rows_.solve_and_move(pool, measured, iterates_);
+      rows_.search.solve_and_move(pool, measured, iterates_);
     }
     search(steps, measured, pool);
     validate_contacts(steps, dt, pool);
@@ -56,7 +56,7 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
   for (int p = 0; p < size(); ++p)
     iterates_[p] = wanted(p) && !plants_[p].iterate_is_here ? &plants_[p].iterate : nullptr;
   if (std::any_of(iterates_.begin(), iterates_.end(), [](const RodState* s) { return s; }))
-    rows_.write_iterate(pool, iterates_);
+    rows_.states.write_iterate(pool, iterates_);
   for_each_plant(steps, pool, wanted, [&](int p) {
     Plant& plant = plants_[p];
     const RodModel& model = *steps[p].model;
@@ -82,11 +82,11 @@ void DirectSolver::hand_over_blocks() {
     stay = stay && only_contacts_ && plants_[p].contacts.blocks_stay();
   }
   if (any && stay) return;
-  rows_.clear_extras();
+  rows_.elimination.clear_extras();
   for (int p = 0; p < size(); ++p) {
     if (!wanted(p) || plants_[p].loops) continue;
-    rows_.add_extras(p, plants_[p].extras.packed());
-    rows_.add_extras(p, plants_[p].contacts.blocks());
+    rows_.elimination.add_extras(p, plants_[p].extras.packed());
+    rows_.elimination.add_extras(p, plants_[p].contacts.blocks());
   }
 }
 
@@ -110,7 +110,7 @@ bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
 void DirectSolver::solve_loops(int index, const RodModel& model) {
   Plant& plant = plants_[index];
   BlockSystem& system = *plant.loops;
-  rows_.copy_blocks(index, system);
+  rows_.elimination.copy_blocks(index, system);
   for (const DiagonalBlocks::Entry& entry : plant.extras.entries()) {
     system.diagonal(entry.element) += entry.diagonal;
     system.right_side(entry.element) += entry.right_side;
@@ -123,24 +123,24 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
   for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
     system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
   if (system.solve())
-    rows_.set_change(index, system);
+    rows_.elimination.set_change(index, system);
   else
     plant.extra_energy = std::numeric_limits<double>::quiet_NaN();
 }
 
 // The whole of Newton's change has been made.
 void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool& pool) {
-  rows_.fetch_results();
+  rows_.search.fetch_results();
   for (int p = 0; p < size(); ++p)
     if (working_[p]) start_search(p, *steps[p].model, steps[p].report);
   if (!measured && any(searching_)) {
-    rows_.set_active(searching_);
-    rows_.measure(pool);
+    rows_.store.set_active(searching_);
+    rows_.search.measure(pool);
   }
   for (bool first = true; any(searching_); first = false) {
     if (!first) {
-      rows_.set_active(searching_);
-      rows_.move(pool, false, true, iterates_);
+      rows_.store.set_active(searching_);
+      rows_.search.move(pool, false, true, iterates_);
     }
     for_each_plant(
         steps, pool,
@@ -151,16 +151,16 @@ void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool&
 
 void DirectSolver::start_search(int index, const RodModel& model, StepReport& report) {
   Plant& plant = plants_[index];
-  const double energy = rows_.energy_before(index) + plant.extra_energy;
-  if (!rows_.healthy(index) || !std::isfinite(energy)) {
+  const double energy = rows_.search.energy_before(index) + plant.extra_energy;
+  if (!rows_.elimination.healthy(index) || !std::isfinite(energy)) {
     report.errors |= not_finite;
     working_[index] = 0;
     iterates_[index] = nullptr;
     return;
   }
-  plant.control.begin_search(rows_.change(index), energy);
+  plant.control.begin_search(rows_.elimination.change(index), energy);
   const double share = plant.control.share();
-  if (share < 1.0) rows_.set_share(index, share);
+  if (share < 1.0) rows_.search.set_share(index, share);
   searching_[index] = plant.control.is_searched(!plant.contacts.only_with_itself());
   if (searching_[index] || !plant.touched) return;
   plant.presses = plant.presses || plant.contacts.potential(model, plant.iterate) > 0.0;
@@ -169,7 +169,7 @@ void DirectSolver::start_search(int index, const RodModel& model, StepReport& re
 
 void DirectSolver::try_share(int index, const RodModel& model, StepReport& report) {
   Plant& plant = plants_[index];
-  double found = rows_.energy(index);
+  double found = rows_.search.energy(index);
   if (plant.touched) {
     plant.pressed = plant.contacts.potential(model, plant.iterate);
     plant.presses = plant.presses || plant.pressed > 0.0;
@@ -181,7 +181,7 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
     return;
   }
   if (!plant.control.halve_share()) report.errors |= line_search_failed;
-  rows_.set_share(index, plant.control.share());
+  rows_.search.set_share(index, plant.control.share());
 }
 
 // A move by many radii may end deep in what it was not near before, which the search did not feel:
@@ -202,18 +202,19 @@ void DirectSolver::validate_contacts(std::span<PlantStep> steps, double dt, Thre
       lend(&pool, p, steps[p]);
       find_contacts(p, steps[p], dt);
       plant.contacts_are_here = true;
-      const double found = rows_.energy(p) + plant.attachments.potential(model, plant.iterate) +
+      const double found = rows_.search.energy(p) +
+                           plant.attachments.potential(model, plant.iterate) +
                            plant.contacts.potential(model, plant.iterate);
       lend(nullptr, p, steps[p]);
       searching_[p] = !plant.control.accepts_new_contacts(found, plant.pressed);
       if (!searching_[p]) continue;
       plant.control.halve_share();
-      rows_.set_share(p, plant.control.share());
+      rows_.search.set_share(p, plant.control.share());
       cut = true;
     }
     if (!cut) break;
-    rows_.set_active(searching_);
-    rows_.move(pool, false, true, iterates_);
+    rows_.store.set_active(searching_);
+    rows_.search.move(pool, false, true, iterates_);
   }
 }
 
