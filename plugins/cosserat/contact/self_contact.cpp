@@ -27,7 +27,7 @@ void check(const SelfContactSettings& settings) {
   above("margin", settings.margin, settings.margin > 0.0, "> 0");
 }
 
-// A larger budget collects the far list more rarely, but with more pairs.
+// A larger bound rebuilds the far list more rarely, but with more pairs.
 ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& settings) {
   double sum = 0.0;
   for (const CollisionShape& shape : model.shapes)
@@ -37,8 +37,8 @@ ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& 
   limits.most = 2.0 * length;  // what moves farther in a step may pass through
   limits.margin = settings.margin;
   limits.skin = 0.3 * length;
-  limits.slack = 0.1;  // for what iterations change
-  limits.astray = 0.3;
+  limits.near_share = 0.1;  // for what iterations change
+  limits.far_share = 0.3;
   return limits;
 }
 
@@ -84,7 +84,7 @@ void SelfContact::find(const RodModel& model, const RodState& state, double dt,
 void SelfContact::find_lists(const RodModel& model, const RodState& state, double dt,
                              ContactLists& found) {
   if (!start_) begin_step(model, state, dt);
-  const bool near_holds = look(model, state);
+  const bool near_holds = update_lists(model, state);
   const std::size_t first = found.add(far_parts_);
   loop_.each(far_parts_, [&](int part) {
     Scratch& scratch = scratch_[part];

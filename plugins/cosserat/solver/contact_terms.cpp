@@ -12,7 +12,7 @@ namespace pedicel::cosserat {
 namespace {
 
 constexpr std::size_t stretch_length = 2;  // rows of contacts that a thread takes at a time
-constexpr std::size_t worth_waking = 2;    // stretches, a thread
+constexpr std::size_t grain_size = 2;      // stretches, a thread
 
 }  // namespace
 
@@ -22,7 +22,7 @@ template <class Task>
 void ContactTerms::for_each_stretch(const Task& task) const {
   const std::size_t count = rows_.size();
   const std::size_t stretches = (count + stretch_length - 1) / stretch_length;
-  const int parts = loop_.parts(stretches, worth_waking);
+  const int parts = loop_.parts(stretches, grain_size);
   loop_.each(parts, [&](int part) {
     const std::size_t end = stretches * (part + 1) / parts * stretch_length;
     for (std::size_t i = stretches * part / parts * stretch_length; i < std::min(count, end);

@@ -66,11 +66,11 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
                         ThreadPool& pool) {
   begin(steps, dt, gravity, pool);
   solve(steps, dt, pool);
-  for (int p = 0; p < size() && !is_part_; ++p) {
-    if (IterationControl::needs_parts(plants_[p].pressing(), steps[p].report))
-      take_in_parts(p, steps[p], dt, gravity);
+  for (int p = 0; p < size() && !is_substepper_; ++p) {
+    if (IterationControl::needs_substeps(plants_[p].pressing(), steps[p].report))
+      take_in_substeps(p, steps[p], dt, gravity);
     else
-      plants_[p].control.count_whole_step();
+      plants_[p].control.count_whole();
   }
   end(steps, dt, pool);
 }
@@ -102,7 +102,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
                     !step.model->supports.empty() || plant.loops;
     plant.extra_energy = 0.0;
     plant.presses = false;
-    plant.in_parts = false;
+    plant.substepped = false;
     plant.iterate_is_here = plant.contacts_are_here = false;
     plant.control.begin_step();
   }
@@ -159,30 +159,30 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
 }
 
 // A stem that is dragged over an edge slides by many of its radii in one step, too far for Newton;
-// cut short, it may end on the other side of a thin link. In parts what drags it moves less.
-void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity) {
+// cut short, it may end on the other side of a thin link. In a substep what drags it moves less.
+void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const Vec3& gravity) {
   Plant& plant = plants_[index];
-  if (!plant.parts) plant.parts = std::make_unique<DirectSolver>(settings_, *step.model);
-  DirectSolver& solver = *plant.parts;
+  if (!plant.substepper) plant.substepper = std::make_unique<DirectSolver>(settings_, *step.model);
+  DirectSolver& solver = *plant.substepper;
   Plant& alone = solver.plants_.front();
   solver.settings_ = settings_;
-  solver.is_part_ = true;
+  solver.is_substepper_ = true;
   solver.reset();
   solver.forces_.clear();
-  plant.control.count_step_in_parts();
-  alone.control.begin_parts(plant.control);
+  plant.control.count_substepped();
+  alone.control.begin_substeps(plant.control);
   std::swap(alone.contacts, plant.contacts);
   RodState& state = *step.state;
   plant.iterate = state;
-  constexpr int parts = IterationControl::parts_of_step;
+  constexpr int substeps = IterationControl::substeps;
   const Pose from = state.previous_root, to = state.root;
   step.report = {};
-  for (int k = 0; k < parts; ++k) {
+  for (int k = 0; k < substeps; ++k) {
     for (ContactSource* source : step.contacts)
-      source->cover(k / double(parts), (k + 1) / double(parts));
-    state.root = k + 1 == parts ? to : between(from, to, (k + 1) / double(parts));
+      source->cover(k / double(substeps), (k + 1) / double(substeps));
+    state.root = k + 1 == substeps ? to : between(from, to, (k + 1) / double(substeps));
     PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0, k == 0, {}};
-    solver.step({&part, 1}, dt / parts, gravity);
+    solver.step({&part, 1}, dt / substeps, gravity);
     part.report.errors |= step.report.errors;
     part.report.iterations += step.report.iterations;
     if (part.report.element < 0) part.report.element = step.report.element;
@@ -191,32 +191,32 @@ void DirectSolver::take_in_parts(int index, PlantStep& step, double dt, const Ve
       state = plant.iterate;
       break;
     }
-    alone.contacts.add_to(solver.forces_, 1.0 / parts);
+    alone.contacts.add_to(solver.forces_, 1.0 / substeps);
   }
   for (ContactSource* source : step.contacts) source->cover(0.0, 1.0);
   std::swap(alone.contacts, plant.contacts);
   plant.contacts.report(solver.forces_);
-  plant.in_parts = true;
+  plant.substepped = true;
   state.time = plant.iterate.time;
 }
 
 void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
-  for (int p = 0; p < size(); ++p)  // what steps in parts leave is not in the rows
-    if (plants_[p].in_parts || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
+  for (int p = 0; p < size(); ++p)  // what substeps leave is not in the rows
+    if (plants_[p].substepped || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
   rows_.states.finish(pool, states_);
   const auto all = [](int) { return true; };
   for_each_plant(steps, pool, all, [&](int p) {
     Plant& plant = plants_[p];
     RodState& state = *steps[p].state;
     StepReport& report = steps[p].report;
-    plant.has_history = !plant.in_parts;
+    plant.has_history = !plant.substepped;
     plant.stands_in_rows = states_[p] && std::ranges::find(state.alive, 0) == state.alive.end();
     state.previous_root = state.root;
     if (report.errors & not_finite) {
       state.previous_dt = 0.0;
       return;
     }
-    if (plant.in_parts) {
+    if (plant.substepped) {
       state.previous_dt = 0.0;
       state.time += dt;
       return;

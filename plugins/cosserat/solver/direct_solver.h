@@ -84,9 +84,9 @@ class DirectSolver : public RodSolver {
     double extra_energy = 0.0;  // J, of `touched`, where the line search began
     double pressed = 0.0;       // J, of the known contacts where a search ended
     IterationControl control;
-    std::unique_ptr<DirectSolver> parts;  // for steps in parts, once there was one
-    bool in_parts = false;                // this step was taken so
-    bool stands_in_rows = false;          // where it ended is where the rows have it
+    std::unique_ptr<DirectSolver> substepper;  // once a step was taken in substeps
+    bool substepped = false;                   // this step was taken so
+    bool stands_in_rows = false;               // where it ended is where the rows have it
 
     Pressing pressing() const;
   };
@@ -108,7 +108,7 @@ class DirectSolver : public RodSolver {
   void start_search(int index, const RodModel& model, StepReport& report);
   void try_share(int index, const RodModel& model, StepReport& report);
   void validate_contacts(std::span<PlantStep> steps, double dt, ThreadPool& pool);
-  void take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity);
+  void take_in_substeps(int index, PlantStep& step, double dt, const Vec3& gravity);
   void end(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   int size() const { return static_cast<int>(plants_.size()); }
 
@@ -122,8 +122,8 @@ class DirectSolver : public RodSolver {
   bool any_loops_ = false;
   bool only_contacts_ = false;  // the rows have no other blocks
   bool settling_ = false;
-  bool is_part_ = false;              // takes the steps of another one in parts
-  std::vector<ContactForce> forces_;  // of the parts
+  bool is_substepper_ = false;        // takes the substeps of another one
+  std::vector<ContactForce> forces_;  // of the substeps
   ThreadPool alone_{1};
 };
 

@@ -15,7 +15,7 @@ constexpr double tiny = 1.0e-300;  // in place of a divisor of 0
 void IterationControl::reset() {
   is_solved_ = false;
   gain_ = 1.0;
-  steps_in_parts_ = 0;
+  substepped_in_a_row_ = 0;
 }
 
 void IterationControl::begin_step() {
@@ -149,13 +149,13 @@ void IterationControl::damp() {
   damped_ = std::max(0.5 * damped_, most_damped);
 }
 
-// In parts, what drags a plant moves less. Nothing drags a plant that touches only itself.
-bool IterationControl::needs_parts(Pressing pressing, const StepReport& report) {
+// In a substep, what drags a plant moves less. Nothing drags a plant that touches only itself.
+bool IterationControl::needs_substeps(Pressing pressing, const StepReport& report) {
   return (report.errors & not_converged) && pressing == Pressing::outside;
 }
 
-void IterationControl::begin_parts(const IterationControl& whole) {
-  damps_cycles_ = whole.steps_in_parts_ > most_steps_in_parts;
+void IterationControl::begin_substeps(const IterationControl& whole) {
+  damps_cycles_ = whole.substepped_in_a_row_ > most_substepped_in_a_row;
 }
 
 }  // namespace pedicel::cosserat

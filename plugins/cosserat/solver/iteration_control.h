@@ -22,9 +22,9 @@ enum class Pressing {
 /// an element has changed, whatever its size.
 class IterationControl {
  public:
-  /// Parts of a step that contact keeps from its solution. Two are enough mostly: what drags the
+  /// Substeps of a step that contact keeps from its solution. Two are enough mostly: what drags the
   /// plant then moves half as far. What two do not solve the next step tries again.
-  static constexpr int parts_of_step = 2;
+  static constexpr int substeps = 2;
 
   /// Nothing is known of earlier steps any more.
   void reset();
@@ -74,14 +74,14 @@ class IterationControl {
   /// good enough.
   bool is_done(Pressing pressing, const RodSettings& settings, StepReport& report);
 
-  // Steps in parts.
+  // Substeps.
 
-  /// Whether a step has to be taken again in parts.
-  static bool needs_parts(Pressing pressing, const StepReport& report);
-  void count_step_in_parts() { ++steps_in_parts_; }
-  void count_whole_step() { steps_in_parts_ = 0; }
-  /// For the parts of a step that `whole` controls.
-  void begin_parts(const IterationControl& whole);
+  /// Whether a step has to be taken again in substeps.
+  static bool needs_substeps(Pressing pressing, const StepReport& report);
+  void count_substepped() { ++substepped_in_a_row_; }
+  void count_whole() { substepped_in_a_row_ = 0; }
+  /// For the substeps of a step that `whole` controls.
+  void begin_substeps(const IterationControl& whole);
 
  private:
   double moved() const { return share_ * change_.motion(); }
@@ -140,9 +140,9 @@ class IterationControl {
   /// The same by the gain of an earlier step, which may have changed: a third of it.
   static constexpr double left_over_ahead = 0.2;
 
-  /// Steps in a row that are taken in parts before what goes to and fro is damped. What slides over
-  /// an edge is mostly through by then, and damping would slow it down.
-  static constexpr int most_steps_in_parts = 10;
+  /// Steps in a row that are taken in substeps before what goes to and fro is damped. What slides
+  /// over an edge is mostly through by then, and damping would slow it down.
+  static constexpr int most_substepped_in_a_row = 10;
   /// 1. With such a gain changes go to and fro instead of getting smaller.
   static constexpr double cycling_gain = 0.95;
   /// 1, the least that damping leaves of a change. At the default of 4 iterations a step then has
@@ -163,11 +163,11 @@ class IterationControl {
   double damped_ = 1.0;       // 1, the largest share
   double followed_ = std::numeric_limits<double>::infinity();  // motion since contacts were found
   // Of earlier steps, too.
-  bool is_solved_ = false;     // the last one, to the tolerance
-  double gain_ = 1.0;          // 1, what an iteration leaves of the change before it
-  double gain_change_ = 0.0;   // m or rad, the change at which that was measured
-  int steps_in_parts_ = 0;     // in a row
-  bool damps_cycles_ = false;  // of parts only
+  bool is_solved_ = false;       // the last one, to the tolerance
+  double gain_ = 1.0;            // 1, what an iteration leaves of the change before it
+  double gain_change_ = 0.0;     // m or rad, the change at which that was measured
+  int substepped_in_a_row_ = 0;  // in a row
+  bool damps_cycles_ = false;    // of substeps only
 };
 
 }  // namespace pedicel::cosserat

@@ -40,7 +40,7 @@ void RowElimination::clear_extras() {
 
 void RowElimination::eliminate(ThreadPool& pool) {
   const RowArrays rows = arrays();
-  store_.graph.inward(pool, [&](int task) { eliminate_task(rows, task); });
+  store_.graph.post_order(pool, [&](int task) { eliminate_task(rows, task); });
 }
 
 void RowElimination::eliminate_task(const RowArrays& rows, int task) {
@@ -65,7 +65,7 @@ void RowElimination::eliminate_task(const RowArrays& rows, int task) {
 
 void RowElimination::substitute(ThreadPool& pool) {
   const RowArrays rows = arrays();
-  store_.graph.outward(pool, [&](int task) { substitute_task(rows, task); });
+  store_.graph.pre_order(pool, [&](int task) { substitute_task(rows, task); });
 }
 
 void RowElimination::substitute_task(const RowArrays& rows, int task) {

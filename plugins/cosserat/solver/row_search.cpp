@@ -32,7 +32,7 @@ void RowSearch::set_share(int plant, double share) {
 void RowSearch::move(ThreadPool& pool, bool keep, bool measured,
                      std::span<RodState* const> states) {
   const RowArrays rows = store_.arrays();
-  store_.graph.outward(pool, [&](int task) { move_task(rows, task, keep, measured, states); });
+  store_.graph.pre_order(pool, [&](int task) { move_task(rows, task, keep, measured, states); });
 }
 
 // The last row of a pack that is eliminated from the clamp is a task of its own: what starts there
@@ -61,7 +61,7 @@ void RowSearch::measure(ThreadPool& pool) {
 
 void RowSearch::solve_and_move(ThreadPool& pool, bool measured, std::span<RodState* const> states) {
   const RowArrays rows = elimination_.arrays();
-  store_.graph.inward_and_outward(
+  store_.graph.post_and_pre_order(
       pool, [&](int task) { elimination_.eliminate_task(rows, task); },
       [&](int task) {
         elimination_.substitute_task(rows, task);
