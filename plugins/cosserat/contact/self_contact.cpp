@@ -85,6 +85,8 @@ void SelfContact::find_lists(const RodModel& model, const RodState& state, doubl
                              ContactLists& found) {
   if (!start_) begin_step(model, state, dt);
   const bool near_holds = update_lists(model, state);
+  // One list of contacts a part: threads do not write beside each other, and the order of contacts
+  // does not depend on them.
   const std::size_t first = found.add(far_parts_);
   loop_.each(far_parts_, [&](int part) {
     Scratch& scratch = scratch_[part];
@@ -105,6 +107,7 @@ void SelfContact::touch_near(const RodModel& model, const RodState& state, doubl
   CapsulePairs& near = scratch.near;
   measure(motion_.now(), near);
   scratch.measured += static_cast<long>(near.size());
+  // Pairs are touched eight at a time, in the order of the list.
   const std::size_t count = list_meeting(moved_capsules(), settings_.margin, near, scratch.meeting);
   TouchingRow row{};
   int lanes = 0;
@@ -137,6 +140,8 @@ void SelfContact::add_contact(const RodModel& model, double dt, const TouchingRo
   if (!(gap <= settings_.margin + row.apart[lane])) return;
   const int a = row.a[lane], b = row.b[lane];
   const CollisionShape &shape_a = model.shapes[a], &shape_b = model.shapes[b];
+  // Limited by what the lighter element's inertia can follow in a step: a stiffer spring would glue
+  // light parts to where they touched.
   const bool soft = shape_a.fruit >= 0 || shape_b.fruit >= 0;
   const double lighter =
       std::min(model.elements[shape_a.element].mass, model.elements[shape_b.element].mass);
@@ -156,6 +161,7 @@ void SelfContact::add_contact(const RodModel& model, double dt, const TouchingRo
     point.normal_W = normal;
     found.push_back(point);
   };
+  // Both sides against the plane in the middle, with the same force.
   const Vec3 normal_W = vector_at(row.normal, lane);
   add(a, b, row.back_a[lane], row.radius_a[lane], normal_W);
   add(b, a, row.back_b[lane], row.radius_b[lane], -normal_W);

@@ -14,6 +14,7 @@ namespace pedicel::cosserat {
 namespace {
 
 constexpr std::pair beyond{std::numeric_limits<int>::max(), 0};  // all pairs
+// Lists are sieved in bites: what a sieve leaves is measured before it leaves the cache.
 constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
 // Measuring a pair that a sieve has left takes as long as sifting so many.
 constexpr double sifted = 10.0, measured = 30.0;  // from the far list, from the near list
@@ -21,9 +22,11 @@ constexpr double sifted = 10.0, measured = 30.0;  // from the far list, from the
 // counts of a step's motion). Where it goes no farther than so many skins, nothing is
 // predicted to move.
 constexpr double most_steps = 16.0, farthest = 0.7, still = 2.0;
+// Each deviating shape is compared with all boxes, so that they must be few.
 constexpr std::size_t most_deviating = 32;
 // So what is not listed is more than may be kept.
 static_assert(std::tuple_size_v<decltype(ShapeMotion::Deviating::shapes)> > most_deviating);
+// What deviated once will do so again: a larger bound lasts longer.
 constexpr double deviating_bound = 2.0;  // 1, of others'
 
 // Elements at most two joints apart from each other, by element, each with itself.
@@ -66,12 +69,14 @@ bool SelfContact::update_lists(const RodModel& model, const RodState& state) {
     });
     if (std::ranges::all_of(of_parts(parts), [](const Scratch& s) { return s.holds; })) return true;
   }
+  // The near list does not hold. Where a step begins, the far list is one step older.
   if (step_begins_) ++far_steps_;
   const RodState* const begins = std::exchange(step_begins_, false) ? start_ : nullptr;
   const int parts = for_all_shapes([&](int part, std::size_t first, std::size_t end) {
     scratch_[part].deviating.count = 0;
     motion_.update_near(model, begins, state, first, end, scratch_[part].deviating);
   });
+  // A list without predicted motion does not grow old while all shapes keep within their bounds.
   const bool goes_on = far_steps_ <= far_steps_most_ || (far_stands_ && deviating_.empty());
   if (!goes_on || !find_deviating(of_parts(parts))) collect_far();
   for (const int shape : deviating_) motion_.forget_reach(shape);
@@ -206,6 +211,7 @@ void SelfContact::collect_far() {
   double fastest = 0.0;
   for (const float moved : motion_.displacement()) fastest = std::max<double>(fastest, moved);
   const double most = motion_.limits().most;
+  // Where so little moves, larger boxes do without a prediction.
   far_stands_ = most_steps * fastest <= still * motion_.limits().skin;
   // A motion of which not all counts is not continued.
   far_steps_most_ =
@@ -265,6 +271,7 @@ void SelfContact::collect_left_out(const RodModel& model) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     boxes_.leave_out(pairs);
   };
+  // First what the tree says; then what that leaves is measured as drawn.
   boxes_.resize(motion_.size());
   leave_out();
   collect_far();

@@ -129,6 +129,7 @@ HWY_INLINE V minimum(V bound, V x) {
   return hn::IfThenElse(x < bound, x, bound);
 }
 
+// What an end did in the last step, less what was predicted, adds to its deviation.
 HWY_INLINE void begin_step(const Places& places, const RodModel& model, const RodState& state,
                            std::size_t i, const ShapeMotion::Arrays& out) {
   const Ends before = load_all(out.start, i);
@@ -138,6 +139,9 @@ HWY_INLINE void begin_step(const Places& places, const RodModel& model, const Ro
   store_capsules(ends, before, out.start, i);
 }
 
+// A shape's reach bounds by how much nearer than predicted it may come to contact in this step:
+// its deviation where it is now, by how much this step's motion is another than predicted (what is
+// nearer than it moved in the step is a contact), and what iterations may still change of both.
 void UpdateNear(const Places& places, const Limits& limits, const RodModel& model,
                 const RodState* begins, const RodState& state, std::size_t first, std::size_t end,
                 const ShapeMotion::Arrays& out, ShapeMotion::Deviating& deviating) {
@@ -157,6 +161,7 @@ void UpdateNear(const Places& places, const Limits& limits, const RodModel& mode
     store_at(bound, out.near_bound, i);
     store_at(reach, out.reach, i);
     const std::size_t shapes = model.shapes.size() - std::min(i, model.shapes.size());
+    // Written so that a NaN counts as deviating.
     const M deviates =
         hn::And(hn::Not(reach <= load_at(out.far_bound, i)), hn::FirstN(D(), shapes));
     if (hn::AllFalse(D(), deviates)) continue;
@@ -174,12 +179,15 @@ bool ValidateNear(const Places& places, const RodModel& model, const RodState& s
     const Ends start = load_all(out.start, i);
     const AxisEnds now = place(places, model, state, i);
     store_capsules(now, start, out.now, i);
+    // The near reference is kept relative to the step's start, which stays.
     const V moved = longest(now - axis_of(start) - load_ends(out.reference, i));
     holds = hn::And(holds, moved <= load_at(out.near_bound, i));
   }
   return hn::AllTrue(D(), holds);
 }
 
+// With a prediction the next steps are expected to be like this one, and there is no deviation.
+// Else the reference is the iterate, which the step's start is behind by what has moved.
 void RebuildFar(const Limits& limits, std::size_t first, std::size_t end, bool predicts,
                 const ShapeMotion::Arrays& out) {
   const V least = set(limits.skin + 2.0 * limits.margin), zero = set(0.0);

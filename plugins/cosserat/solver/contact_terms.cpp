@@ -11,8 +11,10 @@ namespace pedicel::cosserat {
 
 namespace {
 
-constexpr std::size_t stretch_length = 2;  // rows of contacts that a thread takes at a time
-constexpr std::size_t grain_size = 2;      // stretches, a thread
+// Rows of contacts that are taken at a time. Sums are made by stretch and then added up in order,
+// so that they do not depend on the number of threads.
+constexpr std::size_t stretch_length = 2;
+constexpr std::size_t grain_size = 2;  // stretches, a thread
 
 }  // namespace
 
@@ -46,6 +48,8 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
                         double dt, std::span<ContactSource* const> sources) {
   found_.clear();
   report({});
+  // Those of the plant with itself come first: their two sides then stand in lanes 2 i and 2 i + 1,
+  // and a contact's number says which kind it is.
   for (ContactSource* source : sources)
     if (source->is_within_plant()) source->find_lists(model, iterate, dt, found_);
   sides_ = found_.size();
@@ -66,6 +70,7 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
     push(first, end, iterate);
   });
   sum_energy();
+  // Even the same elements may have been found in another order.
   blocks_stay_ = false;
 }
 
@@ -78,6 +83,7 @@ void ContactTerms::share_gives() {
   for (std::size_t i = sides_; i < count; ++i) {
     const ContactPoint& own = found_[i];
     if (own.give <= 0.0) continue;
+    // One that does not push yet may do so in this step, and then counts, too.
     int together = pushes(own) ? 0 : 1;
     for (std::size_t k = 0; k < count; ++k)
       together += pushes(found_[k]) && found_[k].collider == own.collider;
@@ -112,6 +118,7 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
   row.spring_stiffness[lane] = point.stiffening.stiffness;
   row.spring_margin[lane] = point.stiffening.margin;
   row.stiffness[lane] = series_stiffness(point, gives_[contact]);
+  // The first step of a contact has no memory, and so no friction: see the head of this class.
   const FrictionMemory::Spring* const memory =
       pressed ? memory_.find(point) : memory_.find(point.shape, point.collider);
   cosserat::put(row.stretch, lane, memory ? memory->stretch_W : Vec3(0, 0, 0));
@@ -159,6 +166,8 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
     end_contacts(stretch(first, last), sides, end, ends_.data() + first);
     if (!driven_.any()) carried_[first / stretch_length] = remember(first, last);
   });
+  // What a joint presses with is known when the joint stands where the step ended. Only then are
+  // these contacts remembered.
   if (driven_.any()) {
     driven_.end(found_, rows_, ends_);
     for_each_stretch([&](std::size_t first, std::size_t last) {

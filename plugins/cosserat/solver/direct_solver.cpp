@@ -38,6 +38,7 @@ DirectSolver::DirectSolver(const RodSettings& settings, const RodModel& model)
 DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel* const> models,
                            int threads, std::shared_ptr<RowScratch> scratch)
     : settings_(settings), rows_(models, threads, false, std::move(scratch)) {
+  // All that a step needs is made here: step() must not allocate.
   plants_.reserve(models.size());
   for (const RodModel* model : models) {
     plants_.emplace_back(*model);
@@ -50,6 +51,7 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
   searching_.resize(plants_.size());
 }
 
+// Without history the next step is of first order, which needs no past.
 void DirectSolver::reset(int plant) {
   plants_[plant].contacts.forget();
   plants_[plant].has_history = false;
@@ -66,6 +68,8 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
                         ThreadPool& pool) {
   begin(steps, dt, gravity, pool);
   solve(steps, dt, pool);
+  // No state has been written yet, so that a step can be taken again from where it began. Substeps
+  // are not cut a second time: what two do not solve the next step tries again.
   for (int p = 0; p < size() && !is_substepper_; ++p) {
     if (IterationControl::needs_substeps(plants_[p].pressing(), steps[p].report))
       take_in_substeps(p, steps[p], dt, gravity);
@@ -75,6 +79,7 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
   end(steps, dt, pool);
 }
 
+// Contact is the work of one thread, unless a single plant has all of them to itself.
 void DirectSolver::lend(ThreadPool* pool, int index, const PlantStep& step) {
   plants_[index].contacts.use(pool);
   for (ContactSource* source : step.contacts) source->use(pool);
@@ -88,8 +93,10 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     PlantStep& step = steps[p];
     step.report = {};
     states_[p] = step.state;
+    // Where nobody touched the state since the last step, the rows still hold it.
     unchanged_[p] = plant.stands_in_rows && !step.state_changed;
     if (step.model_changed) rows_.states.read_model(p, *step.model);
+    // BDF2 needs one step of the past, of about the same length.
     const double before = step.state->previous_dt;
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
                              !plant.has_history ||
@@ -98,6 +105,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
                             plant.control.continues_acceleration());
     rows_.extensions.begin_step(p, *step.model, step.state->time, dt, settling_);
     begin_memory(p, *step.model, *step.state);
+    // What touches a plant looks at its iterate as a state. All others are solved in rows alone.
     plant.touched = !step.loads.empty() || !step.contacts.empty() ||
                     !step.model->supports.empty() || plant.loops;
     plant.extra_energy = 0.0;
@@ -144,6 +152,7 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
     Plant& plant = plants_[p];
     iterates_[p] = fast[p] && plant.touched ? &plant.iterate : nullptr;
   }
+  // Contacts are not known at either of the two yet, and do not count.
   rows_.search.compare_start(pool, iterates_);
   for (int p = 0; p < size(); ++p) {
     if (!fast[p]) continue;
@@ -171,10 +180,12 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
   solver.forces_.clear();
   plant.control.count_substepped();
   alone.control.begin_substeps(plant.control);
+  // The contacts go along, for what friction remembers of the step before.
   std::swap(alone.contacts, plant.contacts);
   RodState& state = *step.state;
   plant.iterate = state;
   constexpr int substeps = IterationControl::substeps;
+  // What moves the plant, its clamp and what touches it, does an equal share in each substep.
   const Pose from = state.previous_root, to = state.root;
   step.report = {};
   for (int k = 0; k < substeps; ++k) {
@@ -183,6 +194,7 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
     state.root = k + 1 == substeps ? to : between(from, to, (k + 1) / double(substeps));
     PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0, k == 0, {}};
     solver.step({&part, 1}, dt / substeps, gravity);
+    // The step is as good as its worst substep.
     part.report.errors |= step.report.errors;
     part.report.iterations += step.report.iterations;
     if (part.report.element < 0) part.report.element = step.report.element;
@@ -191,12 +203,14 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
       state = plant.iterate;
       break;
     }
+    // Forces are means over the step.
     alone.contacts.add_to(solver.forces_, 1.0 / substeps);
   }
   for (ContactSource* source : step.contacts) source->cover(0.0, 1.0);
   std::swap(alone.contacts, plant.contacts);
   plant.contacts.report(solver.forces_);
   plant.substepped = true;
+  // end() adds the whole step, as it does for others.
   state.time = plant.iterate.time;
 }
 
@@ -210,8 +224,10 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
     RodState& state = *steps[p].state;
     StepReport& report = steps[p].report;
     plant.has_history = !plant.substepped;
+    // What came off is not written any more, so that rows and state differ: it is read again.
     plant.stands_in_rows = states_[p] && std::ranges::find(state.alive, 0) == state.alive.end();
     state.previous_root = state.root;
+    // What failed is not to be continued: the next step is of first order.
     if (report.errors & not_finite) {
       state.previous_dt = 0.0;
       return;

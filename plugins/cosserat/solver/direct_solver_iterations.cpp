@@ -16,11 +16,14 @@ bool any(const std::vector<char>& flags) {
 
 }  // namespace
 
+// All plants take an iteration together, because their branches stand side by side in vectors. Each
+// stops by itself; the others go on without it.
 void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   std::fill(working_.begin(), working_.end(), 1);
   while (any(working_)) {
     rows_.store.set_active(working_);
     linearise_touched(steps, dt, pool);
+    // The potential is computed in the same pass as the move where any plant is searched.
     bool measured = false;
     for (int p = 0; p < size(); ++p) {
       rows_.search.set_share(p, working_[p] ? 1.0 : 0.0);
@@ -29,6 +32,8 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
           measured ||
           (working_[p] && plants_[p].control.is_searched(!plants_[p].contacts.only_with_itself()));
     }
+    // Loops are solved between elimination and substitution. Without them a thread goes from one to
+    // the other and to the move, while a pack's rows are in its cache.
     if (any_loops_) {
       rows_.elimination.eliminate(pool);
       pool.for_each(size(), [&](int p) {
@@ -62,6 +67,7 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     const RodModel& model = *steps[p].model;
     if (!plant.contacts_are_here && !follow_contacts(p, steps[p])) find_contacts(p, steps[p], dt);
     plant.contacts_are_here = false;
+    // Loads and supports are few, and made anew in every iteration.
     plant.extras.clear();
     const double pressed = plant.contacts.energy();
     plant.presses = pressed > 0.0;
@@ -70,7 +76,8 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
   hand_over_blocks();
 }
 
-// To the rows, which may have the same ones already.
+// To the rows, which point to the blocks. After contacts have been followed mostly the same
+// elements have blocks in the same places, and the pointers hold.
 void DirectSolver::hand_over_blocks() {
   bool any = false, stay = only_contacts_;
   only_contacts_ = true;
@@ -96,7 +103,8 @@ void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
   plant.control.contacts_were_found();
 }
 
-// Where a plant touches only itself, a small way on it still touches where it did.
+// Where a plant touches only itself, a small way on it still touches where it did. Contacts with
+// things outside are found again: their normals may turn at once, as at an edge.
 bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
   Plant& plant = plants_[index];
   if (!plant.control.may_follow_contacts(settings_) ||
@@ -107,6 +115,7 @@ bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
   return true;
 }
 
+// Welds couple elements that are no neighbours in the tree: a block system solves the whole plant.
 void DirectSolver::solve_loops(int index, const RodModel& model) {
   Plant& plant = plants_[index];
   BlockSystem& system = *plant.loops;
@@ -122,17 +131,20 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
   }
   for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
     system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
+  // Without a solution the energy is no number, which ends the plant's step in start_search().
   if (system.solve())
     rows_.elimination.set_change(index, system);
   else
     plant.extra_energy = std::numeric_limits<double>::quiet_NaN();
 }
 
-// The whole of Newton's change has been made.
+// The whole of Newton's change has been made. So the first try of most plants is computed already;
+// those that try less at once, and those that failed, move again.
 void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool& pool) {
   rows_.search.fetch_results();
   for (int p = 0; p < size(); ++p)
     if (working_[p]) start_search(p, *steps[p].model, steps[p].report);
+  // A plant may be searched that was not expected to be, because its last change was small.
   if (!measured && any(searching_)) {
     rows_.store.set_active(searching_);
     rows_.search.measure(pool);
@@ -152,6 +164,7 @@ void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool&
 void DirectSolver::start_search(int index, const RodModel& model, StepReport& report) {
   Plant& plant = plants_[index];
   const double energy = rows_.search.energy_before(index) + plant.extra_energy;
+  // The Hessian is positive definite by design: a bad pivot is an overflow or a NaN.
   if (!rows_.elimination.healthy(index) || !std::isfinite(energy)) {
     report.errors |= not_finite;
     working_[index] = 0;
@@ -162,6 +175,7 @@ void DirectSolver::start_search(int index, const RodModel& model, StepReport& re
   const double share = plant.control.share();
   if (share < 1.0) rows_.search.set_share(index, share);
   searching_[index] = plant.control.is_searched(!plant.contacts.only_with_itself());
+  // The change is taken without a search. Whether contact presses still decides when to stop.
   if (searching_[index] || !plant.touched) return;
   plant.presses = plant.presses || plant.contacts.potential(model, plant.iterate) > 0.0;
   plant.iterate_is_here = true;
@@ -169,6 +183,8 @@ void DirectSolver::start_search(int index, const RodModel& model, StepReport& re
 
 void DirectSolver::try_share(int index, const RodModel& model, StepReport& report) {
   Plant& plant = plants_[index];
+  // The potential of rods and inertia comes from the rows, that of loads and contacts from the
+  // state.
   double found = rows_.search.energy(index);
   if (plant.touched) {
     plant.pressed = plant.contacts.potential(model, plant.iterate);
@@ -199,6 +215,7 @@ void DirectSolver::validate_contacts(std::span<PlantStep> steps, double dt, Thre
       if (!searching_[p]) continue;
       Plant& plant = plants_[p];
       const RodModel& model = *steps[p].model;
+      // One plant after the other, each with all threads.
       lend(&pool, p, steps[p]);
       find_contacts(p, steps[p], dt);
       plant.contacts_are_here = true;
