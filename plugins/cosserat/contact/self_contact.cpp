@@ -83,6 +83,7 @@ void SelfContact::find(const RodModel& model, const RodState& state, double dt,
 
 void SelfContact::find_lists(const RodModel& model, const RodState& state, double dt,
                              ContactLists& found) {
+  // Without a step, as when contacts are only looked at, nothing has moved yet.
   if (!start_) begin_step(model, state, dt);
   const bool near_holds = update_lists(model, state);
   // One list of contacts a part: threads do not write beside each other, and the order of contacts
@@ -119,6 +120,7 @@ void SelfContact::touch_near(const RodModel& model, const RodState& state, doubl
   for (std::size_t i = 0; i < count; ++i) {
     const int pair = scratch.meeting[i];
     const CollisionShape &a = model.shapes[near.a[pair]], &b = model.shapes[near.b[pair]];
+    // What came off is no part of the plant any more.
     if (!is_live(a) || !is_live(b)) continue;
     row.a[lanes] = near.a[pair];
     row.b[lanes] = near.b[pair];

@@ -117,6 +117,7 @@ HWY_INLINE Poses poses_of(const RodModel& model, const RodState& state, std::siz
   return out;
 }
 
+// Shapes lie along their elements' axes.
 HWY_INLINE AxisEnds place(const Places& places, const RodModel& model, const RodState& state,
                           std::size_t i) {
   const Poses poses = poses_of(model, state, places.stems, i);
@@ -172,6 +173,7 @@ void UpdateNear(const Places& places, const Limits& limits, const RodModel& mode
   }
 }
 
+// Measures all shapes even where one has moved too far: contacts need the ends in any case.
 bool ValidateNear(const Places& places, const RodModel& model, const RodState& state,
                   std::size_t first, std::size_t end, const ShapeMotion::Arrays& out) {
   M holds = hn::FirstN(D(), width);

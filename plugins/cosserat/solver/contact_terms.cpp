@@ -95,6 +95,7 @@ void ContactTerms::make_rows(const RodModel& model) {
   const std::size_t rows = (found_.size() + lane_count - 1) / lane_count;
   rows_.resize(rows);
   block_elements_.resize(rows * lane_count, -1);
+  // Rows point to the blocks, which stay where they are while their number does not grow.
   blocks_.resize(rows * lane_count);
   ends_.resize(rows);
   stay_.resize((rows + stretch_length - 1) / stretch_length);
@@ -137,6 +138,8 @@ void ContactTerms::sum_energy() {
     energy_ = std::accumulate(std::begin(row.energy), std::end(row.energy), energy_);
 }
 
+// Normals and places stay, so that the number of contacts does, too; a contact may stop to push or
+// begin to, which changes the elements of the blocks.
 void ContactTerms::follow(const RodState& iterate) {
   for_each_stretch([&](std::size_t first, std::size_t end) {
     fetch_poses(end, iterate);
@@ -174,6 +177,7 @@ void ContactTerms::finish(const RodModel&, const RodState& end) {
       carried_[first / stretch_length] = remember(first, last);
     });
   }
+  // All threads have written their springs: now they can be found by shape.
   memory_.index(found_);
   carrying_ = 0;
   deepest_ = 0.0;
@@ -217,6 +221,7 @@ const std::vector<ContactForce>& ContactTerms::forces() const {
   return forces_;
 }
 
+// Only when somebody asks: most steps of most plants are never asked for their forces.
 void ContactTerms::list_forces() const {
   forces_.clear();
   for (std::size_t i = 0; i < found_.size(); ++i) {

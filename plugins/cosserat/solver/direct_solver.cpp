@@ -69,7 +69,7 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
   begin(steps, dt, gravity, pool);
   solve(steps, dt, pool);
   // No state has been written yet, so that a step can be taken again from where it began. Substeps
-  // are not cut a second time: what two do not solve the next step tries again.
+  // are not cut a second time: what two do not solve is reported as not converged.
   for (int p = 0; p < size() && !is_substepper_; ++p) {
     if (IterationControl::needs_substeps(plants_[p].pressing(), steps[p].report))
       take_in_substeps(p, steps[p], dt, gravity);
@@ -85,6 +85,7 @@ void DirectSolver::lend(ThreadPool* pool, int index, const PlantStep& step) {
   for (ContactSource* source : step.contacts) source->use(pool);
 }
 
+// What a step starts from: the model and the state in rows, the scheme, the laws and what touches.
 void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& gravity,
                          ThreadPool& pool) {
   rows_.store.gravity = gravity;
@@ -176,6 +177,7 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
   Plant& alone = solver.plants_.front();
   solver.settings_ = settings_;
   solver.is_substepper_ = true;
+  // A substep is not as long as what the substepper did last, so that has no history for it.
   solver.reset();
   solver.forces_.clear();
   plant.control.count_substepped();
@@ -214,6 +216,7 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
   state.time = plant.iterate.time;
 }
 
+// Positions and velocities are written here only: a step that failed leaves them as they were.
 void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   for (int p = 0; p < size(); ++p)  // what substeps leave is not in the rows
     if (plants_[p].substepped || (steps[p].report.errors & not_finite)) states_[p] = nullptr;
@@ -237,6 +240,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
       state.time += dt;
       return;
     }
+    // Finding the element takes all changes of a plant, so only where somebody will ask for it.
     if (report.errors != none) report.element = rows_.elimination.largest_change(p, state.size());
     plant.contacts.finish(*steps[p].model, state);
     report.contacts = plant.contacts.carrying();

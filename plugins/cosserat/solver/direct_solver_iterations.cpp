@@ -97,6 +97,7 @@ void DirectSolver::hand_over_blocks() {
   }
 }
 
+// At the iterate: normals, places and planes of all contacts, old ones and new.
 void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
   Plant& plant = plants_[index];
   plant.contacts.find(*step.model, *step.state, plant.iterate, dt, step.contacts);
@@ -161,6 +162,7 @@ void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool&
   }
 }
 
+// A plant whose system has no solution stops here, and keeps the state that it began with.
 void DirectSolver::start_search(int index, const RodModel& model, StepReport& report) {
   Plant& plant = plants_[index];
   const double energy = rows_.search.energy_before(index) + plant.extra_energy;
@@ -181,6 +183,7 @@ void DirectSolver::start_search(int index, const RodModel& model, StepReport& re
   plant.iterate_is_here = true;
 }
 
+// A share of 0 is always accepted: then the iterate is where the search began.
 void DirectSolver::try_share(int index, const RodModel& model, StepReport& report) {
   Plant& plant = plants_[index];
   // The potential of rods and inertia comes from the rows, that of loads and contacts from the

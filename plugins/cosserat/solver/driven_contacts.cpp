@@ -23,6 +23,7 @@ void DrivenContacts::clear() {
   driven_ = {};
 }
 
+// Until its contacts are known, a joint stands where it would go without them.
 void DrivenContacts::list(ContactSource& source, std::size_t first) {
   PEDICEL_ASSERT(source_ == nullptr);
   source_ = &source;
@@ -32,6 +33,7 @@ void DrivenContacts::list(ContactSource& source, std::size_t first) {
   for (const ContactDrive& drive : source.drives()) stands_.push_back({drive.aim, 0.0});
 }
 
+// Only joints that press on something are held back. The plant is held fixed meanwhile.
 void DrivenContacts::move(const ContactLists& contacts, std::span<const double> gives) {
   for (std::size_t d = 0; source_ && d < stands_.size(); ++d) {
     loads_.clear();
@@ -75,6 +77,7 @@ void DrivenContacts::end(const ContactLists& contacts, std::span<ContactRow> row
     const ContactDrive& drive = source_->drives()[d];
     stands_[d].position = stand(drive, loads_);
     stands_[d].load = load_at(drive, loads_, stands_[d].position);
+    // Gaps are reported from where the collider now is.
     auto load = loads_.begin();
     each([&](std::size_t contact, std::size_t row, int lane, const DrivenContact& driven) {
       rows[row].gap[lane] = contacts[contact].gap - nearer(driven);

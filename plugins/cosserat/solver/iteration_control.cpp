@@ -12,6 +12,7 @@ constexpr double tiny = 1.0e-300;  // in place of a divisor of 0
 
 }  // namespace
 
+// gain_change_ may stay: with a gain of 1 nothing is expected of the first iteration.
 void IterationControl::reset() {
   is_solved_ = false;
   gain_ = 1.0;
@@ -43,6 +44,8 @@ bool IterationControl::is_searched(bool may_touch_outside) const {
   return may_touch_outside || change_.motion() > unsearched_motion;
 }
 
+// The change counts in full when it is asked whether the step is done, and with its share when it
+// is asked how far the plant went.
 void IterationControl::begin_search(const NewtonChange& change, double energy) {
   change_ = change;
   energy_ = energy;
@@ -111,6 +114,8 @@ bool IterationControl::is_done(Pressing pressing, const RodSettings& settings, S
   const double change = last_change_ = change_.largest;
   const bool with_itself = pressing == Pressing::itself;
 
+  // How many iterations this step may take: more where contact moves things roughly, and more again
+  // where changes are damped.
   const bool rough = is_rough(pressing, gain, settings);
   int most = (rough ? rough_iterations : 1) * settings.newton_iterations;
   if (damps_cycles_ && rough && !with_itself) {
@@ -125,14 +130,19 @@ bool IterationControl::is_done(Pressing pressing, const RodSettings& settings, S
   const double moved = change_.motion(), left = series * moved;
   const double settled = settings.self_contact_tolerance;
   const bool is_settled = moved <= settled || left <= left_over * settled;
+  // Only the last iteration of a step can say that it did not converge. Self-contact is held to
+  // what can be seen, everything else to what the next step can start from.
   if (last && (with_itself ? !is_settled : change > converged_change))
     report.errors |= not_converged;
   if (with_itself) {
     is_solved_ = is_settled;
+    // The gain of an earlier step may be too good for this one, so it has to leave less.
     const bool ends = first ? left <= left_over_ahead * settled : is_settled;
     if (ends && first) trust_gain_less();
     return last || ends;
   }
+  // Contacts with things outside are found anew in every iteration, and the series knows nothing of
+  // those that come.
   if (pressing == Pressing::outside)
     return last || change <= pressed_tolerance * settings.tolerance;
   const bool small = change <= settings.tolerance || series * change <= settings.tolerance;

@@ -23,7 +23,7 @@ enum class Pressing {
 class IterationControl {
  public:
   /// Substeps of a step that contact keeps from its solution. Two are enough mostly: what drags the
-  /// plant then moves half as far. What two do not solve the next step tries again.
+  /// plant then moves half as far. What two do not solve is reported.
   static constexpr int substeps = 2;
 
   /// Nothing is known of earlier steps any more.

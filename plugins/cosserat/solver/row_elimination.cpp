@@ -68,6 +68,7 @@ void RowElimination::substitute(ThreadPool& pool) {
   store_.graph.pre_order(pool, [&](int task) { substitute_task(rows, task); });
 }
 
+// A plant with loops has its solution already, of which only the size is wanted.
 void RowElimination::substitute_task(const RowArrays& rows, int task) {
   const LaneLayout& layout = store_.layout;
   const int number = layout.pack_of(task);
@@ -120,6 +121,7 @@ void RowElimination::copy_element(const BlocksRow& from, int lane, int e, int pa
       system.diagonal(parent)(3 + i, 3 + j) += bend;
     }
   }
+  // The parent's share of the element's energies.
   for (int i = 0; i < 6; ++i) system.right_side(parent)[i] += from.on_parent[i][lane];
 }
 
@@ -139,6 +141,7 @@ void RowElimination::set_change(int plant, const BlockSystem& solved) {
   }
 }
 
+// The block system of a plant with loops has checked its own pivots.
 bool RowElimination::healthy(int plant) const {
   return std::ranges::all_of(store_.layout.lanes_of_plant(plant), [&](const LaneRun& run) {
     const Lanes& healthy = store_.packs[run.pack].healthy;
@@ -167,6 +170,7 @@ Vec6 RowElimination::change(int plant, int element) const {
   return change;
 }
 
+// Where a step failed, the report names this element: there one looks first.
 int RowElimination::largest_change(int plant, int elements) const {
   int worst = -1;
   double largest = 0.0;

@@ -40,6 +40,7 @@ void RowStates::set_scheme(int plant, double dt, double previous_dt, const Pose&
   const Scheme scheme{dt, previous_dt, accelerate};
   if (scheme == schemes_[plant]) return;  // mostly; see RowStore::set_active()
   schemes_[plant] = scheme;
+  // At the end x' = (x - (past_now x_n - past_before x_n-1)) / effective_step.
   const bool first_order = previous_dt == 0.0;
   const double ratio = first_order ? 0.0 : dt / previous_dt;
   const double divisor = 1.0 + 2.0 * ratio;
@@ -72,6 +73,7 @@ void RowStates::prepare(ThreadPool& pool, std::span<const RodState* const> state
   keeps_end_ = keeps_end_ && !unchanged.empty();
   const RowArrays rows = store_.arrays();
   store_.each_pack(pool, [&](int p) {
+    // The parents of a pack may still be under way in another thread: they are fetched later.
     store_.packs[p].anchored = false;
     if (!store_.packs[p].active) return;
     if (!has_states(p, unchanged)) read_states(p, states);
@@ -80,6 +82,7 @@ void RowStates::prepare(ThreadPool& pool, std::span<const RodState* const> state
 }
 
 // Those of all its plants. What remembers more than poses and velocities is read.
+// Rows that another solver shares do not keep what they held.
 bool RowStates::has_states(int pack, std::span<const char> unchanged) const {
   return keeps_end_ &&
          std::ranges::all_of(store_.anchors[pack], [&](const RowStore::Anchor& anchor) {
@@ -142,6 +145,7 @@ void RowStates::hold(int plant) {
           rotation_at(scratch.start[row].orientation, chain.lane));
     }
   }
+  // Packs hold copies of their parents' poses, which have just changed.
   for (const LaneRun& run : store_.layout.lanes_of_plant(plant))
     store_.place_anchors(run.pack, scratch.iterate);
 }
@@ -208,6 +212,7 @@ void RowStates::write_end(int pack, std::span<RodState* const> states) const {
   });
 }
 
+// By swapping, where the scratch is its own: the end becomes the start, and the start the past.
 void RowStates::end_step() {
   RowScratch& scratch = *store_.scratch;
   keeps_end_ = store_.scratch.use_count() == 1;  // what a step leaves there is nobody else's

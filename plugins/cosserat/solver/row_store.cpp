@@ -65,11 +65,13 @@ RowStore::RowStore(std::span<const RodModel* const> plants, int threads, bool ke
       anchors(layout.packs()),
       carriers(layout.tasks()),
       roots(plants.size()) {
+  // The rows of one thread lie side by side, so that what its core fetches ahead is its own.
   std::vector<int> order;
   for (int thread = 0; thread < graph.threads(); ++thread)
     std::ranges::copy_if(graph.tasks_of(thread), std::back_inserter(order),
                          [&](int task) { return layout.is_pack(task); });
   layout.place(order);
+  // Scratch may be shared: it has room for the largest of those that use it.
   const auto grow = [&](auto& rows) {
     if (static_cast<int>(rows.size()) < layout.rows()) rows.resize(layout.rows());
   };
@@ -84,6 +86,7 @@ RowStore::RowStore(std::span<const RodModel* const> plants, int threads, bool ke
   join_chains();
 }
 
+// Lanes that nobody sets compute along, and must not divide by zero.
 void RowStore::make_packs() {
   for (int p = 0; p < layout.packs(); ++p) {
     packs[p] = Pack{};
@@ -202,6 +205,7 @@ void RowStore::make_viscous(int pack) {
   }
 }
 
+// Rows only grow: a plant that loses its laws keeps rows that add exact zeros.
 bool RowStore::make_extensions(int law_branches) {
   extension.resize(layout.rows(), plain_row());
   extension_term.resize(layout.rows(), ExtensionTermRow{});
