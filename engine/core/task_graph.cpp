@@ -144,10 +144,10 @@ Schedule with_better_borders(const Lists& needs, const std::vector<double>& cost
 }  // namespace
 
 TaskGraph::TaskGraph(const Lists& needs, const std::vector<double>& cost, int threads)
-    : inward_(needs.size()),
-      outward_(needs.size()),
-      inward_walks_(std::max(0, threads)),
-      outward_walks_(std::max(0, threads)) {
+    : post_order_(needs.size()),
+      pre_order_(needs.size()),
+      post_order_walks_(std::max(0, threads)),
+      pre_order_walks_(std::max(0, threads)) {
   if (threads < 1) throw UsageError("threads = " + std::to_string(threads) + ": must be >= 1");
   const int n = static_cast<int>(needs.size());
   Lists needed_by(n);

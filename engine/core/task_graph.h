@@ -33,45 +33,45 @@ class TaskGraph {
     pool.for_each(threads(), [&](int thread) {
       own_first(thread, round, [&](int i) {
         do_once(
-            inward_[i], round, [] {}, [&] { task(i); });
+            post_order_[i], round, [] {}, [&] { task(i); });
       });
     });
   }
 
   /// task(i) for all, each after those that it needs.
   template <class Task>
-  void inward(ThreadPool& pool, const Task& task) {
+  void post_order(ThreadPool& pool, const Task& task) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_first(thread, round, [&](int i) { do_inward(thread, i, round, task); });
+      own_first(thread, round, [&](int i) { do_post_order(thread, i, round, task); });
     });
   }
 
   /// The other way round: each before those that it needs.
   template <class Task>
-  void outward(ThreadPool& pool, const Task& task) {
+  void pre_order(ThreadPool& pool, const Task& task) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
       own_last(thread, round, [&](int i) {
-        do_outward(
+        do_pre_order(
             thread, i, round, [](int) {}, task);
       });
     });
   }
 
-  /// Both in one go: outward(i) after inward() of i and of all that i is needed by.
-  template <class Inward, class Outward>
-  void inward_and_outward(ThreadPool& pool, const Inward& in, const Outward& out) {
+  /// Both in one go: pre_order(i) after post_order() of i and of all that i is needed by.
+  template <class PostOrder, class PreOrder>
+  void post_and_pre_order(ThreadPool& pool, const PostOrder& in, const PreOrder& out) {
     const unsigned round = ++round_;
     pool.for_each(threads(), [&](int thread) {
-      own_first(thread, round, [&](int i) { do_inward(thread, i, round, in); });
+      own_first(thread, round, [&](int i) { do_post_order(thread, i, round, in); });
       own_last(thread, round, [&](int i) {
         const auto before = [&](int task) {
-          leave_to_owner(thread, task, inward_[task], round,
-                         [&] { do_inward(thread, task, round, in); });
-          await_end(inward_[task], round);
+          leave_to_owner(thread, task, post_order_[task], round,
+                         [&] { do_post_order(thread, task, round, in); });
+          await_end(post_order_[task], round);
         };
-        do_outward(thread, i, round, before, out);
+        do_pre_order(thread, i, round, before, out);
       });
     });
   }
@@ -98,13 +98,13 @@ class TaskGraph {
   // and back again.
   template <class Do>
   void own_first(int thread, unsigned round, const Do& todo) {
-    walk(thread, round, inward_walks_,
+    walk(thread, round, post_order_walks_,
          [&](const std::vector<int>& share, std::size_t k) { todo(share[k]); });
   }
   // Likewise from the last to the first.
   template <class Do>
   void own_last(int thread, unsigned round, const Do& todo) {
-    walk(thread, round, outward_walks_,
+    walk(thread, round, pre_order_walks_,
          [&](const std::vector<int>& share, std::size_t k) { todo(share[share.size() - 1 - k]); });
   }
   template <class Do>
@@ -139,8 +139,8 @@ class TaskGraph {
       return walk.round.load(std::memory_order_relaxed) == round;
     };
     if (owner != thread &&
-        (is_under_way(inward_walks_[owner]) || is_under_way(outward_walks_[owner])) &&
-        await([&] { return mark.begun.load(std::memory_order_relaxed) == round; }, patience))
+        (is_under_way(post_order_walks_[owner]) || is_under_way(pre_order_walks_[owner])) &&
+        await([&] { return mark.begun.load(std::memory_order_relaxed) == round; }, spin_count))
       return;
     todo();
   }
@@ -149,34 +149,34 @@ class TaskGraph {
     await([&] { return mark.done.load(std::memory_order_acquire) == round; });
   }
   template <class Task>
-  void do_inward(int thread, int i, unsigned round, const Task& task) {
+  void do_post_order(int thread, int i, unsigned round, const Task& task) {
     const auto others = [&] {
       for (const int other : needs_.of(i))
-        leave_to_owner(thread, other, inward_[other], round,
-                       [&] { do_inward(thread, other, round, task); });
-      for (const int other : needs_.of(i)) await_end(inward_[other], round);
+        leave_to_owner(thread, other, post_order_[other], round,
+                       [&] { do_post_order(thread, other, round, task); });
+      for (const int other : needs_.of(i)) await_end(post_order_[other], round);
     };
-    do_once(inward_[i], round, others, [&] { task(i); });
+    do_once(post_order_[i], round, others, [&] { task(i); });
   }
   template <class First, class Task>
-  void do_outward(int thread, int i, unsigned round, const First& first, const Task& task) {
+  void do_pre_order(int thread, int i, unsigned round, const First& first, const Task& task) {
     const auto others = [&] {
       first(i);
       for (const int other : needed_by_.of(i))
-        leave_to_owner(thread, other, outward_[other], round,
-                       [&] { do_outward(thread, other, round, first, task); });
-      for (const int other : needed_by_.of(i)) await_end(outward_[other], round);
+        leave_to_owner(thread, other, pre_order_[other], round,
+                       [&] { do_pre_order(thread, other, round, first, task); });
+      for (const int other : needed_by_.of(i)) await_end(pre_order_[other], round);
     };
-    do_once(outward_[i], round, others, [&] { task(i); });
+    do_once(pre_order_[i], round, others, [&] { task(i); });
   }
 
-  static constexpr unsigned patience = 2048;  // turns of waiting
+  static constexpr unsigned spin_count = 2048;  // turns of waiting
 
   FlatLists needs_, needed_by_;
   std::vector<int> owner_;  // by task
   std::vector<std::vector<int>> shares_;
-  std::vector<Mark> inward_, outward_;              // by task
-  std::vector<Walk> inward_walks_, outward_walks_;  // by thread
+  std::vector<Mark> post_order_, pre_order_;              // by task
+  std::vector<Walk> post_order_walks_, pre_order_walks_;  // by thread
   unsigned round_ = 0;
 };
 

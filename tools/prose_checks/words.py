@@ -7,8 +7,7 @@ from .sentences import plain
 
 # Plain English or words of other fields as well, so a page may have them.
 EVERYDAY = {
-    "along", "course", "give", "head", "inward", "is pulled", "leads", "less", "look", "look again", "looked", "more",
-    "outward", "parting", "quiet", "round", "slack", "tail", "warm",
+    "give", "is pulled", "leads", "parting", "quiet", "slack",
 }  # fmt: skip
 
 

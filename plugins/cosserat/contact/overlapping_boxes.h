@@ -36,7 +36,7 @@ class OverlappingBoxes {
   /// parts there are.
   template <class Take>
   int find(const PartedLoop& loop, const Take& take) {
-    const int parts = loop.parts(count_, worth_waking);
+    const int parts = loop.parts(count_, grain_size);
     const auto begins = share_out(parts);
     loop.each(parts, [&](int part) {
       if (parts > 1) fetch_from(begins[part] * at_a_time);
@@ -78,7 +78,7 @@ class OverlappingBoxes {
   };
 
  private:
-  static constexpr std::size_t worth_waking = 128, at_a_time = 64;  // boxes, whole groups
+  static constexpr std::size_t grain_size = 128, at_a_time = 64;  // boxes, whole groups
   // As many pairs are found and taken in the time of comparing at_a_time boxes with the groups'
   // boxes, and with the boxes of one group that one of them overlaps.
   static constexpr double with_groups = 30.0, with_group = 1.2;

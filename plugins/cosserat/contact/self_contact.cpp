@@ -27,7 +27,7 @@ void check(const SelfContactSettings& settings) {
   above("margin", settings.margin, settings.margin > 0.0, "> 0");
 }
 
-// A larger budget collects the far list more rarely, but with more pairs.
+// A larger bound rebuilds the far list more rarely, but with more pairs.
 ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& settings) {
   double sum = 0.0;
   for (const CollisionShape& shape : model.shapes)
@@ -37,8 +37,8 @@ ShapeMotion::Limits limits_of(const RodModel& model, const SelfContactSettings& 
   limits.most = 2.0 * length;  // what moves farther in a step may pass through
   limits.margin = settings.margin;
   limits.skin = 0.3 * length;
-  limits.slack = 0.1;  // for what iterations change
-  limits.astray = 0.3;
+  limits.near_share = 0.1;  // for what iterations change
+  limits.far_share = 0.3;
   return limits;
 }
 
@@ -83,8 +83,11 @@ void SelfContact::find(const RodModel& model, const RodState& state, double dt,
 
 void SelfContact::find_lists(const RodModel& model, const RodState& state, double dt,
                              ContactLists& found) {
+  // Without a step, as when contacts are only looked at, nothing has moved yet.
   if (!start_) begin_step(model, state, dt);
-  const bool near_holds = look(model, state);
+  const bool near_holds = update_lists(model, state);
+  // One list of contacts a part: threads do not write beside each other, and the order of contacts
+  // does not depend on them.
   const std::size_t first = found.add(far_parts_);
   loop_.each(far_parts_, [&](int part) {
     Scratch& scratch = scratch_[part];
@@ -105,6 +108,7 @@ void SelfContact::touch_near(const RodModel& model, const RodState& state, doubl
   CapsulePairs& near = scratch.near;
   measure(motion_.now(), near);
   scratch.measured += static_cast<long>(near.size());
+  // Pairs are touched eight at a time, in the order of the list.
   const std::size_t count = list_meeting(moved_capsules(), settings_.margin, near, scratch.meeting);
   TouchingRow row{};
   int lanes = 0;
@@ -116,6 +120,7 @@ void SelfContact::touch_near(const RodModel& model, const RodState& state, doubl
   for (std::size_t i = 0; i < count; ++i) {
     const int pair = scratch.meeting[i];
     const CollisionShape &a = model.shapes[near.a[pair]], &b = model.shapes[near.b[pair]];
+    // What came off is no part of the plant any more.
     if (!is_live(a) || !is_live(b)) continue;
     row.a[lanes] = near.a[pair];
     row.b[lanes] = near.b[pair];
@@ -137,6 +142,8 @@ void SelfContact::add_contact(const RodModel& model, double dt, const TouchingRo
   if (!(gap <= settings_.margin + row.apart[lane])) return;
   const int a = row.a[lane], b = row.b[lane];
   const CollisionShape &shape_a = model.shapes[a], &shape_b = model.shapes[b];
+  // Limited by what the lighter element's inertia can follow in a step: a stiffer spring would glue
+  // light parts to where they touched.
   const bool soft = shape_a.fruit >= 0 || shape_b.fruit >= 0;
   const double lighter =
       std::min(model.elements[shape_a.element].mass, model.elements[shape_b.element].mass);
@@ -156,6 +163,7 @@ void SelfContact::add_contact(const RodModel& model, double dt, const TouchingRo
     point.normal_W = normal;
     found.push_back(point);
   };
+  // Both sides against the plane in the middle, with the same force.
   const Vec3 normal_W = vector_at(row.normal, lane);
   add(a, b, row.back_a[lane], row.radius_a[lane], normal_W);
   add(b, a, row.back_b[lane], row.radius_b[lane], -normal_W);

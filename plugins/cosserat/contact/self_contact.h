@@ -44,11 +44,11 @@ struct SelfContactSettings {
 ///
 /// What moves is bounded by ShapeMotion, and a gap changes by no more than both shapes move. Three
 /// sieves, each on what the one before left:
-///   far list   may touch within some steps while no end leaves its course by more than a budget
-///              that grows with its speed; collected rarely, from boxes. The few that do leave it
-///              get a new course and lists of their own
-///   near list  may touch in this step, whatever the iterations change within a slack; collected
-///              once or twice a step
+///   far list   may touch within some steps while no end deviates from its predicted motion by more
+///              than a bound that grows with its speed; rebuilt rarely, from boxes. The few that
+///              deviate further get a new prediction and lists of their own
+///   near list  may touch in this step, whatever the iterations change within a displacement bound;
+///              updated once or twice a step
 ///   contact    is nearer than the two have moved against each other in this step
 ///
 /// The price: what moves both sides together converges like Jacobi's method, by 1 / (1 + 2 k
@@ -83,9 +83,9 @@ class SelfContact : public ContactSource {
 
  private:
   void collect_left_out(const RodModel& model);
-  bool look(const RodModel& model, const RodState& state);
-  template <class LookAt>
-  int for_all_shapes(const LookAt& look_at);
+  bool update_lists(const RodModel& model, const RodState& state);
+  template <class Task>
+  int for_all_shapes(const Task& task);
   void collect_far();
   void make_box(std::size_t shape, int steps_left);
   CapsuleMotion moved_capsules() const;
@@ -95,7 +95,7 @@ class SelfContact : public ContactSource {
   void add_contact(const RodModel& model, double dt, const TouchingRow& row, int lane,
                    std::vector<ContactPoint>& found) const;
 
-  static constexpr std::size_t worth_waking = 256;  // shapes, a thread
+  static constexpr std::size_t grain_size = 256;  // shapes, a thread
 
   using Pair = std::pair<int, int>;
   using Pairs = std::vector<Pair>;
@@ -103,39 +103,39 @@ class SelfContact : public ContactSource {
   struct Scratch {
     CapsulePairs near;  // this part of the near list
     CapsulePairs pairs;
-    Pairs astray;
+    Pairs deviating_pairs;
     std::vector<int> meeting;
     long measured = 0;
-    double work = 0.0;                // of collecting its part of the near list
-    bool holds = true;                // of its shapes, the near list
-    ShapeMotion::Astray left_course;  // of its shapes
+    double work = 0.0;                 // of collecting its part of the near list
+    bool holds = true;                 // of its shapes, the near list
+    ShapeMotion::Deviating deviating;  // of its shapes
   };
 
-  bool find_strays(std::span<const Scratch> parts);
+  bool find_deviating(std::span<const Scratch> parts);
   void collect_near(int part);
   Pair far_pair(std::size_t i) const;
   void sift_far(const CapsulePairs& far, std::size_t begin, std::size_t end,
                 Scratch& scratch) const;
   void keep_near(Scratch& scratch) const;
-  void add_strays(const Pair& begin, const Pair& end, Scratch& scratch) const;
+  void add_deviating(const Pair& begin, const Pair& end, Scratch& scratch) const;
   void touch_near(const RodModel& model, const RodState& state, double dt, Scratch& scratch,
                   std::vector<ContactPoint>& found) const;
 
   SelfContactSettings settings_;
   PartedLoop loop_;
   ShapeMotion motion_;
-  // The far list is in parts; its gaps are those where its courses begin. Pairs are ascending.
+  // The far list is in parts; its gaps are those where its predictions begin. Pairs are ascending.
   std::array<CapsulePairs, PartedLoop::most_parts> far_;
   int far_parts_ = 0;
   // Where the parts of the near list begin in it (1, of its length).
   std::array<double, PartedLoop::most_parts + 1> near_begins_{};
-  bool far_stands_ = true;                  // there are no courses
+  bool far_stands_ = true;                  // nothing is predicted to move
   int far_steps_ = 0, far_steps_most_ = 0;  // since then; for which it was made
-  // Shapes that left their course, ascending, and all that they may touch; what the far list has of
-  // them does not count.
-  std::vector<int> strays_;
-  CapsulePairs stray_pairs_;
-  bool step_begins_ = false;  // nobody has looked yet
+  // Shapes that deviate from their predicted motion, ascending, and all that they may touch; what
+  // the far list has of them does not count.
+  std::vector<int> deviating_;
+  CapsulePairs deviating_pairs_;
+  bool step_begins_ = false;  // no list has been updated in it yet
   std::array<Scratch, PartedLoop::most_parts> scratch_;
   ContactLists found_;      // scratch
   OverlappingBoxes boxes_;  // m, W

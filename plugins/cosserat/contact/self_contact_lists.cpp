@@ -14,16 +14,20 @@ namespace pedicel::cosserat {
 namespace {
 
 constexpr std::pair beyond{std::numeric_limits<int>::max(), 0};  // all pairs
+// Lists are sieved in bites: what a sieve leaves is measured before it leaves the cache.
 constexpr std::size_t at_a_time = 512;  // pairs that stay in a core's cache
 // Measuring a pair that a sieve has left takes as long as sifting so many.
 constexpr double sifted = 10.0, measured = 30.0;  // from the far list, from the near list
 // The far list is made for so many steps at most, in which the fastest goes so far (1, of what
-// counts of a step's motion). Where it goes no farther than so many skins, nothing has a course.
+// counts of a step's motion). Where it goes no farther than so many skins, nothing is
+// predicted to move.
 constexpr double most_steps = 16.0, farthest = 0.7, still = 2.0;
-constexpr std::size_t most_strays = 32;
+// Each deviating shape is compared with all boxes, so that they must be few.
+constexpr std::size_t most_deviating = 32;
 // So what is not listed is more than may be kept.
-static_assert(std::tuple_size_v<decltype(ShapeMotion::Astray::shapes)> > most_strays);
-constexpr double strays_budget = 2.0;  // 1, of others'
+static_assert(std::tuple_size_v<decltype(ShapeMotion::Deviating::shapes)> > most_deviating);
+// What deviated once will do so again: a larger bound lasts longer.
+constexpr double deviating_bound = 2.0;  // 1, of others'
 
 // Elements at most two joints apart from each other, by element, each with itself.
 std::vector<std::vector<int>> neighbours(const RodModel& model) {
@@ -46,55 +50,58 @@ std::vector<std::vector<int>> neighbours(const RodModel& model) {
 
 }  // namespace
 
-// look_at(part, first, end) for stretches of all shapes. Returns the number of parts.
-template <class LookAt>
-int SelfContact::for_all_shapes(const LookAt& look_at) {
+// task(part, first, end) for stretches of all shapes. Returns the number of parts.
+template <class Task>
+int SelfContact::for_all_shapes(const Task& task) {
   const std::size_t room = motion_.room();
-  const int parts = loop_.parts(room, worth_waking);
-  loop_.run(room, parts, look_at);
+  const int parts = loop_.parts(room, grain_size);
+  loop_.run(room, parts, task);
   return parts;
 }
 
-// Whether the near list holds, which a step's first look never finds.
-bool SelfContact::look(const RodModel& model, const RodState& state) {
+// Whether the near list holds, which it never does where a step begins: what moved since the last
+// step must be predicted anew.
+bool SelfContact::update_lists(const RodModel& model, const RodState& state) {
   const auto of_parts = [&](int parts) { return std::span(scratch_).first(parts); };
   if (!step_begins_) {
     const int parts = for_all_shapes([&](int part, std::size_t first, std::size_t end) {
-      scratch_[part].holds = motion_.look_again(model, state, first, end);
+      scratch_[part].holds = motion_.validate_near(model, state, first, end);
     });
     if (std::ranges::all_of(of_parts(parts), [](const Scratch& s) { return s.holds; })) return true;
   }
+  // The near list does not hold. Where a step begins, the far list is one step older.
   if (step_begins_) ++far_steps_;
   const RodState* const begins = std::exchange(step_begins_, false) ? start_ : nullptr;
   const int parts = for_all_shapes([&](int part, std::size_t first, std::size_t end) {
-    scratch_[part].left_course.count = 0;
-    motion_.look(model, begins, state, first, end, scratch_[part].left_course);
+    scratch_[part].deviating.count = 0;
+    motion_.update_near(model, begins, state, first, end, scratch_[part].deviating);
   });
-  const bool goes_on = far_steps_ <= far_steps_most_ || (far_stands_ && strays_.empty());
-  if (!goes_on || !find_strays(of_parts(parts))) collect_far();
-  for (const int stray : strays_) motion_.forget_reach(stray);
+  // A list without predicted motion does not grow old while all shapes keep within their bounds.
+  const bool goes_on = far_steps_ <= far_steps_most_ || (far_stands_ && deviating_.empty());
+  if (!goes_on || !find_deviating(of_parts(parts))) collect_far();
+  for (const int shape : deviating_) motion_.forget_reach(shape);
   return false;
 }
 
-// A few shapes that go another way than expected need not make all of the list anew: they get a new
-// course, and all pairs of theirs. Returns whether they are few.
-bool SelfContact::find_strays(std::span<const Scratch> parts) {
+// A few shapes that deviate from their predicted motion need not rebuild all of the list: they get
+// a new prediction, and all pairs of theirs. Returns whether they are few.
+bool SelfContact::find_deviating(std::span<const Scratch> parts) {
   bool any = false;
   for (const Scratch& part : parts)
-    for (const int i : part.left_course.listed()) {
+    for (const int i : part.deviating.listed()) {
       any = true;
-      const auto place = std::lower_bound(strays_.begin(), strays_.end(), i);
-      if (place == strays_.end() || *place != i) {
-        if (strays_.size() == most_strays) return false;
-        strays_.insert(place, i);
+      const auto place = std::lower_bound(deviating_.begin(), deviating_.end(), i);
+      if (place == deviating_.end() || *place != i) {
+        if (deviating_.size() == most_deviating) return false;
+        deviating_.insert(place, i);
       }
-      motion_.restart_far(i, !far_stands_, strays_budget);
+      motion_.rebuild_far(i, !far_stands_, deviating_bound);
       make_box(i, far_steps_most_ - far_steps_);
       boxes_.close_groups(i / lane_count * lane_count, i + 1);
     }
   if (!any) return true;
-  stray_pairs_.clear();
-  for (const int stray : strays_) boxes_.find_with(stray, stray_pairs_);
+  deviating_pairs_.clear();
+  for (const int shape : deviating_) boxes_.find_with(shape, deviating_pairs_);
   return true;
 }
 
@@ -109,7 +116,7 @@ SelfContact::Pair SelfContact::far_pair(std::size_t i) const {
   return beyond;
 }
 
-// The part's share of the far list, and the strays' pairs in between.
+// The part's share of the far list, and the pairs of deviating shapes in between.
 void SelfContact::collect_near(int part) {
   Scratch& scratch = scratch_[part];
   scratch.near.clear();
@@ -125,7 +132,7 @@ void SelfContact::collect_near(int part) {
     sift_far(far_[p], place(first), place(end), scratch);
     before += size;
   }
-  add_strays(part == 0 ? Pair{0, 0} : far_pair(first), far_pair(end), scratch);
+  add_deviating(part == 0 ? Pair{0, 0} : far_pair(first), far_pair(end), scratch);
   scratch.work = static_cast<double>(end - first) + sifted * static_cast<double>(scratch.measured) +
                  measured * static_cast<double>(scratch.near.size());
 }
@@ -143,35 +150,35 @@ void SelfContact::sift_far(const CapsulePairs& far, std::size_t begin, std::size
 }
 
 // A pair is needed in this step while its gap is not above margin + what the two move against each
-// other. As the iterations move both by up to their slack, the gap may shrink and that motion grow
-// by as much.
+// other. As the iterations move both by up to their displacement bound, the gap may shrink and that
+// motion grow by as much.
 void SelfContact::keep_near(Scratch& scratch) const {
   measure(motion_.now(), scratch.pairs);
   scratch.measured += static_cast<long>(scratch.pairs.size());
-  keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_budget(), scratch.pairs);
+  keep_meeting(moved_capsules(), settings_.margin, 2.0, motion_.near_bound(), scratch.pairs);
 }
 
-// Those from `begin` on that are before `end`; pairs of two strays come twice.
-void SelfContact::add_strays(const Pair& begin, const Pair& end, Scratch& scratch) const {
+// Those from `begin` on that are before `end`; pairs of two deviating shapes come twice.
+void SelfContact::add_deviating(const Pair& begin, const Pair& end, Scratch& scratch) const {
   CapsulePairs& pairs = scratch.pairs;
   pairs.clear();
-  for (std::size_t i = 0; i < stray_pairs_.size(); ++i) {
-    const Pair pair{stray_pairs_.a[i], stray_pairs_.b[i]};
+  for (std::size_t i = 0; i < deviating_pairs_.size(); ++i) {
+    const Pair pair{deviating_pairs_.a[i], deviating_pairs_.b[i]};
     if (begin <= pair && pair < end) pairs.add(pair.first, pair.second);
   }
   if (pairs.size() == 0) return;
   keep_near(scratch);
-  Pairs& astray = scratch.astray;
-  astray.clear();
-  for (std::size_t i = 0; i < pairs.size(); ++i) astray.emplace_back(pairs.a[i], pairs.b[i]);
-  std::sort(astray.begin(), astray.end());
-  astray.erase(std::unique(astray.begin(), astray.end()), astray.end());
+  Pairs& added = scratch.deviating_pairs;
+  added.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) added.emplace_back(pairs.a[i], pairs.b[i]);
+  std::sort(added.begin(), added.end());
+  added.erase(std::unique(added.begin(), added.end()), added.end());
   // From the last pair to the first, each to where it comes.
   CapsulePairs& near = scratch.near;
-  std::size_t left = near.size(), to = left + astray.size();
-  near.make_room(astray.size());
+  std::size_t left = near.size(), to = left + added.size();
+  near.make_room(added.size());
   near.resize(to);
-  for (auto next = astray.rbegin(); next != astray.rend(); ++next) {
+  for (auto next = added.rbegin(); next != added.rend(); ++next) {
     for (; left > 0 && *next < Pair{near.a[left - 1], near.b[left - 1]}; --left) {
       --to;
       near.a[to] = near.a[left - 1];
@@ -199,18 +206,19 @@ void SelfContact::share_out_far() {
 void SelfContact::collect_far() {
   ++work_.collections;
   far_steps_ = 0;
-  strays_.clear();
-  stray_pairs_.clear();
+  deviating_.clear();
+  deviating_pairs_.clear();
   double fastest = 0.0;
-  for (const float way : motion_.way()) fastest = std::max<double>(fastest, way);
+  for (const float moved : motion_.displacement()) fastest = std::max<double>(fastest, moved);
   const double most = motion_.limits().most;
+  // Where so little moves, larger boxes do without a prediction.
   far_stands_ = most_steps * fastest <= still * motion_.limits().skin;
   // A motion of which not all counts is not continued.
   far_steps_most_ =
       fastest < most ? static_cast<int>(std::min(most_steps, farthest * most / fastest)) : 0;
-  loop_.run(motion_.room(), loop_.parts(motion_.room(), worth_waking),
+  loop_.run(motion_.room(), loop_.parts(motion_.room(), grain_size),
             [&](int, std::size_t first, std::size_t end) {
-              motion_.restart_far(first, end, !far_stands_);
+              motion_.rebuild_far(first, end, !far_stands_);
               for (std::size_t i = first; i < std::min(end, motion_.size()); ++i)
                 make_box(i, far_steps_most_);
               boxes_.close_groups(first, std::min(end, motion_.size()));
@@ -219,23 +227,23 @@ void SelfContact::collect_far() {
   const int parts = boxes_.find(loop_, [&](int part, CapsulePairs& pairs) {
     measure(motion_.now(), pairs);
     collect_coming(moved_capsules(), settings_.margin, motions_until(far_steps_most_),
-                   motion_.far_budget(), pairs, far_[part]);
+                   motion_.far_bound(), pairs, far_[part]);
   });
   if (parts == far_parts_) return;
   far_parts_ = parts;
   for (int part = 0; part <= parts; ++part) near_begins_[part] = part / double(parts);
 }
 
-// Around all of a capsule, for so many steps on its course, as far as its budget reaches.
+// Around all of a capsule, for so many steps of its predicted motion, as far as its bound reaches.
 void SelfContact::make_box(std::size_t shape, int steps_left) {
   const int steps = far_stands_ ? 0 : steps_left;
   const Capsule &from = motion_.start()[shape], &now = motion_.now()[shape];
   const Vec3 near = now.near_at(), far = now.far_at();
   const Vec3 last_near = near + steps * (near - from.near_at());
   const Vec3 last_far = far + steps * (far - from.far_at());
-  const double budget = motion_.way()[shape] + motion_.far_budget()[shape];
+  const double bound = motion_.displacement()[shape] + motion_.far_bound()[shape];
   const Vec3 wide =
-      Vec3::Constant(std::max(now.radius_near, now.radius_far) + 0.5 * settings_.margin + budget);
+      Vec3::Constant(std::max(now.radius_near, now.radius_far) + 0.5 * settings_.margin + bound);
   boxes_.set(shape, near.cwiseMin(far).cwiseMin(last_near).cwiseMin(last_far) - wide,
              near.cwiseMax(far).cwiseMax(last_near).cwiseMax(last_far) + wide);
 }
@@ -263,6 +271,7 @@ void SelfContact::collect_left_out(const RodModel& model) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     boxes_.leave_out(pairs);
   };
+  // First what the tree says; then what that leaves is measured as drawn.
   boxes_.resize(motion_.size());
   leave_out();
   collect_far();

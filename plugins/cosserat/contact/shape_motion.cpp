@@ -117,6 +117,7 @@ HWY_INLINE Poses poses_of(const RodModel& model, const RodState& state, std::siz
   return out;
 }
 
+// Shapes lie along their elements' axes.
 HWY_INLINE AxisEnds place(const Places& places, const RodModel& model, const RodState& state,
                           std::size_t i) {
   const Poses poses = poses_of(model, state, places.stems, i);
@@ -129,68 +130,78 @@ HWY_INLINE V minimum(V bound, V x) {
   return hn::IfThenElse(x < bound, x, bound);
 }
 
+// What an end did in the last step, less what was predicted, adds to its deviation.
 HWY_INLINE void begin_step(const Places& places, const RodModel& model, const RodState& state,
                            std::size_t i, const ShapeMotion::Arrays& out) {
   const Ends before = load_all(out.start, i);
   const AxisEnds ends = place(places, model, state, i);
-  const AxisEnds unexpected = ends - axis_of(before) - load_ends(out.course, i);
-  store_ends(load_ends(out.astray, i) + unexpected, out.astray, i);
+  const AxisEnds unexpected = ends - axis_of(before) - load_ends(out.predicted, i);
+  store_ends(load_ends(out.deviation, i) + unexpected, out.deviation, i);
   store_capsules(ends, before, out.start, i);
 }
 
-void Look(const Places& places, const Limits& limits, const RodModel& model, const RodState* begins,
-          const RodState& state, std::size_t first, std::size_t end, const ShapeMotion::Arrays& out,
-          ShapeMotion::Astray& astray) {
+// A shape's reach bounds by how much nearer than predicted it may come to contact in this step:
+// its deviation where it is now, by how much this step's motion is another than predicted (what is
+// nearer than it moved in the step is a contact), and what iterations may still change of both.
+void UpdateNear(const Places& places, const Limits& limits, const RodModel& model,
+                const RodState* begins, const RodState& state, std::size_t first, std::size_t end,
+                const ShapeMotion::Arrays& out, ShapeMotion::Deviating& deviating) {
   for (std::size_t i = first; i < end; i += width) {
     if (begins) begin_step(places, model, *begins, i, out);
     const Ends start = load_all(out.start, i);
     const AxisEnds now = place(places, model, state, i);
     store_capsules(now, start, out.now, i);
     const AxisEnds moved = now - axis_of(start);
-    store_ends(moved, out.looked, i);
-    const V way = minimum(set(limits.most), longest(moved));
-    const V budget = hn::MulAdd(set(limits.slack), way, set(limits.margin));
-    const AxisEnds unexpected = moved - load_ends(out.course, i);
-    const V reach = longest(load_ends(out.astray, i) + unexpected) +
-                    minimum(set(limits.most), longest(unexpected)) + (budget + budget);
-    store_at(way, out.way, i);
-    store_at(budget, out.near_budget, i);
+    store_ends(moved, out.reference, i);
+    const V displacement = minimum(set(limits.most), longest(moved));
+    const V bound = hn::MulAdd(set(limits.near_share), displacement, set(limits.margin));
+    const AxisEnds unexpected = moved - load_ends(out.predicted, i);
+    const V reach = longest(load_ends(out.deviation, i) + unexpected) +
+                    minimum(set(limits.most), longest(unexpected)) + (bound + bound);
+    store_at(displacement, out.displacement, i);
+    store_at(bound, out.near_bound, i);
     store_at(reach, out.reach, i);
     const std::size_t shapes = model.shapes.size() - std::min(i, model.shapes.size());
-    const M astray_here =
-        hn::And(hn::Not(reach <= load_at(out.far_budget, i)), hn::FirstN(D(), shapes));
-    if (hn::AllFalse(D(), astray_here)) continue;
+    // Written so that a NaN counts as deviating.
+    const M deviates =
+        hn::And(hn::Not(reach <= load_at(out.far_bound, i)), hn::FirstN(D(), shapes));
+    if (hn::AllFalse(D(), deviates)) continue;
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(D(), astray_here, bits);
+    hn::StoreMaskBits(D(), deviates, bits);
     for (unsigned left = bits[0]; left != 0; left &= left - 1)
-      astray.add(static_cast<int>(i) + __builtin_ctz(left));
+      deviating.add(static_cast<int>(i) + __builtin_ctz(left));
   }
 }
 
-bool LookAgain(const Places& places, const RodModel& model, const RodState& state,
-               std::size_t first, std::size_t end, const ShapeMotion::Arrays& out) {
+// Measures all shapes even where one has moved too far: contacts need the ends in any case.
+bool ValidateNear(const Places& places, const RodModel& model, const RodState& state,
+                  std::size_t first, std::size_t end, const ShapeMotion::Arrays& out) {
   M holds = hn::FirstN(D(), width);
   for (std::size_t i = first; i < end; i += width) {
     const Ends start = load_all(out.start, i);
     const AxisEnds now = place(places, model, state, i);
     store_capsules(now, start, out.now, i);
-    const V moved = longest(now - axis_of(start) - load_ends(out.looked, i));
-    holds = hn::And(holds, moved <= load_at(out.near_budget, i));
+    // The near reference is kept relative to the step's start, which stays.
+    const V moved = longest(now - axis_of(start) - load_ends(out.reference, i));
+    holds = hn::And(holds, moved <= load_at(out.near_bound, i));
   }
   return hn::AllTrue(D(), holds);
 }
 
-void RestartFar(const Limits& limits, std::size_t first, std::size_t end, bool on_course,
+// With a prediction the next steps are expected to be like this one, and there is no deviation.
+// Else the reference is the iterate, which the step's start is behind by what has moved.
+void RebuildFar(const Limits& limits, std::size_t first, std::size_t end, bool predicts,
                 const ShapeMotion::Arrays& out) {
   const V least = set(limits.skin + 2.0 * limits.margin), zero = set(0.0);
   const AxisEnds nothing{{zero, zero, zero}, {zero, zero, zero}};
   for (std::size_t i = first; i < end; i += width) {
-    const AxisEnds moved = load_ends(out.looked, i);
-    store_ends(on_course ? moved : nothing, out.course, i);
-    store_ends(on_course ? nothing : nothing - moved, out.astray, i);
-    const V budget = load_at(out.near_budget, i);
-    store_at(budget + budget, out.reach, i);
-    store_at(hn::MulAdd(set(limits.astray), load_at(out.way, i), least), out.far_budget, i);
+    const AxisEnds moved = load_ends(out.reference, i);
+    store_ends(predicts ? moved : nothing, out.predicted, i);
+    store_ends(predicts ? nothing : nothing - moved, out.deviation, i);
+    const V bound = load_at(out.near_bound, i);
+    store_at(bound + bound, out.reach, i);
+    store_at(hn::MulAdd(set(limits.far_share), load_at(out.displacement, i), least), out.far_bound,
+             i);
   }
 }
 
@@ -201,20 +212,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pedicel::cosserat {
 
-HWY_EXPORT(Look);
-HWY_EXPORT(LookAgain);
-HWY_EXPORT(RestartFar);
+HWY_EXPORT(UpdateNear);
+HWY_EXPORT(ValidateNear);
+HWY_EXPORT(RebuildFar);
 
 ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
     : count_(model.shapes.size()), limits_(limits) {
   const std::size_t room = (count_ + lane_count - 1) / lane_count * lane_count;
   start_.resize(room);
   now_.resize(room);
-  course_.resize(room / lane_count);
-  astray_.resize(room / lane_count);
-  looked_.resize(room / lane_count);
+  predicted_.resize(room / lane_count);
+  deviation_.resize(room / lane_count);
+  reference_.resize(room / lane_count);
   for (std::vector<float>* values :
-       {&places_.back_near, &places_.back_far, &way_, &reach_, &near_budget_, &far_budget_})
+       {&places_.back_near, &places_.back_far, &displacement_, &reach_, &near_bound_, &far_bound_})
     values->assign(room, 0.0F);
   for (std::size_t i = 0; i < count_; ++i) {
     const CollisionShape& shape = model.shapes[i];
@@ -225,43 +236,45 @@ ShapeMotion::ShapeMotion(const RodModel& model, const Limits& limits)
     if (places_.stems == i && shape.element == static_cast<int>(i)) ++places_.stems;
   }
   const RodState drawn = drawn_state(model);
-  Astray astray;
-  look(model, &drawn, drawn, 0, room, astray);
-  restart_far(0, room, false);
+  Deviating deviating;
+  update_near(model, &drawn, drawn, 0, room, deviating);
+  rebuild_far(0, room, false);
 }
 
 ShapeMotion::Arrays ShapeMotion::arrays() {
-  return {start_, now_, course_, astray_, looked_, way_, reach_, near_budget_, far_budget_};
+  return {start_,        now_,   predicted_,  deviation_, reference_,
+          displacement_, reach_, near_bound_, far_bound_};
 }
 
-void ShapeMotion::look(const RodModel& model, const RodState* begins, const RodState& iterate,
-                       std::size_t first, std::size_t end, Astray& astray) {
-  HWY_DYNAMIC_DISPATCH(Look)
-  (places_, limits_, model, begins, iterate, first, end, arrays(), astray);
+void ShapeMotion::update_near(const RodModel& model, const RodState* begins,
+                              const RodState& iterate, std::size_t first, std::size_t end,
+                              Deviating& deviating) {
+  HWY_DYNAMIC_DISPATCH(UpdateNear)
+  (places_, limits_, model, begins, iterate, first, end, arrays(), deviating);
 }
 
-bool ShapeMotion::look_again(const RodModel& model, const RodState& iterate, std::size_t first,
-                             std::size_t end) {
-  return HWY_DYNAMIC_DISPATCH(LookAgain)(places_, model, iterate, first, end, arrays());
+bool ShapeMotion::validate_near(const RodModel& model, const RodState& iterate, std::size_t first,
+                                std::size_t end) {
+  return HWY_DYNAMIC_DISPATCH(ValidateNear)(places_, model, iterate, first, end, arrays());
 }
 
-void ShapeMotion::restart_far(std::size_t shape, bool on_course, double times) {
+void ShapeMotion::rebuild_far(std::size_t shape, bool predicts, double times) {
   const std::size_t row = shape / lane_count, lane = shape % lane_count;
-  const auto restart = [&](const float(&looked)[3][lane_count], float(&course)[3][lane_count],
-                           float(&astray)[3][lane_count]) {
+  const auto restart = [&](const float(&reference)[3][lane_count], float(&predicted)[3][lane_count],
+                           float(&deviation)[3][lane_count]) {
     for (int k = 0; k < 3; ++k) {
-      course[k][lane] = on_course ? looked[k][lane] : 0.0F;
-      astray[k][lane] = on_course ? 0.0F : -looked[k][lane];
+      predicted[k][lane] = predicts ? reference[k][lane] : 0.0F;
+      deviation[k][lane] = predicts ? 0.0F : -reference[k][lane];
     }
   };
-  restart(looked_[row].near, course_[row].near, astray_[row].near);
-  restart(looked_[row].far, course_[row].far, astray_[row].far);
-  far_budget_[shape] = static_cast<float>(
-      times * (limits_.skin + 2.0 * limits_.margin + limits_.astray * way_[shape]));
+  restart(reference_[row].near, predicted_[row].near, deviation_[row].near);
+  restart(reference_[row].far, predicted_[row].far, deviation_[row].far);
+  far_bound_[shape] = static_cast<float>(
+      times * (limits_.skin + 2.0 * limits_.margin + limits_.far_share * displacement_[shape]));
 }
 
-void ShapeMotion::restart_far(std::size_t first, std::size_t end, bool on_course) {
-  HWY_DYNAMIC_DISPATCH(RestartFar)(limits_, first, end, on_course, arrays());
+void ShapeMotion::rebuild_far(std::size_t first, std::size_t end, bool predicts) {
+  HWY_DYNAMIC_DISPATCH(RebuildFar)(limits_, first, end, predicts, arrays());
 }
 
 }  // namespace pedicel::cosserat

@@ -13,23 +13,23 @@ namespace pedicel::cosserat {
 /// Where the collision shapes of a plant are, and bounds of how far they move, eight at a time.
 ///
 /// What moves is bounded by the ends of the axes: no place of an axis moves farther than the
-/// farther of its ends. Two references are kept, those of SelfContact's far and near list; each has
-/// a budget, and a list holds while no end is farther than that from where the reference has it.
-/// The near list's reference stands; the far list's goes on as each end moved in the step in which
-/// it was taken, its course.
+/// farther of its ends. Two references are kept, those of SelfContact's far and near list. Each has
+/// a displacement bound (a Verlet skin), and a list holds while no end is farther than that from
+/// where the reference has it. The near list's reference stands. The far list's goes on as each end
+/// moved in the step in which it was taken: its predicted motion.
 ///
 /// Calls for shapes `first` to `end`, multiples of lane_count up to room(), may be made at once for
 /// different ones.
 class ShapeMotion {
  public:
   struct Limits {
-    double most = 0.0;                 // m: more than this does not count of a step's motion
-    double margin = 0.0, skin = 0.0;   // m, of the budgets
-    double slack = 0.0, astray = 0.0;  // 1, of the motion in this step, likewise
+    double most = 0.0;                // m: more than this does not count of a step's motion
+    double margin = 0.0, skin = 0.0;  // m, of the displacement bounds
+    double near_share = 0.0, far_share = 0.0;  // 1, of the motion in this step, likewise
   };
 
   /// Some shapes, ascending; of many only the first ones.
-  struct Astray {
+  struct Deviating {
     std::array<int, 64> shapes;
     std::size_t count = 0;
 
@@ -48,32 +48,32 @@ class ShapeMotion {
   const Capsules& now() const { return now_; }
   const Limits& limits() const { return limits_; }
 
-  /// Makes the iterate the near list's reference. Sets way, reach and the near budget. Lists in
-  /// `astray` those that are farther from their course than their far budget allows for: the far
-  /// list holds for all others that come within reach. A step's first look says where the step
-  /// `begins`; then null.
-  void look(const RodModel& model, const RodState* begins, const RodState& iterate,
-            std::size_t first, std::size_t end, Astray& astray);
+  /// Makes the iterate the near list's reference. Sets displacement, reach and the near bound.
+  /// Lists in `deviating` those that are farther from their predicted motion than their far bound
+  /// allows for: the far list holds for all others that come within reach. A step's first update
+  /// says where the step `begins`; then null.
+  void update_near(const RodModel& model, const RodState* begins, const RodState& iterate,
+                   std::size_t first, std::size_t end, Deviating& deviating);
   /// Whether the near list still holds at this iterate.
-  bool look_again(const RodModel& model, const RodState& iterate, std::size_t first,
-                  std::size_t end);
+  bool validate_near(const RodModel& model, const RodState& iterate, std::size_t first,
+                     std::size_t end);
   /// Makes the last reference of the near list the far list's, too, and the motion of this step its
-  /// course, or, not `on_course`, none.
-  void restart_far(std::size_t first, std::size_t end, bool on_course);
+  /// predicted motion, or, not `predicts`, none.
+  void rebuild_far(std::size_t first, std::size_t end, bool predicts);
 
-  /// Likewise for one shape alone, with so many times the budget.
-  void restart_far(std::size_t shape, bool on_course, double times);
-  /// Nothing is within its reach, until the next look().
+  /// Likewise for one shape alone, with so many times the bound.
+  void rebuild_far(std::size_t shape, bool predicts, double times);
+  /// Nothing is within its reach, until the next update.
   void forget_reach(std::size_t shape) { reach_[shape] = -1.0e30F; }
 
   /// m, by shape. Of an end in this step, at most.
-  const std::vector<float>& way() const { return way_; }
-  /// How much nearer than by their courses a pair may come in this step, one's share.
+  const std::vector<float>& displacement() const { return displacement_; }
+  /// How much nearer than predicted a pair may come in this step, one's share.
   const std::vector<float>& reach() const { return reach_; }
-  /// margin + slack way
-  const std::vector<float>& near_budget() const { return near_budget_; }
-  /// skin + 2 margin + astray way
-  const std::vector<float>& far_budget() const { return far_budget_; }
+  /// margin + near_share displacement
+  const std::vector<float>& near_bound() const { return near_bound_; }
+  /// skin + 2 margin + far_share displacement
+  const std::vector<float>& far_bound() const { return far_bound_; }
 
   /// How far the ends of eight shapes have moved (m, W).
   struct alignas(32) EndsRow {
@@ -88,8 +88,8 @@ class ShapeMotion {
   /// What the kernels write to; named as below.
   struct Arrays {
     Capsules &start, &now;
-    std::vector<EndsRow>&course, &astray, &looked;
-    std::vector<float>&way, &reach, &near_budget, &far_budget;
+    std::vector<EndsRow>&predicted, &deviation, &reference;
+    std::vector<float>&displacement, &reach, &near_bound, &far_bound;
   };
 
  private:
@@ -98,11 +98,11 @@ class ShapeMotion {
   std::size_t count_ = 0;  // what follows has room for whole vectors
   Limits limits_;
   Places places_;
-  Capsules start_, now_;         // at the step's start, at the iterate
-  std::vector<EndsRow> course_;  // of the far list, a step
-  std::vector<EndsRow> astray_;  // from there at the step's start
-  std::vector<EndsRow> looked_;  // from the step's start to the near list's reference
-  std::vector<float> way_, reach_, near_budget_, far_budget_;
+  Capsules start_, now_;            // at the step's start, at the iterate
+  std::vector<EndsRow> predicted_;  // of the far list, a step
+  std::vector<EndsRow> deviation_;  // from there at the step's start
+  std::vector<EndsRow> reference_;  // from the step's start to the near list's reference
+  std::vector<float> displacement_, reach_, near_bound_, far_bound_;
 };
 
 }  // namespace pedicel::cosserat

@@ -1,5 +1,13 @@
 // One step of the block elimination from the leaves to the root, for eight elements. Included once
 // an instruction set by lane_kernels.cpp, which is why it has no ordinary guard.
+//
+// An element's rows of Newton's system, with p the change of its parent, are
+//   A x + C p = g,   A = L D L^T.
+// Once p is known, x = L^-T (y + W p) with y = D^-1 L^-1 g and W = -D^-1 L^-1 C. So L, W and y are
+// all that is kept of an element. With V = D W its parent is left with
+//   its own block - V^T W   and   its own right side + V^T y.
+// Block::diagonal is A by rows, and Blocks holds -C, whose upper right quarter is zero. Loops are
+// unrolled in full: blocks then stay in registers, and what is known to be zero is not computed.
 #if defined(PEDICEL_COSSERAT_LANE_ELIMINATION_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef PEDICEL_COSSERAT_LANE_ELIMINATION_INL_H
 #undef PEDICEL_COSSERAT_LANE_ELIMINATION_INL_H
@@ -27,7 +35,7 @@ HWY_INLINE void add(const Block& block, Block& carry) {
   for (int i = 0; i < 6; ++i) carry.right[i] = carry.right[i] + block.right[i];
 }
 
-// Branches that start here, springs and contacts.
+// Branches that start here, springs and contacts. Few rows have any, so this stays out of line.
 HWY_NOINLINE void add_sources(const BlockSource* sources, int first, int lane, Block& block) {
   const V lanes = hn::Iota(D(), lane);
   for (int s = first; s >= 0; s = sources[s].next) {
@@ -49,6 +57,7 @@ constexpr int at(int i, int j) {  // in a lower triangle by rows
 
 // L D L^T in place, L with ones on its diagonal, where D^-1 stands: one division a pivot and no
 // root, which would make up half of the time from one row to the next. Returns the smallest pivot.
+// There is no pivoting: A is positive definite, and what is not makes the plant unhealthy.
 HWY_INLINE V factorise(V* a) {
   V smallest = set(1.0);
 #pragma GCC unroll 6
@@ -150,6 +159,7 @@ HWY_INLINE V eliminate(const Blocks& b, FactorRow& out, int lane, Block& carry) 
 #pragma GCC unroll 3
   for (int j = 3; j < 6; ++j) forward<3>(l, v[j]);
   forward<0>(l, y);
+  // y stays in double precision, L and W go to single (FactorRow).
   V kept[6];
 #pragma GCC unroll 6
   for (int i = 0; i < 6; ++i) {
@@ -168,6 +178,7 @@ HWY_INLINE V eliminate(const Blocks& b, FactorRow& out, int lane, Block& carry) 
   for (int i = 1; i < 6; ++i)
 #pragma GCC unroll 6
     for (int j = 0; j < i; ++j) store(l[at(i, j)], out.factors[place++] + lane);
+  // From here on `carry` is what the next element gets.
   if constexpr (into == Into::parent)
     share_of_parent(b, carry);
   else
@@ -214,6 +225,7 @@ HWY_INLINE void back_substitute(const FactorRow& factor, int lane, const V* othe
 #pragma GCC unroll 6
     for (int i = j < 3 ? 0 : 3; i < 6; ++i)
       x[i] = hn::MulAdd(load(factor.factors[place++] + lane), other[j], x[i]);
+      // Now x <- L^-T x, from the last unknown to the first.
 #pragma GCC unroll 6
   for (int k = 5; k > 0; --k)
 #pragma GCC unroll 6

@@ -188,12 +188,12 @@ HWY_INLINE void add_drag(const RowArrays& rows, const Pack& pack, int row, int l
   const Drag drag = drag_of(rows, pack, row, lane, middle);
   const V3 axis = load3(rows.extension_term[row].axis, lane);
   const V h = load(pack.effective_step + lane);
-  const V w = drag.c / h, one = w * drag.speed;
-  const V along = w / hn::Max(drag.speed, set(1.0e-100));
+  const V w = drag.c / h, by_speed = w * drag.speed;
+  const V per_speed = w / hn::Max(drag.speed, set(1.0e-100));
   const V3 &u = drag.u, &n = axis;
-  const auto entry = [&](V a, V b, V na, V nb) { return along * a * b - one * na * nb; };
-  const V xx = one + entry(u.x, u.x, n.x, n.x), yy = one + entry(u.y, u.y, n.y, n.y);
-  const V zz = one + entry(u.z, u.z, n.z, n.z), yx = entry(u.y, u.x, n.y, n.x);
+  const auto entry = [&](V a, V b, V na, V nb) { return per_speed * a * b - by_speed * na * nb; };
+  const V xx = by_speed + entry(u.x, u.x, n.x, n.x), yy = by_speed + entry(u.y, u.y, n.y, n.y);
+  const V zz = by_speed + entry(u.z, u.z, n.z, n.z), yx = entry(u.y, u.x, n.y, n.x);
   const V zx = entry(u.z, u.x, n.z, n.x), zy = entry(u.z, u.y, n.z, n.y);
   d[0] = d[0] + xx;
   d[1] = d[1] + yx;

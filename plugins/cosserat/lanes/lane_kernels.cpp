@@ -28,7 +28,7 @@ HWY_INLINE void prepare_viscous(const RowArrays& rows, const Pack& pack, int row
   store(set(1.0) + viscous, term.stiffening + lane);
   const V share = viscous / (set(1.0) + viscous);
   const V3 stretch = stretch_of(element, lane, matrix(own.orientation),
-                                along_of(parent, own, load(element.length + lane)));
+                                span_of(parent, own, load(element.length + lane)));
   const V3 bend = bend_of(element, lane, parent, own).phi;
   store3(stretch, rows.strain[row].stretch, lane);
   store3(bend, rows.strain[row].bend, lane);
@@ -247,9 +247,9 @@ struct Largest {
 };
 
 HWY_INLINE void measure(const V* d, V length, Largest& largest) {
-  const V3 head{d[0], d[1], d[2]}, tail{d[3], d[4], d[5]};
-  largest.turn2 = hn::Max(largest.turn2, dot(tail, tail));
-  largest.shift2 = hn::Max(largest.shift2, dot(head, head) / (length * length));
+  const V3 x{d[0], d[1], d[2]}, r{d[3], d[4], d[5]};
+  largest.turn2 = hn::Max(largest.turn2, dot(r, r));
+  largest.shift2 = hn::Max(largest.shift2, dot(x, x) / (length * length));
 #pragma GCC unroll 6
   for (int i = 0; i < 6; ++i) largest.change = hn::Max(largest.change, hn::Abs(d[i]));
 }

@@ -85,7 +85,21 @@ struct alignas(64) ExtensionTermRow {
   Lanes axis[3];          // W, of the segment where the drag was linearised last
 };
 
-/// Sizes of the blocks below. A symmetric 6x6 block is kept as its lower triangle by rows.
+/// The blocks of Newton's system. An element's unknowns are its position x (m, W) and its rotation
+/// vector r (rad, W), which are the rows and columns of its 6x6 blocks:
+///
+///                  diagonal block                coupling block
+///                  own x    own r                parent x  parent r
+///       own x x  [ lower          ]     own x x  [ full      0      ]
+///             y  [ triangle       ]           y  [ full      0      ]
+///             z  [                ]           z  [ full      0      ]
+///       own r x  [ full    lower  ]     own r x  [ full      full   ]
+///             y  [ full    triangle]          y  [ full      full   ]
+///             z  [ full           ]           z  [ full      full   ]
+///
+/// Stretch couples own x and own r with parent x. Bend couples own r with parent r, and nothing
+/// couples own x with parent r. The diagonal block is symmetric: of its 36 numbers the 21 of the
+/// lower triangle are kept, by rows. The right side follows: 6 numbers, x and then r.
 inline constexpr int triangle6 = 21, block_size = triangle6 + 6;
 
 /// The factors of eight elements' blocks, L D L^T the diagonal block, L with ones on its diagonal.
@@ -120,9 +134,18 @@ struct BlockSource {
   int next = -1;  // index of the next source of the same row
 };
 
-/// Chains of elements, up to one a lane, whose rows follow each other: the parent of row r is row
-/// r - 1 in the same lane. Row `begin` holds no elements but the poses of the parents of the first
-/// ones, and their changes.
+/// Chains of elements, up to one a lane, whose rows follow each other:
+///
+///                  lane 0      lane 1      lane 2     ...  lane 7
+///     begin        parent of   parent of   clamp of        -        no elements: poses, changes
+///                  A 1         B 1         stem C
+///     begin + 1    branch A 1  branch B 1  stem C 1        -          parent of a row:
+///     begin + 2    branch A 2  branch B 2  stem C 2        -        | the row above,
+///     begin + 3    branch A 3  branch B 3  -               -        v same lane
+///     end          (row `begin` of the next pack)
+///
+/// Kernels go down or up these rows, with all eight lanes in one vector. A lane that is shorter
+/// than the pack, or empty, computes along without effect (ElementRow::alive).
 struct alignas(64) Pack {
   // How each lane's plant steps. x' = (x - (past_now x_n - past_before x_{n-1})) / effective_step.
   Lanes past_now, past_before, effective_step;

@@ -14,10 +14,10 @@ struct PartedLoop {
   ThreadPool* pool = nullptr;
   static constexpr int most_parts = 16;
 
-  int parts(std::size_t count, std::size_t worth_waking) const {
-    if (!pool || pool->threads() == 1 || count < 2 * worth_waking) return 1;
+  int parts(std::size_t count, std::size_t grain_size) const {
+    if (!pool || pool->threads() == 1 || count < 2 * grain_size) return 1;
     return static_cast<int>(
-        std::min({count / worth_waking, std::size_t(pool->threads()), std::size_t(most_parts)}));
+        std::min({count / grain_size, std::size_t(pool->threads()), std::size_t(most_parts)}));
   }
 
   /// task(part, first, end), perhaps at once.

@@ -5,16 +5,16 @@
 #include <numeric>
 #include <utility>
 
-#include "pedicel/core/check.h"
 #include "pedicel/cosserat/lanes/lane_access.h"
 
 namespace pedicel::cosserat {
 
 namespace {
 
-constexpr std::size_t stretch_length = 2;  // rows of contacts that a thread takes at a time
-constexpr std::size_t worth_waking = 2;    // stretches, a thread
-constexpr double same_place = 1.0e-6;      // m
+// Rows of contacts that are taken at a time. Sums are made by stretch and then added up in order,
+// so that they do not depend on the number of threads.
+constexpr std::size_t stretch_length = 2;
+constexpr std::size_t grain_size = 2;  // stretches, a thread
 
 }  // namespace
 
@@ -24,7 +24,7 @@ template <class Task>
 void ContactTerms::for_each_stretch(const Task& task) const {
   const std::size_t count = rows_.size();
   const std::size_t stretches = (count + stretch_length - 1) / stretch_length;
-  const int parts = loop_.parts(stretches, worth_waking);
+  const int parts = loop_.parts(stretches, grain_size);
   loop_.each(parts, [&](int part) {
     const std::size_t end = stretches * (part + 1) / parts * stretch_length;
     for (std::size_t i = stretches * part / parts * stretch_length; i < std::min(count, end);
@@ -48,19 +48,20 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
                         double dt, std::span<ContactSource* const> sources) {
   found_.clear();
   report({});
+  // Those of the plant with itself come first: their two sides then stand in lanes 2 i and 2 i + 1,
+  // and a contact's number says which kind it is.
   for (ContactSource* source : sources)
     if (source->is_within_plant()) source->find_lists(model, iterate, dt, found_);
   sides_ = found_.size();
-  driver_ = nullptr;
-  driven_ = {};
+  driven_.clear();
   for (ContactSource* source : sources) {
     if (source->is_within_plant()) continue;
     const std::size_t first = found_.size();
     source->find_lists(model, iterate, dt, found_);
-    if (!source->drives().empty()) list_driven(*source, first);
+    if (!source->drives().empty()) driven_.list(*source, first);
   }
   share_gives();
-  move_drives();
+  driven_.move(found_, gives_);
   make_rows(model);
   for_each_stretch([&](std::size_t first, std::size_t end) {
     for (std::size_t i = first * lane_count; i < std::min(found_.size(), end * lane_count); ++i)
@@ -69,6 +70,7 @@ void ContactTerms::find(const RodModel& model, const RodState& start, const RodS
     push(first, end, iterate);
   });
   sum_energy();
+  // Even the same elements may have been found in another order.
   blocks_stay_ = false;
 }
 
@@ -81,6 +83,7 @@ void ContactTerms::share_gives() {
   for (std::size_t i = sides_; i < count; ++i) {
     const ContactPoint& own = found_[i];
     if (own.give <= 0.0) continue;
+    // One that does not push yet may do so in this step, and then counts, too.
     int together = pushes(own) ? 0 : 1;
     for (std::size_t k = 0; k < count; ++k)
       together += pushes(found_[k]) && found_[k].collider == own.collider;
@@ -88,92 +91,15 @@ void ContactTerms::share_gives() {
   }
 }
 
-void ContactTerms::list_driven(ContactSource& source, std::size_t first) {
-  PEDICEL_ASSERT(driver_ == nullptr);
-  driver_ = &source;
-  first_driven_ = first;
-  driven_ = source.driven();
-  stands_.clear();
-  for (const ContactDrive& drive : source.drives()) stands_.push_back({drive.aim, 0.0});
-}
-
-// To where each of them stands with the plant at the iterate.
-void ContactTerms::move_drives() {
-  for (std::size_t d = 0; driver_ && d < stands_.size(); ++d) {
-    loads_.clear();
-    for (std::size_t i = 0; i < driven_.size(); ++i) {
-      if (driven_[i].drive != static_cast<int>(d)) continue;
-      const std::size_t contact = first_driven_ + i;
-      const ContactPoint& point = found_[contact];
-      loads_.push_back(
-          {driven_[i].lever, series_stiffness(contact, point), point.margin - point.gap});
-    }
-    if (!loads_.empty()) stands_[d].position = stand(driver_->drives()[d], loads_);
-  }
-}
-
-// Null where no joint presses the contact's collider.
-const DrivenContact* ContactTerms::driven(std::size_t contact) const {
-  if (contact < first_driven_ || contact - first_driven_ >= driven_.size()) return nullptr;
-  const DrivenContact& driven = driven_[contact - first_driven_];
-  return driven.drive >= 0 ? &driven : nullptr;
-}
-
-// m: how much nearer the collider is than it was where the contact was found.
-double ContactTerms::nearer(const DrivenContact& driven) const {
-  return driven.lever *
-         (stands_[driven.drive].position - driver_->drives()[driven.drive].reference);
-}
-
-// The joints follow to where the step ended, so that none presses with more than it can.
-void ContactTerms::end_drives() {
-  for (std::size_t d = 0; d < stands_.size(); ++d) {
-    loads_.clear();
-    for (std::size_t i = 0; i < driven_.size(); ++i)
-      if (driven_[i].drive == static_cast<int>(d))
-        loads_.push_back(load_at_end(first_driven_ + i, driven_[i]));
-    if (loads_.empty()) continue;
-    const ContactDrive& drive = driver_->drives()[d];
-    stands_[d].position = stand(drive, loads_);
-    stands_[d].load = load_at(drive, loads_, stands_[d].position);
-    std::size_t load = 0;
-    for (std::size_t i = 0; i < driven_.size(); ++i)
-      if (driven_[i].drive == static_cast<int>(d))
-        press_at_end(first_driven_ + i, driven_[i], loads_[load++]);
-  }
-  driver_->end_drives(stands_);
-}
-
-DriveLoad ContactTerms::load_at_end(std::size_t contact, const DrivenContact& driven) const {
-  const ContactRow& row = rows_[contact / lane_count];
-  const int lane = static_cast<int>(contact % lane_count);
-  const Vec3 move = vector_at(ends_[contact / lane_count].place, lane) - vector_at(row.place, lane);
-  const double overlap =
-      row.margin[lane] - found_[contact].gap - vector_at(row.normal, lane).dot(move);
-  return {driven.lever, row.stiffness[lane], overlap};
-}
-
-void ContactTerms::press_at_end(std::size_t contact, const DrivenContact& driven,
-                                const DriveLoad& load) {
-  const int lane = static_cast<int>(contact % lane_count);
-  rows_[contact / lane_count].gap[lane] = found_[contact].gap - nearer(driven);
-  ends_[contact / lane_count].normal[lane] =
-      load.stiffness * std::max(0.0, load.overlap + nearer(driven));
-}
-
-// N/m, of contact and collider in series.
-double ContactTerms::series_stiffness(std::size_t contact, const ContactPoint& point) const {
-  return point.stiffness / (1.0 + point.stiffness * gives_[contact]);
-}
-
 void ContactTerms::make_rows(const RodModel& model) {
   const std::size_t rows = (found_.size() + lane_count - 1) / lane_count;
   rows_.resize(rows);
   block_elements_.resize(rows * lane_count, -1);
+  // Rows point to the blocks, which stay where they are while their number does not grow.
   blocks_.resize(rows * lane_count);
   ends_.resize(rows);
   stay_.resize((rows + stretch_length - 1) / stretch_length);
-  last_of_shape_.resize(model.shapes.size(), -1);
+  memory_.resize(model.shapes.size());
   if (rows > 0) rows_.back() = empty_contact_row();
 }
 
@@ -186,15 +112,16 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
   row.back[lane] = point.back;
   row.radius[lane] = point.radius;
   cosserat::put(row.normal, lane, point.normal_W);
-  const DrivenContact* const pressed = driven(contact);
-  row.gap[lane] = pressed ? point.gap - nearer(*pressed) : point.gap;
+  const bool pressed = driven_.presses(contact);
+  row.gap[lane] = pressed ? point.gap - driven_.nearer(contact) : point.gap;
   row.margin[lane] = point.margin;
   cosserat::put(row.surface_motion, lane, point.surface_motion_W);
   row.spring_stiffness[lane] = point.stiffening.stiffness;
   row.spring_margin[lane] = point.stiffening.margin;
-  row.stiffness[lane] = series_stiffness(contact, point);
-  const Memory* const memory =
-      pressed ? remembered(point) : remembered(point.shape, point.collider);
+  row.stiffness[lane] = series_stiffness(point, gives_[contact]);
+  // The first step of a contact has no memory, and so no friction: see the head of this class.
+  const FrictionMemory::Spring* const memory =
+      pressed ? memory_.find(point) : memory_.find(point.shape, point.collider);
   cosserat::put(row.stretch, lane, memory ? memory->stretch_W : Vec3(0, 0, 0));
   row.limit[lane] = memory ? point.friction * memory->normal : 0.0;
 }
@@ -211,6 +138,8 @@ void ContactTerms::sum_energy() {
     energy_ = std::accumulate(std::begin(row.energy), std::end(row.energy), energy_);
 }
 
+// Normals and places stay, so that the number of contacts does, too; a contact may stop to push or
+// begin to, which changes the elements of the blocks.
 void ContactTerms::follow(const RodState& iterate) {
   for_each_stretch([&](std::size_t first, std::size_t end) {
     fetch_poses(end, iterate);
@@ -219,27 +148,6 @@ void ContactTerms::follow(const RodState& iterate) {
   });
   sum_energy();
   blocks_stay_ = std::ranges::all_of(stay_, [](char stays) { return stays; });
-}
-
-const ContactTerms::Memory* ContactTerms::remembered(int shape, int collider) const {
-  for (int i = last_of_shape_[shape]; i >= 0; i = before_[i])
-    if (memory_[i].collider == collider && memory_[i].normal != 0.0) return &memory_[i];
-  return nullptr;
-}
-
-// A pressed collider touches a shape in several places, which stay.
-const ContactTerms::Memory* ContactTerms::remembered(const ContactPoint& point) const {
-  for (int i = last_of_shape_[point.shape]; i >= 0; i = before_[i]) {
-    const Memory& memory = memory_[i];
-    if (memory.collider == point.collider && memory.normal != 0.0 &&
-        std::abs(memory.back - point.back) < same_place)
-      return &memory;
-  }
-  return nullptr;
-}
-
-void ContactTerms::forget() {
-  std::fill(last_of_shape_.begin(), last_of_shape_.end(), -1);
 }
 
 double ContactTerms::potential(const RodModel&, const RodState& state) const {
@@ -253,21 +161,24 @@ double ContactTerms::potential(const RodModel&, const RodState& state) const {
 }
 
 void ContactTerms::finish(const RodModel&, const RodState& end) {
-  memory_.resize(rows_.size() * lane_count);
+  memory_.springs().resize(rows_.size() * lane_count);
   carried_.resize(stay_.size());
   for_each_stretch([&](std::size_t first, std::size_t last) {
     fetch_poses(last, end);
     const int sides = static_cast<int>(sides_) - static_cast<int>(first * lane_count);
     end_contacts(stretch(first, last), sides, end, ends_.data() + first);
-    if (!driver_) carried_[first / stretch_length] = remember(first, last);
+    if (!driven_.any()) carried_[first / stretch_length] = remember(first, last);
   });
-  if (driver_) {
-    end_drives();
+  // What a joint presses with is known when the joint stands where the step ended. Only then are
+  // these contacts remembered.
+  if (driven_.any()) {
+    driven_.end(found_, rows_, ends_);
     for_each_stretch([&](std::size_t first, std::size_t last) {
       carried_[first / stretch_length] = remember(first, last);
     });
   }
-  remember_shapes();
+  // All threads have written their springs: now they can be found by shape.
+  memory_.index(found_);
   carrying_ = 0;
   deepest_ = 0.0;
   for (const Carried& carried : carried_) {
@@ -285,20 +196,13 @@ ContactTerms::Carried ContactTerms::remember(std::size_t first, std::size_t end)
     const ContactEndRow& last = ends_[i / lane_count];
     const int lane = static_cast<int>(i % lane_count);
     const double normal = last.normal[lane];
-    memory_[i] = {vector_at(last.stretch, lane), normal, row.collider[lane],
-                  static_cast<float>(row.back[lane])};
+    memory_.springs()[i] = {vector_at(last.stretch, lane), normal, row.collider[lane],
+                            static_cast<float>(row.back[lane])};
     if (normal == 0.0) continue;
     ++carried.contacts;
     carried.deepest = std::max(carried.deepest, -gap_of(i));
   }
   return carried;
-}
-
-void ContactTerms::remember_shapes() {
-  forget();
-  before_.resize(found_.size());
-  for (std::size_t i = 0; i < found_.size(); ++i)
-    before_[i] = std::exchange(last_of_shape_[found_[i].shape], static_cast<int>(i));
 }
 
 // As it is after the collider gave way.
@@ -317,6 +221,7 @@ const std::vector<ContactForce>& ContactTerms::forces() const {
   return forces_;
 }
 
+// Only when somebody asks: most steps of most plants are never asked for their forces.
 void ContactTerms::list_forces() const {
   forces_.clear();
   for (std::size_t i = 0; i < found_.size(); ++i) {

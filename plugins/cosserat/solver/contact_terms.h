@@ -7,6 +7,8 @@
 #include "pedicel/cosserat/lanes/diagonal_blocks.h"
 #include "pedicel/cosserat/lanes/parted_loop.h"
 #include "pedicel/cosserat/solver/contact_lanes.h"
+#include "pedicel/cosserat/solver/driven_contacts.h"
+#include "pedicel/cosserat/solver/friction_memory.h"
 
 namespace pedicel::cosserat {
 
@@ -28,9 +30,7 @@ namespace pedicel::cosserat {
 /// kept as they were before, and colliders' motions are those between poses before, too, so that
 /// what sticks does not creep.
 ///
-/// A collider that a joint presses with a limited force (ContactDrive) stands, for each iterate,
-/// where the joint's force balances its contacts: the potential is minimised over the plant and the
-/// joint in turns.
+/// Colliders that a joint presses with a limited force: DrivenContacts.
 class ContactTerms {
  public:
   /// The threads that the calls below share out to until told otherwise, without a trace in the
@@ -66,7 +66,7 @@ class ContactTerms {
   double deepest() const { return deepest_; }
   /// Whether all that was found is the plant's contact with itself.
   bool only_with_itself() const { return sides_ == found_.size(); }
-  void forget();
+  void forget() { memory_.forget(); }
   /// Adds its forces to those of a longer step of which its own was this share: springs of that
   /// share of the stiffness, whose impulse, work and energy are a part's of the longer step.
   void add_to(std::vector<ContactForce>& forces, double share) const;
@@ -74,34 +74,17 @@ class ContactTerms {
   void report(const std::vector<ContactForce>& forces);
 
  private:
-  struct Memory {
-    Vec3 stretch_W;
-    double normal;  // N
-    int collider;
-    float back;  // m
-  };
   // What some contacts carry at a step's end.
   struct Carried {
     int contacts = 0;
     double deepest = 0.0;  // m
   };
   void share_gives();
-  void list_driven(ContactSource& source, std::size_t first);
-  void move_drives();
-  void end_drives();
-  const DrivenContact* driven(std::size_t contact) const;
-  double nearer(const DrivenContact& driven) const;
-  DriveLoad load_at_end(std::size_t contact, const DrivenContact& driven) const;
-  void press_at_end(std::size_t contact, const DrivenContact& driven, const DriveLoad& load);
-  double series_stiffness(std::size_t contact, const ContactPoint& point) const;
   void make_rows(const RodModel& model);
   void fetch_poses(std::size_t end, const RodState& state) const;
   void put(std::size_t contact, const RodModel& model);
   void push(std::size_t first, std::size_t end, const RodState& iterate);
   void sum_energy();
-  const Memory* remembered(int shape, int collider) const;
-  const Memory* remembered(const ContactPoint& point) const;
-  void remember_shapes();
   Carried remember(std::size_t first, std::size_t end);
   double gap_of(std::size_t contact) const;
   void list_forces() const;
@@ -115,12 +98,7 @@ class ContactTerms {
   ContactLists found_;
   std::size_t sides_ = 0;      // the first ones are where the plant touches itself
   std::vector<double> gives_;  // m/N, of the colliders, with what pushes them beside each contact
-  // Of the contacts of the source that has drives: `first_driven_` is the first one.
-  ContactSource* driver_ = nullptr;
-  std::size_t first_driven_ = 0;
-  std::span<const DrivenContact> driven_;
-  std::vector<DriveEnd> stands_;  // of the drives
-  std::vector<DriveLoad> loads_;  // scratch
+  DrivenContacts driven_;
   std::vector<ContactRow> rows_;
   std::vector<int> block_elements_;   // eight a row
   std::vector<ElementBlock> blocks_;  // likewise
@@ -129,11 +107,8 @@ class ContactTerms {
   std::vector<char> stay_;            // likewise, by stretch
   double energy_ = 0.0;               // J, of them all
   mutable std::vector<double> sums_;  // scratch, J, by stretch
-  // Of the contacts of the step before. Those of a shape follow each other: its last one, and which
-  // one comes before it; -1: none.
-  std::vector<Memory> memory_;
-  std::vector<int> last_of_shape_, before_;
-  std::vector<Carried> carried_;  // by stretch
+  FrictionMemory memory_;             // of the step before
+  std::vector<Carried> carried_;      // by stretch
   int carrying_ = 0;
   double deepest_ = 0.0;
   mutable std::vector<ContactForce> forces_;

@@ -9,6 +9,7 @@
 #include "pedicel/cosserat/solver/attachments.h"
 #include "pedicel/cosserat/solver/block_system.h"
 #include "pedicel/cosserat/solver/contact_terms.h"
+#include "pedicel/cosserat/solver/iteration_control.h"
 #include "pedicel/cosserat/solver/rod_rows.h"
 #include "pedicel/cosserat/solver/rod_solver.h"
 
@@ -44,10 +45,10 @@ class DirectSolver : public RodSolver {
   /// The same in the caller's thread alone, which fetches meanwhile what it works on next.
   void step(std::span<PlantStep> plants, double dt, const Vec3& gravity,
             FetchAhead* ahead = nullptr) {
-    rows_.fetch_along(ahead);
+    rows_.store.fetch_along(ahead);
     step(plants, dt, gravity, alone_);
   }
-  void add_to(FetchAhead& ahead) const { rows_.add_to(ahead); }
+  void add_to(FetchAhead& ahead) const { rows_.store.add_to(ahead); }
   StepReport step(const RodModel& model, RodState& state, const StepInput& input) override;
 
   const std::vector<ContactForce>& contact_forces() const override { return contact_forces(0); }
@@ -63,7 +64,7 @@ class DirectSolver : public RodSolver {
   /// by `axis_share` of the way an iteration. settle() does so.
   void set_settling(bool settling, double axis_share = 1.0) {
     settling_ = settling;
-    rows_.set_axis_share(axis_share);
+    rows_.store.axis_share = axis_share;
   }
 
  private:
@@ -78,24 +79,16 @@ class DirectSolver : public RodSolver {
     RodState iterate;                    // where touched
     bool iterate_is_here = false;        // where the line search ended
     bool contacts_are_here = false;      // found there, too
-    double followed = 0.0;               // rad or lengths, moved since they were found
     bool presses = false;                // a contact did, in this iteration
     bool has_history = false;
-    bool smooth = false;                      // the last step was solved to the tolerance
-    double energy = 0.0, extra_energy = 0.0;  // J, where the line search began; of `touched`
-    double pressed = 0.0;                     // J, of the known contacts where a search ended
-    double share = 0.0;                       // 1, of Newton's change that is tried
-    double damped = 1.0;                      // 1, the largest share in this step
-    int stuck_for = 0;                        // steps in a row that were taken in parts
-    RodRows::Change change;
-    double last_change = 0.0;  // of the iteration before; 0: there was none
-    // What an iteration leaves of the change before it, and the change at which that was measured.
-    double gain = 1.0, gain_change = 0.0;
-    std::unique_ptr<DirectSolver> parts;  // for steps in parts, once there was one
-    bool in_parts = false;                // this step was taken so
-    bool stands_in_rows = false;          // where it ended is where the rows have it
+    double extra_energy = 0.0;  // J, of `touched`, where the line search began
+    double pressed = 0.0;       // J, of the known contacts where a search ended
+    IterationControl control;
+    std::unique_ptr<DirectSolver> substepper;  // once a step was taken in substeps
+    bool substepped = false;                   // this step was taken so
+    bool stands_in_rows = false;               // where it ended is where the rows have it
 
-    bool is_searched() const;
+    Pressing pressing() const;
   };
 
   void begin(std::span<PlantStep> steps, double dt, const Vec3& gravity, ThreadPool& pool);
@@ -114,10 +107,8 @@ class DirectSolver : public RodSolver {
   void search(std::span<PlantStep> steps, bool measured, ThreadPool& pool);
   void start_search(int index, const RodModel& model, StepReport& report);
   void try_share(int index, const RodModel& model, StepReport& report);
-  void look_again(std::span<PlantStep> steps, double dt, ThreadPool& pool);
-  bool is_done(Plant& plant, StepReport& report) const;
-  static void damp(Plant& plant);
-  void take_in_parts(int index, PlantStep& step, double dt, const Vec3& gravity);
+  void validate_contacts(std::span<PlantStep> steps, double dt, ThreadPool& pool);
+  void take_in_substeps(int index, PlantStep& step, double dt, const Vec3& gravity);
   void end(std::span<PlantStep> steps, double dt, ThreadPool& pool);
   int size() const { return static_cast<int>(plants_.size()); }
 
@@ -131,10 +122,32 @@ class DirectSolver : public RodSolver {
   bool any_loops_ = false;
   bool only_contacts_ = false;  // the rows have no other blocks
   bool settling_ = false;
-  bool is_part_ = false;              // takes the steps of another one in parts
-  std::vector<ContactForce> forces_;  // of the parts
+  bool is_substepper_ = false;        // takes the substeps of another one
+  std::vector<ContactForce> forces_;  // of the substeps
   ThreadPool alone_{1};
 };
+
+// task(p) for the plants that are wanted. A single one may use the threads for itself, with the
+// sources that touch it.
+template <class Wanted, class Task>
+void DirectSolver::for_each_plant(std::span<PlantStep> steps, ThreadPool& pool,
+                                  const Wanted& wanted, const Task& task) {
+  int count = 0, last = 0;
+  for (int p = 0; p < size(); ++p) {
+    if (!wanted(p)) continue;
+    ++count;
+    last = p;
+  }
+  if (count > 1) {
+    pool.for_each(size(), [&](int p) {
+      if (wanted(p)) task(p);
+    });
+  } else if (count == 1) {
+    lend(&pool, last, steps[last]);
+    task(last);
+    lend(nullptr, last, steps[last]);
+  }
+}
 
 /// Finds the static equilibrium that the state settles into under gravity and loads (Newton with
 /// the inertia taken out, damped by nothing: many iterations of one huge backward Euler step).

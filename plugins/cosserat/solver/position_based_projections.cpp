@@ -1,11 +1,10 @@
-// The constraints' and dampers' projections of PositionBasedSolver; the step is in
-// position_based_solver.cpp.
+#include "pedicel/cosserat/solver/position_based_projections.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "pedicel/cosserat/model/rotation.h"
 #include "pedicel/cosserat/solver/position_based_constraints.h"
-#include "pedicel/cosserat/solver/position_based_solver.h"
 
 namespace pedicel::cosserat {
 
@@ -24,10 +23,45 @@ Vec3 compliance_of(const Vec3& stiffness) {
 
 }  // namespace
 
+PositionBasedProjections::PositionBasedProjections(const RodModel& model)
+    : bodies_(model.elements.size()),
+      stretch_(model.elements.size()),
+      bend_(model.elements.size()),
+      support_position_(model.supports.size()),
+      support_rotation_(model.supports.size()),
+      weld_position_(model.welds.size()),
+      weld_rotation_(model.welds.size()) {}
+
+void PositionBasedProjections::begin(double h) {
+  h_ = h;
+  for (auto* list : {&stretch_, &bend_, &support_position_, &support_rotation_, &weld_position_,
+                     &weld_rotation_})
+    std::fill(list->begin(), list->end(), Vec3::Zero());
+}
+
+void PositionBasedProjections::sweep(const RodModel& model, RodState& state,
+                                     std::vector<Contact>& contacts, double surface_share) {
+  change_.size = 0.0;
+  for (int e = 0; e < model.size(); ++e) {
+    if (!state.alive[e]) continue;
+    project_stretch(model, state, e);
+    project_bend(model, state, e);
+  }
+  for (int i = 0; i < static_cast<int>(model.welds.size()); ++i) project_weld(model, state, i);
+  for (int i = 0; i < static_cast<int>(model.supports.size()); ++i)
+    project_support(model, state, i);
+  for (Contact& contact : contacts) project_contact(model, state, contact, surface_share);
+}
+
+void PositionBasedProjections::damp(const RodModel& model, const RodState& state, int element) {
+  damp_stretch(model, state, element);
+  damp_bend(model, state, element);
+}
+
 // Adds the multiplier that answers `value` to `lambda` (XPBD, eq. 18); `response` is the sum of
 // gradient x inverse mass x gradient^T.
-Vec3 PositionBasedSolver::multiplier_step(const Mat3& response, const Vec3& compliance,
-                                          const Vec3& value, Vec3& lambda) const {
+Vec3 PositionBasedProjections::multiplier_step(const Mat3& response, const Vec3& compliance,
+                                               const Vec3& value, Vec3& lambda) const {
   const Vec3 scaled = compliance / (h_ * h_);
   Mat3 matrix = response;
   matrix.diagonal() += scaled;
@@ -37,33 +71,28 @@ Vec3 PositionBasedSolver::multiplier_step(const Mat3& response, const Vec3& comp
   return step;
 }
 
-void PositionBasedSolver::move_node(RodState& state, int element, const Vec3& change,
-                                    double limit) {
+void PositionBasedProjections::move_node(RodState& state, int element, const Vec3& change,
+                                         double limit) {
   const Vec3 move = clamped(change, limit);
   state.position[element] += move;
-  if (move.norm() > largest_change_) {
-    largest_change_ = move.norm();
-    largest_element_ = element;
-  }
+  if (move.norm() > change_.size) change_ = {move.norm(), element};
 }
 
-void PositionBasedSolver::turn(RodState& state, int element, const Vec3& delta) {
+void PositionBasedProjections::turn(RodState& state, int element, const Vec3& delta) {
   const Vec3 move = clamped(delta, largest_turn);
   state.orientation[element] = (state.orientation[element] * exp_map(move)).normalized();
-  if (move.norm() > largest_change_) {
-    largest_change_ = move.norm();
-    largest_element_ = element;
-  }
+  if (move.norm() > change_.size) change_ = {move.norm(), element};
 }
 
-Mat3 PositionBasedSolver::stretch_response(const RodModel& model, int e,
-                                           const Mat3& by_turn) const {
+Mat3 PositionBasedProjections::stretch_response(const RodModel& model, int e,
+                                                const Mat3& by_turn) const {
   Mat3 response = by_turn * bodies_[e].inverse_inertia.asDiagonal() * by_turn.transpose();
   response.diagonal().array() += bodies_[e].inverse_mass + inverse_mass(model.elements[e].parent);
   return response;
 }
 
-Mat3 PositionBasedSolver::bend_response(const RodModel& model, int e, const Mat3& to_parent) const {
+Mat3 PositionBasedProjections::bend_response(const RodModel& model, int e,
+                                             const Mat3& to_parent) const {
   const int parent = model.elements[e].parent;
   Mat3 response = bodies_[e].inverse_inertia.asDiagonal();
   if (parent >= 0)
@@ -71,7 +100,7 @@ Mat3 PositionBasedSolver::bend_response(const RodModel& model, int e, const Mat3
   return response;
 }
 
-void PositionBasedSolver::project_stretch(const RodModel& model, RodState& state, int e) {
+void PositionBasedProjections::project_stretch(const RodModel& model, RodState& state, int e) {
   const Element& element = model.elements[e];
   const Vec3 near = start_of(model, state, e);
   const Quat q = state.orientation[e];
@@ -86,7 +115,7 @@ void PositionBasedSolver::project_stretch(const RodModel& model, RodState& state
   turn(state, e, bodies_[e].inverse_inertia.cwiseProduct(by_turn.transpose() * step));
 }
 
-void PositionBasedSolver::project_bend(const RodModel& model, RodState& state, int e) {
+void PositionBasedProjections::project_bend(const RodModel& model, RodState& state, int e) {
   const Element& element = model.elements[e];
   const Quat before = parent_rotation(model, state, e);
   const Mat3 to_parent = (before.conjugate() * state.orientation[e]).toRotationMatrix();
@@ -99,14 +128,15 @@ void PositionBasedSolver::project_bend(const RodModel& model, RodState& state, i
        -bodies_[element.parent].inverse_inertia.cwiseProduct(to_parent * step));
 }
 
-double PositionBasedSolver::inverse_mass_at(const RodModel& model, int element, double back) const {
+double PositionBasedProjections::inverse_mass_at(const RodModel& model, int element,
+                                                 double back) const {
   const double near = back / model.elements[element].length;
   return (1.0 - near) * (1.0 - near) * bodies_[element].inverse_mass +
          near * near * inverse_mass(model.elements[element].parent);
 }
 
-void PositionBasedSolver::move_place(const RodModel& model, RodState& state, int element,
-                                     double back, const Vec3& impulse) {
+void PositionBasedProjections::move_place(const RodModel& model, RodState& state, int element,
+                                          double back, const Vec3& impulse) {
   const Element& segment = model.elements[element];
   const double near = back / segment.length;
   move_node(state, element, (1.0 - near) * bodies_[element].inverse_mass * impulse, segment.length);
@@ -114,7 +144,7 @@ void PositionBasedSolver::move_place(const RodModel& model, RodState& state, int
     move_node(state, segment.parent, near * inverse_mass(segment.parent) * impulse, segment.length);
 }
 
-void PositionBasedSolver::project_support(const RodModel& model, RodState& state, int i) {
+void PositionBasedProjections::project_support(const RodModel& model, RodState& state, int i) {
   const Support& support = model.supports[i];
   const int e = support.element;
   if (!state.alive[e]) return;
@@ -130,7 +160,7 @@ void PositionBasedSolver::project_support(const RodModel& model, RodState& state
   turn(state, e, turning * step);
 }
 
-void PositionBasedSolver::project_weld(const RodModel& model, RodState& state, int i) {
+void PositionBasedProjections::project_weld(const RodModel& model, RodState& state, int i) {
   const Weld& weld = model.welds[i];
   if (!state.alive[weld.a] || !state.alive[weld.b]) return;
   const Body &a = bodies_[weld.a], &b = bodies_[weld.b];
@@ -152,8 +182,8 @@ void PositionBasedSolver::project_weld(const RodModel& model, RodState& state, i
   turn(state, weld.a, -a.inverse_inertia.cwiseProduct(to_a * step));
 }
 
-void PositionBasedSolver::project_contact(const RodModel& model, RodState& state, Contact& contact,
-                                          double surface_share) {
+void PositionBasedProjections::project_contact(const RodModel& model, RodState& state,
+                                               Contact& contact, double surface_share) {
   const ContactPoint& point = contact.point;
   const int e = model.shapes[point.shape].element;
   const double response = inverse_mass_at(model, e, point.back);
@@ -180,15 +210,15 @@ void PositionBasedSolver::project_contact(const RodModel& model, RodState& state
 
 // The impulse against a strain rate, implicit: after it the damper's force goes with the rate that
 // is left, so no damping is too strong.
-Vec3 PositionBasedSolver::damping_impulse(const Mat3& response, const Vec3& damping,
-                                          const Vec3& rate) const {
+Vec3 PositionBasedProjections::damping_impulse(const Mat3& response, const Vec3& damping,
+                                               const Vec3& rate) const {
   Mat3 matrix = response;
   matrix.diagonal() += compliance_of(h_ * damping);
   const Vec3 impulse = -matrix.ldlt().solve(rate);
   return impulse.allFinite() ? impulse : Vec3::Zero();
 }
 
-void PositionBasedSolver::damp_stretch(const RodModel& model, const RodState& state, int e) {
+void PositionBasedProjections::damp_stretch(const RodModel& model, const RodState& state, int e) {
   const Element& element = model.elements[e];
   Body& body = bodies_[e];
   Body* parent = element.parent < 0 ? nullptr : &bodies_[element.parent];
@@ -203,7 +233,7 @@ void PositionBasedSolver::damp_stretch(const RodModel& model, const RodState& st
   if (parent) parent->velocity -= parent->inverse_mass * (q * impulse);
 }
 
-void PositionBasedSolver::damp_bend(const RodModel& model, const RodState& state, int e) {
+void PositionBasedProjections::damp_bend(const RodModel& model, const RodState& state, int e) {
   const Element& element = model.elements[e];
   Body& body = bodies_[e];
   Body* parent = element.parent < 0 ? nullptr : &bodies_[element.parent];

@@ -9,13 +9,7 @@
 namespace pedicel::cosserat {
 
 PositionBasedSolver::PositionBasedSolver(const RodSettings& settings, const RodModel& model)
-    : settings_(settings), bodies_(model.elements.size()) {
-  stretch_.resize(model.elements.size());
-  bend_.resize(model.elements.size());
-  support_position_.resize(model.supports.size());
-  support_rotation_.resize(model.supports.size());
-  weld_position_.resize(model.welds.size());
-  weld_rotation_.resize(model.welds.size());
+    : settings_(settings), projections_(model) {
   const std::size_t contacts = 2 * model.shapes.size();
   found_.reserve(contacts);
   contacts_.reserve(contacts);
@@ -33,14 +27,15 @@ StepReport PositionBasedSolver::step(const RodModel& model, RodState& state,
   for (int s = 0; s < substeps; ++s) {
     gather_loads(model, state, input);
     predict(model, state);
-    clear_multipliers();
+    projections_.begin(h_);
     find_contacts(model, state, input);
-    for (int i = 0; i < settings_.iterations; ++i) sweep(model, state, 1.0 / substeps);
+    for (int i = 0; i < settings_.iterations; ++i)
+      projections_.sweep(model, state, contacts_, 1.0 / substeps);
     update_velocities(model, state);
   }
   report.iterations = substeps * settings_.iterations;
-  report.last_change = largest_change_;
-  report.element = largest_element_;
+  report.last_change = projections_.change().size;
+  report.element = projections_.change().element;
   const auto finite = [](const Vec3& p) { return p.allFinite(); };
   if (!std::all_of(state.position.begin(), state.position.end(), finite) ||
       !std::all_of(state.velocity.begin(), state.velocity.end(), finite)) {
@@ -69,17 +64,18 @@ void PositionBasedSolver::restore(RodState& state) const {
 }
 
 void PositionBasedSolver::share_masses(const RodModel& model, const RodState& state) {
-  for (Body& body : bodies_) body.node_mass = 0.0;
+  std::vector<Body>& bodies = projections_.bodies();
+  for (Body& body : bodies) body.node_mass = 0.0;
   for (int e = 0; e < model.size(); ++e) {
     const Element& element = model.elements[e];
     if (!state.alive[e]) continue;
     const double near = std::clamp(element.com_back / element.length, 0.0, 1.0);
-    bodies_[e].node_mass += (1.0 - near) * element.mass;
-    if (element.parent >= 0) bodies_[element.parent].node_mass += near * element.mass;
-    bodies_[e].velocity = velocity_on(model, state, e, 0.0);
+    bodies[e].node_mass += (1.0 - near) * element.mass;
+    if (element.parent >= 0) bodies[element.parent].node_mass += near * element.mass;
+    bodies[e].velocity = velocity_on(model, state, e, 0.0);
   }
   for (int e = 0; e < model.size(); ++e) {
-    Body& body = bodies_[e];
+    Body& body = bodies[e];
     body.inverse_mass = body.node_mass > 0.0 ? 1.0 / body.node_mass : 0.0;
     body.inverse_inertia =
         state.alive[e] ? Vec3(model.elements[e].inertia.cwiseInverse()) : Vec3::Zero();
@@ -88,7 +84,8 @@ void PositionBasedSolver::share_masses(const RodModel& model, const RodState& st
 
 void PositionBasedSolver::gather_loads(const RodModel& model, const RodState& state,
                                        const StepInput& input) {
-  for (Body& body : bodies_) {
+  std::vector<Body>& bodies = projections_.bodies();
+  for (Body& body : bodies) {
     body.force = body.node_mass * input.gravity;
     body.moment.setZero();
   }
@@ -96,15 +93,16 @@ void PositionBasedSolver::gather_loads(const RodModel& model, const RodState& st
     if (!state.alive[load.element]) continue;
     const Element& element = model.elements[load.element];
     const double near = load.back / element.length;
-    bodies_[load.element].force += (1.0 - near) * load.force_W;
-    bodies_[load.element].moment += load.moment_W;
-    if (element.parent >= 0) bodies_[element.parent].force += near * load.force_W;
+    bodies[load.element].force += (1.0 - near) * load.force_W;
+    bodies[load.element].moment += load.moment_W;
+    if (element.parent >= 0) bodies[element.parent].force += near * load.force_W;
   }
 }
 
 void PositionBasedSolver::predict(const RodModel& model, RodState& state) {
+  std::vector<Body>& bodies = projections_.bodies();
   for (int e = 0; e < model.size(); ++e) {
-    Body& body = bodies_[e];
+    Body& body = bodies[e];
     body.position = state.position[e];
     body.orientation = state.orientation[e];
     if (!state.alive[e]) continue;
@@ -122,14 +120,9 @@ void PositionBasedSolver::predict(const RodModel& model, RodState& state) {
   }
 }
 
-void PositionBasedSolver::clear_multipliers() {
-  for (auto* list : {&stretch_, &bend_, &support_position_, &support_rotation_, &weld_position_,
-                     &weld_rotation_})
-    std::fill(list->begin(), list->end(), Vec3::Zero());
-}
-
 void PositionBasedSolver::find_contacts(const RodModel& model, const RodState& state,
                                         const StepInput& input) {
+  const std::vector<Body>& bodies = projections_.bodies();
   contacts_.clear();
   for (ContactSource* source : input.contacts) {
     found_.clear();
@@ -138,47 +131,34 @@ void PositionBasedSolver::find_contacts(const RodModel& model, const RodState& s
       const int e = model.shapes[point.shape].element, parent = model.elements[e].parent;
       if (!state.alive[e]) continue;
       const double t = point.back / model.elements[e].length;
-      const Vec3& near = parent < 0 ? state.root.position : bodies_[parent].position;
+      const Vec3& near = parent < 0 ? state.root.position : bodies[parent].position;
       Contact contact;
       contact.point = point;
-      contact.place = (1.0 - t) * bodies_[e].position + t * near;
+      contact.place = (1.0 - t) * bodies[e].position + t * near;
       contact.found_at = point_on(model, state, e, point.back);
       contacts_.push_back(contact);
     }
   }
 }
 
-void PositionBasedSolver::sweep(const RodModel& model, RodState& state, double surface_share) {
-  largest_change_ = 0.0;
-  for (int e = 0; e < model.size(); ++e) {
-    if (!state.alive[e]) continue;
-    project_stretch(model, state, e);
-    project_bend(model, state, e);
-  }
-  for (int i = 0; i < static_cast<int>(model.welds.size()); ++i) project_weld(model, state, i);
-  for (int i = 0; i < static_cast<int>(model.supports.size()); ++i)
-    project_support(model, state, i);
-  for (Contact& contact : contacts_) project_contact(model, state, contact, surface_share);
-}
-
 void PositionBasedSolver::update_velocities(const RodModel& model, RodState& state) {
+  std::vector<Body>& bodies = projections_.bodies();
   for (int e = 0; e < model.size(); ++e) {
     if (!state.alive[e]) continue;
-    Body& body = bodies_[e];
+    Body& body = bodies[e];
     body.velocity = (state.position[e] - body.position) / h_;
     body.spin = log_map(body.orientation.conjugate() * state.orientation[e]) / h_;
   }
   for (int e = 0; e < model.size(); ++e) {
     if (!state.alive[e] || model.elements[e].damping_time <= 0.0) continue;
-    damp_stretch(model, state, e);
-    damp_bend(model, state, e);
+    projections_.damp(model, state, e);
   }
   for (int e = 0; e < model.size(); ++e) {
     if (!state.alive[e]) continue;
-    state.angular_velocity[e] = bodies_[e].spin;
+    state.angular_velocity[e] = bodies[e].spin;
     // RodState keeps the velocity of the centre of mass.
     const Vec3 arm_E(0, 0, model.elements[e].com_back);
-    state.velocity[e] = bodies_[e].velocity - state.orientation[e] * bodies_[e].spin.cross(arm_E);
+    state.velocity[e] = bodies[e].velocity - state.orientation[e] * bodies[e].spin.cross(arm_E);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "pedicel/cosserat/solver/position_based_projections.h"
 #include "pedicel/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
@@ -33,8 +34,7 @@ namespace pedicel::cosserat {
 /// and its inertia turns its orientation, so that a beam's rotary inertia is counted too high by
 /// O(length^2). Contacts are found once a sub-step (linearised after that), act on the centreline
 /// (friction does not twist a stem), and colliders stand at their end-of-step poses. Damping takes
-/// the clamp to stand still. Corrections are clamped to one segment's length and half a radian
-/// each, so that nothing overflows.
+/// the clamp to stand still.
 class PositionBasedSolver final : public RodSolver {
  public:
   PositionBasedSolver(const RodSettings& settings, const RodModel& model);
@@ -47,71 +47,26 @@ class PositionBasedSolver final : public RodSolver {
   void reset() override { forces_.clear(); }
 
  private:
-  struct Body {
-    double node_mass = 0.0, inverse_mass = 0.0;  // kg, of the child node
-    Vec3 inverse_inertia = Vec3::Zero();         // 1/(kg m2), E
-    Vec3 velocity = Vec3::Zero();                // m/s, of the child node, W
-    Vec3 spin = Vec3::Zero();                    // rad/s, E
-    Vec3 force = Vec3::Zero();                   // N, on the child node, W
-    Vec3 moment = Vec3::Zero();                  // N m, W
-    Vec3 position = Vec3::Zero();                // at the sub-step's start
-    Quat orientation = Quat::Identity();
-  };
-  struct Contact {
-    ContactPoint point;
-    Vec3 place = Vec3::Zero(), found_at = Vec3::Zero();  // on the centreline: sub-step start, found
-    double normal = 0.0;                                 // multipliers, kg m
-    Vec3 tangential = Vec3::Zero();
-    bool slipping = false;
-  };
+  using Body = PositionBasedProjections::Body;
+  using Contact = PositionBasedProjections::Contact;
 
   void remember(const RodState& state);
   void restore(RodState& state) const;
   void share_masses(const RodModel& model, const RodState& state);
   void gather_loads(const RodModel& model, const RodState& state, const StepInput& input);
   void predict(const RodModel& model, RodState& state);
-  void clear_multipliers();
   void find_contacts(const RodModel& model, const RodState& state, const StepInput& input);
-  void sweep(const RodModel& model, RodState& state, double surface_share);
-  void project_stretch(const RodModel& model, RodState& state, int element);
-  void project_bend(const RodModel& model, RodState& state, int element);
-  void project_support(const RodModel& model, RodState& state, int support);
-  void project_weld(const RodModel& model, RodState& state, int weld);
-  void project_contact(const RodModel& model, RodState& state, Contact& contact,
-                       double surface_share);
   void update_velocities(const RodModel& model, RodState& state);
   void report_contacts(const RodModel& model, const RodState& state, StepReport& report);
 
-  void damp_stretch(const RodModel& model, const RodState& state, int element);
-  void damp_bend(const RodModel& model, const RodState& state, int element);
-
-  Mat3 stretch_response(const RodModel& model, int element, const Mat3& by_turn) const;
-  Mat3 bend_response(const RodModel& model, int element, const Mat3& to_parent) const;
-  Vec3 multiplier_step(const Mat3& response, const Vec3& compliance, const Vec3& value,
-                       Vec3& lambda) const;
-  Vec3 damping_impulse(const Mat3& response, const Vec3& damping, const Vec3& rate) const;
-  void move_node(RodState& state, int element, const Vec3& change, double limit);
-  void move_place(const RodModel& model, RodState& state, int element, double back,
-                  const Vec3& impulse);
-  void turn(RodState& state, int element, const Vec3& delta);
-  double inverse_mass(int element) const {
-    return element < 0 ? 0.0 : bodies_[element].inverse_mass;
-  }
-  double inverse_mass_at(const RodModel& model, int element, double back) const;
-
   RodSettings settings_;
   double h_ = 0.0;  // s, sub-step
-  std::vector<Body> bodies_;
-  // Multipliers of the sub-step: N s2 and N m s2, in the constraint's own axes.
-  std::vector<Vec3> stretch_, bend_, support_position_, support_rotation_, weld_position_,
-      weld_rotation_;
+  PositionBasedProjections projections_;
   std::vector<ContactPoint> found_;
   std::vector<Contact> contacts_;
   std::vector<ContactForce> forces_;
   std::vector<Vec3> old_position_, old_velocity_, old_angular_velocity_;
   std::vector<Quat> old_orientation_;
-  double largest_change_ = 0.0;  // m or rad, of the last sweep
-  int largest_element_ = -1;
 };
 
 }  // namespace pedicel::cosserat

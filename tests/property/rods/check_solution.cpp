@@ -80,7 +80,7 @@ struct Part {
 
 bool solve_loops(cosserat::RodRows& rows, int index, Part& part) {
   cosserat::BlockSystem& system = *part.loops;
-  rows.copy_blocks(index, system);
+  rows.elimination.copy_blocks(index, system);
   for (const auto& entry : part.extras.entries()) {
     system.diagonal(entry.element) += entry.diagonal;
     system.right_side(entry.element) += entry.right_side;
@@ -89,7 +89,7 @@ bool solve_loops(cosserat::RodRows& rows, int index, Part& part) {
     system.weld(static_cast<int>(w)) =
         cosserat::weld_coupling(part.iterate, part.plant.model.welds[w]);
   if (!system.solve()) return false;
-  rows.set_change(index, system);
+  rows.elimination.set_change(index, system);
   return true;
 }
 
@@ -105,28 +105,30 @@ Changes solve_in_lanes(const Garden& garden, std::vector<Part>& parts, int threa
   }
   cosserat::RodRows rows(models, threads);
   ThreadPool pool(threads);
-  rows.set_gravity(garden.gravity);
+  rows.store.gravity = garden.gravity;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
     const int p = static_cast<int>(i);
-    rows.set_scheme(p, garden.dt, part.second_order(garden) ? garden.dt : 0.0, part.start.root);
-    rows.set_extensions(p, part.plant.model, part.start.time, garden.dt, false);
-    rows.set_history(p, part.history);
+    rows.states.set_scheme(p, garden.dt, part.second_order(garden) ? garden.dt : 0.0,
+                           part.start.root);
+    rows.extensions.begin_step(p, part.plant.model, part.start.time, garden.dt, false);
+    rows.states.set_history(p, part.history);
   }
-  rows.prepare(pool, states);
+  rows.states.prepare(pool, states);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    rows.read_iterate(static_cast<int>(i), parts[i].iterate);
-    if (!parts[i].loops) rows.add_extras(static_cast<int>(i), parts[i].extras.packed());
+    rows.states.read_iterate(static_cast<int>(i), parts[i].iterate);
+    if (!parts[i].loops) rows.elimination.add_extras(static_cast<int>(i), parts[i].extras.packed());
   }
-  rows.eliminate(pool);
+  rows.elimination.eliminate(pool);
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (parts[i].loops && !solve_loops(rows, static_cast<int>(i), parts[i])) return {};
-  rows.substitute(pool);
+  rows.elimination.substitute(pool);
   Changes changes(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const int p = static_cast<int>(i);
-    if (!rows.healthy(p)) return {};
-    for (int e = 0; e < parts[i].plant.model.size(); ++e) changes[i].push_back(rows.change(p, e));
+    if (!rows.elimination.healthy(p)) return {};
+    for (int e = 0; e < parts[i].plant.model.size(); ++e)
+      changes[i].push_back(rows.elimination.change(p, e));
   }
   return changes;
 }

@@ -49,9 +49,9 @@ TEST(TaskGraph, EveryTaskRunsOnceAfterWhatItNeeds) {
       ThreadPool pool(pool_threads);
       for (int round = 0; round < 50; ++round) {
         Times in(n), out(n), there(n), back(n);
-        graph.inward(pool, [&](int i) { in.run(i); });
-        graph.outward(pool, [&](int i) { out.run(i); });
-        graph.inward_and_outward(
+        graph.post_order(pool, [&](int i) { in.run(i); });
+        graph.pre_order(pool, [&](int i) { out.run(i); });
+        graph.post_and_pre_order(
             pool, [&](int i) { there.run(i); }, [&](int i) { back.run(i); });
         for (int i = 0; i < n; ++i) {
           for (const Times* times : {&in, &out, &there, &back}) ASSERT_EQ(times->runs[i], 1);
@@ -67,7 +67,7 @@ TEST(TaskGraph, EveryTaskRunsOnceAfterWhatItNeeds) {
   }
 }
 
-// Outward after inward, of the task itself as well: what it leaves is what the other one reads.
+// Pre-order after post-order, of the task itself as well: what it leaves is what the other one reads.
 TEST(TaskGraph, GoesBackOverWhatIsDone) {
   constexpr int n = 300;
   const Needs needs = random_needs(n, 3);
@@ -86,7 +86,7 @@ TEST(TaskGraph, GoesBackOverWhatIsDone) {
     ThreadPool pool(threads);
     for (int round = 0; round < 200; ++round) {
       std::vector<double> sum(n, 1.0), value(n);
-      graph.inward_and_outward(
+      graph.post_and_pre_order(
           pool,
           [&](int i) {
             for (const int other : needs[i]) sum[i] += 0.3 * sum[other];

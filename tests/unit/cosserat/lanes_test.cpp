@@ -176,21 +176,21 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
       ASSERT_TRUE(system.solve());
 
       RodRows rows(std::array{&model}, threads);
-      rows.set_gravity(gravity);
-      rows.set_scheme(0, dt, dt, state.root);
-      rows.set_extensions(0, model, state.time, dt, false);
-      rows.set_history(0, history);
+      rows.store.gravity = gravity;
+      rows.states.set_scheme(0, dt, dt, state.root);
+      rows.extensions.begin_step(0, model, state.time, dt, false);
+      rows.states.set_history(0, history);
       const std::array<const RodState*, 1> states{&state};
       ThreadPool pool(threads);
-      rows.prepare(pool, states);
-      rows.read_iterate(0, state);
-      rows.eliminate(pool);
-      rows.substitute(pool);
-      ASSERT_TRUE(rows.healthy(0));
+      rows.states.prepare(pool, states);
+      rows.states.read_iterate(0, state);
+      rows.elimination.eliminate(pool);
+      rows.elimination.substitute(pool);
+      ASSERT_TRUE(rows.elimination.healthy(0));
       double largest = 0.0, worst = 0.0;
       for (int e = 0; e < model.size(); ++e) {
         largest = std::max(largest, system.solution(e).norm());
-        worst = std::max(worst, (rows.change(0, e) - system.solution(e)).norm());
+        worst = std::max(worst, (rows.elimination.change(0, e) - system.solution(e)).norm());
       }
       EXPECT_LT(worst, 2e-7 * largest) << seed;
     }
@@ -252,16 +252,16 @@ TEST(RodRows, AMoveNeedNotBeMeasured) {
     std::vector<RodState> ends;
     for (const bool measured : {true, false}) {
       RodRows rows(std::array{&model}, 1);
-      rows.set_gravity(gravity);
-      rows.set_scheme(0, dt, dt, state.root);
-      rows.set_history(0, history);
-      rows.prepare(pool, std::array{&state});
-      rows.set_share(0, 1.0);
+      rows.store.gravity = gravity;
+      rows.states.set_scheme(0, dt, dt, state.root);
+      rows.states.set_history(0, history);
+      rows.states.prepare(pool, std::array{&state});
+      rows.search.set_share(0, 1.0);
       ends.push_back(state);
-      rows.solve_and_move(pool, measured, std::array{&ends.back()});
-      if (!measured) rows.measure(pool);
-      energies.push_back(rows.energy(0));
-      EXPECT_LT(energies.back(), rows.energy_before(0));
+      rows.search.solve_and_move(pool, measured, std::array{&ends.back()});
+      if (!measured) rows.search.measure(pool);
+      energies.push_back(rows.search.energy(0));
+      EXPECT_LT(energies.back(), rows.search.energy_before(0));
     }
     EXPECT_EQ(energies[0], energies[1]);
     EXPECT_EQ(ends[0].position, ends[1].position);

@@ -19,19 +19,19 @@ class StepPotential {
   /// extensions.
   void prepare(const RodState& start, const StepInput& input, const RodHistory* history,
                const RodModel* extended = nullptr) {
-    rows_.set_gravity(input.gravity);
-    rows_.set_scheme(0, input.dt, history == nullptr ? 0.0 : input.dt, start.root);
-    if (extended) rows_.set_extensions(0, *extended, start.time, input.dt, false);
-    if (history) rows_.set_history(0, *history);
-    rows_.prepare(alone_, std::array{&start});
+    rows_.store.gravity = input.gravity;
+    rows_.states.set_scheme(0, input.dt, history == nullptr ? 0.0 : input.dt, start.root);
+    if (extended) rows_.extensions.begin_step(0, *extended, start.time, input.dt, false);
+    if (history) rows_.states.set_history(0, *history);
+    rows_.states.prepare(alone_, std::array{&start});
     attachments_.prepare(start, input.loads);
   }
 
   /// Gradient and Hessian into `system`; returns the potential, J.
   double linearise(const RodModel& model, const RodState& state, BlockSystem& system) {
-    rows_.read_iterate(0, state);
-    rows_.eliminate(alone_);
-    rows_.copy_blocks(0, system);
+    rows_.states.read_iterate(0, state);
+    rows_.elimination.eliminate(alone_);
+    rows_.elimination.copy_blocks(0, system);
     extras_.clear();
     const double energy = attachments_.linearise(model, state, extras_);
     for (const DiagonalBlocks::Entry& entry : extras_.entries()) {
@@ -40,13 +40,13 @@ class StepPotential {
     }
     for (std::size_t w = 0; w < model.welds.size(); ++w)
       system.weld(static_cast<int>(w)) = weld_coupling(state, model.welds[w]);
-    return energy + rows_.energy_before(0);
+    return energy + rows_.search.energy_before(0);
   }
 
   double potential(const RodModel& model, const RodState& state) {
-    rows_.read_iterate(0, state);
-    rows_.measure(alone_);
-    return rows_.energy(0) + attachments_.potential(model, state);
+    rows_.states.read_iterate(0, state);
+    rows_.search.measure(alone_);
+    return rows_.search.energy(0) + attachments_.potential(model, state);
   }
 
  private:

@@ -1,27 +1,15 @@
-// The part of RodRows that reads joint laws, air and drift (lanes.h: ExtensionRow, BranchRow).
+#include "pedicel/cosserat/solver/row_extensions.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "pedicel/cosserat/lanes/lane_access.h"
-#include "pedicel/cosserat/solver/rod_rows.h"
 
 namespace pedicel::cosserat {
 
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-ExtensionRow plain_row() {
-  ExtensionRow row{};
-  std::fill(std::begin(row.elastic), std::end(row.elastic), 1.0);
-  return row;
-}
-
-BranchRow no_branch() {
-  BranchRow row{};
-  std::fill(std::begin(row.limit), std::end(row.limit), JointBranch::never);
-  return row;
-}
 
 bool has_slider(const JointBranch& branch) {
   return std::isfinite(branch.limit);
@@ -57,37 +45,29 @@ double held_twist(const JointLaw& law, const JointLaw& now) {
 
 }  // namespace
 
-void RodRows::make_extension_rows(int branches) {
-  extension_.resize(layout_.rows(), plain_row());
-  extension_term_.resize(layout_.rows(), ExtensionTermRow{});
-  if (branches <= branches_a_row_) return;
-  branches_a_row_ = branches;
-  branch_.assign(static_cast<std::size_t>(layout_.rows()) * branches, no_branch());
-  for (Extended& plant : extended_) plant.fresh = true;
-}
-
-void RodRows::read_extensions(int plant, const RodModel& model) {
-  Extended& extended = extended_[plant];
+void RowExtensions::read_model(int plant, const RodModel& model) {
+  Extended& extended = plants_[plant];
   const bool before = extended.any;
   extended.any = is_extended(model);
   extended.fresh = true;
   extended.branches = branch_count(model);
   if (!extended.any && !before) return;
-  make_extension_rows(extended.branches);
+  if (store_.make_extensions(extended.branches))
+    for (Extended& any : plants_) any.fresh = true;
   for (int e = 0; e < model.size(); ++e) {
-    const auto [row, lane] = layout_.slot(plant, e);
-    ExtensionRow& out = extension_[row];
+    const auto [row, lane] = store_.layout.slot(plant, e);
+    ExtensionRow& out = store_.extension[row];
     const SegmentAir air = model.air.empty() ? SegmentAir{} : model.air[e];
     out.drag[lane] = 0.5 * SegmentAir::density * air.drag_area * model.elements[e].length *
-                     element_[row].alive[lane];
+                     store_.element[row].alive[lane];
     put(out.velocity, lane, air.velocity);
     put(out.gust, lane, air.gust);
   }
-  mark_extended(plant, model);
+  mark_packs(plant, model);
 }
 
 // A pack does what any of its plants needs.
-void RodRows::mark_extended(int plant, const RodModel& model) {
+void RowExtensions::mark_packs(int plant, const RodModel& model) {
   int sliders = 0;
   unsigned terms = 0;
   for (const JointLaw& law : model.laws) {
@@ -95,43 +75,46 @@ void RodRows::mark_extended(int plant, const RodModel& model) {
     sliders = std::max(sliders, static_cast<int>(std::count_if(law.branches.begin(),
                                                                law.branches.end(), has_slider)));
   }
-  if (terms != 0) joint_term_.resize(layout_.rows(), JointTermRow{});
-  for (const int c : layout_.chains_of_plant(plant)) {
-    Pack& pack = packs_[layout_.chains()[c].pack];
+  if (terms != 0) store_.joint_term.resize(store_.layout.rows(), JointTermRow{});
+  for (const int c : store_.layout.chains_of_plant(plant)) {
+    const int number = store_.layout.chains()[c].pack;
+    store_.make_viscous(number);
+    Pack& pack = store_.packs[number];
     pack.extended = true;
-    make_viscous(c);
     pack.windy = pack.windy || !model.air.empty();
     pack.terms |= terms;
-    pack.branches = std::max(pack.branches, extended_[plant].branches);
+    pack.branches = std::max(pack.branches, plants_[plant].branches);
     pack.sliders = std::max(pack.sliders, sliders);
   }
 }
 
-void RodRows::set_extensions(int plant, const RodModel& model, double time, double dt,
-                             bool settled) {
-  Extended& extended = extended_[plant];
+void RowExtensions::begin_step(int plant, const RodModel& model, double time, double dt,
+                               bool settled) {
+  Extended& extended = plants_[plant];
   if (!extended.any && !extended.fresh) return;
   const double end = settled ? time : time + dt;
   const double gust = settled ? 0.0 : std::sin(2.0 * pi * model.gust_frequency * end);
   const double modulus = stiffness_factor(model, end);
-  for (const auto [p, begin, behind] : layout_.lanes_of_plant(plant)) {
-    std::fill(packs_[p].modulus + begin, packs_[p].modulus + behind, modulus);
-    std::fill(packs_[p].gust_now + begin, packs_[p].gust_now + behind, gust);
+  for (const auto [p, begin, behind] : store_.layout.lanes_of_plant(plant)) {
+    Pack& pack = store_.packs[p];
+    std::fill(pack.modulus + begin, pack.modulus + behind, modulus);
+    std::fill(pack.gust_now + begin, pack.gust_now + behind, gust);
   }
   if (!extended.fresh && extended.dt == dt && extended.settled == settled) return;
   extended.fresh = false;
   extended.dt = dt;
   extended.settled = settled;
-  if (!extension_.empty()) read_branches(plant, model);
+  if (!store_.extension.empty()) read_branches(plant, model);
 }
 
-void RodRows::read_branches(int plant, const RodModel& model) {
-  const Extended& extended = extended_[plant];
+void RowExtensions::read_branches(int plant, const RodModel& model) {
+  const Extended& extended = plants_[plant];
   const JointLaw plain;
   JointLaw settled;
   for (int e = 0; e < model.size(); ++e) {
-    const auto [row, lane] = layout_.slot(plant, e);
-    ExtensionRow& out = extension_[row];
+    const Slot slot = store_.layout.slot(plant, e);
+    const auto [row, lane] = slot;
+    ExtensionRow& out = store_.extension[row];
     const JointLaw& given = model.laws.empty() ? plain : model.laws[e];
     if (extended.settled) settled = settled_law(given);
     const JointLaw& law = extended.settled ? settled : given;
@@ -139,10 +122,10 @@ void RodRows::read_branches(int plant, const RodModel& model) {
     out.bend_excess[lane] = law.elastic + law.deviation - 1.0;
     out.twist_excess[lane] = out.bend_excess[lane] + held_twist(given, law);
     out.elastic[lane] = law.elastic;
-    if (!joint_term_.empty()) read_terms(law, row, lane);
-    put(extension_term_[row].bias, lane, Vec3(0, 0, 0));
-    for (int j = 0; j < branches_a_row_; ++j) {
-      BranchRow& to = branch_[row * branches_a_row_ + j];
+    if (!store_.joint_term.empty()) read_terms(law, slot);
+    put(store_.extension_term[row].bias, lane, Vec3(0, 0, 0));
+    for (int j = 0; j < store_.law_branches_a_row; ++j) {
+      BranchRow& to = store_.law_branch[row * store_.law_branches_a_row + j];
       const JointBranch branch =
           j < static_cast<int>(law.branches.size()) ? law.branches[j] : JointBranch{};
       const double x = extended.dt / branch.time;
@@ -154,18 +137,32 @@ void RodRows::read_branches(int plant, const RodModel& model) {
   }
 }
 
-void RodRows::read_terms(const JointLaw& law, int row, int lane) {
+void RowExtensions::read_terms(const JointLaw& law, Slot slot) {
+  JointTermRow& out = store_.joint_term[slot.row];
   for (int i = 0; i < effects::joint_term_numbers; ++i)
-    joint_term_[row].number[i][lane] = law.terms.empty() ? 0.0 : law.terms[i];
+    out.number[i][slot.lane] = law.terms.empty() ? 0.0 : law.terms[i];
 }
 
-void RodRows::read_memory(int plant, const RodState& state, int e, int row, int lane) {
-  const Extended& extended = extended_[plant];
+void RowExtensions::read_memory(int plant, const RodState& state, int e, Slot slot) {
+  const Extended& extended = plants_[plant];
+  if (extended.branches == 0) return;
   const Vec3 zero = Vec3::Zero();
-  put(extension_term_[row].bias, lane, extended.settled ? zero : state.joint_bias[e]);
+  put(store_.extension_term[slot.row].bias, slot.lane,
+      extended.settled ? zero : state.joint_bias[e]);
   for (int j = 0; j < extended.branches; ++j)
-    put(branch_[row * branches_a_row_ + j].value, lane,
+    put(store_.law_branch[slot.row * store_.law_branches_a_row + j].value, slot.lane,
         state.joint_memory[e * extended.branches + j]);
+}
+
+void RowExtensions::write_memory(int plant, RodState& state, int e, Slot slot) const {
+  const int branches = plants_[plant].branches;
+  for (int j = 0; j < branches; ++j)
+    state.joint_memory[e * branches + j] =
+        vector_at(store_.law_branch[slot.row * store_.law_branches_a_row + j].value, slot.lane);
+}
+
+void RowExtensions::remove(Slot slot) {
+  if (!store_.extension.empty()) store_.extension[slot.row].drag[slot.lane] = 0.0;
 }
 
 }  // namespace pedicel::cosserat

@@ -1,0 +1,232 @@
+#include "pedicel/cosserat/solver/row_states.h"
+
+#include <algorithm>
+
+#include "pedicel/cosserat/lanes/lane_access.h"
+#include "pedicel/cosserat/lanes/lane_kernels.h"
+
+namespace pedicel::cosserat {
+
+void RowStates::read_model(int plant, const RodModel& model) {
+  for (int e = 0; e < model.size(); ++e) {
+    const Element& element = model.elements[e];
+    const auto [row, lane] = store_.layout.slot(plant, e);
+    ElementRow& out = store_.element[row];
+    out.length[lane] = element.length;
+    put(out.stretch_stiffness, lane, element.stretch_stiffness);
+    put(out.bend_stiffness, lane, element.bend_stiffness);
+    put(out.rest_strain, lane, element.rest_strain);
+    put(out.rest_rotation, lane, element.rest_rotation);
+    out.mass[lane] = element.mass;
+    out.com_back[lane] = element.com_back;
+    put(out.inertia, lane, element.inertia);
+    out.damping_time[lane] = element.damping_time;
+    out.mass_damping[lane] = element.mass_damping;
+    out.alive[lane] = 1.0;
+  }
+  for (const int c : store_.layout.chains_of_plant(plant)) {
+    const Chain& chain = store_.layout.chains()[c];
+    if (std::any_of(chain.elements.begin(), chain.elements.end(),
+                    [&](int e) { return model.elements[e].damping_time > 0.0; }))
+      store_.make_viscous(chain.pack);
+  }
+  extensions_.read_model(plant, model);
+}
+
+// Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
+void RowStates::set_scheme(int plant, double dt, double previous_dt, const Pose& root,
+                           bool accelerate) {
+  store_.roots[plant] = root;
+  const Scheme scheme{dt, previous_dt, accelerate};
+  if (scheme == schemes_[plant]) return;  // mostly; see RowStore::set_active()
+  schemes_[plant] = scheme;
+  // At the end x' = (x - (past_now x_n - past_before x_n-1)) / effective_step.
+  const bool first_order = previous_dt == 0.0;
+  const double ratio = first_order ? 0.0 : dt / previous_dt;
+  const double divisor = 1.0 + 2.0 * ratio;
+  for (const auto [p, begin, end] : store_.layout.lanes_of_plant(plant)) {
+    Pack& pack = store_.packs[p];
+    for (int lane = begin; lane < end; ++lane) {
+      pack.past_now[lane] = (1.0 + ratio) * (1.0 + ratio) / divisor;
+      pack.past_before[lane] = ratio * ratio / divisor;
+      pack.effective_step[lane] = dt * ((1.0 + ratio) / divisor);
+      pack.accelerate[lane] = accelerate ? dt : 0.0;
+    }
+  }
+}
+
+void RowStates::set_history(int plant, const RodHistory& history) {
+  const int n = static_cast<int>(history.position.size());
+  for (int e = 0; e < n; ++e) {
+    const auto [row, lane] = store_.layout.slot(plant, e);
+    put(store_.previous[row], lane, history.position[e], history.orientation[e]);
+    put(store_.previous_rate[row].velocity, lane, history.velocity[e]);
+    put(store_.previous_rate[row].angular_velocity, lane, history.angular_velocity[e]);
+    if (store_.previous_strain.empty()) continue;
+    put(store_.previous_strain[row].stretch, lane, history.stretch[e]);
+    put(store_.previous_strain[row].bend, lane, history.bend[e]);
+  }
+}
+
+void RowStates::prepare(ThreadPool& pool, std::span<const RodState* const> states,
+                        std::span<const char> unchanged) {
+  keeps_end_ = keeps_end_ && !unchanged.empty();
+  const RowArrays rows = store_.arrays();
+  store_.each_pack(pool, [&](int p) {
+    // The parents of a pack may still be under way in another thread: they are fetched later.
+    store_.packs[p].anchored = false;
+    if (!store_.packs[p].active) return;
+    if (!has_states(p, unchanged)) read_states(p, states);
+    cosserat::prepare(rows, store_.packs[p]);
+  });
+}
+
+// Those of all its plants. What remembers more than poses and velocities is read.
+// Rows that another solver shares do not keep what they held.
+bool RowStates::has_states(int pack, std::span<const char> unchanged) const {
+  return keeps_end_ &&
+         std::ranges::all_of(store_.anchors[pack], [&](const RowStore::Anchor& anchor) {
+           const int plant = anchor.plant;
+           return plant < 0 || (unchanged[plant] && extensions_.branches(plant) == 0);
+         });
+}
+
+void RowStates::read_states(int pack, std::span<const RodState* const> states) {
+  const int begin = store_.packs[pack].begin;
+  PoseRow& parents = store_.scratch->start[begin];
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const auto [plant, parent] = store_.anchors[pack][lane];
+    if (plant < 0)
+      put(parents, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
+    else if (parent < 0)  // strains of the start are against the clamp of the start
+      put(parents, lane, states[plant]->previous_root.position,
+          states[plant]->previous_root.rotation);
+    else
+      put(parents, lane, states[plant]->position[parent], states[plant]->orientation[parent]);
+  }
+  for (int row = begin + 1; row < store_.packs[pack].end; ++row) {
+    if (store_.ahead) store_.ahead->some();
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const int e = store_.layout.elements(row)[lane];
+      if (e < 0) {  // whatever the scratch held must not reach a lane's sums
+        put(store_.scratch->start[row], lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
+        put(store_.scratch->rate[row].velocity, lane, Vec3(0, 0, 0));
+        put(store_.scratch->rate[row].angular_velocity, lane, Vec3(0, 0, 0));
+        continue;
+      }
+      const int plant = store_.anchors[pack][lane].plant;
+      read_element(*states[plant], plant, e, {row, lane});
+    }
+  }
+}
+
+void RowStates::read_element(const RodState& state, int plant, int e, Slot slot) {
+  const auto [row, lane] = slot;
+  put(store_.scratch->start[row], lane, state.position[e], state.orientation[e]);
+  put(store_.scratch->rate[row].velocity, lane, state.velocity[e]);
+  put(store_.scratch->rate[row].angular_velocity, lane, state.angular_velocity[e]);
+  extensions_.read_memory(plant, state, e, slot);
+  ElementRow& element = store_.element[row];
+  if (state.alive[e] || element.alive[lane] == 0.0) return;
+  // It came off: nothing ties it to its parent any more.
+  element.alive[lane] = 0.0;
+  put(element.stretch_stiffness, lane, Vec3(0, 0, 0));
+  put(element.bend_stiffness, lane, Vec3(0, 0, 0));
+  extensions_.remove(slot);
+}
+
+void RowStates::hold(int plant) {
+  RowScratch& scratch = *store_.scratch;
+  for (const int c : store_.layout.chains_of_plant(plant)) {
+    const Chain& chain = store_.layout.chains()[c];
+    for (const int e : chain.elements) {
+      const int row = store_.layout.slot(plant, e).row;
+      put(scratch.iterate[row], chain.lane, vector_at(scratch.start[row].position, chain.lane),
+          rotation_at(scratch.start[row].orientation, chain.lane));
+    }
+  }
+  // Packs hold copies of their parents' poses, which have just changed.
+  for (const LaneRun& run : store_.layout.lanes_of_plant(plant))
+    store_.place_anchors(run.pack, scratch.iterate);
+}
+
+void RowStates::read_iterate(int plant, const RodState& state) {
+  for (int e = 0; e < state.size(); ++e) {
+    const Slot slot = store_.layout.slot(plant, e);
+    put(store_.scratch->iterate[slot.row], slot.lane, state.position[e], state.orientation[e]);
+  }
+  for (const LaneRun& run : store_.layout.lanes_of_plant(plant))
+    store_.place_anchors(run.pack, store_.scratch->iterate);
+}
+
+// write(state, element, plant, slot) for all whose plant has a state, row by row, as the rows lie:
+// a lane at a time would fetch each of them eight times.
+template <class Write>
+void RowStates::for_each_element(int pack, std::span<RodState* const> states,
+                                 const Write& write) const {
+  const auto& anchors = store_.anchors[pack];
+  const auto has_state = [&](const RowStore::Anchor& anchor) {
+    return anchor.plant >= 0 && states[anchor.plant];
+  };
+  if (!std::ranges::any_of(anchors, has_state)) return;
+  for (int row = store_.packs[pack].begin + 1; row < store_.packs[pack].end; ++row) {
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const int e = store_.layout.elements(row)[lane];
+      if (e < 0) continue;
+      const int plant = anchors[lane].plant;
+      if (RodState* const state = states[plant]) write(*state, e, plant, Slot{row, lane});
+    }
+  }
+}
+
+void RowStates::write_iterate(ThreadPool& pool, std::span<RodState* const> states) {
+  store_.each_pack(pool, [&](int p) { write_pack(p, states); });
+}
+
+void RowStates::write_pack(int pack, std::span<RodState* const> states) const {
+  const RowScratch& scratch = *store_.scratch;
+  for_each_element(pack, states, [&](RodState& state, int e, int, Slot slot) {
+    state.position[e] = vector_at(scratch.iterate[slot.row].position, slot.lane);
+    state.orientation[e] = rotation_at(scratch.iterate[slot.row].orientation, slot.lane);
+  });
+}
+
+void RowStates::finish(ThreadPool& pool, std::span<RodState* const> states) {
+  const RowArrays rows = store_.arrays();
+  store_.each_pack(pool, [&](int p) {
+    cosserat::finish(rows, store_.packs[p], store_.previous_rate.data());
+    write_end(p, states);
+  });
+}
+
+void RowStates::write_end(int pack, std::span<RodState* const> states) const {
+  const RowScratch& scratch = *store_.scratch;
+  for_each_element(pack, states, [&](RodState& state, int e, int plant, Slot slot) {
+    if (!state.alive[e]) return;
+    const auto [row, lane] = slot;
+    state.position[e] = vector_at(scratch.iterate[row].position, lane);
+    state.orientation[e] = rotation_at(scratch.iterate[row].orientation, lane);
+    state.velocity[e] = vector_at(store_.previous_rate[row].velocity, lane);
+    state.angular_velocity[e] = vector_at(store_.previous_rate[row].angular_velocity, lane);
+    extensions_.write_memory(plant, state, e, slot);
+  });
+}
+
+// By swapping, where the scratch is its own: the end becomes the start, and the start the past.
+void RowStates::end_step() {
+  RowScratch& scratch = *store_.scratch;
+  keeps_end_ = store_.scratch.use_count() == 1;  // what a step leaves there is nobody else's
+  if (keeps_end_) {
+    scratch.start.swap(store_.previous);
+    scratch.start.swap(scratch.iterate);
+    scratch.rate.swap(store_.previous_rate);
+    scratch.strain.swap(store_.previous_strain);
+    return;
+  }
+  std::copy_n(scratch.start.begin(), store_.layout.rows(), store_.previous.begin());
+  std::copy_n(scratch.rate.begin(), store_.layout.rows(), store_.previous_rate.begin());
+  std::copy_n(scratch.strain.begin(), store_.previous_strain.size(),
+              store_.previous_strain.begin());
+}
+
+}  // namespace pedicel::cosserat
