@@ -18,6 +18,7 @@
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
 #include "pedicel/app/verbs/fit.h"
+#include "pedicel/app/verbs/import.h"
 #include "pedicel/app/verbs/man_page.h"
 #include "pedicel/app/verbs/manual.h"
 #include "pedicel/app/verbs/observe.h"
@@ -394,6 +395,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   add_bench_options(*bench, benched);
   const std::function<int()> diagnose = add_diagnose_verb(app);
   const std::function<int()> fit = add_fit_verb(app);
+  const std::function<int()> import_files = add_import_verb(app);
   const std::function<int()> manual = add_manual_verb(app);
 
   ObserveArguments observed;
@@ -415,6 +417,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (*bench) return guarded([&] { return bench_verb(benched); });
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);
+  if (app.got_subcommand("import")) return guarded(import_files);
   if (app.got_subcommand("manual")) return guarded(manual);
   if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });

@@ -4,7 +4,7 @@ import re
 import subprocess
 import tempfile
 
-VERBS = ["sweep", "validate", "bench", "diagnose", "fit", "observe", "manual"]
+VERBS = ["sweep", "validate", "bench", "diagnose", "fit", "import", "observe", "manual"]
 
 
 class Program:
