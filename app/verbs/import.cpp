@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -54,10 +55,19 @@ discrepancy::ForceStatements force_statements_of(const ImportArguments& a) {
   return said;
 }
 
+/// The file's name without the ending that says its kind: "pull_0.1" of pull_0.1.tsv.
+std::string trial_name(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  const bool is_kind =
+      std::ranges::any_of(std::array{".csv", ".tsv", ".txt", ".c3d"},
+                          [&](const char* known) { return io::same_but_case(known, ending); });
+  return (is_kind ? file.stem() : file.filename()).string();
+}
+
 std::vector<std::string> trial_names(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files) {
-    const std::string name = io::name_of_file(std::filesystem::path(file).filename());
+    const std::string name = trial_name(file);
     if (name.empty() || name == "." || name == "..")
       throw UsageError("import: " + in_quotes(file) +
                        " gives a trial no name, expected another name");

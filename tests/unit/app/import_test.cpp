@@ -152,6 +152,7 @@ TEST_F(Import, WhatIsWrittenIsGood) {
   a_.up = "z";
   EXPECT_EQ(import_verb(a_), 0);
   expect_places(written().trials.at(0));
+  EXPECT_EQ(written().trials.at(0).name, "swing");  // the ending says what the file is
 }
 
 TEST_F(Import, TheWrongAxisIsSeenInTheData) {
