@@ -48,22 +48,14 @@ struct Export {
   std::string_view begins;
   std::string_view then;
   const char* program;
+  bool imported;  // by `pedicel import`
 };
-constexpr std::array exports = {Export{"Trajectories", "\r\n,;", "Vicon Nexus"},
-                                Export{"Format Version", ",;\t", "OptiTrack Motive"},
-                                Export{"NO_OF_FRAMES", "\t,;", "Qualisys Track Manager"},
-                                Export{"PathFileType", "\t,; ", "OpenSim (.trc)"},
-                                Export{"scorer", ",;\t", "DeepLabCut"}};
-
-std::string export_kind(std::string_view text) {
-  for (const Export& known : exports)
-    if (text.size() > known.begins.size() && text.starts_with(known.begins) &&
-        known.then.find(text[known.begins.size()]) != std::string_view::npos)
-      return std::string("a table as ") + known.program +
-             " writes it, with several lines of names, expected one: time,m1.x,m1.y,m1.z,... in "
-             "seconds since the trial began and metres";
-  return {};
-}
+constexpr std::array exports = {Export{"Trajectories", "\r\n,;", "Vicon Nexus", true},
+                                Export{"Format Version", ",;\t", "OptiTrack Motive", true},
+                                Export{"NO_OF_FRAMES", "\t,;", "Qualisys Track Manager", true},
+                                Export{"FILE_VERSION", "\t,;", "Qualisys Track Manager", true},
+                                Export{"PathFileType", "\t,; ", "OpenSim (.trc)", false},
+                                Export{"scorer", ",;\t", "DeepLabCut", true}};
 
 // A column may be called PAR1: then no byte is one that no text has.
 bool has_control(std::string_view bytes) {
@@ -114,6 +106,18 @@ bool begins_without_case(std::string_view text, std::string_view lower) {
 
 }  // namespace
 
+std::string kind_of_export(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  for (const Export& known : exports)
+    if (text.size() > known.begins.size() && text.starts_with(known.begins) &&
+        known.then.find(text[known.begins.size()]) != std::string_view::npos)
+      return std::string("a table as ") + known.program +
+             " writes it, with several lines of names, expected one: time,m1.x,m1.y,m1.z,... in "
+             "seconds since the trial began and metres" +
+             (known.imported ? "; pedicel import makes an experiment of it" : "");
+  return {};
+}
+
 std::string kind_of_bytes(std::string_view bytes) {
   if (bytes.starts_with("PK\x03\x04"sv)) {
     const std::string kind = zip_kind(bytes);
@@ -131,7 +135,6 @@ std::string kind_of_bytes(std::string_view bytes) {
   const std::string_view text = bytes.substr(first);
   if (begins_without_case(text, "<!doctype html") || begins_without_case(text, "<html"))
     return "a web page, expected the file itself: download it as raw text";
-  if (const std::string kind = export_kind(text); !kind.empty()) return kind;
   if (is_bare_utf16(bytes))
     return "UTF-16 without a byte order mark, expected UTF-8: save it as UTF-8";
   return {};

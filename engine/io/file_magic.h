@@ -9,4 +9,8 @@ namespace pedicel::io {
 /// Excel workbook (.xlsx), expected ...". Empty where nothing is known of them.
 std::string kind_of_bytes(std::string_view bytes);
 
+/// The same for tables of motion capture, which have several lines of names in place of one and are
+/// for `pedicel import`.
+std::string kind_of_export(std::string_view text);
+
 }  // namespace pedicel::io

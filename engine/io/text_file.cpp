@@ -113,7 +113,7 @@ std::string_view without_mark(std::string_view text) {
   return text.starts_with("\xEF\xBB\xBF"sv) ? text.substr(3) : text;
 }
 
-std::string text_of_bytes(std::string bytes, const std::string& file) {
+std::string text_of_bytes(std::string bytes, const std::string& file, CaptureExports exports) {
   const std::string_view view = bytes;
   if (view.starts_with("\xFF\xFE\0\0"sv) || view.starts_with("\0\0\xFE\xFF"sv))
     throw InvalidFile({file}, "is UTF-32, expected UTF-8: save it as UTF-8");
@@ -123,6 +123,9 @@ std::string text_of_bytes(std::string bytes, const std::string& file) {
     bytes.erase(0, view.size() - without_mark(view).size());
   if (const std::string other = kind_of_bytes(bytes); !other.empty())
     throw InvalidFile({file}, "is " + other);
+  if (exports == CaptureExports::refused)
+    if (const std::string other = kind_of_export(bytes); !other.empty())
+      throw InvalidFile({file}, "is " + other);
   // What DOS and old editors end a text with.
   while (!bytes.empty() && (bytes.back() == '\x1A' || bytes.back() == '\0')) bytes.pop_back();
   check_bytes(bytes, file);

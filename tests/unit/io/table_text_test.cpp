@@ -11,8 +11,10 @@
 namespace pedicel::io {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// What the reader makes of a text.
 struct Outcome {
@@ -145,7 +147,10 @@ TEST(TableText, NamesThePrograms) {
               HasSubstr("f: error: is a table as Vicon Nexus writes it"));
   EXPECT_THAT(read("Format Version,1.23,Take Name,a\n").faults, HasSubstr("OptiTrack Motive"));
   EXPECT_THAT(read("NO_OF_FRAMES\t20\nNO_OF_MARKERS\t9\n").faults, HasSubstr("Qualisys"));
-  EXPECT_THAT(read("PathFileType\t4\t(X/Y/Z)\n").faults, HasSubstr("OpenSim"));
+  EXPECT_THAT(read("FILE_VERSION\t2.0.0\nNO_OF_FRAMES\t20\n").faults, HasSubstr("Qualisys"));
+  EXPECT_THAT(read("NO_OF_FRAMES\t20\n").faults, HasSubstr("pedicel import makes an experiment"));
+  EXPECT_THAT(read("PathFileType\t4\t(X/Y/Z)\n").faults,
+              AllOf(HasSubstr("OpenSim"), Not(HasSubstr("pedicel import"))));
   EXPECT_THAT(read("scorer,a,a\nbodyparts,m,m\n").faults, HasSubstr("DeepLabCut"));
   EXPECT_EQ(read("scorers,x\n0,1\n").faults, "");
 }
