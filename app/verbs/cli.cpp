@@ -18,11 +18,8 @@
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
 #include "pedicel/app/verbs/fit.h"
-<<<<<<< HEAD
-#include "pedicel/app/verbs/lab.h"
-=======
 #include "pedicel/app/verbs/import.h"
->>>>>>> 660f491ec7abcfaac59ef9f06a4ea07f8a748fe7
+#include "pedicel/app/verbs/lab.h"
 #include "pedicel/app/verbs/man_page.h"
 #include "pedicel/app/verbs/manual.h"
 #include "pedicel/app/verbs/observe.h"
@@ -400,12 +397,9 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   add_bench_options(*bench, benched);
   const std::function<int()> diagnose = add_diagnose_verb(app);
   const std::function<int()> fit = add_fit_verb(app);
-<<<<<<< HEAD
+  const std::function<int()> import_files = add_import_verb(app);
   const std::function<int()> lab = add_lab_verb(app);
   const std::function<int()> transfer = add_transfer_verb(app);
-=======
-  const std::function<int()> import_files = add_import_verb(app);
->>>>>>> 660f491ec7abcfaac59ef9f06a4ea07f8a748fe7
   const std::function<int()> manual = add_manual_verb(app);
 
   ObserveArguments observed;
@@ -427,12 +421,9 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (*bench) return guarded([&] { return bench_verb(benched); });
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);
-<<<<<<< HEAD
+  if (app.got_subcommand("import")) return guarded(import_files);
   if (app.got_subcommand("lab")) return guarded(lab);
   if (app.got_subcommand("transfer")) return guarded(transfer);
-=======
-  if (app.got_subcommand("import")) return guarded(import_files);
->>>>>>> 660f491ec7abcfaac59ef9f06a4ea07f8a748fe7
   if (app.got_subcommand("manual")) return guarded(manual);
   if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });
