@@ -7,6 +7,7 @@
 
 #include "pedicel/discrepancy/import/c3d_parameters.h"
 #include "pedicel/discrepancy/import/recording_reader.h"
+#include "pedicel/io/csv.h"
 #include "pedicel/io/table_text.h"
 #include "pedicel/io/unit_text.h"
 
@@ -43,7 +44,9 @@ class C3dReader {
     points_ = parameters_.whole("POINT", "USED").value_or(bytes_.word(C3dHead::points));
     analog_ = bytes_.word(C3dHead::analog);
     if (const auto scale = parameters_.number("POINT", "SCALE")) scale_ = *scale;
-    if (!std::isfinite(scale_) || scale_ == 0.0) return fail("POINT:SCALE is no scale");
+    if (!std::isfinite(scale_) || scale_ == 0.0)
+      return fail("the scale of the points is " + io::format_number(scale_) +
+                  ", expected a finite number that is not 0");
     if (points_ == 0 || points_ > most_points)
       return fail("the head counts " + std::to_string(points_) + " points, expected 1 to " +
                   std::to_string(most_points));

@@ -112,15 +112,15 @@ class DeepLabCutReader {
   }
 
   void add_point(GrowingRows& rows, const DeepLabCutPoint& point) {
-    double x = table_.number(point.x), y = table_.number(point.y);
-    double z = point.z > 0 ? table_.number(point.z) : 0.0;
+    std::vector<double> axes =
+        point.z > 0 ? table_.point({point.x, point.y, point.z}) : table_.point({point.x, point.y});
+    if (point.z == 0) axes.push_back(std::isnan(axes[0]) ? axes[0] : 0.0);
+    if (recording_.in_pixels) axes[1] = -axes[1];  // pictures count downwards
     if (point.likelihood > 0 && table_.number(point.likelihood) < least_) {
       ++unlikely_;
-      x = y = z = std::numeric_limits<double>::quiet_NaN();
+      axes.assign(3, std::numeric_limits<double>::quiet_NaN());
     }
-    rows.add(x);
-    rows.add(recording_.in_pixels ? -y : y);  // pictures count downwards
-    rows.add(std::isnan(x) ? x : z);          // an absent axis is not seen where x is not
+    for (const double x : axes) rows.add(x);
   }
 
   HeadedTable table_;

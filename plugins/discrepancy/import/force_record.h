@@ -31,7 +31,7 @@ struct ForceRecord {
 
 /// Reads a table with a time and a load, or with fx, fy and fz: one line of names, a line of units
 /// below it or units behind the names. Faults of the file go to the diagnostics; what nobody states
-/// to notes.missing. What comes back then is of no use.
+/// to notes.missing. What comes back then is of no use. Throws InvalidFile where it cannot be read.
 ForceRecord read_force_record(const std::filesystem::path& file, const ForceStatements& statements,
                               Diagnostics& diagnostics, ImportNotes& notes);
 

@@ -65,6 +65,17 @@ double HeadedTable::number(std::size_t column, bool needed) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+std::vector<double> HeadedTable::point(std::initializer_list<std::size_t> columns) {
+  std::vector<double> axes;
+  for (const std::size_t column : columns) axes.push_back(number(column));
+  const auto missing = std::ranges::count_if(axes, [](double x) { return std::isnan(x); });
+  if (missing > 0 && missing < static_cast<std::ptrdiff_t>(axes.size()))
+    diagnostics_.repeated_error("half a point", at(*columns.begin()),
+                                "a point has some of its axes, expected all of them or none");
+  if (missing > 0) axes.assign(axes.size(), std::numeric_limits<double>::quiet_NaN());
+  return axes;
+}
+
 bool HeadedTable::count_row(std::size_t columns) {
   counted_ += columns;
   if (columns <= io::most_columns && counted_ <= io::most_cells) return true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,9 @@ class HeadedTable {
   /// The number of a cell; NaN where nothing was measured. What is no number is an error, and a
   /// missing one is where `needed`.
   double number(std::size_t column, bool needed = false);
+  /// The numbers of a point's axes, all there or all NaN; half a point, as a row that was cut off
+  /// leaves it, is an error.
+  std::vector<double> point(std::initializer_list<std::size_t> columns);
   /// Whether a cell has a number.
   bool is_number(std::size_t column) const;
   /// Counts the cells of a row of data; false, with an error, where the table is too large.

@@ -144,7 +144,7 @@ class MotiveReader {
       recording_.frame.push_back(table_.number(0, true));
       if (is_time()) recording_.time.push_back(table_.number(1, true));
       for (const std::size_t c : points_)
-        for (std::size_t axis = 0; axis < 3; ++axis) rows.add(table_.number(c + axis));
+        for (const double x : table_.point({c, c + 1, c + 2})) rows.add(x);
     }
     recording_.value = rows.matrix();
   }

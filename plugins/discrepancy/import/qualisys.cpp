@@ -101,8 +101,7 @@ class QualisysReader {
   }
 
   void add_point(GrowingRows& rows, std::size_t column) {
-    double point[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = table_.number(column + axis);
+    const std::vector<double> point = table_.point({column, column + 1, column + 2});
     const bool unseen = point[0] == 0.0 && point[1] == 0.0 && point[2] == 0.0;
     unseen_ += unseen ? 1 : 0;
     for (const double x : point) rows.add(unseen ? std::numeric_limits<double>::quiet_NaN() : x);

@@ -119,10 +119,10 @@ class TrackerReader {
     while (table_.next() && table_.count_row(3 * x_.size() + 1)) {
       recording_.time.push_back(table_.number(0, true));
       for (std::size_t i = 0; i < x_.size(); ++i) {
-        const double x = table_.number(x_[i]), y = table_.number(y_[i]);
-        rows.add(x);
-        rows.add(y);
-        rows.add(std::isnan(x) ? x : 0.0);
+        const std::vector<double> point = table_.point({x_[i], y_[i]});
+        rows.add(point[0]);
+        rows.add(point[1]);
+        rows.add(std::isnan(point[0]) ? point[0] : 0.0);
       }
     }
     recording_.value = rows.matrix();

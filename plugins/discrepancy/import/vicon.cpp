@@ -110,7 +110,7 @@ class ViconReader {
     while (table_.next_line() && !table_.is_empty() && table_.count_row(axes_.size())) {
       recording_.frame.push_back(table_.number(0, true));
       for (const std::size_t c : points_)
-        for (std::size_t axis = 0; axis < 3; ++axis) rows.add(table_.number(c + axis));
+        for (const double x : table_.point({c, c + 1, c + 2})) rows.add(x);
     }
     recording_.value = rows.matrix();
   }

@@ -94,6 +94,15 @@ TEST(C3d, RefusesHostileHeads) {
   EXPECT_THAT(with(0, "\xFF"), HasSubstr("ends before its parameters"));
 }
 
+TEST(C3d, RefusesAScaleOfNothing) {
+  C3dFile file;
+  file.frames = {{Vec3::Zero(), Vec3::Zero()}};
+  for (const double scale : {0.0, HUGE_VAL}) {
+    file.scale = scale;
+    EXPECT_THAT(read(file.bytes()).faults, HasSubstr("the scale of the points is"));
+  }
+}
+
 TEST(C3d, RefusesAParameterBeyondTheFile) {
   std::string whole = C3dFile().bytes();
   const std::size_t labels = whole.find("LABELS");

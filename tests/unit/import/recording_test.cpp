@@ -210,6 +210,18 @@ TEST(Recording, TellsTheFormatOrAsksForIt) {
   EXPECT_THAT(read("%PDF-1.4").faults, HasSubstr("a PDF document"));
 }
 
+// As a full disk or a stopped export leaves a row.
+TEST(Recording, RefusesHalfAPoint) {
+  constexpr const char* half = "a point has some of its axes, expected all of them or none";
+  EXPECT_THAT(read(motive + "2,0.016,0,0,0,1,1,1,1,0,1,1,1,1,2\n").faults,
+              HasSubstr(std::string("f.csv:11:31: error: ") + half));
+  EXPECT_THAT(read(qualisys + "1\t2\t3\t4\t\t6\n").faults, HasSubstr(half));
+  EXPECT_THAT(read(deeplabcut + "0,10,20,0.99,30\n").faults, HasSubstr(half));
+  EXPECT_THAT(read("mass_A\nt\tx\ty\n0.0\t1.5E-1\t\n").faults, HasSubstr(half));
+  EXPECT_THAT(read("Trajectories\n100\n,,m,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2\n").faults,
+              HasSubstr(half));
+}
+
 TEST(Recording, RefusesANameThatComesTwice) {
   EXPECT_THAT(read("#multi:\n\ta\t\ta\t\nt\tx\ty\tx\ty\n0\t1\t2\t3\t4\n").faults,
               HasSubstr("point \"a\" appears twice"));
