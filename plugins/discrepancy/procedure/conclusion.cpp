@@ -321,7 +321,7 @@ std::vector<NamedCause> parameters_off(const Findings& findings, const NeededPar
   for (const std::string& name : needed.names) {
     const double off = deviations(findings, needed.model, best, name);
     if (off != 0.0 && leaves_what_is_known(findings, needed.model, name))
-      causes.push_back(parameter_cause(findings, best, name, 0.5 * off * off));
+      causes.push_back(parameter_cause(findings, needed.model, name, 0.5 * off * off));
   }
   return causes;
 }

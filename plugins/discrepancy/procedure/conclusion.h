@@ -14,8 +14,8 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis);
 /// Outcome, causes, competing models and remainder.
 void conclude(const Findings& findings, Diagnosis& diagnosis);
 
-/// Of the parameters that `best` needs, those that leave what is known of them (`known_to`), with
-/// the intervals of `best`, which leaves all of them free.
+/// Of the parameters that are needed beside the causes of `best`, those that leave what is known of
+/// them (`known_to`), with the numbers of the model that has the others at their nominal values.
 std::vector<NamedCause> parameters_off(const Findings& findings, const NeededParameters& needed,
                                        const FitSummary& best);
 

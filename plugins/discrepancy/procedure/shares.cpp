@@ -36,6 +36,15 @@ std::optional<Hypothesis> less(const Hypothesis& model, const std::string& cause
   return rest;
 }
 
+// Modulus, density and damping that are no causes do not stand in for the cause that is taken out.
+void hold_what_is_no_cause(const std::vector<NamedCause>& causes, Hypothesis& model) {
+  for (const char* name : Shift::names) {
+    const int p = model.factor_on(name);
+    if (p >= 0 && std::ranges::find(causes, name, &NamedCause::name) == causes.end())
+      model.free.erase(model.free.begin() + p);
+  }
+}
+
 Hypothesis refitted_to(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options) {
   return start.size() > 0 ? fit(evaluator, start, options).hypothesis : start;
 }
@@ -166,21 +175,22 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
     if (!is_ambiguous) std::ranges::move(parameters, std::back_inserter(verdict.causes));
   }
 
+  std::vector<NamedCause> others = verdict.causes;
+  std::ranges::copy(parameters, std::back_inserter(others));
   std::vector<Explained> all;
-  const auto explain = [&](std::vector<NamedCause>& causes) {
-    for (NamedCause& cause : causes) {
-      std::optional<Hypothesis> rest = less(needed.model.hypothesis, cause.name);
-      if (rest) {
-        all.push_back({&cause, needed.model.hypothesis, refitted_to(evaluator, *rest, options)});
-      } else if (const FitSummary* other = alternative(findings, diagnosis, cause.name)) {
-        rest = less(other->hypothesis, cause.name);
-        if (rest)
-          all.push_back({&cause, other->hypothesis, refitted_to(evaluator, *rest, options)});
-      }
+  const auto explain = [&](NamedCause& cause) {
+    const FitSummary* model = &needed.model;
+    std::optional<Hypothesis> rest = less(model->hypothesis, cause.name);
+    if (!rest) {
+      model = alternative(findings, diagnosis, cause.name);
+      if (model) rest = less(model->hypothesis, cause.name);
     }
+    if (!rest) return;
+    hold_what_is_no_cause(others, *rest);
+    all.push_back({&cause, model->hypothesis, refitted_to(evaluator, *rest, options)});
   };
-  explain(verdict.causes);
-  if (is_ambiguous) explain(parameters);
+  std::ranges::for_each(verdict.causes, explain);
+  if (is_ambiguous) std::ranges::for_each(parameters, explain);
 
   Misfit fitted(evaluator, options, diagnosis.fit_trials);
   Misfit held_out(evaluator, options, diagnosis.check_trials);

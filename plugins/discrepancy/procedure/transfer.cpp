@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "pedicel/core/check.h"
 #include "pedicel/discrepancy/admission/admission.h"
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/fit/baseline_start.h"
@@ -15,6 +16,14 @@
 namespace pedicel::discrepancy {
 
 namespace {
+
+void check_places(const Hypothesis& effects, const Experiment& experiment) {
+  for (const plant::Effect& effect : effects.effects)
+    if (effect.place && experiment.plant.curve_index(effect.place->curve) < 0)
+      throw UsageError(effect.name + " sits on curve \"" + effect.place->curve +
+                       "\", which the other plant does not have, expected plants whose curves "
+                       "have the same names");
+}
 
 // Of what makes the first plant another one than its file says, nothing belongs to the second.
 Hypothesis carried(const plant::PlantFile& extended) {
@@ -71,6 +80,7 @@ Transfer transfer(const plant::PlantFile& extended, const Experiment& given,
   }
   const Experiment& experiment = admission.experiment;
   const Hypothesis effects = carried(extended);
+  check_places(effects, experiment);
   for (const plant::Effect& effect : effects.effects) result.effects.push_back(effect.name);
 
   say("fitting modulus, density and damping", 0.0);
@@ -82,7 +92,7 @@ Transfer transfer(const plant::PlantFile& extended, const Experiment& given,
                                 setup.options(), horizons);
   if (!stopped()) {
     say("checking our own numerical error", 0.3);
-    setup.refine(base, {});
+    setup.refine(base, {[](int) {}, [](const NumericsCheck&) {}});
     setup.renew();
     base.hypothesis.add(mesh_nuisance());
     Evaluator fine = setup.evaluator();

@@ -38,7 +38,7 @@ struct Transfer {
 /// Carries the effects of `extended` over to the plant of another experiment. Modulus, density and
 /// damping are fitted to its trials without the effects and with them; the effects' own numbers
 /// stay. Factors on the material in `extended` belong to the first plant and stay there. Throws
-/// InvalidFile where the effects do not fit the other plant.
+/// UsageError where an effect sits on a curve that the other plant does not have.
 Transfer transfer(const plant::PlantFile& extended, const Experiment& experiment,
                   const TransferOptions& options);
 

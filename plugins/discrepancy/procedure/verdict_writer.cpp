@@ -73,8 +73,8 @@ void VerdictWriter::write_partial() {
   if (!chain.empty()) {
     // Nobody asked yet what else there is, or whether one force explains as much.
     conclude(state_.findings, state_.result);
-    verdict.remainder = cut + "after the first cause" +
-                        (verdict.remainder.empty() ? "" : "; " + verdict.remainder);
+    verdict.remainder =
+        cut + "after the first cause" + (verdict.remainder.empty() ? "" : "; " + verdict.remainder);
   } else {
     verdict.remainder = cut + (state_.result.before.raised ? "while causes were refitted"
                                                            : "before causes were looked for");

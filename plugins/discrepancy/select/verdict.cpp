@@ -115,29 +115,28 @@ std::string to_json(const Verdict& verdict) {
                     {"unit", effect.unit}});
   Json parameters = Json::object();
   for (const auto& [name, estimate] : verdict.parameters) parameters[name] = to_json(estimate);
-  Json json = {
-      {"format", "pedicel-verdict"},
-      {"version", 1},
-      {"verdict", to_string(verdict.outcome)},
-      {"causes", to_json(verdict.causes)},
-      {"details", to_json(verdict.details)},
-      {"nearest", to_json(verdict.nearest)},
-      {"rivals", competing},
-      {"parameters", parameters},
-      {"error",
-       {{"fit", to_json(verdict.fit)},
-        {"check", to_json(verdict.check)},
-        {"unit", "rms residual over the noise floor"}}},
-      {"gain", number(verdict.gain)},
-      {"gain_over_nominal", number(verdict.gain_over_nominal)},
-      {"remainder", verdict.remainder},
-      {"could_hide", hide},
-      {"next_experiment", verdict.next_experiment},
-      {"extended_plant",
-       verdict.extended_plant.empty() ? Json(nullptr) : Json(verdict.extended_plant)},
-      {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
-      {"simulations", verdict.simulations},
-      {"seconds", number(verdict.seconds)}};
+  Json json = {{"format", "pedicel-verdict"},
+               {"version", 1},
+               {"verdict", to_string(verdict.outcome)},
+               {"causes", to_json(verdict.causes)},
+               {"details", to_json(verdict.details)},
+               {"nearest", to_json(verdict.nearest)},
+               {"rivals", competing},
+               {"parameters", parameters},
+               {"error",
+                {{"fit", to_json(verdict.fit)},
+                 {"check", to_json(verdict.check)},
+                 {"unit", "rms residual over the noise floor"}}},
+               {"gain", number(verdict.gain)},
+               {"gain_over_nominal", number(verdict.gain_over_nominal)},
+               {"remainder", verdict.remainder},
+               {"could_hide", hide},
+               {"next_experiment", verdict.next_experiment},
+               {"extended_plant",
+                verdict.extended_plant.empty() ? Json(nullptr) : Json(verdict.extended_plant)},
+               {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
+               {"simulations", verdict.simulations},
+               {"seconds", number(verdict.seconds)}};
   if (verdict.partial) json["partial"] = true;
   return json.dump(2);
 }
@@ -185,17 +184,18 @@ std::string capital(std::string sentence) {
   return sentence;
 }
 
-// The size of what explains most, then what stands beside it.
-std::string sizes(const Verdict& verdict) {
-  std::string text;
+// What explains most in words of size, then what stands beside it.
+std::string named(const Verdict& verdict, const std::string& names, const std::string& gain) {
   const NamedCause& first = verdict.causes.front();
-  if (first.share.fit)
-    text =
-        capital(said(first)) + ": this explains " + percent(*first.share.fit) + " of the misfit. ";
-  for (std::size_t c = 1; c < verdict.causes.size(); ++c)
-    if (verdict.causes[c].share.fit)
-      text += "Beside it " + said(verdict.causes[c]) + " explains " +
-              percent(*verdict.causes[c].share.fit) + ". ";
+  // Without a misfit to share, or for a law of breaking, there is nothing but the name.
+  if (!first.share.fit) return "The data show " + names + (gain.empty() ? "" : "; " + gain) + ".";
+  std::string text = capital(said(first)) + ": this explains " + percent(*first.share.fit) +
+                     " of the misfit" + (gain.empty() ? "" : "; " + gain) + ".";
+  for (std::size_t c = 1; c < verdict.causes.size(); ++c) {
+    const NamedCause& other = verdict.causes[c];
+    text += " Beside it " + said(other) +
+            (other.share.fit ? " explains " + percent(*other.share.fit) : "") + ".";
+  }
   return text;
 }
 
@@ -226,14 +226,14 @@ std::string headline(const Verdict& verdict) {
                             : ", ") +
              effects::plain_name(cause.name) + " (" + cause.name + ")";
   }
-  const std::string gain = verdict.gain ? "; it removes " + share_removed(*verdict.gain) +
+  const std::string gain = verdict.gain ? "it removes " + share_removed(*verdict.gain) +
                                               " of the error above the noise on held-out trials"
                                         : "";
   switch (verdict.outcome) {
     case Outcome::adequate:
       return "The model explains these data down to their noise." + details(verdict);
     case Outcome::named:
-      return sizes(verdict) + "The data show " + names + gain + "." + details(verdict);
+      return named(verdict, names, gain) + details(verdict);
     case Outcome::ambiguous:
       return "Something is missing, and these data cannot tell which: " + names + "." +
              details(verdict);

@@ -128,10 +128,18 @@ TEST(Headline, SaysHowSureItIs) {
   EXPECT_THAT(headline(v), HasSubstr("cannot tell which: a root that turns elastically "
                                      "(base_compliance) or a marker that sits elsewhere"));
   v.outcome = Outcome::named;
-  EXPECT_THAT(headline(v), HasSubstr("(base_compliance) and a marker"));
+  EXPECT_THAT(headline(v), HasSubstr("A root that turns elastically (base_compliance): this "
+                                     "explains 93 % of the misfit"));
+  EXPECT_THAT(headline(v), HasSubstr("Beside it a marker that sits elsewhere"));
   EXPECT_THAT(headline(v), HasSubstr("it removes 96 % of the error above the noise"));
   v.gain = 1.12;  // the noise of these trials happened to be quiet
   EXPECT_THAT(headline(v), HasSubstr("it removes all of the error above the noise"));
+  v.causes[0].share = {};  // the nominal model leaves no more than noise
+  EXPECT_THAT(headline(v), HasSubstr("The data show a root that turns elastically "
+                                     "(base_compliance) and a marker"));
+  v.partial = true;
+  EXPECT_THAT(headline(v), HasSubstr("Cut short"));
+  v.partial = false;
   v.outcome = Outcome::unknown;
   EXPECT_THAT(headline(v), HasSubstr("Do not extrapolate."));
 }
