@@ -19,8 +19,8 @@ namespace pedicel::app {
 namespace {
 
 struct DiagnoseArguments : ExperimentArguments {
-  std::vector<std::string> with;      // folders
-  std::vector<std::string> settings;  // NAME=VALUE
+  std::vector<std::string> with;                                // folders
+  std::vector<std::string> settings;                            // NAME=VALUE
   double time_limit = std::numeric_limits<double>::infinity();  // s
   bool verbose = false;
 };

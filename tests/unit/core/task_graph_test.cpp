@@ -67,7 +67,8 @@ TEST(TaskGraph, EveryTaskRunsOnceAfterWhatItNeeds) {
   }
 }
 
-// Pre-order after post-order, of the task itself as well: what it leaves is what the other one reads.
+// Pre-order after post-order, of the task itself as well: what it leaves is what the other one
+// reads.
 TEST(TaskGraph, GoesBackOverWhatIsDone) {
   constexpr int n = 300;
   const Needs needs = random_needs(n, 3);

@@ -141,7 +141,8 @@ TEST(Shares, PutWhatMattersFirst) {
   EXPECT_GT(v.details[0].share.fit.value(), 0.0);
   EXPECT_NEAR(v.details[0].change.marker.value(), 0.3e-3 / std::sqrt(2.0), 3.0e-5);
   EXPECT_NEAR(v.causes[0].parameters.at("factor")[0].value, 0.7, 0.01);
-  EXPECT_THAT(headline(v), HasSubstr("% softer than the file says (youngs_modulus): this explains"));
+  EXPECT_THAT(headline(v),
+              HasSubstr("% softer than the file says (youngs_modulus): this explains"));
   EXPECT_THAT(headline(v), HasSubstr("Beside it a marker that sits elsewhere"));
 }
 
