@@ -45,6 +45,23 @@ void hold_what_is_no_cause(const std::vector<NamedCause>& causes, Hypothesis& mo
   }
 }
 
+// The others stay what they are: where they are, and at half to twice their size. A weak stretch
+// that may grow along the whole stem would be the modulus by another name.
+void keep_what_others_are(Hypothesis& model) {
+  const Hypothesis half = model.shrunk(0.5), twice = model.shrunk(2.0);
+  for (int p = model.size() - 1; p >= 0; --p) {
+    FreeParameter& free = model.free[p];
+    if (model.effects[free.effect].name == mesh_error) continue;
+    const double a = half.value(p), b = twice.value(p);
+    if (free.vanishes == Vanishes::never || a == b) {
+      model.free.erase(model.free.begin() + p);
+      continue;
+    }
+    free.low = std::max(free.low, std::min(a, b));
+    free.high = std::min(free.high, std::max(a, b));
+  }
+}
+
 Hypothesis refitted_to(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options) {
   return start.size() > 0 ? fit(evaluator, start, options).hypothesis : start;
 }
@@ -187,6 +204,7 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
     }
     if (!rest) return;
     hold_what_is_no_cause(others, *rest);
+    keep_what_others_are(*rest);
     all.push_back({&cause, model->hypothesis, refitted_to(evaluator, *rest, options)});
   };
   std::ranges::for_each(verdict.causes, explain);

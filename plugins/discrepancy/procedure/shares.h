@@ -10,8 +10,9 @@ namespace pedicel::discrepancy {
 ///
 /// - Modulus, density and damping that are off stand beside the other causes.
 /// - `share` of a cause is (J_without - J_all) / (J_nominal - N). `all` is the model with every
-///   cause; `without` has all others, refitted. Modulus, density and damping that are no causes
-///   are the same in both.
+///   cause. `without` has all others, refitted where they are and at half to twice their size, so
+///   that none becomes the one that is missing. Modulus, density and damping that are no causes are
+///   the same in both.
 /// - `change` is the RMS of what these two models predict differently.
 /// - Causes are sorted by share. What explains too little becomes a detail.
 ///
