@@ -42,7 +42,7 @@ JointLaw settled_law(JointLaw law) {
     branch.limit *= whole / branch.share;
     branch.share = whole;
   }
-  law.deviation = 0.0;
+  law.deviation = law.relaxed;
   return law;
 }
 
@@ -80,6 +80,11 @@ void RodRows::read_extensions(int plant, const RodModel& model) {
     const SegmentAir air = model.air.empty() ? SegmentAir{} : model.air[e];
     out.drag[lane] = 0.5 * SegmentAir::density * air.drag_area * model.elements[e].length *
                      element_[row].alive[lane];
+    const double blown =
+        0.5 * SegmentAir::density * model.elements[e].length * element_[row].alive[lane];
+    out.plate_normal[lane] = blown * air.plate_normal;
+    out.plate_tangential[lane] = blown * air.plate_tangential;
+    put(out.plate, lane, air.plate);
     put(out.velocity, lane, air.velocity);
     put(out.gust, lane, air.gust);
   }
@@ -90,7 +95,9 @@ void RodRows::read_extensions(int plant, const RodModel& model) {
 void RodRows::mark_extended(int plant, const RodModel& model) {
   int sliders = 0;
   unsigned terms = 0;
+  bool hysteretic = false;
   for (const JointLaw& law : model.laws) {
+    for (const JointBranch& branch : law.branches) hysteretic = hysteretic || branch.exponent > 0.0;
     terms |= law.terms_there();
     sliders = std::max(sliders, static_cast<int>(std::count_if(law.branches.begin(),
                                                                law.branches.end(), has_slider)));
@@ -101,9 +108,11 @@ void RodRows::mark_extended(int plant, const RodModel& model) {
     pack.extended = true;
     make_viscous(c);
     pack.windy = pack.windy || !model.air.empty();
+    pack.plated = pack.plated || std::ranges::any_of(model.air, &SegmentAir::has_plate);
     pack.terms |= terms;
     pack.branches = std::max(pack.branches, extended_[plant].branches);
     pack.sliders = std::max(pack.sliders, sliders);
+    pack.hysteretic = pack.hysteretic || hysteretic;
   }
 }
 
@@ -148,6 +157,7 @@ void RodRows::read_branches(int plant, const RodModel& model) {
       const double x = extended.dt / branch.time;
       to.share[lane] = branch.share;
       to.limit[lane] = branch.limit;
+      to.exponent[lane] = branch.exponent;
       to.decay[lane] = std::exp(-x);
       to.factor[lane] = x > 0.0 ? -std::expm1(-x) / x : 1.0;
     }
@@ -161,8 +171,7 @@ void RodRows::read_terms(const JointLaw& law, int row, int lane) {
 
 void RodRows::read_memory(int plant, const RodState& state, int e, int row, int lane) {
   const Extended& extended = extended_[plant];
-  const Vec3 zero = Vec3::Zero();
-  put(extension_term_[row].bias, lane, extended.settled ? zero : state.joint_bias[e]);
+  put(extension_term_[row].bias, lane, state.joint_bias[e]);
   for (int j = 0; j < extended.branches; ++j)
     put(branch_[row * branches_a_row_ + j].value, lane,
         state.joint_memory[e * extended.branches + j]);

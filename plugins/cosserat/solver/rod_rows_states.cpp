@@ -79,7 +79,9 @@ void RodRows::read_states(int pack, std::span<const RodState* const> states) {
       element_[row].alive[lane] = 0.0;
       put(element_[row].stretch_stiffness, lane, Vec3(0, 0, 0));
       put(element_[row].bend_stiffness, lane, Vec3(0, 0, 0));
-      if (!extension_.empty()) extension_[row].drag[lane] = 0.0;
+      if (extension_.empty()) continue;
+      ExtensionRow& extension = extension_[row];
+      extension.drag[lane] = extension.plate_normal[lane] = extension.plate_tangential[lane] = 0.0;
     }
   }
 }
