@@ -47,6 +47,8 @@ std::string range_text(const effects::EffectParameter& parameter) {
   if (parameter.size == 3)
     return std::isfinite(parameter.bounds.minimum) ? "three numbers " + range_text(parameter.bounds)
                                                    : "`[x, y, z]`";
+  if (parameter.size > 1)
+    return std::to_string(parameter.size) + " numbers, " + range_text(parameter.bounds);
   if (parameter.size > 0) return range_text(parameter.bounds);
   std::string words;
   for (const std::string& word : parameter.words) words += (words.empty() ? "" : ", ") + code(word);

@@ -1,4 +1,5 @@
 #include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/effects/relaxation_start.h"
 
 namespace pedicel::effects {
 
@@ -10,33 +11,33 @@ EffectDefinition define_relaxation() {
   d.sentence = "a part of the moment decays (standard linear solid)";
   d.home = Home::joint;
   d.family = Family::memory;
-  d.parameters = {{.name = "fraction",
-                   .bounds = io::fraction,
-                   .sentence = "of the moment that decays",
-                   .vanishes = Vanishes::at_zero,
-                   .first = {0.2}},
-                  {.name = "time",
-                   .unit = "s",
-                   .bounds = io::positive,
-                   .sentence = "in which it decays",
-                   .role = Role::shape,
-                   .first = {10.0}},
-                  {.name = "start",
-                   .sentence = "from which shape it is counted",
-                   .size = 0,
-                   .required = false,
-                   .otherwise = "`settled`",
-                   .offered = false,
-                   .words = {"settled", "unloaded"},
-                   .role = Role::shape}};
-  d.change = ModelChange{
-      Stage::laws, [](ModelTarget& t) {
-        const auto start = t.effect.words.find("start");
-        const bool unloaded = start != t.effect.words.end() && start->second == "unloaded";
-        t.each_law([&](int, cosserat::JointLaw& law) {
-          cosserat::add_relaxation(law, t.number("fraction"), t.number("time"), unloaded);
-        });
-      }};
+  d.parameters = {
+      {.name = "fraction",
+       .bounds = io::fraction,
+       .sentence = "of the moment that decays",
+       .vanishes = Vanishes::at_zero,
+       .first = {0.2}},
+      {.name = "time",
+       .unit = "s",
+       .bounds = io::positive,
+       .sentence = "in which it decays",
+       .role = Role::shape,
+       .first = {10.0}},
+      {.name = "start",
+       .sentence = "from which shape it is counted; hung: it had relaxed before, under gravity",
+       .size = 0,
+       .required = false,
+       .otherwise = "`settled`",
+       .offered = false,
+       .words = {"settled", "unloaded", "hung"},
+       .role = Role::shape}};
+  d.change =
+      ModelChange{Stage::laws, [](ModelTarget& t) {
+                    const cosserat::RelaxationStart start = relaxation_start(t.effect);
+                    t.each_law([&](int, cosserat::JointLaw& law) {
+                      cosserat::add_relaxation(law, t.number("fraction"), t.number("time"), start);
+                    });
+                  }};
   d.starts = [](const StartContext& c) {
     std::vector<Start> starts;
     const double longest = c.scales.duration;
@@ -46,6 +47,10 @@ EffectDefinition define_relaxation() {
                              .word("start", from)
                              .positive("fraction", 0.1, 1e-3, 0.95)
                              .positive("time", time * longest, 1e-3 * longest, longest));
+    starts.push_back(Start("relaxation")
+                         .word("start", "hung")
+                         .positive("fraction", 0.2, 1e-3, 0.95)
+                         .positive("time", 0.4 * longest, 1e-3 * longest, longest));
     return starts;
   };
   d.speaks_for = {{"loop_area", 2}, {"force_drift", 1}};

@@ -36,6 +36,14 @@ void read_parameter(io::YamlMap& map, const EffectParameter& parameter, Effect& 
   } else if (parameter.size == 3) {
     const Vec3 value = node->vector(parameter.name);
     effect.numbers[parameter.name] = {value.x(), value.y(), value.z()};
+  } else if (parameter.size > 1) {
+    std::vector<double> values = node->numbers(parameter.name, parameter.bounds);
+    if (static_cast<int>(values.size()) != parameter.size) {
+      node->error(parameter.name + " has " + std::to_string(values.size()) + " numbers, expected " +
+                  std::to_string(parameter.size));
+      values.resize(parameter.size, 0.0);
+    }
+    effect.numbers[parameter.name] = std::move(values);
   } else {
     effect.numbers[parameter.name] = {node->number(parameter.name, parameter.bounds)};
   }
@@ -43,13 +51,13 @@ void read_parameter(io::YamlMap& map, const EffectParameter& parameter, Effect& 
 
 }  // namespace
 
-CurvePlace read_place(io::YamlMap& map) {
+CurvePlace read_place(io::YamlMap& map, bool whole_curve) {
   CurvePlace place;
   if (const auto curve = map.required("curve")) {
     place.curve = curve->text("curve");
     place.where = curve->position();
   }
-  place.at = map.number("at", io::fraction);
+  place.at = whole_curve ? map.number("at", io::fraction, 0.5) : map.number("at", io::fraction);
   return place;
 }
 
@@ -75,7 +83,7 @@ Effect read_effect(const io::YamlNode& node, EffectFile file) {
     read_parameter(map, parameter, effect);
   if (const auto place = definition->needs_place ? map.required("where") : map.optional("where")) {
     io::YamlMap place_map(*place, "where");
-    effect.place = read_place(place_map);
+    effect.place = read_place(place_map, !definition->needs_place);
     place_map.finish();
   }
   if (definition->check) definition->check(node, effect);

@@ -5,8 +5,9 @@
 
 namespace pedicel::plant {
 
-/// Reads `where: {curve, at}`-like keys out of a map that holds them directly.
-CurvePlace read_place(io::YamlMap& map);
+/// Reads `where: {curve, at}`-like keys out of a map that holds them directly. `whole_curve`: the
+/// curve alone counts, and `at` may be left out.
+CurvePlace read_place(io::YamlMap& map, bool whole_curve = false);
 
 /// Reads one entry of an `effects:` list of a file of that kind, with its name and its parameters
 /// checked against the effect's definition. Faults go to the node's diagnostics.

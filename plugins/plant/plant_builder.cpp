@@ -5,6 +5,7 @@
 
 #include "pedicel/core/stop.h"
 #include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
 #include "pedicel/effects/registry/model_change.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_size.h"
@@ -61,10 +62,23 @@ class Builder {
     if (!diagnostics_.has_errors())
       effects::apply_effects(plant_, plant_.effects, built_.model, built_, diagnostics_);
     if (diagnostics_.has_errors()) return std::nullopt;
+    if (cosserat::is_hung(built_.model)) hang();
+    if (diagnostics_.has_errors()) return std::nullopt;
     return std::move(built_);
   }
 
  private:
+  // Finds the shape in which what relaxes has hung for long.
+  void hang() {
+    cosserat::RodState state = cosserat::drawn_state(built_.model);
+    const cosserat::RodModel relaxed = cosserat::relaxed_for_long(built_.model);
+    if (cosserat::settle(relaxed, state, options_.gravity).errors != cosserat::none)
+      diagnostics_.error(plant_.where, "plant \"" + plant_.name +
+                                           "\" finds no rest once it has relaxed, expected a "
+                                           "smaller fraction of what starts hung");
+    cosserat::keep_hung_shape(built_.model, state);
+  }
+
   void add_stems() {
     cosserat::RodModel& model = built_.model;
     model.name = plant_.name;

@@ -110,8 +110,7 @@ HWY_INLINE Strained strain(const RowArrays& rows, const Pack& pack, int row, int
     s.bend_k = bending.hessian;
     s.bend_k_mixed = bending.mixed;
     energy = hn::MulAdd(half, bending.linear, energy) + bending.energy;
-    if (pack.windy)
-      energy = energy + drag_of(rows, pack, row, lane, middle_of(own, s.length)).energy;
+    if (pack.windy) energy = energy + drag_energy(rows, pack, row, lane, middle_of(own, s.length));
   } else {
     V3 off = s.bend.phi;
     s.bend_k = load3(element.bend_stiffness, lane);

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "pedicel/cosserat/lanes/lane_math-inl.h"
+#include "pedicel/effects/hysteresis-inl.h"
 #include "pedicel/effects/internal_friction-inl.h"
 #include "pedicel/effects_list/joint_terms-inl.h"
 
@@ -48,6 +49,21 @@ HWY_INLINE V slider_reach(const BranchRow& branch, V share, V softer, int lane) 
   return load(branch.limit + lane) / (share * softer + set(1.0e-300));
 }
 
+/// Adds a slider that gives way little by little where a branch has one, on the way from the
+/// joint's bend `now` at the step's start; returns by how much its spring is bent at the end.
+HWY_INLINE formula::BentTwice<V> add_hysteresis(const BranchRow& branch,
+                                                const formula::BentJoint<V>& joint, int lane,
+                                                const V3& now, formula::BendTerms<V>& terms) {
+  const V exponent = load(branch.exponent + lane), one = set(1.0);
+  const M has = exponent > set(0.0);
+  const V share = hn::IfThenElse(has, slider_share(branch, lane), set(0.0));
+  const V reach = hn::IfThenElse(hn::And(has, share > set(0.0)),
+                                 slider_reach(branch, share, joint.softer, lane), one);
+  const V3 before = now - load3(branch.value, lane);
+  return formula::add_hysteresis(joint, share, reach, hn::Max(exponent, one), {before.x, before.y},
+                                 {now.x, now.y}, terms);
+}
+
 /// Everything about a joint bent by phi: what is linear, which ViscousRow and ExtensionTermRow hold
 /// as stiffness and target, then terms and sliders. The tangent is taken where it is positive
 /// definite, else the secant stiffness, a majoriser of what softens or slips.
@@ -73,8 +89,12 @@ HWY_INLINE Bending bend_joint(const RowArrays& rows, const Pack& pack, int row, 
   for (int j = 0; j < pack.sliders; ++j) {
     const BranchRow& branch = rows.law_branch[row * rows.law_branches + j];
     const V3 y = phi - load3(branch.value, lane);
-    const V share = slider_share(branch, lane);
+    V share = slider_share(branch, lane);
     const V reach = slider_reach(branch, share, stiffness.softer, lane);
+    if (pack.hysteretic) {
+      add_hysteresis(branch, joint, lane, load3(rows.strain[row].bend, lane), terms);
+      share = hn::IfThenElse(load(branch.exponent + lane) > zero, zero, share);
+    }
     add_radial(joint, share, y.x, y.y, formula::slip(reach, bend_measure(joint, y.x, y.y)), terms);
   }
   out.moment.x = terms.moment1;
@@ -141,23 +161,37 @@ HWY_INLINE void finish_joint(const RowArrays& rows, const Pack& pack, int row, i
     const V3 y = phi - value;
     const V reach = slider_reach(branch, share, stiffness.softer, lane);
     const V give = set(1.0) - formula::slip(reach, bend_measure(joint, y.x, y.y)).g;
-    const V3 slid{hn::MulAdd(give, y.x, value.x), hn::MulAdd(give, y.y, value.y), value.z};
+    V3 slid{hn::MulAdd(give, y.x, value.x), hn::MulAdd(give, y.y, value.y), value.z};
+    if (pack.hysteretic) {
+      formula::BendTerms<V> unused{};
+      const auto bent = add_hysteresis(branch, joint, lane, now, unused);
+      slid = select(load(branch.exponent + lane) > set(0.0),
+                    V3{phi.x - bent.y1, phi.y - bent.y2, value.z}, slid);
+    }
     store3(select(share > set(0.0), slid, relaxed), branch.value, lane);
   }
 }
 
 // ---- Drag ---------------------------------------------------------------------------------------
 
-/// Linearised, the drag turns with the segment: its axis goes to that of the iterate by `share`.
-HWY_INLINE void set_axis(const RowArrays& rows, int row, int lane, double share) {
-  Lanes* const axis = rows.extension_term[row].axis;
-  V3 now = axis3(load4(rows.iterate[row].orientation, lane));
+/// A direction at the iterate, or `share` of the way to it from what it was.
+HWY_INLINE void follow(const V3& direction, Lanes* kept, int lane, double share) {
+  V3 now = direction;
   if (share < 1.0) {
-    const V3 before = load3(axis, lane);
+    const V3 before = load3(kept, lane);
     now = add_scaled(before, set(share), now - before);
-    now = (set(1.0) / hn::Sqrt(dot(now, now))) * now;
+    now = (set(1.0) / hn::Max(hn::Sqrt(dot(now, now)), set(1.0e-100))) * now;
   }
-  store3(now, axis, lane);
+  store3(now, kept, lane);
+}
+
+/// Linearised, the drag turns with the segment: its axis goes to that of the iterate by `share`.
+HWY_INLINE void set_axis(const RowArrays& rows, const Pack& pack, int row, int lane, double share) {
+  const Q turn = load4(rows.iterate[row].orientation, lane);
+  follow(axis3(turn), rows.extension_term[row].axis, lane, share);
+  if (pack.plated)
+    follow(matrix(turn) * load3(rows.extension[row].plate, lane), rows.extension_term[row].plate,
+           lane, share);
 }
 
 /// The drag of eight segments as a dissipation potential h~ c/3 |u|^3 of the place m of their
@@ -169,40 +203,85 @@ struct Drag {
   V energy;  // J
 };
 
-HWY_INLINE Drag drag_of(const RowArrays& rows, const Pack& pack, int row, int lane,
-                        const V3& middle) {
+/// The air's velocity less that of the middle.
+HWY_INLINE V3 wind_at(const RowArrays& rows, const Pack& pack, int row, int lane,
+                      const V3& middle) {
   const ExtensionTermRow& term = rows.extension_term[row];
   const V h = load(pack.effective_step + lane);
   const V3 velocity = (set(1.0) / h) * (middle - load3(term.middle_past, lane));
-  const V3 relative = load3(term.air, lane) - velocity, axis = load3(term.axis, lane);
+  return load3(term.air, lane) - velocity;
+}
+
+HWY_INLINE Drag drag_across(const V3& relative, const V3& axis, V c, V h) {
   const V3 u = less_scaled(relative, dot(relative, axis), axis);
   const V speed = hn::Sqrt(dot(u, u));
-  const V c = load(rows.extension[row].drag + lane);
   return {u, speed, c, h * c * speed * speed * speed * set(1.0 / 3.0)};
 }
 
-/// c |u| u and its derivative, (c/h~) (|u| P + u u^T/|u|), as blocks of (position, rotation) with
-/// the middle at `arm` from the node.
-HWY_INLINE void add_drag(const RowArrays& rows, const Pack& pack, int row, int lane,
-                         const V3& middle, const V3& arm, V* d, V* right) {
-  const Drag drag = drag_of(rows, pack, row, lane, middle);
-  const V3 axis = load3(rows.extension_term[row].axis, lane);
-  const V h = load(pack.effective_step + lane);
+/// The drag across the segment, and across the normal of its plate.
+HWY_INLINE Drag drag_of(const RowArrays& rows, const Pack& pack, int row, int lane,
+                        const V3& relative) {
+  return drag_across(relative, load3(rows.extension_term[row].axis, lane),
+                     load(rows.extension[row].drag + lane), load(pack.effective_step + lane));
+}
+HWY_INLINE Drag plate_drag_of(const RowArrays& rows, const Pack& pack, int row, int lane,
+                              const V3& relative) {
+  return drag_across(relative, load3(rows.extension_term[row].plate, lane),
+                     load(rows.extension[row].plate_tangential + lane),
+                     load(pack.effective_step + lane));
+}
+
+/// J, the potentials of all drag of eight segments.
+HWY_INLINE V drag_energy(const RowArrays& rows, const Pack& pack, int row, int lane,
+                         const V3& middle) {
+  const V3 relative = wind_at(rows, pack, row, lane, middle);
+  V energy = drag_of(rows, pack, row, lane, relative).energy;
+  if (pack.plated) {
+    const V along = hn::Abs(dot(relative, load3(rows.extension_term[row].plate, lane)));
+    const V c = load(rows.extension[row].plate_normal + lane);
+    energy = energy + plate_drag_of(rows, pack, row, lane, relative).energy +
+             load(pack.effective_step + lane) * c * along * along * along * set(1.0 / 3.0);
+  }
+  return energy;
+}
+
+/// A force on the middle and the derivative of minus it, lower triangle.
+struct MiddleForce {
+  V xx, yy, zz, yx, zx, zy;  // N/m
+  V3 force;                  // N
+};
+
+/// c |u| u and its derivative, (c/h~) (|u| P + u u^T/|u|).
+HWY_INLINE MiddleForce middle_force(const Drag& drag, const V3& axis, V h) {
   const V w = drag.c / h, by_speed = w * drag.speed;
   const V per_speed = w / hn::Max(drag.speed, set(1.0e-100));
   const V3 &u = drag.u, &n = axis;
   const auto entry = [&](V a, V b, V na, V nb) { return per_speed * a * b - by_speed * na * nb; };
-  const V xx = by_speed + entry(u.x, u.x, n.x, n.x), yy = by_speed + entry(u.y, u.y, n.y, n.y);
-  const V zz = by_speed + entry(u.z, u.z, n.z, n.z), yx = entry(u.y, u.x, n.y, n.x);
-  const V zx = entry(u.z, u.x, n.z, n.x), zy = entry(u.z, u.y, n.z, n.y);
-  d[0] = d[0] + xx;
-  d[1] = d[1] + yx;
-  d[2] = d[2] + yy;
-  d[3] = d[3] + zx;
-  d[4] = d[4] + zy;
-  d[5] = d[5] + zz;
+  return {by_speed + entry(u.x, u.x, n.x, n.x), by_speed + entry(u.y, u.y, n.y, n.y),
+          by_speed + entry(u.z, u.z, n.z, n.z), entry(u.y, u.x, n.y, n.x),
+          entry(u.z, u.x, n.z, n.x),       entry(u.z, u.y, n.z, n.y),
+          (drag.c * drag.speed) * u};
+}
+
+/// The same along the plate's normal n: c |u.n| (u.n) n, (2 c/h~) |u.n| n n^T.
+HWY_INLINE MiddleForce normal_force(const V3& relative, const V3& n, V c, V h) {
+  const V speed = dot(relative, n), size = c * hn::Abs(speed);
+  const V rate = (size + size) / h;
+  return {rate * n.x * n.x, rate * n.y * n.y, rate * n.z * n.z,  rate * n.y * n.x,
+          rate * n.z * n.x, rate * n.z * n.y, (size * speed) * n};
+}
+
+/// As blocks of (position, rotation) with the middle at `arm` from the node.
+HWY_INLINE void add_middle_force(const MiddleForce& at, const V3& arm, V* d, V* right) {
+  d[0] = d[0] + at.xx;
+  d[1] = d[1] + at.yx;
+  d[2] = d[2] + at.yy;
+  d[3] = d[3] + at.zx;
+  d[4] = d[4] + at.zy;
+  d[5] = d[5] + at.zz;
   // Lower left: [arm]x H, whose columns are arm x (columns of H).
-  const V3 a = cross(arm, {xx, yx, zx}), b = cross(arm, {yx, yy, zy}), c = cross(arm, {zx, zy, zz});
+  const V3 a = cross(arm, {at.xx, at.yx, at.zx}), b = cross(arm, {at.yx, at.yy, at.zy}),
+           c = cross(arm, {at.zx, at.zy, at.zz});
   d[6] = d[6] + a.x;
   d[7] = d[7] + b.x;
   d[8] = d[8] + c.x;
@@ -221,13 +300,26 @@ HWY_INLINE void add_drag(const RowArrays& rows, const Pack& pack, int row, int l
   d[18] = d[18] + z.x;
   d[19] = d[19] + z.y;
   d[20] = d[20] + z.z;
-  const V3 force = (drag.c * drag.speed) * u, moment = cross(arm, force);
+  const V3 &force = at.force, moment = cross(arm, force);
   right[0] = right[0] + force.x;
   right[1] = right[1] + force.y;
   right[2] = right[2] + force.z;
   right[3] = right[3] + moment.x;
   right[4] = right[4] + moment.y;
   right[5] = right[5] + moment.z;
+}
+
+HWY_INLINE void add_drag(const RowArrays& rows, const Pack& pack, int row, int lane,
+                         const V3& middle, const V3& arm, V* d, V* right) {
+  const ExtensionTermRow& term = rows.extension_term[row];
+  const V3 relative = wind_at(rows, pack, row, lane, middle);
+  const V h = load(pack.effective_step + lane);
+  const auto add = [&](const MiddleForce& force) { add_middle_force(force, arm, d, right); };
+  add(middle_force(drag_of(rows, pack, row, lane, relative), load3(term.axis, lane), h));
+  if (!pack.plated) return;
+  const V3 normal = load3(term.plate, lane);
+  add(middle_force(plate_drag_of(rows, pack, row, lane, relative), normal, h));
+  add(normal_force(relative, normal, load(rows.extension[row].plate_normal + lane), h));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -47,7 +47,7 @@ HWY_INLINE void prepare_air(const RowArrays& rows, const Pack& pack, int row, in
   store3(add_scaled(load3(extension.velocity, lane), load(pack.gust_now + lane),
                     load3(extension.gust, lane)),
          term.air, lane);
-  set_axis(rows, row, lane, 1.0);
+  set_axis(rows, pack, row, lane, 1.0);
 }
 
 // Returns sin^2 of half the angle by which the guess turns the element.
@@ -148,7 +148,7 @@ template <bool extended>
 HWY_INLINE Blocks linearised(const RowArrays& rows, const Pack& pack, int row, int lane,
                              V& energy) {
   if constexpr (extended)
-    if (pack.windy) set_axis(rows, row, lane, rows.axis_share);
+    if (pack.windy) set_axis(rows, pack, row, lane, rows.axis_share);
   const Strained s = strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[row - 1], lane),
                                       load_pose(rows.iterate[row], lane));
   energy = energy + s.energy;

@@ -59,6 +59,8 @@ struct alignas(64) ExtensionRow {
   Lanes elastic;                    // 1
   Lanes drag;                       // N/(m/s)2, 1/2 rho drag_area length
   Lanes velocity[3], gust[3];       // m/s, W
+  Lanes plate_normal, plate_tangential;  // N/(m/s)2, as drag
+  Lanes plate[3];                        // E, the plate's normal; 0: there is none
 };
 
 /// Numbers of eight joints' terms (JointLaw::terms).
@@ -72,6 +74,7 @@ struct alignas(64) JointTermRow {
 struct alignas(64) BranchRow {
   Lanes share, decay, factor;
   Lanes limit;     // N m; infinite: no slider
+  Lanes exponent;  // 1, of a slider that gives way little by little; 0: all at once
   Lanes value[3];  // rad, z at the step's start; after finish() at its end
 };
 
@@ -83,6 +86,7 @@ struct alignas(64) ExtensionTermRow {
   Lanes middle_past[3];   // m, W: c* of the segment's middle
   Lanes air[3];           // m/s, W, at the step's end
   Lanes axis[3];          // W, of the segment where the drag was linearised last
+  Lanes plate[3];         // W, the plate's normal there
 };
 
 /// The blocks of Newton's system. An element's unknowns are its position x (m, W) and its rotation
@@ -165,8 +169,10 @@ struct alignas(64) Pack {
   bool viscous = false;   // some element has Kelvin-Voigt damping, or an extension
   // Extensions.
   bool extended = false, windy = false;  // some plant in it has any; drag
+  bool plated = false;                   // drag of plates
   unsigned terms = 0;                    // JointTerm::bit of those that some joint in it has
   int branches = 0, sliders = 0;         // of its joints at most
+  bool hysteretic = false;               // some slider in it gives way little by little
 };
 
 /// Where the rows are; indices are rows.

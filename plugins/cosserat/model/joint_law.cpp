@@ -6,6 +6,7 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/cosserat/model/rod_state.h"
+#include "pedicel/effects/hysteresis-inl.h"
 #include "pedicel/effects/internal_friction-inl.h"
 #include "pedicel/effects_list/joint_terms-inl.h"
 #include "pedicel/effects_list/joint_terms.h"
@@ -28,6 +29,13 @@ const Vec3& memory_of(const RodState& state, int element, std::size_t branch) {
 
 bool has_memory(const RodModel& model, const RodState& state) {
   return !model.laws.empty() && state.joint_bias.size() == model.laws.size();
+}
+
+double hung_share(const JointLaw& law) {
+  double sum = 0.0;
+  for (const JointBranch& branch : law.branches)
+    if (branch.hung) sum += branch.share;
+  return sum;
 }
 
 }  // namespace
@@ -53,16 +61,45 @@ void sort_branches(JointLaw& law) {
                    });
 }
 
-void add_relaxation(JointLaw& law, double fraction, double time, bool from_unloaded) {
+void add_relaxation(JointLaw& law, double fraction, double time, RelaxationStart start) {
+  const bool settled = start == RelaxationStart::settled;
   law.deviation -= fraction;
-  if (!from_unloaded) law.anchored += fraction;
-  law.branches.push_back({fraction, time, JointBranch::never, from_unloaded, false});
+  if (settled) law.anchored += fraction;
+  law.branches.push_back(
+      {fraction, time, JointBranch::never, !settled, false, start == RelaxationStart::hung});
+}
+
+bool is_hung(const RodModel& model) {
+  return std::ranges::any_of(model.laws, [](const JointLaw& law) {
+    return std::ranges::any_of(law.branches, &JointBranch::hung);
+  });
+}
+
+RodModel relaxed_for_long(RodModel model) {
+  for (JointLaw& law : model.laws) {
+    law.relaxed -= hung_share(law);
+    std::erase_if(law.branches, [](const JointBranch& branch) { return branch.hung; });
+  }
+  return model;
+}
+
+void keep_hung_shape(RodModel& model, const RodState& state) {
+  for (int e = 0; e < static_cast<int>(model.laws.size()); ++e)
+    model.laws[e].hung = strain_of(model, state, e).bend;
 }
 
 void add_friction(JointLaw& law, double share, double limit) {
   law.elastic -= share;
   law.branches.push_back({share, JointBranch::never, limit, false, false});
   sort_branches(law);
+}
+
+void add_hysteresis(JointLaw& law, double share, double limit, double exponent) {
+  add_friction(law, share, limit);
+  // It is the last of those with a slider.
+  const auto dashpots = std::ranges::find_if(
+      law.branches, [](const JointBranch& branch) { return !std::isfinite(branch.limit); });
+  std::prev(dashpots)->exponent = exponent;
 }
 
 void add_yield(JointLaw& law, double limit) {
@@ -126,6 +163,16 @@ double stiffness_factor(const RodModel& model, double time) {
   return std::max(least_stiffness, 1.0 + model.stiffness_drift * (model.clock + time));
 }
 
+void start_settling(const RodModel& model, RodState& state) {
+  if (model.laws.empty()) return;
+  const std::size_t joints = model.laws.size(), all = joints * branch_count(model);
+  if (!has_memory(model, state) || state.joint_memory.size() != all)
+    state.joint_memory.assign(all, Vec3::Zero());
+  state.joint_bias.resize(joints);
+  for (std::size_t e = 0; e < joints; ++e)
+    state.joint_bias[e] = -hung_share(model.laws[e]) * model.laws[e].hung;
+}
+
 void start_memory(const RodModel& model, RodState& state) {
   if (model.laws.empty()) return;
   const int count = branch_count(model);
@@ -142,7 +189,7 @@ void start_memory(const RodModel& model, RodState& state) {
       if (branch.plastic)
         given = z;
       else
-        z = branch.from_unloaded ? Vec3(0, 0, 0) : phi;
+        z = branch.hung ? law.hung : branch.from_unloaded ? Vec3(0, 0, 0) : phi;
     }
     state.joint_bias[e] = law.anchored * (phi - given);
   }
@@ -171,8 +218,16 @@ JointResponse joint_response(const RodModel& model, const RodState& state, int e
       continue;
     }
     const double reach = branch.limit / (branch.share * joint.softer + 1.0e-300);
-    add_radial(joint, branch.share, y.x(), y.y(),
-               formula::slip(reach, bend_measure(joint, y.x(), y.y())), terms);
+    if (branch.exponent > 0.0) {
+      // On the way from where the joint is.
+      const Vec3 start = strain_of(model, state, e).bend;
+      const Vec3 before = start - (begun ? memory_of(state, e, j) : zero);
+      formula::add_hysteresis(joint, branch.share, reach, branch.exponent, {before.x(), before.y()},
+                              {start.x(), start.y()}, terms);
+    } else {
+      add_radial(joint, branch.share, y.x(), y.y(),
+                 formula::slip(reach, bend_measure(joint, y.x(), y.y())), terms);
+    }
     bend.z() += branch.share * phi.z();
     energy += 0.5 * branch.share * k.z() * phi.z() * phi.z();
   }

@@ -116,6 +116,11 @@ struct SegmentAir {
   double drag_area = 0.0;                 ///< m2/m, drag coefficient included
   Vec3 velocity = Vec3::Zero();           ///< m/s, W, of the air, in the mean
   Vec3 gust = Vec3::Zero();               ///< m/s, W, times sin(2 pi gust_frequency t)
+  /// A plate on it: beside that drag, 1/2 rho area |v| v of each of two parts v of the air's whole
+  /// velocity less the segment's, along the plate's normal and across it.
+  double plate_normal = 0.0, plate_tangential = 0.0;  ///< m2/m, areas, drag coefficients included
+  Vec3 plate = Vec3::Zero();                          ///< E, its normal, unit
+  bool has_plate() const { return plate_normal > 0.0 || plate_tangential > 0.0; }
 };
 
 /// The constants of one plant: a tree of segments (with welds: a graph). What changes is RodState.

@@ -138,7 +138,6 @@ void DirectSolver::begin_memory(int index, const RodModel& model, RodState& stat
     return;
   state.joint_bias.clear();
   start_memory(model, state);
-  if (settling_) std::fill(state.joint_memory.begin(), state.joint_memory.end(), Vec3::Zero());
 }
 
 // Newton starts from the motion continued, so that one iteration is second order in time too; or

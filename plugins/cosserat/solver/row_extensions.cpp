@@ -30,7 +30,7 @@ JointLaw settled_law(JointLaw law) {
     branch.limit *= whole / branch.share;
     branch.share = whole;
   }
-  law.deviation = 0.0;
+  law.deviation = law.relaxed;
   return law;
 }
 
@@ -60,6 +60,11 @@ void RowExtensions::read_model(int plant, const RodModel& model) {
     const SegmentAir air = model.air.empty() ? SegmentAir{} : model.air[e];
     out.drag[lane] = 0.5 * SegmentAir::density * air.drag_area * model.elements[e].length *
                      store_.element[row].alive[lane];
+    const double blown =
+        0.5 * SegmentAir::density * model.elements[e].length * store_.element[row].alive[lane];
+    out.plate_normal[lane] = blown * air.plate_normal;
+    out.plate_tangential[lane] = blown * air.plate_tangential;
+    put(out.plate, lane, air.plate);
     put(out.velocity, lane, air.velocity);
     put(out.gust, lane, air.gust);
   }
@@ -70,7 +75,9 @@ void RowExtensions::read_model(int plant, const RodModel& model) {
 void RowExtensions::mark_packs(int plant, const RodModel& model) {
   int sliders = 0;
   unsigned terms = 0;
+  bool hysteretic = false;
   for (const JointLaw& law : model.laws) {
+    for (const JointBranch& branch : law.branches) hysteretic = hysteretic || branch.exponent > 0.0;
     terms |= law.terms_there();
     sliders = std::max(sliders, static_cast<int>(std::count_if(law.branches.begin(),
                                                                law.branches.end(), has_slider)));
@@ -82,9 +89,11 @@ void RowExtensions::mark_packs(int plant, const RodModel& model) {
     Pack& pack = store_.packs[number];
     pack.extended = true;
     pack.windy = pack.windy || !model.air.empty();
+    pack.plated = pack.plated || std::ranges::any_of(model.air, &SegmentAir::has_plate);
     pack.terms |= terms;
     pack.branches = std::max(pack.branches, plants_[plant].branches);
     pack.sliders = std::max(pack.sliders, sliders);
+    pack.hysteretic = pack.hysteretic || hysteretic;
   }
 }
 
@@ -131,6 +140,7 @@ void RowExtensions::read_branches(int plant, const RodModel& model) {
       const double x = extended.dt / branch.time;
       to.share[lane] = branch.share;
       to.limit[lane] = branch.limit;
+      to.exponent[lane] = branch.exponent;
       to.decay[lane] = std::exp(-x);
       to.factor[lane] = x > 0.0 ? -std::expm1(-x) / x : 1.0;
     }
@@ -143,12 +153,9 @@ void RowExtensions::read_terms(const JointLaw& law, Slot slot) {
     out.number[i][slot.lane] = law.terms.empty() ? 0.0 : law.terms[i];
 }
 
-void RowExtensions::read_memory(int plant, const RodState& state, int e, Slot slot) {
-  const Extended& extended = plants_[plant];
-  if (extended.branches == 0) return;
-  const Vec3 zero = Vec3::Zero();
-  put(store_.extension_term[slot.row].bias, slot.lane,
-      extended.settled ? zero : state.joint_bias[e]);
+void RodRows::read_memory(int plant, const RodState& state, int e, int row, int lane) {
+  const Extended& extended = extended_[plant];
+  put(extension_term_[row].bias, lane, state.joint_bias[e]);
   for (int j = 0; j < extended.branches; ++j)
     put(store_.law_branch[slot.row * store_.law_branches_a_row + j].value, slot.lane,
         state.joint_memory[e * extended.branches + j]);
@@ -162,7 +169,9 @@ void RowExtensions::write_memory(int plant, RodState& state, int e, Slot slot) c
 }
 
 void RowExtensions::remove(Slot slot) {
-  if (!store_.extension.empty()) store_.extension[slot.row].drag[slot.lane] = 0.0;
+  if (store_.extension.empty()) return;
+  ExtensionRow& out = store_.extension[slot.row];
+  out.drag[slot.lane] = out.plate_normal[slot.lane] = out.plate_tangential[slot.lane] = 0.0;
 }
 
 }  // namespace pedicel::cosserat

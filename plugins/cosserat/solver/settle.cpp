@@ -26,6 +26,7 @@ StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
   };
   // Where a strong wind turns segments far, the drag is to follow them slowly: the force that turns
   // with them is not in the Hessian.
+  start_settling(model, state);
   StepReport report;
   const bool extended = is_extended(model);
   constexpr double followed = 1.0e-8;  // m or rad

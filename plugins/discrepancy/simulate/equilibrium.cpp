@@ -45,4 +45,13 @@ bool find_equilibrium(const cosserat::RodModel& model, cosserat::RodState& state
   return cosserat::settle(model, state, gravity, loads, iterations).errors == cosserat::none;
 }
 
+bool hang(cosserat::RodModel& model, const cosserat::RodModel& unladen, cosserat::RodState state,
+          const Vec3& gravity) {
+  cosserat::RodModel relaxed = cosserat::relaxed_for_long(unladen);
+  relaxed.air.clear();
+  const bool found = find_equilibrium(relaxed, state, gravity, {});
+  cosserat::keep_hung_shape(model, state);
+  return found;
+}
+
 }  // namespace pedicel::discrepancy

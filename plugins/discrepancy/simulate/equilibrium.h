@@ -15,4 +15,10 @@ namespace pedicel::discrepancy {
 bool find_equilibrium(const cosserat::RodModel& model, cosserat::RodState& state,
                       const Vec3& gravity, std::span<const cosserat::Load> loads);
 
+/// Gives the model the shape in which its hung branches relaxed (cosserat::is_hung()): that of
+/// `unladen`, the same plant without what was hung on it for a trial, under gravity alone, from the
+/// state on. False where it finds no rest.
+bool hang(cosserat::RodModel& model, const cosserat::RodModel& unladen, cosserat::RodState state,
+          const Vec3& gravity);
+
 }  // namespace pedicel::discrepancy

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pedicel/discrepancy/simulate/first_order_lag.h"
 #include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
@@ -38,26 +39,93 @@ Quat turn_at(const Motion& motion, const Interval& at, int marker) {
   return row(at.row).slerp(at.share, row(at.row + 1));
 }
 
+// The slope of the polynomial that marker_at() takes between a row and the next.
+LagInput marker_slope(const Motion& motion, int row, int marker) {
+  const double h = motion.time[row + 1] - motion.time[row];
+  const Vec3 v0 = triple(motion.velocity, row, marker);
+  const Vec3 v1 = triple(motion.velocity, row + 1, marker);
+  const Vec3 mean =
+      (triple(motion.position, row + 1, marker) - triple(motion.position, row, marker)) / h;
+  return {v0, (6.0 * mean - 4.0 * v0 - 2.0 * v1) / h, (3.0 * (v0 + v1) - 6.0 * mean) / (h * h)};
+}
+
 /// What stands between a point and what the instrument says of it.
 class Instrument {
  public:
-  Instrument(std::span<const Marker> markers, std::span<const plant::Effect> all) {
+  Instrument(const Motion& motion, std::span<const Marker> markers,
+             std::span<const plant::Effect> all)
+      : motion_(motion) {
     for (const Marker& marker : markers) sensor_.markers.push_back(marker.name);
     sensor_.offset.assign(markers.size(), Vec3::Zero());
     for (const plant::Effect& effect : all) effects::apply_to_sensor(effect, sensor_);
+    if (sensor_.marker_lag > 0.0) follow_markers();
+    if (sensor_.force_lag > 0.0) follow_force();
   }
 
   double delay() const { return sensor_.delay; }
-  Vec3 marker(const Motion& motion, const Interval& at, int index) const {
-    Vec3 position = marker_at(motion, at, index).position;
+  Vec3 marker(const Interval& at, int index) const {
+    Vec3 position = marker_at(motion_, at, index).position;
     const Vec3& offset = sensor_.offset[index];
-    if (!offset.isZero(0.0)) position += turn_at(motion, at, index) * offset;
+    if (!offset.isZero(0.0)) position += turn_at(motion_, at, index) * offset;
+    if (sensor_.marker_lag > 0.0) position -= marker_behind(at, index);
     return sensor_.frame * position;
   }
-  Vec3 force(const Vec3& force) const { return sensor_.gain * force + sensor_.force_offset; }
+  Vec3 force(const Interval& at) const {
+    Vec3 force = triple(motion_.force, at.row, 0);
+    if (at.length > 0.0)
+      force = (1.0 - at.share) * force + at.share * triple(motion_.force, at.row + 1, 0);
+    if (sensor_.force_lag > 0.0) force -= force_behind(at);
+    return sensor_.gain * force + sensor_.force_offset;
+  }
 
  private:
+  // By how much a lagging instrument is behind at each row.
+  void follow_markers() {
+    const int rows = static_cast<int>(motion_.time.size());
+    marker_behind_.setZero(rows, motion_.position.cols());
+    for (int row = 0; row + 1 < rows; ++row) {
+      const Interval whole{row, 1.0, motion_.time[row + 1] - motion_.time[row]};
+      for (int m = 0; m < static_cast<int>(sensor_.markers.size()); ++m)
+        marker_behind_.row(row + 1).segment<3>(3 * m) = marker_behind(whole, m).transpose();
+    }
+  }
+  void follow_force() {
+    const int rows = static_cast<int>(motion_.force_time.size());
+    force_behind_.setZero(rows, 3);
+    for (int row = 0; row + 1 < rows; ++row) {
+      const double length = motion_.force_time[row + 1] - motion_.force_time[row];
+      // Where the force jumps, the instrument has yet to follow.
+      const Vec3 jump = triple(motion_.force, row + 1, 0) - triple(motion_.force, row, 0);
+      const Vec3 next = length > 0.0 ? force_behind({row, 1.0, length})
+                                     : Vec3(triple(force_behind_, row, 0) + jump);
+      force_behind_.row(row + 1) = next.transpose();
+    }
+  }
+  Vec3 marker_behind(const Interval& at, int index) const {
+    const Vec3 before = triple(marker_behind_, at.row, index);
+    if (at.length == 0.0) return before;
+    LagInput input = marker_slope(motion_, at.row, index);
+    const Vec3& offset = sensor_.offset[index];
+    if (!offset.isZero(0.0)) {
+      const auto turned = [&](int row) -> Vec3 {
+        return turn_at(motion_, {row, 0.0, 0.0}, index) * offset;
+      };
+      input.constant += (turned(at.row + 1) - turned(at.row)) / at.length;
+    }
+    return lag_behind(before, sensor_.marker_lag, at.share * at.length, input);
+  }
+  Vec3 force_behind(const Interval& at) const {
+    const Vec3 before = triple(force_behind_, at.row, 0);
+    if (at.length == 0.0) return before;
+    LagInput input;
+    input.constant =
+        (triple(motion_.force, at.row + 1, 0) - triple(motion_.force, at.row, 0)) / at.length;
+    return lag_behind(before, sensor_.force_lag, at.share * at.length, input);
+  }
+
+  const Motion& motion_;
   effects::SensorState sensor_;
+  Motion::Rows marker_behind_, force_behind_;  // m, W; N, W
 };
 
 }  // namespace
@@ -80,7 +148,7 @@ double latency_of(std::span<const plant::Effect> all) {
 Observed observe(const Motion& motion, std::span<const Marker> markers,
                  std::span<const plant::Effect> effects, std::span<const double> marker_time,
                  std::span<const double> force_time) {
-  const Instrument instrument(markers, effects);
+  const Instrument instrument(motion, markers, effects);
   const int count = static_cast<int>(markers.size());
   Observed out;
   out.markers.setConstant(marker_time.size(), 3 * count, never);
@@ -91,7 +159,7 @@ Observed observe(const Motion& motion, std::span<const Marker> markers,
     const Interval seen = find_interval(motion.time, marker_time[s] - instrument.delay());
     for (int m = 0; m < count; ++m) {
       if (seen.row >= 0)
-        out.markers.row(s).segment<3>(3 * m) = instrument.marker(motion, seen, m).transpose();
+        out.markers.row(s).segment<3>(3 * m) = instrument.marker(seen, m).transpose();
       if (now.row >= 0)
         out.marker_velocity.row(s).segment<3>(3 * m) =
             marker_at(motion, now, m).velocity.transpose();
@@ -100,10 +168,7 @@ Observed observe(const Motion& motion, std::span<const Marker> markers,
   for (int s = 0; s < static_cast<int>(force_time.size()); ++s) {
     const Interval at = find_interval(motion.force_time, force_time[s]);
     if (at.row < 0) continue;
-    Vec3 force = triple(motion.force, at.row, 0);
-    if (at.length > 0.0)
-      force = (1.0 - at.share) * force + at.share * triple(motion.force, at.row + 1, 0);
-    out.force.row(s) = instrument.force(force).transpose();
+    out.force.row(s) = instrument.force(at).transpose();
   }
   return out;
 }

@@ -34,8 +34,10 @@ struct Observed {
 
 /// Motion to what the instruments report at `marker_time` (s): marker offset (turning with its
 /// element, in the frame the plant was drawn in), latency, frame rotation and scale about the
-/// world's origin; the force through gain and offset at `force_time`. Several effects of a kind add
-/// up in their order. Noise and outliers are not part of it. NaN beyond the end of the motion.
+/// world's origin; the force through gain and offset at `force_time`. An instrument that lags is in
+/// its steady state at time 0, and follows exactly what lies between steps (a marker's offset that
+/// turns: as a straight line). Several effects of a kind add up in their order. Noise and outliers
+/// are not part of it. NaN beyond the end of the motion.
 Observed observe(const Motion& motion, std::span<const Marker> markers,
                  std::span<const plant::Effect> effects, std::span<const double> marker_time,
                  std::span<const double> force_time);

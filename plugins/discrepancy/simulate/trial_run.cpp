@@ -53,7 +53,8 @@ class Member {
  public:
   Member(const PlantMaker& maker, const Experiment& experiment, const Trial& trial,
          const RunMember& given, int steps)
-      : trial_(trial),
+      : maker_(maker),
+        trial_(trial),
         forces_(given.forces),
         model_(maker.make(trial, given.effects).model),
         file_supports_(model_.supports.size()),
@@ -82,11 +83,14 @@ class Member {
 
   /// At rest at time 0, in `rods` as its next plant. False where there is no equilibrium.
   bool begin(cosserat::RodSystem& rods) {
+    const bool hangs =
+        !cosserat::is_hung(model_) ||
+        hang(model_, maker_.unladen(model_, trial_), first_state(model_, trial_), trial_.gravity);
     place_supports(0.0, 0.0, model_.supports);
     cosserat::RodState state = first_state(model_, trial_);
     std::vector<cosserat::Load> loads;
     // Point forces may depend on where the plant hangs.
-    bool settled = true;
+    bool settled = hangs;
     for (int i = 0; i < (forces_.empty() ? 1 : 5) && settled; ++i) {
       place_loads(0.0, 0.0, state, loads);
       settled = find_equilibrium(model_, state, trial_.gravity, loads);
@@ -221,6 +225,7 @@ class Member {
     }
   }
 
+  const PlantMaker& maker_;
   const Trial& trial_;
   std::span<const PointForce> forces_;
   cosserat::RodModel model_;

@@ -47,6 +47,14 @@ plant::BuiltPlant PlantMaker::make(const Trial& trial, std::span<const plant::Ef
   return built;
 }
 
+cosserat::RodModel PlantMaker::unladen(cosserat::RodModel made, const Trial& trial) const {
+  const auto first = made.masses.begin() + static_cast<long>(nominal_.model.masses.size());
+  made.masses.erase(first, first + static_cast<long>(trial.masses.size()));
+  for (const plant::PlantMass& mass : trial.masses)
+    cosserat::lump_inertia(made, locate(mass.place).element);
+  return made;
+}
+
 int PlantMaker::curve(const plant::CurvePlace& place) const {
   const int index = file_.curve_index(place.curve);
   if (index < 0)

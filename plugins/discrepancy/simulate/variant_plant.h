@@ -23,6 +23,9 @@ class PlantMaker {
   /// a plant. Throws UsageError where one of them cannot be simulated.
   plant::BuiltPlant make(const Trial& trial, std::span<const plant::Effect> effects) const;
 
+  /// A plant of make() without the trial's masses.
+  cosserat::RodModel unladen(cosserat::RodModel made, const Trial& trial) const;
+
   const plant::BuiltPlant& nominal() const { return nominal_; }
   plant::PlacedPoint locate(const plant::CurvePlace& place) const;
   /// The place `distance` (m) further along its curve as drawn, at most to its ends.

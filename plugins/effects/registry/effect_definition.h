@@ -70,6 +70,8 @@ struct SensorState {
   std::vector<std::string> markers;  ///< names
   std::vector<Vec3> offset;          ///< m, of each marker, turning with its element
   double delay = 0.0;                ///< s, by which markers come late
+  double marker_lag = 0.0;           ///< s, y' = (x - y)/lag of marker places, at rest at time 0
+  double force_lag = 0.0;            ///< s, the same of forces
   Mat3 frame = Mat3::Identity();     ///< of positions, about the world's origin
   double gain = 1.0;                 ///< of forces
   Vec3 force_offset = Vec3::Zero();  ///< N, W

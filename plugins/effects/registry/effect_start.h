@@ -75,6 +75,12 @@ class Start {
     for (int i = 0; i < components; ++i) parameter(name, i, false, scale, -most, most);
     return *this;
   }
+  /// Two signed numbers.
+  Start& pair(const std::string& name, double first, double second, double scale, double most) {
+    fixed(name, {first, second});
+    for (int i = 0; i < 2; ++i) parameter(name, i, false, scale, -most, most);
+    return *this;
+  }
   Start& free_share(double low, double high) {
     return parameter("share", 0, false, 1.0, low, high);
   }

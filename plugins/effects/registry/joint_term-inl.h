@@ -65,6 +65,18 @@ HWY_INLINE double inverse_sinh(double x) {
 HWY_INLINE V inverse_sinh(V x) {
   return hn::Asinh(D(), x);
 }
+HWY_INLINE double exponential(double x) {
+  return std::exp(x);
+}
+HWY_INLINE V exponential(V x) {
+  return hn::Exp(D(), x);
+}
+HWY_INLINE double logarithm(double x) {
+  return std::log(x);
+}
+HWY_INLINE V logarithm(V x) {
+  return hn::Log(D(), x);
+}
 /// a b + c
 HWY_INLINE double mul_add(double a, double b, double c) {
   return a * b + c;

@@ -9,9 +9,9 @@
 namespace pedicel::cosserat::cases {
 namespace {
 
-JointLaw relaxing(double fraction, double time, bool from_unloaded = false) {
+JointLaw relaxing(double fraction, double time, RelaxationStart start = RelaxationStart::settled) {
   JointLaw law;
-  add_relaxation(law, fraction, time, from_unloaded);
+  add_relaxation(law, fraction, time, start);
   return law;
 }
 
@@ -83,7 +83,7 @@ TEST(Relaxation, TheSettledShapeStays) {
 TEST(Relaxation, FromTheUnloadedShapeTheSagGrows) {
   RodModel model = PeerCantilever::model(10);
   for (Element& element : model.elements) element.mass_damping = 14.0;
-  set_laws(model, [&](int) { return relaxing(0.4, 0.1, true); });
+  set_laws(model, [&](int) { return relaxing(0.4, 0.1, RelaxationStart::unloaded); });
   Simulation sim(model, settings_with(Integrator::bdf2));
   settle(sim.model, sim.state, gravity);
   RodModel soft = PeerCantilever::model(10);
@@ -95,6 +95,49 @@ TEST(Relaxation, FromTheUnloadedShapeTheSagGrows) {
   for (int i = 0; i < 480; ++i) sim.step(1.0 / 120.0, gravity);
   EXPECT_LT((sim.tip() - relaxed.position.back()).norm(), 1.0e-4);
   EXPECT_GT((relaxed.position.back() - elastic.position.back()).norm(), 0.02);
+}
+
+// A segment that hung under its weight for long, and is loaded by a moment at time 0: it hung where
+// (1 - f) K phi = m g l/2 cos(phi), answers with K, and sinks on until (1 - f) K bears all.
+TEST(Relaxation, HungItHasRelaxedUnderItsWeight) {
+  constexpr double fraction = 0.6, tau = 0.2, g = 40.0;  // m/s2, so that it sinks far
+  const Vec3 down(0, 0, -g);
+  RodModel model = Joint::model(0.05);
+  model.elements[0].mass_damping = 5.0;
+  set_laws(model, [&](int) { return relaxing(fraction, tau, RelaxationStart::hung); });
+  const double k = Joint::stiffness(model), load = 0.3 * k;
+  const double weight = model.elements[0].mass * g * 0.5 * Joint::length;
+  ASSERT_GT(weight / k, 0.05);
+  // phi of stiffness * phi = weight cos(phi) + moment
+  const auto rest = [&](double stiffness, double moment) {
+    double phi = 0.0;
+    for (int i = 0; i < 60; ++i)
+      phi -= (stiffness * phi - weight * std::cos(phi) - moment) /
+             (stiffness + weight * std::sin(phi));
+    return phi;
+  };
+  RodState state = drawn_state(model);
+  EXPECT_EQ(settle(relaxed_for_long(model), state, down).errors, 0u);
+  const double hung = rest((1.0 - fraction) * k, 0.0);
+  EXPECT_NEAR(Joint::angle(state), hung, 1.0e-7);
+  keep_hung_shape(model, state);
+
+  // Nothing more is hung on it: it stays.
+  Simulation still(model, settings_with(Integrator::bdf2));
+  EXPECT_EQ(settle(still.model, still.state, down).errors, 0u);
+  for (int i = 0; i < 200; ++i) still.step(0.01, down);
+  EXPECT_NEAR(Joint::angle(still.state), hung, 1.0e-6);
+
+  // A load answers to the full stiffness first, and to what is left of it in the end.
+  Simulation sim(model, settings_with(Integrator::bdf2));
+  const Load moment{0, 0.0, Vec3::Zero(), Vec3(0, load, 0)};
+  sim.loads = {moment};
+  EXPECT_EQ(settle(sim.model, sim.state, down, sim.loads).errors, 0u);
+  EXPECT_NEAR(Joint::angle(sim.state), rest(k, load + fraction * k * hung), 1.0e-7);
+  for (int i = 0; i < 1000; ++i) sim.step(0.01, down);
+  const double sunk = rest((1.0 - fraction) * k, load);
+  EXPECT_NEAR(Joint::angle(sim.state), sunk, 1.0e-5);
+  EXPECT_GT(sunk, rest(k, load + fraction * k * hung) + 0.1);
 }
 
 // A joint that swings with relaxation, I phi'' = -K (phi - f q), q' = (phi - q)/tau, at a time

@@ -43,6 +43,46 @@ TEST(Drag, SwingAgainstTheEquation) {
   EXPECT_NEAR(found_angle(model, start, time, 3000), expected, 1.0e-4 * start);
 }
 
+// A plate on the segment, its normal turned by `tilt` from -z towards the segment, in air that
+// moves along x and z: each part of the velocity has its own drag.
+TEST(PlateDrag, SwingAgainstTheEquation) {
+  constexpr double normal = 0.4, tangential = 0.1;
+  for (const double tilt : {0.0, 0.5, 1.3})
+    for (const Vec3& wind : {Vec3(0, 0, 0), Vec3(3, 0, -5)}) {
+      RodModel model = in_air(0.0, wind);
+      SegmentAir& air = model.air[0];
+      air.plate_normal = normal;
+      air.plate_tangential = tangential;
+      const Vec3 drawn(std::sin(tilt), 0.0, -std::cos(tilt));
+      air.plate = model.elements[0].drawn_rotation.conjugate() * drawn;
+      const double arm = Joint::length / 2, c = 0.5 * SegmentAir::density * Joint::length;
+      const auto moment = [&](double, double phi, double rate) {
+        const Quat turned = Joint::turned(phi);
+        const Vec3 towards = turned * -Vec3::UnitZ(), n = turned * drawn;
+        const Vec3 relative = wind - arm * rate * towards;
+        const Vec3 along = relative.dot(n) * n, across = relative - along;
+        const Vec3 force =
+            c * (normal * along.norm() * along + tangential * across.norm() * across);
+        return -Joint::stiffness(model) * phi + arm * force.dot(towards);
+      };
+      const double time = 3.0 / Joint::frequency(model), start = 0.3;
+      const double expected = runge_kutta(Joint::inertia(model), start, 0.0, time, 20000, moment);
+      EXPECT_NEAR(found_angle(model, start, time, 3000), expected, 2.0e-4 * start)
+          << tilt << ", wind " << wind.transpose();
+      EXPECT_GT(std::abs(expected - start), 0.05 * start);
+    }
+}
+
+// Beside other drag it adds up: in still air a plate across the way is a segment with that area.
+TEST(PlateDrag, AddsToOtherDrag) {
+  RodModel both = in_air(0.1, Vec3::Zero());
+  both.air[0].plate_normal = 0.2;
+  both.air[0].plate = both.elements[0].drawn_rotation.conjugate() * Vec3::UnitZ();
+  const double time = 2.0 / Joint::frequency(both);
+  EXPECT_NEAR(found_angle(both, 0.3, time, 1000),
+              found_angle(in_air(0.3, Vec3::Zero()), 0.3, time, 1000), 1.0e-9);
+}
+
 // Energy a cycle, integral of c (l/2)^3 |phi'|^3 dt = 8/3 q w^2 A^3, gives A' = -4/(3 pi) q w A^2,
 // with q = c (l/2)^3 / I: 1/A grows evenly.
 TEST(Drag, AmplitudeFallsWithOneOverTime) {

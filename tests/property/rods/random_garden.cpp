@@ -134,7 +134,8 @@ void extend(Random& random, RodModel& model) {
     if (chance(random, 0.2)) cosserat::add_structural_damping(law, random.uniform(0.02, 0.2));
     if (chance(random, 0.3))
       cosserat::add_relaxation(law, random.uniform(0.0, 0.3), draw_log(random, 0.01, 1.0),
-                               chance(random, 0.5));
+                               chance(random, 0.5) ? cosserat::RelaxationStart::unloaded
+                                                   : cosserat::RelaxationStart::settled);
     if (chance(random, 0.3))
       cosserat::add_friction(law, random.uniform(0.1, 0.3), 0.2 * softer * bend);
     if (law.elastic + law.deviation > 0.05 && chance(random, 0.2))

@@ -101,7 +101,7 @@ TEST(Extension, TheSettledShapeIsAnEquilibrium) {
 // Each dissipative law alone only takes energy (backward Euler, which adds none of its own).
 TEST(Extension, EnergyNeverGrows) {
   const std::function<void(JointLaw&, double)> laws[] = {
-      [](JointLaw& law, double) { add_relaxation(law, 0.4, 0.02, true); },
+      [](JointLaw& law, double) { add_relaxation(law, 0.4, 0.02, RelaxationStart::unloaded); },
       [](JointLaw& law, double) { add_structural_damping(law, 0.2); },
       [](JointLaw& law, double k) { add_friction(law, 0.4, 0.4 * k * 0.03); },
       [](JointLaw& law, double k) { add_yield(law, k * 0.1); },

@@ -103,5 +103,76 @@ TEST(Observation, ForceJumpsAtItsTimeAndPassesThroughTheGain) {
   EXPECT_LT((observed.force.row(3) - Eigen::RowVector3d(0, 0, 3)).norm(), 1e-14);
 }
 
+plant::Effect lag(const std::string& what, double time) {
+  plant::Effect made = effect("sensor_lag", "time", {time});
+  made.words["what"] = what;
+  return made;
+}
+
+// y' = (x - y)/T with x a cubic from time 0 on and y(0) = x(0) is a cubic p, which takes T times
+// the next derivative off each, and what is left of the start: y = p + (x(0) - p(0)) exp(-t/T).
+Vec3 lagging(double t, double time) {
+  const auto particular = [&](double s) {
+    return Vec3(position(s) - time * velocity(s) + time * time * Vec3(0, 4, 6 * s) -
+                time * time * time * Vec3(0, 0, 6));
+  };
+  return particular(t) + std::exp(-t / time) * (position(0.0) - particular(0.0));
+}
+
+TEST(Observation, MarkersThatLagFollowTheEquation) {
+  const std::vector<double> at = {0.0, 0.1, 0.4, 0.55, 0.9, 1.0};
+  for (const double time : {1.0e-6, 0.02, 0.3, 40.0}) {
+    const Observed observed = seen({lag("markers", time)}, at);
+    for (int s = 0; s < 6; ++s)
+      EXPECT_LT((marker(observed, s) - lagging(at[s], time)).norm(), time > 1.0 ? 1e-9 : 1e-13)
+          << s << ", " << time;
+    EXPECT_NEAR(observed.force(1, 0), 0.1, 1e-14);  // the force does not lag
+  }
+}
+
+TEST(Observation, LagsAddUpAndNoLagChangesNothing) {
+  const std::vector<double> at = {0.05, 0.62};
+  const Observed plain = seen({}, at);
+  EXPECT_EQ(seen({lag("markers", 0.0), lag("force", 0.0)}, at).markers, plain.markers);
+  EXPECT_EQ(seen({lag("markers", 0.0), lag("force", 0.0)}, at).force, plain.force);
+  const Observed two = seen({lag("markers", 0.1), lag("markers", 0.2)}, at);
+  EXPECT_LT((marker(two, 1) - lagging(0.62, 0.3)).norm(), 1e-13);
+  // A lag that is late, too: the same, later; before time 0 it rests.
+  const Observed late = seen({lag("markers", 0.3), effect("latency", "delay", {0.07})}, at);
+  EXPECT_LT((marker(late, 0) - position(0.0)).norm(), 1e-14);
+  EXPECT_LT((marker(late, 1) - lagging(0.55, 0.3)).norm(), 1e-13);
+}
+
+// The force rises evenly from 0 to 0.7 in x, is 1 in y, and is let go: y = t - T (1 - exp(-t/T)) on
+// the way up, and what it had reached dies away after the jump.
+TEST(Observation, AForceThatLagsDiesAwayAfterTheRelease) {
+  constexpr double time = 0.15;
+  plant::Effect gain = effect("force_gain", "gain", {2.0});
+  const auto rising = [&](double t) { return t - time * (1.0 - std::exp(-t / time)); };
+  const Observed observed = seen({lag("force", time), gain}, {0.0, 0.3, 0.7, 0.8, 1.0});
+  EXPECT_LT((observed.force.row(0) - Eigen::RowVector3d(0, 2, 0)).norm(), 1e-14);
+  EXPECT_LT((observed.force.row(1) - 2.0 * Eigen::RowVector3d(rising(0.3), 1, 0)).norm(), 1e-14);
+  for (const int s : {2, 3, 4}) {
+    const double left = std::exp(-(s == 2 ? 0.0 : s == 3 ? 0.1 : 0.3) / time);
+    EXPECT_LT((observed.force.row(s) - 2.0 * left * Eigen::RowVector3d(rising(0.7), 1, 0)).norm(),
+              1e-13)
+        << s;
+  }
+  EXPECT_LT((marker(observed, 1) - position(0.3)).norm(), 1e-14);  // the markers do not lag
+}
+
+// A marker that sits aside of its place and lags: the offset turns at 1 rad/s, for which rows this
+// wide are coarse; its steady lag is T times its velocity.
+TEST(Observation, AnOffsetLagsToo) {
+  plant::Effect offset = effect("marker_offset", "offset", {0.1, 0.0, 0.0});
+  offset.words["marker"] = "m";
+  constexpr double time = 0.01;
+  const Vec3 turned(0.1 * std::cos(0.9), 0.1 * std::sin(0.9), 0.0);
+  const Vec3 rate(-turned.y(), turned.x(), 0.0);
+  const Vec3 found = marker(seen({offset, lag("markers", time)}, {0.9}));
+  EXPECT_LT((found - lagging(0.9, time) - turned + time * rate).norm(), 2e-4);
+  EXPECT_GT((time * rate).norm(), 9e-4);
+}
+
 }  // namespace
 }  // namespace pedicel::discrepancy

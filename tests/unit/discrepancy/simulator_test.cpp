@@ -156,6 +156,34 @@ TEST(Simulator, TrialMassesWeighAndAreInert) {
   EXPECT_NEAR((hung - bare) * beam.tip_stiffness() / (0.001 * 0.5), 1.0, 5e-3);
 }
 
+// Hung for long under its weight, w L^4 / (8 (1 - f) EI), and then with a mass at the tip, to which
+// it answers with all of its stiffness, m g L^3 / (3 EI). The file's own mass had hung along.
+TEST(Simulator, WhatStartsHungHadRelaxedBeforeTheTrialsMasses) {
+  const Beam beam;
+  constexpr double fraction = 0.5, g = 0.4, mass = 0.005;
+  Experiment experiment = experiment_of(beam, 0.05);
+  experiment.trials[0].gravity = Vec3(g, 0, 0);
+  Variant variant;
+  variant.effects = {effect("creep", "fraction", {fraction})};
+  variant.effects[0].numbers["time"] = {1.0e6};
+  variant.effects[0].words["start"] = "hung";
+  const double cube = std::pow(beam.length, 3) / beam.stiffness();
+  const double weight = beam.mass_per_length() * g * beam.length * cube / 8.0;
+  const double hung = mass * g * cube / 3.0;
+  const auto tip = [&] {
+    const Prediction found = predict(experiment, variant);
+    EXPECT_TRUE(found.healthy);
+    EXPECT_NEAR(found.markers(5, 3), found.markers(0, 3), 1e-6);  // it rests
+    return found.markers(0, 3);
+  };
+  EXPECT_NEAR(tip() / (weight / (1.0 - fraction)), 1.0, 5e-3);
+  experiment.trials[0].masses = {{on_stem(1.0), mass}};
+  EXPECT_NEAR(tip() / (weight / (1.0 - fraction) + hung), 1.0, 5e-3);
+  experiment.plant.masses = std::move(experiment.trials[0].masses);
+  experiment.trials[0].masses.clear();
+  EXPECT_NEAR(tip() / ((weight + hung) / (1.0 - fraction)), 1.0, 5e-3);
+}
+
 TEST(Simulator, AConstantPointForceIsALoad) {
   const Experiment bare = experiment_of({}, 0.1);
   Variant variant;

@@ -118,6 +118,8 @@ TEST_P(Effects, OfNoSizeDoNothing) {
     apply_to_sensor(effect, sensor);
     EXPECT_EQ(sensor.offset[0], Vec3(0, 0, 0));
     EXPECT_EQ(sensor.delay, 0.0);
+    EXPECT_EQ(sensor.marker_lag, 0.0);
+    EXPECT_EQ(sensor.force_lag, 0.0);
     EXPECT_TRUE(sensor.frame.isIdentity(1e-15));
     EXPECT_EQ(sensor.gain, 1.0);
     EXPECT_TRUE(sensor.force_offset.isZero());

@@ -1,0 +1,40 @@
+// The formula of clamp_play. Included once an instruction set.
+#if defined(PEDICEL_EFFECTS_CLAMP_PLAY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef PEDICEL_EFFECTS_CLAMP_PLAY_INL_H
+#undef PEDICEL_EFFECTS_CLAMP_PLAY_INL_H
+#else
+#define PEDICEL_EFFECTS_CLAMP_PLAY_INL_H
+#endif
+
+#include "pedicel/effects/registry/joint_term-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pedicel::effects {
+namespace HWY_NAMESPACE {
+
+/// A joint that bends freely up to an angle a and as its spring beyond, in whichever direction:
+/// with r = sqrt(u), |phi| where the two bending stiffnesses are equal, the moment is K phi (1 -
+/// a/r) where r > a and 0 below. Its energy softer (r - a)^2 / 2 is convex, so that Newton's
+/// tangent is never negative.
+struct clamp_play {
+  static constexpr int numbers = 1;  // rad, a
+
+  template <class T>
+  static HWY_INLINE void add(const T* numbers, const BentJoint<T>& joint, BendTerms<T>& out) {
+    const T play = numbers[0], zero = number(play, 0.0), one = number(play, 1.0);
+    const T u = bend_measure(joint, joint.phi1, joint.phi2);
+    const T bend = root(u);
+    const auto beyond = bend > play;
+    const T safe = choose(beyond, bend, one), over = choose(beyond, bend - play, zero);
+    const T slope = choose(beyond, play / (safe * safe * safe), zero);
+    // Beyond what is linear of it, which is there.
+    add_radial(joint, joint.elastic, joint.phi1, joint.phi2,
+               {over / safe - one, slope, number(play, 0.5) * (over * over - u)}, out);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace pedicel::effects
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,54 @@
+#include <string>
+#include <string_view>
+
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/effects_list/joint_terms.h"
+
+namespace pedicel::effects {
+
+// A root that is loose in its clamp. The formula is in clamp_play-inl.h. It takes the root's spring
+// away, so it comes last, and no other law may carry moment there.
+EffectDefinition define_clamp_play() {
+  EffectDefinition d;
+  d.name = "clamp_play";
+  d.plain_name = "a root that is loose in its clamp";
+  d.sentence =
+      "the root bends freely up to an angle, and with its stiffness beyond; its damping stays";
+  d.home = Home::base;
+  d.family = Family::softness;
+  d.parameters = {{.name = "angle",
+                   .unit = "rad",
+                   .bounds = io::not_negative,
+                   .sentence = "from the unloaded shape, from which on the root bears a moment",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.02}}};
+  d.change = ModelChange{Stage::last, [](ModelTarget& t) {
+                           const double angle = t.number("angle");
+                           if (angle == 0.0) return;
+                           std::string_view beside;
+                           t.model.laws.resize(t.model.elements.size());
+                           for (int e = 0; e < t.model.size(); ++e) {
+                             if (t.model.elements[e].parent >= 0) continue;
+                             cosserat::JointLaw& law = t.model.laws[e];
+                             for (const JointTerm& term : joint_terms)
+                               if (law.terms_there() & term.bit) beside = term.effect;
+                             if (!law.branches.empty()) beside = "a law with a memory";
+                             law.term("clamp_play") = angle;
+                           }
+                           if (!beside.empty())
+                             t.error("clamp_play and " + std::string(beside) +
+                                     " at one root, expected one of them there");
+                         }};
+  d.starts = [](const StartContext&) {
+    std::vector<Start> starts;
+    for (const double angle : {0.01, 0.05})
+      starts.push_back(Start("clamp_play").positive("angle", angle, 1e-5, 0.5));
+    return starts;
+  };
+  d.speaks_for = {{"base_rotation", 2}, {"frequency_by_amplitude", 5}};
+  d.tells_apart = "push the stem to and fro by little at the root: play gives way without a force";
+  d.has_threshold = true;
+  return d;
+}
+
+}  // namespace pedicel::effects

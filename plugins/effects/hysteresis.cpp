@@ -1,0 +1,55 @@
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// Friction that gives way little by little, and remembers where it turned:
+// dz/dphi = K (1 - |z/moment|^exponent sign(dphi z)). The formula is in hysteresis-inl.h.
+EffectDefinition define_hysteresis() {
+  EffectDefinition d;
+  d.name = "hysteresis";
+  d.plain_name = "a stem that remembers how it was bent";
+  d.sentence =
+      "M = (1 - ratio) K phi + ratio z, z Bouc-Wen's: as K phi after each turn, up to a moment; "
+      "exponent 1 is Dahl's";
+  d.home = Home::joint;
+  d.family = Family::memory;
+  d.parameters = {{.name = "moment",
+                   .unit = "N m",
+                   .bounds = io::positive,
+                   .sentence = "that z grows to at most",
+                   .role = Role::shape,
+                   .first = {0.01}},
+                  {.name = "exponent",
+                   .bounds = (io::Bounds{1.0, 100.0}),
+                   .sentence = "how late z gives way",
+                   .role = Role::shape,
+                   .first = {1.0}},
+                  {.name = "ratio",
+                   .bounds = io::fraction,
+                   .sentence = "part of the stiffness that gives way",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.3}}};
+  d.change = ModelChange{Stage::laws, [](ModelTarget& t) {
+                           const double ratio = t.number("ratio");
+                           if (ratio == 0.0) return;
+                           t.each_law([&](int, cosserat::JointLaw& law) {
+                             cosserat::add_hysteresis(law, ratio, ratio * t.number("moment"),
+                                                      t.number("exponent"));
+                           });
+                         }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const double largest = c.scales.root_stiffness * c.scales.length * c.scales.curvature;
+    for (const double part : {0.1, 0.5})
+      starts.push_back(Start("hysteresis")
+                           .fixed("exponent", {1.0})
+                           .positive("moment", part * largest, 1e-4 * largest, 20 * largest)
+                           .positive("ratio", 0.2, 1e-3, 0.95));
+    return starts;
+  };
+  d.speaks_for = {{"loop_area", 2}, {"frequency_by_amplitude", 4}, {"damping_by_amplitude", 4}};
+  d.tells_apart = "push to and fro by less and less: loops within loops";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,67 @@
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/yaml.h"
+
+namespace pedicel::effects {
+
+// Air drag of a plate: more along its normal than across. The plate turns with its segment.
+EffectDefinition define_plate_drag() {
+  EffectDefinition d;
+  d.name = "plate_drag";
+  d.plain_name = "air drag of a plate";
+  d.sentence =
+      "quadratic drag of each of two parts of the velocity: along a plate's normal, and across it";
+  d.home = Home::air;
+  d.family = Family::air;
+  d.parameters = {{.name = "normal",
+                   .unit = "m2/m",
+                   .bounds = io::not_negative,
+                   .sentence = "area per length along the normal, with Cd inside",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.05}},
+                  {.name = "tangential",
+                   .unit = "m2/m",
+                   .bounds = io::not_negative,
+                   .sentence = "the same across the normal",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.005}},
+                  {.name = "direction",
+                   .sentence = "of the normal, in the world as drawn; it turns with the stem",
+                   .size = 3,
+                   .role = Role::shape,
+                   .first = {1.0, 0.0, 0.0}}};
+  d.check = [](const io::YamlNode& node, const plant::Effect& effect) {
+    if (effect.numbers.contains("direction") &&
+        Vec3(effect.numbers.at("direction").data()).isZero(0.0))
+      node.error("plate_drag has a direction of length 0, expected a direction [x, y, z]");
+  };
+  d.change = ModelChange{
+      Stage::laws, [](ModelTarget& t) {
+        const double normal = t.number("normal"), tangential = t.number("tangential");
+        if (normal == 0.0 && tangential == 0.0) return;
+        const Vec3 direction = t.vector("direction").normalized();
+        bool twice = false;
+        t.model.air.resize(t.model.elements.size());
+        t.each_span([&](const plant::RodPlaces::Span& span) {
+          cosserat::SegmentAir& air = t.model.air[span.element];
+          twice = twice || air.has_plate();
+          air.plate_normal = normal;
+          air.plate_tangential = tangential;
+          air.plate = t.model.elements[span.element].drawn_rotation.conjugate() * direction;
+        });
+        if (twice) t.error("plate_drag twice on one curve, expected it once");
+      }};
+  d.starts = [](const StartContext&) {
+    std::vector<Start> starts;
+    for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+      starts.push_back(Start("plate_drag")
+                           .fixed("direction", {direction.x(), direction.y(), direction.z()})
+                           .positive("normal", 0.03, 1e-5, 10.0)
+                           .positive("tangential", 0.003, 1e-6, 10.0));
+    return starts;
+  };
+  d.speaks_for = {{"damping", 5}, {"damping_by_amplitude", 4}, {"damping_by_mode", 4}};
+  d.tells_apart = "release it along the plate and across it";
+  return d;
+}
+
+}  // namespace pedicel::effects

@@ -1,0 +1,47 @@
+#include <algorithm>
+
+#include "pedicel/effects/registry/effect_definition.h"
+
+namespace pedicel::effects {
+
+// An instrument that follows what it measures with a first-order lag.
+EffectDefinition define_sensor_lag() {
+  EffectDefinition d;
+  d.name = "sensor_lag";
+  d.plain_name = "an instrument that follows with a lag";
+  d.sentence = "what an instrument reports follows with a first-order lag: y' = (x - y) / time";
+  d.file = EffectFile::experiment;
+  d.home = Home::sensor;
+  d.parameters = {{.name = "time",
+                   .unit = "s",
+                   .bounds = io::not_negative,
+                   .sentence = "time constant; those of one instrument add up",
+                   .vanishes = Vanishes::at_zero,
+                   .first = {0.02}},
+                  {.name = "what",
+                   .sentence = "which instrument lags",
+                   .size = 0,
+                   .words = {"force", "markers"},
+                   .role = Role::shape}};
+  d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {
+    const bool force = effect.words.at("what") == "force";
+    (force ? sensor.force_lag : sensor.marker_lag) += effect.number("time");
+  }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const auto add = [&](const char* what) {
+      const double time = std::max(c.scales.sample_time, 1.0e-3);
+      starts.push_back(
+          Start("sensor_lag").word("what", what).positive("time", 2.0 * time, 0.02 * time, 1.0));
+    };
+    if (c.force) add("force");
+    add("markers");
+    return starts;
+  };
+  d.speaks_for = {{"time_shift", 2}};
+  d.tells_apart =
+      "shake at two frequencies: a lag makes the faster motion smaller, a delay only makes it late";
+  return d;
+}
+
+}  // namespace pedicel::effects
