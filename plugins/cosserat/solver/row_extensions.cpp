@@ -153,12 +153,13 @@ void RowExtensions::read_terms(const JointLaw& law, Slot slot) {
     out.number[i][slot.lane] = law.terms.empty() ? 0.0 : law.terms[i];
 }
 
-void RodRows::read_memory(int plant, const RodState& state, int e, int row, int lane) {
-  const Extended& extended = extended_[plant];
-  put(extension_term_[row].bias, lane, state.joint_bias[e]);
-  for (int j = 0; j < extended.branches; ++j)
+void RowExtensions::read_memory(int plant, const RodState& state, int e, Slot slot) {
+  const int branches = plants_[plant].branches;
+  if (branches == 0) return;
+  put(store_.extension_term[slot.row].bias, slot.lane, state.joint_bias[e]);
+  for (int j = 0; j < branches; ++j)
     put(store_.law_branch[slot.row * store_.law_branches_a_row + j].value, slot.lane,
-        state.joint_memory[e * extended.branches + j]);
+        state.joint_memory[e * branches + j]);
 }
 
 void RowExtensions::write_memory(int plant, RodState& state, int e, Slot slot) const {

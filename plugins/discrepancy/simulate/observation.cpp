@@ -10,7 +10,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
-constexpr double rounding = 1.0e-9;  // s, by which a sample may lie beyond the last step
+constexpr double beyond_the_last = 1.0e-9;  // s, by which a sample may lie beyond the last step
 
 Vec3 triple(const Motion::Rows& rows, int row, int index) {
   return rows.row(row).segment<3>(3 * index).transpose();
@@ -131,7 +131,7 @@ class Instrument {
 }  // namespace
 
 Interval find_interval(const std::vector<double>& time, double t) {
-  if (time.empty() || !(t <= time.back() + rounding)) return {};
+  if (time.empty() || !(t <= time.back() + beyond_the_last)) return {};
   const auto next = std::upper_bound(time.begin(), time.end(), t);
   if (next == time.begin()) return {0, 0.0, 0.0};
   const int row = static_cast<int>(next - time.begin()) - 1;
