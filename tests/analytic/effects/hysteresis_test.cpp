@@ -184,13 +184,16 @@ TEST(Hysteresis, SettlesWithoutTheMemory) {
   EXPECT_LT((sim.tip() - expected.position.back()).norm(), 1.0e-7);
 }
 
-// A cantilever that is let go: nearly every step finds its equilibrium of forces.
+// A cantilever that is let go: nearly every step finds its equilibrium of forces. For the exponent
+// 1 that holds even where a step goes far beyond the reach, here 5e-4 rad; others have a kink
+// there.
 TEST(Hysteresis, NewtonConverges) {
-  for (const double exponent : {1.0, 1.5, 4.0}) {
+  for (const auto& [exponent, limit] :
+       {std::pair(1.0, 2.0e-5), std::pair(1.5, 2.0e-3), std::pair(4.0, 2.0e-3)}) {
     RodModel model = PeerCantilever::model(16);
-    set_laws(model, [&](int) {
+    set_laws(model, [&, e = exponent, m = limit](int) {
       JointLaw law;
-      add_hysteresis(law, 0.8, 2.0e-5, exponent);
+      add_hysteresis(law, 0.8, m, e);
       return law;
     });
     RodSettings settings = settings_with(Integrator::bdf2);
