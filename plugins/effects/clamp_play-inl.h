@@ -17,7 +17,8 @@ namespace HWY_NAMESPACE {
 /// a/r) where r > a and 0 below. Its energy softer (r - a)^2 / 2 is convex, so that Newton's
 /// tangent is never negative.
 struct clamp_play {
-  static constexpr int numbers = 1;  // rad, a
+  static constexpr int numbers = 1;      // rad, a
+  static constexpr double least = 0.05;  // 1, of the spring's stiffness
 
   template <class T>
   static HWY_INLINE void add(const T* numbers, const BentJoint<T>& joint, BendTerms<T>& out) {
@@ -28,8 +29,14 @@ struct clamp_play {
     const T safe = choose(beyond, bend, one), over = choose(beyond, bend - play, zero);
     const T slope = choose(beyond, play / (safe * safe * safe), zero);
     // Beyond what is linear of it, which is there.
+    const T less = over / safe - one;
     add_radial(joint, joint.elastic, joint.phi1, joint.phi2,
-               {over / safe - one, slope, number(play, 0.5) * (over * over - u)}, out);
+               {less, slope, number(play, 0.5) * (over * over - u)}, out);
+    // Factors are of single precision: beside the stem's stretch a joint of no stiffness would be
+    // lost in them. Newton takes a twentieth for it, which only makes its way longer.
+    const T lifted = joint.elastic * larger(zero, number(play, least - 1.0) - less);
+    out.secant1 = mul_add(lifted, joint.k1, out.secant1);
+    out.secant2 = mul_add(lifted, joint.k2, out.secant2);
   }
 };
 

@@ -39,7 +39,9 @@ Bent bent(const std::string& effect, const std::string& curves = straight_stem_t
   if (!built) return bent;
   bent.plant = *built;
   bent.state = cosserat::drawn_state(bent.plant.model);
-  EXPECT_EQ(cosserat::settle(bent.plant.model, bent.state, Vec3::Zero()).errors, 0u);
+  // Of the way that it has to go its damping leaves 1e-5 the first time.
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(cosserat::settle(bent.plant.model, bent.state, Vec3::Zero()).errors, 0u);
   return bent;
 }
 
