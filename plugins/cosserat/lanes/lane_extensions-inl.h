@@ -257,9 +257,12 @@ HWY_INLINE MiddleForce middle_force(const Drag& drag, const V3& axis, V h) {
   const V per_speed = w / hn::Max(drag.speed, set(1.0e-100));
   const V3 &u = drag.u, &n = axis;
   const auto entry = [&](V a, V b, V na, V nb) { return per_speed * a * b - by_speed * na * nb; };
-  return {by_speed + entry(u.x, u.x, n.x, n.x), by_speed + entry(u.y, u.y, n.y, n.y),
-          by_speed + entry(u.z, u.z, n.z, n.z), entry(u.y, u.x, n.y, n.x),
-          entry(u.z, u.x, n.z, n.x),       entry(u.z, u.y, n.z, n.y),
+  return {by_speed + entry(u.x, u.x, n.x, n.x),
+          by_speed + entry(u.y, u.y, n.y, n.y),
+          by_speed + entry(u.z, u.z, n.z, n.z),
+          entry(u.y, u.x, n.y, n.x),
+          entry(u.z, u.x, n.z, n.x),
+          entry(u.z, u.y, n.z, n.y),
           (drag.c * drag.speed) * u};
 }
 
