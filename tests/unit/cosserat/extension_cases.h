@@ -22,7 +22,8 @@ inline void extend(RodModel& model, Random& random, double bend = 0.1) {
       law.term("asymmetry", 3) = bend;
     }
     if (e % 4 == 1) add_structural_damping(law, random.uniform(0.02, 0.2));
-    add_relaxation(law, random.uniform(0.0, 0.3), random.uniform(0.01, 1.0), e % 2 == 0);
+    add_relaxation(law, random.uniform(0.0, 0.3), random.uniform(0.01, 1.0),
+                   e % 2 == 0 ? RelaxationStart::unloaded : RelaxationStart::settled);
     add_friction(law, random.uniform(0.1, 0.3), 0.2 * softer * random.uniform(0.2, 1.0) * bend);
     if (e % 5 == 2) add_yield(law, softer * random.uniform(0.5, 2.0) * bend);
     model.laws.push_back(law);
