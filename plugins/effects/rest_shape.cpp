@@ -57,14 +57,6 @@ void bend(ModelTarget& t) {
     t.error("rest_shape has a normal along the curve, expected one across it everywhere on it");
 }
 
-// A unit vector across the chord of a curve: of the world's axes the one that is farthest from it.
-Vec3 across(const plant::PlantCurve& curve) {
-  const Vec3 chord = (curve.points.back() - curve.points.front()).cwiseAbs();
-  int axis = 0;
-  chord.minCoeff(&axis);
-  return Vec3::Unit(axis);
-}
-
 }  // namespace
 
 // A thing that is curved without load otherwise than its file says, where that shape is not known.
