@@ -17,7 +17,7 @@ GOLDEN = math.pi * (3 - math.sqrt(5))
 STALK = 0.03         # m, of an apple
 
 HEAD = """\
-# A young apple tree, drawn by tools/make_apple_tree.py: nothing in it is measured. Wood of 1e9 Pa
+# A young apple tree, drawn by tools/make_apple_tree.py: nothing in it is measured. Wood of 3e9 Pa
 # and 950 kg/m3 is green apple wood in the order of magnitude (Niklas, Plant Biomechanics, 1992,
 # table 2.1: 1e9 to 1e10 Pa for wood). Apples of 70 mm and 850 kg/m3, which float; they come off at
 # 20 N, in the middle of the 10 to 30 N that pickers pull with.
@@ -26,7 +26,7 @@ version: 1
 name: apple tree
 shape: drawn
 look: apple
-material: {youngs_modulus: 1.0e+9, poisson_ratio: 0.3, density: 950, damping_time: 0.02}
+material: {youngs_modulus: 3.0e+9, poisson_ratio: 0.3, density: 950, damping_time: 0.02}
 sampling: {connect: 0.003, distance: 0.06}
 root: [0, 0, 0]
 curves:

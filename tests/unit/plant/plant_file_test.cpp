@@ -17,9 +17,7 @@ version: 1
 name: cherry tomato truss
 shape: rest
 look: apple
-material:
-  {youngs_modulus: 2.0e7, poisson_ratio: 0.35, density: 700, damping_time: 0.01,
-   known_to: {youngs_modulus: 0.1, density: 0.05, damping_time: 0.5}}
+material: {youngs_modulus: 2.0e7, poisson_ratio: 0.35, density: 700, damping_time: 0.01, known_to: {youngs_modulus: 0.1, density: 0.05, damping_time: 0.5}}
 sampling: {connect: 0.01, distance: 0.02}
 root: [0, 0, 0.001]
 supports:
