@@ -114,9 +114,11 @@ void CauseSearch::extend() {
     state_.log.note(text("It gains %.4g nats, of %.4g that another cause must; ", first.gain,
                          least_gain_beside(state_.findings.chain, state_.settings())) +
                     text("for the held-out trials %.4g.", first.held_out.gain));
-    if (!is_another_cause(first)) return;
-    // The chain begins anew with this one; what it leaves is looked at again.
+    if (!is_worth_more(first)) return;
+    // The chain begins anew with this one; what it leaves is looked at again. Asked before the
+    // families: a cause stands in for one of its own family most easily.
     if (eliminates_first(first)) continue;
+    if (!is_of_another_kind(first)) return;
     state_.findings.chain.push_back(first);
     state_.result.best = first.fit;
   }
@@ -140,13 +142,16 @@ std::vector<Direction> CauseSearch::look_again() {
 }
 
 // The held-out trials may ask for what those fitted to hardly show: that is no finding.
-bool CauseSearch::is_another_cause(const Candidate& next) const {
-  if (next.evidence < state_.settings().levels.worth_naming ||
-      next.gain < least_gain_beside(state_.findings.chain, state_.settings()) ||
-      !next.held_out.carries_over(state_.settings().evidence))
-    return false;
-  if (!has_a_size(next.fit, static_cast<int>(state_.result.best.hypothesis.effects.size())))
-    return false;
+bool CauseSearch::is_worth_more(const Candidate& next) const {
+  return next.evidence >= state_.settings().levels.worth_naming &&
+         next.gain >= least_gain_beside(state_.findings.chain, state_.settings()) &&
+         next.held_out.carries_over(state_.settings().evidence) &&
+         has_a_size(next.fit, static_cast<int>(state_.result.best.hypothesis.effects.size()));
+}
+
+// Beside a cause of its own family, only what brings much is another one: the rest is what two
+// implementations of one law differ by.
+bool CauseSearch::is_of_another_kind(const Candidate& next) const {
   return std::ranges::all_of(state_.findings.chain, [&](const Candidate& found) {
     return !effects::same_family(found.cause, next.cause) ||
            next.gain > state_.settings().evidence.family_share * found.gain;

@@ -26,7 +26,8 @@ class CauseSearch {
   std::vector<Direction> look_again();
   RefitOptions refit_options(double from, double to, const std::string& what);
   bool leaves_much(const FitSummary& model) const;
-  bool is_another_cause(const Candidate& next) const;
+  bool is_worth_more(const Candidate& next) const;
+  bool is_of_another_kind(const Candidate& next) const;
   bool eliminates_first(const Candidate& next);
 
   DiagnosisState& state_;
