@@ -112,6 +112,14 @@ std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(
       order, [&](std::size_t a, std::size_t b) { return found.cost[a] < found.cost[b]; });
+  // The best about the refitted baseline, and the best about the nominal one: these are two
+  // valleys, and a baseline that took over most of the cause makes its own look nearer than it
+  // leads.
+  const auto about_nominal = [&](std::size_t i) { return i >= 2 * cause.starts.size(); };
+  if (keep > 1)
+    std::ranges::stable_partition(order.begin() + 1, order.end(), [&](std::size_t i) {
+      return about_nominal(i) != about_nominal(order.front());
+    });
   std::vector<Hypothesis> best;
   for (std::size_t i = 0; i < std::min(keep, order.size()); ++i) best.push_back(starts[order[i]]);
   return best;

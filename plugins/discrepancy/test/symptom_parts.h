@@ -25,10 +25,10 @@ struct SymptomContext {
   Eigen::MatrixXd velocity(int t) const;
 };
 
-/// A time at which a trial's forces jump, and whether the plant swings freely from there to `to`.
+/// A time at which a trial's drive jumps, and whether the plant swings freely from there to `to`.
 struct Span {
   double from = 0.0, to = 0.0;  ///< s
-  bool free = false;            ///< nothing holds or moves it
+  bool free = false;            ///< nothing moves it; a hand or a base at rest may hold it
 };
 /// The stretches of a trial between its jumps.
 std::vector<Span> spans_of(const Trial& trial);

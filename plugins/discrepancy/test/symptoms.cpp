@@ -14,20 +14,59 @@ namespace {
 
 constexpr double beyond_chance = 5.0;
 
-// Steps of loads and releases, and the rows between which a path moves.
-std::vector<double> jumps(const Trial& trial) {
+// A hand or a shaker that has stopped still trembles by this share of what it did.
+constexpr double at_rest = 0.01;
+
+/// When a path moves.
+struct Motion {
+  double from = 0.0, to = 0.0;  // s; nowhere: from = to
+};
+
+Motion motion_of(const DrivenPath& path) {
+  const std::size_t n = path.time.size();
+  const auto distance = [&](std::size_t i, std::size_t k) {
+    return (path.position[i] - path.position[k]).norm();
+  };
+  const auto angle = [&](std::size_t i, std::size_t k) {
+    return path.rotation.empty() ? 0.0 : path.rotation[i].angularDistance(path.rotation[k]);
+  };
+  double farthest = 0.0, widest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    farthest = std::max(farthest, distance(i, 0));
+    widest = std::max(widest, angle(i, 0));
+  }
+  const auto apart = [&](std::size_t i, std::size_t k) {
+    return distance(i, k) > at_rest * farthest || angle(i, k) > at_rest * widest;
+  };
+  std::size_t first = 0, last = n;
+  while (first + 1 < n && !apart(first + 1, 0)) ++first;
+  while (last > 1 && !apart(last - 2, n - 1)) --last;
+  if (first + 1 >= n) return {};
+  return {path.time[first], path.time[last - 1]};
+}
+
+std::vector<Motion> motions_of(const Trial& trial) {
+  std::vector<Motion> motions;
+  for (const Hold& hold : trial.holds) {
+    motions.push_back(motion_of(hold.path));
+    motions.back().to = std::min(motions.back().to, hold.release);
+  }
+  if (trial.base) motions.push_back(motion_of(*trial.base));
+  return motions;
+}
+
+// Steps of loads, releases, and where paths begin and end to move.
+std::vector<double> jumps(const Trial& trial, const std::vector<Motion>& motions) {
   std::vector<double> times{0.0, trial.duration()};
   for (const TimedLoad& load : trial.loads)
     for (const double t : {load.from, load.to}) times.push_back(t);
   for (const Hold& hold : trial.holds) times.push_back(hold.release);
+  for (const Motion& motion : motions)
+    for (const double t : {motion.from, motion.to}) times.push_back(t);
   std::erase_if(times, [&](double t) { return !(t >= 0.0 && t <= trial.duration()); });
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
-}
-
-bool moves(const DrivenPath& path) {
-  return std::ranges::any_of(path.position, [&](const Vec3& p) { return p != path.position[0]; });
 }
 
 }  // namespace
@@ -100,17 +139,14 @@ Eigen::MatrixXd SymptomContext::velocity(int t) const {
 }
 
 std::vector<Span> spans_of(const Trial& trial) {
-  const std::vector<double> times = jumps(trial);
+  const std::vector<Motion> motions = motions_of(trial);
+  const std::vector<double> times = jumps(trial, motions);
   std::vector<Span> spans;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-    Span span{times[i], times[i + 1], true};
-    for (const Hold& hold : trial.holds)
-      if (hold.release > span.from + 1e-9 &&
-          (std::isfinite(hold.release) || hold.path.time.empty() ||
-           hold.path.time.back() > span.from + 1e-9))
-        span.free = false;
-    if (trial.base && moves(*trial.base)) span.free = false;
-    spans.push_back(span);
+    const double middle = 0.5 * (times[i] + times[i + 1]);
+    const bool moved = std::ranges::any_of(
+        motions, [&](const Motion& m) { return middle > m.from && middle < m.to; });
+    spans.push_back({times[i], times[i + 1], !moved});
   }
   return spans;
 }

@@ -203,6 +203,37 @@ TEST(Symptoms, FrequencyAndDamping) {
   expect_insignificant(all, "frequency_by_amplitude");
 }
 
+// Moved by its base or by a hand, and left to ring when that has come to rest.
+TEST(Symptoms, RingingAfterARestCountsAsFree) {
+  MadeData made;
+  const double f = 2.06, w = 2 * std::numbers::pi * f, decay = w * 0.03;
+  replace_swing(made, f, [=](double t) { return std::exp(-decay * t); });
+  made.add_noise(17);
+  Trial& trial = made.experiment.trials[release];
+  DrivenPath path{{0.0}, {Vec3::Zero()}, {}};
+  for (double t = 0.1; t < 6.05; t += 0.1) {
+    path.time.push_back(t);
+    // To its place within a second, and then a trembling of it.
+    path.position.push_back(t < 1.05 ? Vec3(0.02 * t, 0, 0)
+                                     : Vec3(0.02, 1e-5 * std::cos(40 * t), 0));
+  }
+  const Hold released = trial.holds.front();
+  const double expected = 100.0 * (f / MadeData::frequency - 1.0);
+  trial.holds.clear();
+  trial.base = path;
+  expect_value(made.symptoms(), "frequency", expected);
+  trial.base.reset();
+  trial.holds = {released};
+  trial.holds.front().path = path;
+  trial.holds.front().release = std::numeric_limits<double>::infinity();
+  expect_value(made.symptoms(), "frequency", expected);
+
+  for (std::size_t i = 0; i < path.time.size(); ++i)
+    path.position[i].x() = 0.02 * std::sin(9.0 * path.time[i]);
+  trial.holds.front().path = path;
+  EXPECT_EQ(strongest(made.symptoms(), "frequency"), nullptr) << "driven to the end";
+}
+
 // Quadratic drag beside the model's own damping: the amplitude follows a' = -d a - b a^2, so
 // a = e / (1 + b (1 - e) / d) with e = exp(-d t): wide swings die out faster.
 TEST(Symptoms, DampingThatGrowsWithAmplitude) {
