@@ -274,6 +274,14 @@ class Inference {
     }
     note(text("Held-out trials: %.4g of the noise without it, %.4g with it", error[0], error[1]));
     if (error[0] > 1.0) result_.gain = (error[0] - error[1]) / (error[0] - 1.0);
+    if (error[1] <= levels_.held_out_worse * error[0]) return;
+    result_.found = false;
+    result_.refused =
+        text(
+            "A force would explain %.0f %% of what the refitted model leaves of the "
+            "fitted trials, but with it the held-out ones are worse",
+            100.0 * result_.share) +
+        text(" (%.3g times the noise in place of %.3g). Do not extrapolate.", error[1], error[0]);
   }
 
   Evaluator& evaluator_;
@@ -294,7 +302,7 @@ class Inference {
 }  // namespace
 
 std::string MissingForce::sentence() const {
-  if (!found) return "";
+  if (!found) return refused;
   std::string all =
       where + ". " +
       text("It explains %.0f %% of what the refitted model leaves above the noise.", 100.0 * share);

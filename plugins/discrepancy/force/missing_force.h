@@ -33,6 +33,9 @@ struct MissingForce {
   FitSummary fit;                ///< the model with the force, refitted; "not run" without a law
   long simulations = 0;
 
+  /// What makes the held-out trials worse is not found: this says so.
+  std::string refused;
+
   /// All of it in words, "Do not extrapolate." at the end; empty where nothing was found.
   std::string sentence() const;
 };

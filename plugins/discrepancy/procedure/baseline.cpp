@@ -53,6 +53,51 @@ void Baseline::refit_parameters() {
   refit_base();
   state_.log.noise(state_.setup->data());
   state_.log.fit("Baseline", state_.result.base, state_.setup->samples());
+  judge_drive();
+}
+
+namespace {
+
+// N, over the samples where a force was measured.
+double force_rms(const Eigen::MatrixXd& force, const Eigen::MatrixXd& measured) {
+  double squares = 0.0, count = 0.0;
+  for (Eigen::Index i = 0; i < measured.size(); ++i)
+    if (std::isfinite(measured(i)) && std::isfinite(force(i))) {
+      squares += force(i) * force(i);
+      count += 1.0;
+    }
+  return std::sqrt(squares / std::max(1.0, count));
+}
+
+}  // namespace
+
+// A path that is off by its place or its unit stretches the plant in place of bending it, which
+// takes forces that no cause explains. A modulus that is far off alone is mended by the refit.
+void Baseline::judge_drive() {
+  const Experiment& experiment = state_.experiment();
+  const auto predicted = state_.setup->predictions(
+      std::array<Hypothesis, 2>{Hypothesis{}, state_.result.base.hypothesis});
+  const Levels& levels = state_.settings().levels;
+  for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
+    const Trial& trial = experiment.trials[t];
+    const Eigen::MatrixXd& measured = trial.force.value;
+    const Eigen::MatrixXd &given = predicted[0][t].force, &fitted = predicted[1][t].force;
+    if (measured.rows() == 0 || given.rows() != measured.rows() || fitted.rows() != measured.rows())
+      continue;
+    const double was =
+        std::max(force_rms(measured, measured), state_.setup->data().force_noise().std);
+    const double needs = force_rms(given, measured);
+    if (needs < levels.impossible_force * was ||
+        force_rms(fitted, measured) < levels.impossible_refit * was)
+      continue;
+    state_.result.verdict.outcome = Outcome::bad_data;
+    state_.result.verdict.remainder =
+        "the drive of trial " + trial.name + " cannot be right: the model needs " +
+        text("%.3g N at the hold where %.3g N were measured (RMS), ", needs, was) +
+        text("and %.3g N when it is refitted; ", force_rms(fitted, measured)) +
+        "check the path's place, unit and frame, and the unit of the force";
+    return;
+  }
 }
 
 void Baseline::refine() {
@@ -73,6 +118,8 @@ void Baseline::refine() {
   if (check.largest > state_.settings().accuracy.numerical_limit && !is_masked(check)) {
     state_.result.verdict.outcome = Outcome::numerical;
     state_.result.verdict.remainder =
+        text("with nodes every %.3g mm and a step of %.3g ms, ",
+             1e3 * state_.result.numerics.distance, 1e3 * state_.result.numerics.dt) +
         text("half the step and half the mesh still move the prediction by %.2g times the noise",
              check.largest);
   }

@@ -22,6 +22,7 @@ class Baseline {
  private:
   void refit_base();
   void refine();
+  void judge_drive();
   bool is_masked(const NumericsCheck& check) const;
 
   DiagnosisState& state_;

@@ -339,6 +339,8 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
   const Errors& check = diagnosis.verdict.check;
   // Without something above the noise to gain, a gain would divide by nothing.
   if (!check.refitted) return;
+  diagnosis.verdict.refit_misleads =
+      *check.refitted > findings.settings->levels.held_out_worse * *check.nominal;
   const double noise = scatter(findings, diagnosis.check_trials);
   const auto gain_over = [&](double error) -> std::optional<double> {
     if (error - 1.0 <= noise) return {};
@@ -459,6 +461,8 @@ void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
 }
 
 void report_detectable_limits(const std::vector<Cause>& causes, Diagnosis& diagnosis) {
+  // Beside something that nobody knows, larger than any of them, all of them could hide.
+  if (diagnosis.verdict.outcome == Outcome::unknown) return;
   for (const Cause& cause : causes) {
     DetectableLimit least;
     least.name = cause.name;

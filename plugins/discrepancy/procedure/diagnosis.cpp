@@ -33,7 +33,7 @@ Diagnosis Procedure::run() {
 void Procedure::search() {
   baseline_.prepare();
   baseline_.refit_parameters();
-  if (state_.result.verdict.outcome != Outcome::numerical && !state_.stopped()) decide();
+  if (state_.result.verdict.outcome == Outcome::adequate && !state_.stopped()) decide();
 }
 
 void Procedure::decide() {

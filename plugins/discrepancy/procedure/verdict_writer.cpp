@@ -4,6 +4,7 @@
 
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/procedure/conclusion.h"
+#include "pedicel/discrepancy/procedure/seen_ratios.h"
 #include "pedicel/discrepancy/procedure/shares.h"
 #include "pedicel/discrepancy/select/evidence.h"
 #include "pedicel/effects/registry/effect_definition.h"
@@ -50,6 +51,7 @@ void VerdictWriter::write(const std::string& instead_of, int objecting) {
   conclude_outliers(state_.result);
   judge_stalks();
   report_parameters(state_.findings, state_.result);
+  report_ratios(state_.findings, state_.result);
   report_detectable_limits(state_.causes, state_.result);
   choose_next();
 }
@@ -88,6 +90,7 @@ void VerdictWriter::write_partial() {
     }
   }
   report_parameters(state_.findings, state_.result);
+  report_ratios(state_.findings, state_.result);
   report_detectable_limits(state_.causes, state_.result);
 }
 
@@ -162,8 +165,9 @@ void VerdictWriter::tell_of_force() {
   name_nothing(state_.result.verdict);
   std::string& remainder = state_.result.verdict.remainder;
   if (!remainder.empty()) remainder += ". ";
-  remainder +=
-      force.found ? force.sentence() : "No force at a marker explains it. Do not extrapolate.";
+  remainder += force.found || !force.refused.empty()
+                   ? force.sentence()
+                   : "No force at a marker explains it. Do not extrapolate.";
   if (force.fit.why == "not run" || state_.stopped()) return;
   check_.anchor_at(force.fit);
   std::vector<Direction> left = check_.directions_at(force.fit);

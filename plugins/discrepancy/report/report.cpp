@@ -107,13 +107,17 @@ void add_ranking(io::HtmlReport& page, const Diagnosis& d) {
   page.paragraph(
       "Gain: log-likelihood (nats) that the cause adds to the refitted model. Evidence: "
       "that and the gain on the held-out trials, less what its parameters and the number of "
-      "candidates cost. What fell far behind was not fitted to the end.");
+      "candidates cost. Candidates without these two fell far behind and were not fitted to the "
+      "end.");
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : d.ranking) {
     if (rows.size() == most_ranked) break;
-    rows.push_back({candidate.cause, io::format_number(candidate.evidence, 4),
-                    io::format_number(candidate.gain, 4), parameters_text(candidate),
-                    why_it_lost(candidate, d)});
+    if (candidate.whole)
+      rows.push_back({candidate.cause, io::format_number(candidate.evidence, 4),
+                      io::format_number(candidate.gain, 4), parameters_text(candidate),
+                      why_it_lost(candidate, d)});
+    else
+      rows.push_back({candidate.cause, "-", "-", parameters_text(candidate), left_early});
   }
   page.table({"cause", "evidence", "gain", "parameters", "why it lost"}, rows);
 }
@@ -200,6 +204,9 @@ void add_parameters(io::HtmlReport& page, const Diagnosis& d) {
   for (const NamedCause& cause : d.verdict.causes)
     for (const auto& [name, estimates] : cause.parameters)
       rows.push_back({cause.name + ", " + name, estimate_text(estimates)});
+  for (const auto& [name, estimate] : d.verdict.ratios)
+    rows.push_back(
+        {name + ", times the file's (only this ratio is seen closely)", estimate_text(estimate)});
   for (const std::string& name : d.unseen) rows.push_back({name, "these data cannot see it"});
   if (!rows.empty()) page.table({"parameter", "value"}, rows);
   if (d.best.why != "not run")

@@ -131,8 +131,11 @@ void add_rivals(io::HtmlReport& page, const Diagnosis& d) {
     const bool named = std::ranges::any_of(
         d.verdict.causes, [&](const NamedCause& cause) { return cause.name == candidate.cause; });
     if (named || rows.size() == most_competing_models) continue;
-    rows.push_back({candidate.cause, short_number(d.ranking.front().evidence - candidate.evidence),
-                    why_it_lost(candidate, d)});
+    const bool left = !candidate.whole;  // on its way, and so not to be compared
+    rows.push_back({candidate.cause,
+                    left ? "not fitted to the end"
+                         : short_number(d.ranking.front().evidence - candidate.evidence),
+                    left ? left_early : why_it_lost(candidate, d)});
   }
   if (!rows.empty()) page.table({"competing model", "behind (nats)", "why it lost"}, rows);
 }
@@ -213,6 +216,8 @@ void add_card(io::HtmlReport& page, const ReportData& report,
   if (concluded(v) && !remainder.empty()) page.paragraph(remainder);
   if (report.predicted && concluded(v)) add_symptom(page, report, pairs);
   add_causes(page, v);
+  const std::string ratios = ratios_text(v);
+  if (concluded(v) && !ratios.empty()) page.paragraph(ratios);
   const std::string gain = gain_text(d);
   if (concluded(v) && !gain.empty()) {
     page.subheading(v.outcome == Outcome::unknown ? "What is left" : "What it gains");

@@ -121,6 +121,17 @@ std::string why_it_lost(const Candidate& candidate, const Diagnosis& d) {
   return text;
 }
 
+std::string ratios_text(const Verdict& verdict) {
+  std::string text;
+  for (const auto& [name, ratio] : verdict.ratios) {
+    const double within = 100.0 * (ratio.high / ratio.value - 1.0);
+    text += (text.empty() ? "" : " ") + ("Of " + name) +
+            " these data see only the ratio closely: " + short_number(ratio.value) +
+            " times the file's, within " + short_number(within) + " %.";
+  }
+  return text;
+}
+
 std::string remainder_text(const Verdict& v) {
   if (v.remainder.empty()) return "";
   return (v.outcome == Outcome::unknown ? "What is known of it: " : "Still unexplained: ") +

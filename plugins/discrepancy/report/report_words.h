@@ -27,6 +27,12 @@ std::string parameters_text(const Candidate& candidate);
 /// Why a candidate lost against the best of the ranking, in words.
 std::string why_it_lost(const Candidate& candidate, const Diagnosis& diagnosis);
 
+/// The same of one that was not fitted to the end, and is not to be compared.
+inline constexpr const char* left_early = "fell far behind on its way";
+
+/// "Of youngs_modulus/density these data see the ratio alone, ..."; may be empty.
+std::string ratios_text(const Verdict& verdict);
+
 /// What is still unexplained, or what is known of something unknown, as sentences; may be empty.
 std::string remainder_text(const Verdict& verdict);
 

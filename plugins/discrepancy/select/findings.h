@@ -31,6 +31,8 @@ struct Findings {
   /// error moves it. A moment is known to a step at best, however precise the data: when in a step
   /// a grip lets go, or a sample is taken, two honest solvers do differently.
   Estimate estimate(const FitSummary& fit, int parameter) const;
+  /// By which errors of a fit are wider where more than noise is left.
+  double spread(const FitSummary& fit) const;
   /// Mean square of what is left beyond the noise, in units of it.
   double excess(const FitSummary& model) const;
   /// A candidate as an entry of the verdict; its effect is `fit`'s number `effect`.
@@ -38,7 +40,6 @@ struct Findings {
                    const Errors& errors) const;
 
  private:
-  double spread(const FitSummary& fit) const;
   std::string because(const std::string& cause, const Errors& errors) const;
 };
 

@@ -115,6 +115,8 @@ std::string to_json(const Verdict& verdict) {
                     {"unit", effect.unit}});
   Json parameters = Json::object();
   for (const auto& [name, estimate] : verdict.parameters) parameters[name] = to_json(estimate);
+  Json ratios = Json::object();
+  for (const auto& [name, estimate] : verdict.ratios) ratios[name] = to_json(estimate);
   Json json = {{"format", "pedicel-verdict"},
                {"version", 1},
                {"verdict", to_string(verdict.outcome)},
@@ -123,6 +125,7 @@ std::string to_json(const Verdict& verdict) {
                {"nearest", to_json(verdict.nearest)},
                {"rivals", competing},
                {"parameters", parameters},
+               {"ratios", ratios},
                {"error",
                 {{"fit", to_json(verdict.fit)},
                  {"check", to_json(verdict.check)},
@@ -208,15 +211,15 @@ std::string details(const Verdict& verdict) {
   return text;
 }
 
-}  // namespace
+// A refit that does worse than the file where it was not fitted is the first thing to know.
+std::string refit_that_misleads(const Verdict& verdict) {
+  if (!verdict.refit_misleads) return "";
+  return "Refitted to some trials the model is worse in the held-out ones than as the file says (" +
+         short_number(*verdict.check.refitted) + " times the noise in place of " +
+         short_number(*verdict.check.nominal) + "). ";
+}
 
-std::string headline(const Verdict& verdict) {
-  if (verdict.partial) {
-    Verdict whole = verdict;
-    whole.partial = false;
-    return "Cut short, so this is what is known: " +
-           (verdict.outcome == Outcome::unknown ? verdict.remainder + "." : headline(whole));
-  }
+std::string finding(const Verdict& verdict) {
   std::string names;
   for (const NamedCause& cause : verdict.causes) {
     const bool last = &cause == &verdict.causes.back();
@@ -245,6 +248,15 @@ std::string headline(const Verdict& verdict) {
       return "Our own numerical error is too large for these data: " + verdict.remainder;
   }
   return "";
+}
+
+}  // namespace
+
+std::string headline(const Verdict& verdict) {
+  const std::string first = refit_that_misleads(verdict);
+  if (!verdict.partial) return first + finding(verdict);
+  return "Cut short, so this is what is known: " + first +
+         (verdict.outcome == Outcome::unknown ? verdict.remainder + "." : finding(verdict));
 }
 
 }  // namespace pedicel::discrepancy

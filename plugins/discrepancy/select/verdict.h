@@ -67,15 +67,19 @@ struct Verdict {
   std::vector<NamedCause> nearest;  ///< under `unknown`: what came closest
   std::vector<CompetingModel> competing;
   std::map<std::string, Estimate> parameters;
+  /// "youngs_modulus/density": of the factors on the two, where the data see it far more closely
+  /// than either.
+  std::map<std::string, Estimate> ratios;
   Errors fit, check;
   std::optional<double> gain;               ///< over the refitted model, on held-out trials
   std::optional<double> gain_over_nominal;  ///< likewise
   std::string remainder;
   std::vector<DetectableLimit> detectable_limits;
   std::string next_experiment;
-  std::string extended_plant;  ///< file name, empty where there is none
-  std::string next;            ///< file of the experiment that decides; empty where there is none
-  bool partial = false;        ///< the search was cut short
+  std::string extended_plant;   ///< file name, empty where there is none
+  std::string next;             ///< file of the experiment that decides; empty where there is none
+  bool partial = false;         ///< the search was cut short
+  bool refit_misleads = false;  ///< the refit makes the held-out trials worse
   long simulations = 0;
   double seconds = 0.0;
 };

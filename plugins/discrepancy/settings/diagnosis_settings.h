@@ -22,6 +22,9 @@ struct Levels {
   double winsorised_at = 4.0;           ///< noise units
   double held_out_deviations = 6.0;     ///< deviations
   double held_out_excess = 0.1;         ///< of the noise's square
+  double held_out_worse = 1.05;         ///< of an error
+  double impossible_force = 20.0;       ///< times what was measured
+  double impossible_refit = 2.0;        ///< the same when it is refitted
   double needed_deviations = 3.5;       ///< deviations
   double least_factor_change = 0.0015;  ///< of a logarithm
   double known_to = 0.01;               ///< of a number

@@ -56,6 +56,19 @@ void add_alarms(Levels& l, SettingRows& rows) {
              "Of the noise's square: the least excess with which a held-out trial objects.",
              {measured, "bench of hidden effects; no figure was kept",
               "Weak effects in held-out trials alone are missed."});
+  rows.number("held_out_worse", l.held_out_worse,
+              "Times the error without it at which a force or a refit makes held-out trials worse.",
+              {derived, "chance moves the error of some hundred samples by 5 %",
+               "Forces are told that hold for the fitted trials alone."});
+  rows.number(
+      "impossible_force", l.impossible_force,
+      "Times the measured force that a model may need at a hold before the drive is refused.",
+      {derived, "moduli of plants are known to a factor of ten",
+       "A path in the wrong place is taken for a missing effect."});
+  rows.number("impossible_refit", l.impossible_refit,
+              "Times that force which the refitted model must need for that, too.",
+              {derived, "a modulus that was far off is mended by the refit",
+               "A path in the wrong place is taken for a missing effect."});
 }
 
 void add_parameters(Levels& l, SettingRows& rows) {

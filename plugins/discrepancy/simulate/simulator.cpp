@@ -14,7 +14,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr int widest = 8;  // plants side by side: the solver's lanes
-constexpr std::size_t cache_bytes = 256u << 20;
+constexpr std::size_t cache_bytes = 24u << 20;
 
 using Effects = std::vector<plant::Effect>;
 

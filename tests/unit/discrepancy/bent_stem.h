@@ -62,13 +62,15 @@ struct BentStem {
 
   /// About a model that is fitted from `start` in so many iterations.
   MissingForce infer(const Hypothesis& start = baseline(), int iterations = 60,
-                     double least_evidence = 0.0) const {
+                     double least_evidence = 0.0, std::vector<int> trials = {0, 1},
+                     std::vector<int> check = {}) const {
     DataSet data(experiment);
     data.set_noise(white_noise(noise_std), white_noise(1.0));
     Simulator simulator(experiment, {0.04, 1.0 / 480}, 1);
     Evaluator evaluator(simulator, data);
     MissingForceOptions options;
-    options.fit.trials = {0, 1};
+    options.fit.trials = std::move(trials);
+    options.check = std::move(check);
     options.least_evidence = least_evidence;
     FitOptions around = options.fit;
     around.iterations = iterations;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "pedicel/discrepancy/procedure/seen_ratios.h"
 #include "unit/discrepancy/made_diagnosis.h"
 
 namespace pedicel::discrepancy {
@@ -536,6 +537,45 @@ TEST(Conclusion, MeasuresErrorsAndTheGainOnTrialsKeptBack) {
   const double share = std::sqrt(18.0 / 21.0);
   EXPECT_NEAR(*v.check.refitted, 3.0 * share, 1e-9);
   EXPECT_NEAR(*v.gain, 1.5 * share / (3.0 * share - 1.0), 1e-9);
+}
+
+TEST(Conclusion, SaysWhereARefitMisleads) {
+  for (const double nominal_error : {2.9e-3, 2.7e-3}) {
+    Case c;
+    c.data.set_noise(white_noise(1e-3), white_noise(1.0));
+    for (const int model : {nominal, refitted, extended}) {
+      c.diagnosis.predictions[model] = c.made.predictions;
+      for (Prediction& p : c.diagnosis.predictions[model])
+        p.markers.array() += model == nominal ? nominal_error : 3e-3;
+    }
+    measure_errors(c.findings, c.diagnosis);
+    EXPECT_EQ(c.diagnosis.verdict.refit_misleads, nominal_error < 2.8e-3);
+  }
+}
+
+// The derivatives of a swing by the logarithms of modulus and density are nearly opposite.
+TEST(Conclusion, TellsTheRatioThatAloneIsSeen) {
+  Case c;
+  FitSummary& fit = c.diagnosis.best;
+  fit.hypothesis = with(hypothesis_of("youngs_modulus", "factor", 1.5, "1"),
+                        hypothesis_of("density", "factor", 1.25, "1"));
+  fit.cost = 0.5 * c.findings.samples();
+  fit.jacobian.resize(200, 2);
+  for (int i = 0; i < 200; ++i) {
+    const double ratio = std::sin(0.3 * i), both = 0.01 * std::cos(0.7 * i);
+    fit.jacobian.row(i) << 10.0 * (ratio + both), 10.0 * (both - ratio);
+  }
+  report_ratios(c.findings, c.diagnosis);
+  ASSERT_EQ(c.diagnosis.verdict.ratios.size(), 1u);
+  const Estimate ratio = c.diagnosis.verdict.ratios.at("youngs_modulus/density");
+  EXPECT_NEAR(ratio.value, 1.2, 1e-12);
+  // 100 cycles' worth of squares: the error of the logarithm is 1 / (10 sqrt 100).
+  EXPECT_NEAR(std::log(ratio.high / ratio.value), 1.96 * 0.01, 0.1 * 1.96 * 0.01);
+
+  fit.jacobian.col(1).setRandom();
+  c.diagnosis.verdict.ratios.clear();
+  report_ratios(c.findings, c.diagnosis);
+  EXPECT_TRUE(c.diagnosis.verdict.ratios.empty()) << "each is seen as closely";
 }
 
 TEST(Conclusion, ReportsTheMaterialInItsOwnUnits) {

@@ -128,6 +128,22 @@ TEST(MissingForce, IsNotFollowedWhereItScoresTooLittle) {
 }
 
 // 0.6 mN at 1.7 Hz.
+// A push that turned round between the trials explains the first and spoils the second.
+TEST(MissingForce, IsNoFindingWhereItMakesHeldOutTrialsWorse) {
+  BentStem bent, other;
+  const auto push = [](double size) {
+    return at(0.7, [size](double, const Vec3&, const Vec3&) -> Vec3 { return Vec3(0, size, 0); });
+  };
+  bent.measure({push(0.01)}, 9);
+  other.measure({push(-0.01)}, 10);
+  EXPECT_TRUE(bent.infer(baseline(), 60, 0.0, {0}, {1}).found);
+  bent.experiment.trials[1] = other.experiment.trials[1];
+  const MissingForce found = bent.infer(baseline(), 60, 0.0, {0}, {1});
+  EXPECT_FALSE(found.found);
+  EXPECT_NE(found.sentence().find("the held-out ones are worse"), std::string::npos)
+      << found.sentence();
+}
+
 TEST(MissingForce, PeriodicPush) {
   BentStem bent;
   bent.measure({at(0.6,

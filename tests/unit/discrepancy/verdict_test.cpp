@@ -34,6 +34,7 @@ Verdict full() {
   v.causes = {spring, offset};
   v.competing = {{"weak_segment", 88.1}};
   v.parameters["youngs_modulus"] = {3.1e8, 3.0e8, 3.2e8, "Pa"};
+  v.ratios["youngs_modulus/density"] = {1.02, 1.0, 1.04, "1"};
   v.fit = {4.1, 2.2, 1.03};
   v.check = {4.4, 2.6, 1.08};
   v.gain = 0.96;
@@ -53,11 +54,11 @@ std::vector<std::string> keys(const Json& json) {
 
 TEST(Verdict, HasTheFieldsOfTheFormat) {
   const Json json = Json::parse(to_json(full()));
-  EXPECT_THAT(
-      keys(json),
-      ElementsAre("format", "version", "verdict", "causes", "details", "nearest", "rivals",
-                  "parameters", "error", "gain", "gain_over_nominal", "remainder", "could_hide",
-                  "next_experiment", "extended_plant", "next", "simulations", "seconds"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("format", "version", "verdict", "causes", "details", "nearest", "rivals",
+                          "parameters", "ratios", "error", "gain", "gain_over_nominal", "remainder",
+                          "could_hide", "next_experiment", "extended_plant", "next", "simulations",
+                          "seconds"));
   EXPECT_EQ(json["format"], "pedicel-verdict");
   EXPECT_EQ(json["version"], 1);
   EXPECT_EQ(json["verdict"], "ambiguous");
@@ -72,6 +73,7 @@ TEST(Verdict, HasTheFieldsOfTheFormat) {
   EXPECT_EQ(cause["share"], Json::parse(R"({"fit": 0.93, "check": null})"));
   EXPECT_EQ(cause["change"], Json::parse(R"({"marker": {"value": 0.004, "unit": "m"},
                                              "force": {"value": 0.2, "unit": "N"}})"));
+  EXPECT_EQ(json["ratios"]["youngs_modulus/density"]["value"], 1.02);
   EXPECT_EQ(json["rivals"], Json::parse(R"([{"name": "weak_segment", "behind": 88.1}])"));
   EXPECT_EQ(json["parameters"]["youngs_modulus"]["high"], 3.2e8);
   EXPECT_EQ(json["error"]["fit"],
@@ -121,6 +123,18 @@ TEST(Verdict, HasAnExitCodeForEveryOutcome) {
   EXPECT_EQ(exit_code(Outcome::bad_data), 13);
   EXPECT_EQ(exit_code(Outcome::numerical), 14);
   EXPECT_EQ(to_string(Outcome::bad_data), "bad_data");
+}
+
+TEST(Headline, BeginsWithARefitThatMisleads) {
+  Verdict v = full();
+  v.check = {1.4, 2.6, 1.3};
+  v.refit_misleads = true;
+  const std::string first =
+      "Refitted to some trials the model is worse in the held-out ones than as the file says (2.6 "
+      "times the noise in place of 1.4). ";
+  EXPECT_TRUE(headline(v).starts_with(first + "Something is missing")) << headline(v);
+  v.partial = true;
+  EXPECT_TRUE(headline(v).starts_with("Cut short, so this is what is known: " + first));
 }
 
 TEST(Headline, SaysHowSureItIs) {
