@@ -104,9 +104,13 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
     // The closest start is this far off, so those behind it are lost as well.
     if (found.front().cost > limits.at(budget.lost_at_once)) break;
   }
+  // Nor does a start go on that is as far behind the best start of its own cause.
+  Limits own = limits;
+  own.base = base.cost;
+  for (const FitSummary& one : found) own.least = std::min(own.least, one.cost);
   FitSummary best;
   for (const int i : first_by(closeness, look.leading)) {
-    const bool goes_on = rest.iterations > 0 && found[i].cost <= most;
+    const bool goes_on = rest.iterations > 0 && found[i].cost <= own.at(budget.lost_early);
     keep_better(best, goes_on ? refit(evaluator, found[i], rest) : std::move(found[i]));
   }
   const std::array growing_horizons{0.5 * budget.candidate_horizon, budget.candidate_horizon, 1.0};
@@ -307,6 +311,8 @@ class Refits {
       std::vector<Hypothesis> starts =
           continued(base_.hypothesis, from->fit.hypothesis, cause, budget_.gust_start);
       Evaluator& evaluator = coarse_.front();
+      starts = promising(evaluator, from->fit, starts);
+      if (starts.empty()) continue;
       starts = by_cost(starts, scan(evaluator, starts, options_.fit));
       // The scan has told which are worth a fit.
       starts.resize(std::min(static_cast<std::size_t>(budget_.special_starts), starts.size()));
@@ -314,6 +320,23 @@ class Refits {
                                     Look{budget_.extended_iterations, budget_.extended_starts},
                                     Limits{&budget_}));
     }
+  }
+
+  // Those whose change of the special case's prediction would gain more than chance gives, with
+  // the size that fits best and the special case's own numbers refitted: to first order, which
+  // costs a simulation each in place of a fit.
+  std::vector<Hypothesis> promising(Evaluator& evaluator, const FitSummary& special,
+                                    const std::vector<Hypothesis>& starts) const {
+    const Eigen::MatrixXd residuals = evaluator.residuals(starts, options_.fit);
+    std::vector<Hypothesis> found;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      const Eigen::VectorXd change = projected_out(
+          special.jacobian, residuals.col(static_cast<Eigen::Index>(i)) - special.residual);
+      const double gain =
+          0.5 * std::pow(change.dot(special.residual), 2) / std::max(change.squaredNorm(), 1e-12);
+      if (gain > options_.fit.settings->levels.clear_margin) found.push_back(starts[i]);
+    }
+    return found;
   }
 
   Candidate* whole_one(const std::string& cause) {
