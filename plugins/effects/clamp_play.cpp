@@ -39,7 +39,16 @@ EffectDefinition define_clamp_play() {
                              t.error("clamp_play and " + std::string(beside) +
                                      " at one root, expected one of them there");
                          }};
+  d.starts = [](const StartContext&) {
+    std::vector<Start> starts;
+    for (const double angle : {0.01, 0.05})
+      starts.push_back(Start("clamp_play").positive("angle", angle, 1e-5, 0.5));
+    return starts;
+  };
+  // Upright stems fall to either side of their play: which one no prediction says.
+  d.is_candidate = false;
   d.tells_apart = "push the stem to and fro by little at the root: play gives way without a force";
+  d.has_threshold = true;
   return d;
 }
 

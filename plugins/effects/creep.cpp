@@ -41,7 +41,7 @@ EffectDefinition define_creep() {
   d.starts = [](const StartContext& c) {
     std::vector<Start> starts;
     const double longest = c.scales.duration;
-    for (const char* from : {"settled", "unloaded"})
+    for (const char* from : {"settled", "unloaded", "hung"})
       starts.push_back(Start("creep")
                            .word("start", from)
                            .positive("fraction", 0.2, 1e-3, 0.95)

@@ -37,6 +37,17 @@ EffectDefinition define_hysteresis() {
                                                       t.number("exponent"));
                            });
                          }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const double largest = c.scales.root_stiffness * c.scales.length * c.scales.curvature;
+    for (const double part : {0.1, 0.5})
+      starts.push_back(Start("hysteresis")
+                           .fixed("exponent", {1.0})
+                           .positive("moment", part * largest, 1e-4 * largest, 20 * largest)
+                           .positive("ratio", 0.2, 1e-3, 0.95));
+    return starts;
+  };
+  d.speaks_for = {{"loop_area", 2}, {"frequency_by_amplitude", 4}, {"damping_by_amplitude", 4}};
   d.tells_apart = "push to and fro by less and less: loops within loops";
   return d;
 }

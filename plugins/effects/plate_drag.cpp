@@ -50,6 +50,16 @@ EffectDefinition define_plate_drag() {
         });
         if (twice) t.error("plate_drag twice on one curve, expected it once");
       }};
+  d.starts = [](const StartContext&) {
+    std::vector<Start> starts;
+    for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+      starts.push_back(Start("plate_drag")
+                           .fixed("direction", {direction.x(), direction.y(), direction.z()})
+                           .positive("normal", 0.03, 1e-5, 10.0)
+                           .positive("tangential", 0.003, 1e-6, 10.0));
+    return starts;
+  };
+  d.speaks_for = {{"damping", 5}, {"damping_by_amplitude", 4}, {"damping_by_mode", 4}};
   d.tells_apart = "release it along the plate and across it";
   return d;
 }

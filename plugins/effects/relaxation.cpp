@@ -47,6 +47,10 @@ EffectDefinition define_relaxation() {
                              .word("start", from)
                              .positive("fraction", 0.1, 1e-3, 0.95)
                              .positive("time", time * longest, 1e-3 * longest, longest));
+    starts.push_back(Start("relaxation")
+                         .word("start", "hung")
+                         .positive("fraction", 0.2, 1e-3, 0.95)
+                         .positive("time", 0.4 * longest, 1e-3 * longest, longest));
     return starts;
   };
   d.speaks_for = {{"loop_area", 2}, {"force_drift", 1}};

@@ -57,6 +57,14 @@ void bend(ModelTarget& t) {
     t.error("rest_shape has a normal along the curve, expected one across it everywhere on it");
 }
 
+// A unit vector across the chord of a curve: of the world's axes the one that is farthest from it.
+Vec3 across(const plant::PlantCurve& curve) {
+  const Vec3 chord = (curve.points.back() - curve.points.front()).cwiseAbs();
+  int axis = 0;
+  chord.minCoeff(&axis);
+  return Vec3::Unit(axis);
+}
+
 }  // namespace
 
 // A thing that is curved without load otherwise than its file says, where that shape is not known.
@@ -92,6 +100,22 @@ EffectDefinition define_rest_shape() {
       node.error("rest_shape has a normal of length 0, expected a direction [x, y, z]");
   };
   d.change = ModelChange{Stage::constants, bend};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const double small = 0.03 / c.scales.length, most = 10.0 / c.scales.length;
+    for (const plant::PlantCurve& curve : c.plant.curves) {
+      const Vec3 normal = across(curve);
+      for (const bool first : {true, false})
+        starts.push_back(
+            Start("rest_shape")
+                .place(curve.name, 0.5)
+                .fixed("normal", {normal.x(), normal.y(), normal.z()})
+                .pair("curvature", first ? small : 0.0, first ? 0.0 : small, small, most)
+                .pair("gradient", 0.0, 0.0, small / c.scales.length, most / c.scales.length));
+    }
+    return starts;
+  };
+  d.speaks_for = {{"excess_curvature", 3}, {"constant_offset", 3}};
   d.tells_apart = "turn it about its own axis: its own shape turns with it, what hangs does not";
   return d;
 }

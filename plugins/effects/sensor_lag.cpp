@@ -27,6 +27,18 @@ EffectDefinition define_sensor_lag() {
     const bool force = effect.words.at("what") == "force";
     (force ? sensor.force_lag : sensor.marker_lag) += effect.number("time");
   }};
+  d.starts = [](const StartContext& c) {
+    std::vector<Start> starts;
+    const auto add = [&](const char* what) {
+      const double time = std::max(c.scales.sample_time, 1.0e-3);
+      starts.push_back(
+          Start("sensor_lag").word("what", what).positive("time", 2.0 * time, 0.02 * time, 1.0));
+    };
+    if (c.force) add("force");
+    add("markers");
+    return starts;
+  };
+  d.speaks_for = {{"time_shift", 2}};
   d.tells_apart =
       "shake at two frequencies: a lag makes the faster motion smaller, a delay only makes it late";
   return d;

@@ -35,7 +35,7 @@ class Draw {
   }
 
   HiddenEffect run() {
-    if (!constants() && !laws() && !air() && !instruments() && !strangers())
+    if (!constants() && !laws() && !later() && !air() && !instruments() && !strangers())
       throw std::invalid_argument("no effect is called " + name_);
     return result_;
   }
@@ -135,6 +135,53 @@ class Draw {
     else
       return false;
     return true;
+  }
+
+  // Fills in words as well.
+  void say(const std::string& name, const std::string& key, const std::string& word) {
+    result_.add = [name, key, word, add = result_.add](double size, Subject& subject) {
+      add(size, subject);
+      subject.effects.back().name = name;
+      subject.effects.back().words[key] = word;
+    };
+  }
+
+  bool later() {
+    if (name_ == "sensor_lag" || name_ == "force_lag") {
+      set(3e-3, 0.3, [](double u) { return Numbers{{"time", {u}}}; });
+      say("sensor_lag", "what", name_ == "force_lag" ? "force" : "markers");
+    } else if (name_ == "hung_relaxation") {
+      memory(random_.uniform(0.15, 0.4) * scale_.longest);
+      say("relaxation", "start", "hung");
+    } else if (name_ == "rest_shape") {
+      set(0.02, 2.0 / scale_.reach, plant::CurvePlace{setting_.hold.curve, 0.5, {}},
+          [a = turn_](double u) {
+            return Numbers{{"curvature", {u * std::cos(a), u * std::sin(a)}},
+                           {"gradient", {0.0, 0.0}},
+                           {"normal", {1.0, 0.0, 0.0}}};
+          });
+    } else if (name_ == "plate_drag") {
+      set(0.005, 0.3, [d = across()](double u) {
+        return Numbers{{"normal", {u}}, {"tangential", {0.1 * u}}, {"direction", list(d)}};
+      });
+    } else if (name_ == "hysteresis") {
+      set(0.03, 0.6,
+          [m = random_.uniform(0.1, 0.4) * scale_.most_curvature * stem_stiffness()](double u) {
+            return Numbers{{"moment", {m}}, {"exponent", {1.0}}, {"ratio", {u}}};
+          });
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // N m2, at the foot of the stem.
+  double stem_stiffness() const {
+    const plant::PlantCurve& stem =
+        setting_.plant.curves[setting_.plant.curve_index(setting_.hold.curve)];
+    const double modulus =
+        stem.material.youngs_modulus.value_or(setting_.plant.material.youngs_modulus.value_or(0.0));
+    return 0.25 * M_PI * modulus * std::pow(stem.radius.front(), 4);
   }
 
   void memory(double time) {
@@ -297,7 +344,15 @@ const std::vector<EffectUse>& effect_uses() {
 
 const std::vector<EffectUse>& later_uses() {
   using enum PackKind;
-  static const std::vector<EffectUse> uses = {{"asymmetry", {push, mix, release, weights}}};
+  static const std::vector<EffectUse> uses = {
+      {"asymmetry", {push, mix, release, weights}},
+      {"sensor_lag", {sweep, release, mix}},
+      {"force_lag", {push, mix}},
+      {"hung_relaxation", {mix, weights, push}, true},
+      {"rest_shape", {mix, weights, release, push}},
+      {"plate_drag", {release, mix, sweep}},
+      {"hysteresis", {push, mix, release}},
+  };
   return uses;
 }
 

@@ -9,7 +9,9 @@ namespace pedicel::hidden {
 
 /// One thing that can be hidden, as a function of one size: nothing at size 0, more with more.
 struct HiddenEffect {
-  std::string name;      ///< of an effect, or string, stake, push, attraction
+  /// Of an effect, or string, stake, push, attraction; force_lag and hung_relaxation are kinds of
+  /// sensor_lag and relaxation.
+  std::string name;
   double guess = 0.0;    ///< a first size to try
   double cap = 0.0;      ///< the largest that makes sense
   bool outside = false;  ///< no effect stands for it

@@ -139,6 +139,13 @@ class List {
     for (const double t : {1.0, 2.0, 3.0})
       slips.push_back({effect("grip_slip", {{"distance", {2e-3}}, {"time", {t}}})});
     add("grip_slip", slips);
+    Effect lag = effect("sensor_lag", {{"time", {3e-3}}});
+    Ways lags;
+    for (const char* what : {"markers", "force"}) {
+      lag.words["what"] = what;
+      lags.push_back({lag});
+    }
+    add("sensor_lag", lags);
     add("frame_rotation", {axes("frame_rotation", "rotation", 1e-3, {})});
     std::vector<Effect> sensor = axes("force_gain", "offset", 1e-3, {{"gain", {1.0}}});
     sensor.push_back(effect("force_gain", {{"gain", {1.005}}, {"offset", {0, 0, 0}}}));
@@ -174,8 +181,11 @@ bool contains(const std::string& cause, const std::string& special) {
 std::vector<OtherCause> other_causes(const std::string& truth, const Setting& setting,
                                      const Scale& scale) {
   std::vector<OtherCause> causes = List(setting, scale).take();
+  const std::string name = truth == "force_lag"         ? "sensor_lag"
+                           : truth == "hung_relaxation" ? "relaxation"
+                                                        : truth;
   std::erase_if(causes, [&](const OtherCause& cause) {
-    return cause.name == truth || contains(cause.name, truth);
+    return cause.name == name || contains(cause.name, name);
   });
   return causes;
 }

@@ -215,6 +215,95 @@ TEST(ReferenceEffects, LeafDragSlowsLargeSwingsMore) {
               0.03 * 4 * c * w / (3 * M_PI * I));
 }
 
+// A plate across the swing is such drag with its normal's area, one along it with the other's.
+TEST(ReferenceEffects, APlateDragsByItsSides) {
+  const auto last = [](const plant::Effect& e) {
+    return peaks(hinge({e}), 0.2, 1.0).back().second;
+  };
+  const auto plate = [](const Vec3& n) {
+    return effect(
+        "plate_drag",
+        {{"normal", {0.1}}, {"tangential", {0.02}}, {"direction", {n.x(), n.y(), n.z()}}});
+  };
+  const double wide = last(effect("leaf_drag", {{"drag_area", {0.1}}}));
+  const double narrow = last(effect("leaf_drag", {{"drag_area", {0.02}}}));
+  EXPECT_NEAR(last(plate(Vec3::UnitY())), wide, 1e-3 * wide);
+  EXPECT_NEAR(last(plate(Vec3::UnitX())), narrow, 1e-3 * narrow);
+  EXPECT_GT(narrow, 1.05 * wide);
+}
+
+// Dahl's first way: M = (1 - r) K phi + r K R (1 - exp(-phi/R)), and back by a from phi_1 with
+// z = R - (R - z_1) ... of the other sign: dz = -(1 + z/R) da.
+TEST(ReferenceEffects, HysteresisFollowsDahl) {
+  const double ratio = 0.4, reach = 0.03, far = 0.1;
+  const auto M =
+      moments(hinge({effect("hysteresis",
+                            {{"ratio", {ratio}}, {"moment", {K * reach}}, {"exponent", {1.0}}})}),
+              turned(2.0, [&](double t) { return far * (1 - std::abs(1 - t)); }));
+  const auto there = [&](double phi) { return reach * (1 - std::exp(-phi / reach)); };
+  const auto back = [&](double a) { return (there(far) + reach) * std::exp(-a / reach) - reach; };
+  for (const double phi : {0.02, 0.06, 0.1})
+    EXPECT_NEAR(M[std::lround(phi / far / 0.005)], K * ((1 - ratio) * phi + ratio * there(phi)),
+                2e-3 * K * far)
+        << phi;
+  for (const double a : {0.02, 0.06, 0.1})
+    EXPECT_NEAR(M[std::lround((1 + a / far) / 0.005)],
+                K * ((1 - ratio) * (far - a) + ratio * back(a)), 2e-3 * K * far)
+        << a;
+}
+
+// Hung for hours it leans by w L/2 / ((1 - f) K); a load that comes then is answered by all of K.
+TEST(ReferenceEffects, WhatHungLongAnswersALoadStiffly) {
+  const double f = 0.4, tau = 0.5, g = 1.0, load = 0.01;
+  plant::Effect hung = effect("relaxation", {{"fraction", {f}}, {"time", {tau}}});
+  hung.words["start"] = "hung";
+  TrialPlan t;
+  t.gravity = Vec3(0, g, 0);
+  const plant::CurvePlace end{"stem", 1.0, {}};
+  const auto angle = [&](const TrialPlan& plan) {
+    return std::asin(settled_point(hinge({hung}), plan, end, {1.0, 0.005}).y() / L);
+  };
+  const double leaning = m * g * L / 2 / ((1 - f) * K);
+  EXPECT_NEAR(angle(t), leaning, 1e-3 * leaning);
+  t.loads = {{end, Vec3(0, load, 0)}};
+  EXPECT_NEAR(angle(t) - leaning, load * L / K, 0.01 * load * L / K);
+}
+
+// An arc: its tip lies (1 - cos(k L)) / k to the side.
+TEST(ReferenceEffects, RestShapeIsAnArc) {
+  const double k = 3.0;
+  const plant::CurvePlace end{"stem", 1.0, {}};
+  TrialPlan t;
+  t.gravity.setZero();
+  const auto tip_of = [&](std::vector<double> curvature) {
+    return settled_point(
+        hinge({effect("rest_shape",
+                      {{"curvature", curvature}, {"gradient", {0, 0}}, {"normal", {0, 1, 0}}},
+                      plant::CurvePlace{"stem", 0.5, {}})}),
+        t, end, {0.002, 0.005});
+  };
+  const double side = (1 - std::cos(k * L)) / k;
+  EXPECT_NEAR(tip_of({k, 0}).x(), side, 1e-3 * side);  // about y: towards x
+  EXPECT_NEAR(tip_of({0, k}).y(), side, 1e-3 * side);  // about z x y = -x: towards y
+}
+
+// Of a sine a lag leaves 1 / sqrt(1 + (w tau)^2), both of what markers and of what a force sensor
+// show.
+TEST(ReferenceEffects, LaggingSensors) {
+  const double T = 0.5, A = 0.05, tau = 0.06, kept = 1 / std::hypot(1.0, 2 * M_PI / T * tau);
+  const TrialPlan plan = turned(3.0, [&](double t) { return A * std::sin(2 * M_PI * t / T); });
+  const auto largest = [&](const char* what, const auto& of) {
+    plant::Effect lag = effect("sensor_lag", {{"time", {tau}}});
+    lag.words["what"] = what;
+    const Record record = run_trial(hinge({lag}), plan, tip, {1.0, 0.001});
+    return of(record).col(1).tail(200).cwiseAbs().maxCoeff();
+  };
+  const auto markers = [](const Record& r) -> const Eigen::MatrixXd& { return r.markers; };
+  const auto force = [](const Record& r) -> const Eigen::MatrixXd& { return r.force; };
+  EXPECT_NEAR(largest("markers", markers) / largest("force", markers), kept, 0.01);
+  EXPECT_NEAR(largest("force", force) / largest("markers", force), kept, 0.01);
+}
+
 double tip_shift(const std::vector<plant::Effect>& effects, const Vec3& force, double spacing,
                  const Vec3& gravity = Vec3::Zero()) {
   TrialPlan t;

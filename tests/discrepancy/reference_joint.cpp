@@ -28,6 +28,25 @@ double slip_limit(const Joint& joint, const JointLaw& law, const Vec3& stretch, 
   return limit;
 }
 
+// Bouc-Wen's z over K after a joint has turned by `turn` (rad, bending), by Heun's method: along z
+// dz = dphi - |z/reach|^exponent |dphi|, across it dz = dphi.
+Vec3 wind(Vec3 wound, const Vec3& turn, double reach, double exponent) {
+  constexpr int parts = 40;
+  Eigen::Vector2d z = wound.head<2>();
+  const Eigen::Vector2d d = turn.head<2>() / parts;
+  const auto change = [&](const Eigen::Vector2d& at) -> Eigen::Vector2d {
+    const double size = at.norm();
+    if (size < 1e-15) return d;
+    return d - std::pow(size / reach, exponent) * std::abs(d.dot(at / size)) * (at / size);
+  };
+  for (int i = 0; i < parts; ++i) {
+    const Eigen::Vector2d first = change(z);
+    z += 0.5 * (first + change(z + first));
+  }
+  wound.head<2>() = z;
+  return wound;
+}
+
 }  // namespace
 
 JointOutput evaluate(const Joint& joint, const JointLaw& law, const JointInput& in,
@@ -58,9 +77,21 @@ JointOutput evaluate(const Joint& joint, const JointLaw& law, const JointInput& 
     const Vec3 elastic = out.phi - out.past.plastic;
     strain.head<2>() += law.slider_ratio * (slider - elastic).head<2>();
   }
-  for (std::size_t m = 0; m < law.memory.size() && in.stage > 0.0; ++m) {
+  if (law.hysteresis_ratio > 0.0) {
+    const double softer = std::min(joint.stiffness(0, 0), joint.stiffness(1, 1));
+    out.past.moved = out.phi - in.settled;
+    if (in.stage > 0.0)
+      out.past.wound = wind(in.past.wound, out.past.moved - in.past.moved,
+                            law.hysteresis_moment / softer, law.hysteresis_exponent);
+    strain.head<2>() += law.hysteresis_ratio * (out.past.wound - out.phi).head<2>();
+  }
+  for (std::size_t m = 0; m < law.memory.size(); ++m) {
     const MemoryTerm& term = law.memory[m];
-    const Vec3 moved = out.phi - in.settled;
+    if (in.stage <= 0.0) {
+      if (term.hung) strain -= term.share * in.hung;
+      continue;
+    }
+    const Vec3 moved = term.hung ? out.phi : Vec3(out.phi - in.settled);
     q[m] = (q_known[m] + in.stage / term.time * moved) / (1.0 + in.stage / term.time);
     strain += term.instant * moved - term.share * q[m];
   }

@@ -8,6 +8,8 @@ namespace pedicel::reference {
 struct JointPast {
   Vec3 slip = Vec3::Zero();     ///< rad, of the slider
   Vec3 plastic = Vec3::Zero();  ///< rad, permanent
+  Vec3 moved = Vec3::Zero();    ///< rad, phi from the settled one, where `wound` is known
+  Vec3 wound = Vec3::Zero();    ///< rad, Bouc-Wen's z over K
 };
 
 /// One evaluation of a joint within a Runge-Kutta stage.
@@ -15,6 +17,7 @@ struct JointInput {
   Quat relative;                ///< child to parent
   Vec3 rate = Vec3::Zero();     ///< rad/s, relative, in the child's frame
   Vec3 settled = Vec3::Zero();  ///< rad, phi at time 0
+  Vec3 hung = Vec3::Zero();     ///< rad, phi to which hung terms had relaxed
   JointPast past;               ///< at the step's start: sliding does not depend on the rate
   double stiffening = 1.0;      ///< of E, by drift
   double stage = 0.0;           ///< s, gamma h; 0: time 0, everything unrelaxed

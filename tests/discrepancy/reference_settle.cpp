@@ -69,6 +69,7 @@ bool Solver::settle() {
   past_ = trial_past_;
   for (int i = 0; i < n; ++i)
     settled_[i] = rotation_log(tree_.segments[i].joint.rest.conjugate() * relative_[i]);
+  for (JointPast& past : past_) past.moved.setZero();
   place_bodies();
   return settled;
 }

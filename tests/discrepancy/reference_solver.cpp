@@ -29,7 +29,8 @@ Solver::Solver(Tree tree, Surroundings surroundings)
   const std::size_t memories = n * tree_.law.memory.size();
   for (const Segment& s : tree_.segments) relative_.push_back(s.joint.rest);
   trial_relative_ = relative_;
-  for (auto* v : {&rate_, &trial_rate_, &accel_, &settled_, &torque_}) v->assign(n, Vec3::Zero());
+  for (auto* v : {&rate_, &trial_rate_, &accel_, &settled_, &hung_, &torque_})
+    v->assign(n, Vec3::Zero());
   past_.resize(n);
   trial_past_.resize(n);
   for (auto* v : {&q_, &q_known_, &trial_q_}) v->assign(memories, Vec3::Zero());
@@ -47,6 +48,14 @@ Solver::Solver(Tree tree, Surroundings surroundings)
     clamp_.p = tree_.root;
   }
   place_bodies();
+}
+
+void Solver::hang(const std::vector<Vec3>& phi) {
+  hung_ = phi;
+  const std::size_t memories = tree_.law.memory.size();
+  for (int i = 0; i < tree_.size(); ++i)
+    for (std::size_t m = 0; m < memories; ++m)
+      if (tree_.law.memory[m].hung) q_[i * memories + m] = phi[i];
 }
 
 // Poses, velocities and accelerations of the iterate, from the root on.
@@ -103,8 +112,16 @@ void Solver::gather(double inertia_scale, double weight, double time, double mid
       const Vec3 arm = 0.5 * b.step, axis = b.R.col(2);
       const double gust = 1.0 + air.amplitude * std::sin(2.0 * M_PI * air.frequency * time);
       Vec3 u = gust * air.velocity - (b.v + b.w.cross(arm));
-      u -= u.dot(axis) * axis;
-      const Vec3 force = 0.5 * air_density * air.area * s.length * u.norm() * u;
+      const double whole = 0.5 * air_density * s.length;
+      Vec3 force;
+      if (air.normal.isZero(0.0)) {
+        u -= u.dot(axis) * axis;
+        force = whole * air.area * u.norm() * u;
+      } else {
+        const Vec3 n = b.R * (s.drawn.conjugate() * air.normal), along = u.dot(n) * n;
+        force = whole *
+                (air.area * along.norm() * along + air.across * (u - along).norm() * (u - along));
+      }
       b.n -= arm.cross(force);
       b.f -= force;
     }
@@ -179,6 +196,7 @@ void Solver::joint_terms(double gh, bool dynamic) {
     in.relative = trial_relative_[i];
     in.rate = trial_rate_[i];
     in.settled = settled_[i];
+    in.hung = hung_[i];
     in.past = past_[i];
     in.stiffening = 1.0 + tree_.law.drift_rate * now;
     in.stage = dynamic ? gh : 0.0;

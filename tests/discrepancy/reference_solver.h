@@ -44,6 +44,10 @@ class Solver {
 
   /// Static equilibrium at time 0. False where it was not reached.
   bool settle();
+  /// phi (rad) of every joint as it settled.
+  const std::vector<Vec3>& settled() const { return settled_; }
+  /// Where hung memory terms had relaxed to, as settled() of the relaxed plant; before settle().
+  void hang(const std::vector<Vec3>& phi);
   /// Advances by h (s).
   void step(double h);
 
@@ -92,7 +96,7 @@ class Solver {
   int iterations_ = 0;
 
   std::vector<Quat> relative_, trial_relative_;
-  std::vector<Vec3> rate_, trial_rate_, accel_, settled_;
+  std::vector<Vec3> rate_, trial_rate_, accel_, settled_, hung_;
   std::vector<JointPast> past_, trial_past_;
   std::vector<Vec3> q_, q_known_, trial_q_;
   std::vector<Vec3> torque_;      // E, with the implicit part

@@ -317,6 +317,29 @@ class Builder {
     }
   }
 
+  // Adds curvature + gradient (s - L/2) to the unloaded shape, about the normal and tangent x
+  // normal.
+  void curve_rest(const Effect& e) {
+    const int curve = plant_.curve_index(e.place->curve);
+    const auto number = [&](const char* key, int i) { return e.numbers.at(key)[i]; };
+    const Vec3 normal(number("normal", 0), number("normal", 1), number("normal", 2));
+    for (Segment& s : tree_.segments) {
+      if (s.curve != curve) continue;
+      double from = s.arc_near;
+      const double to = 0.5 * (s.arc_near + s.arc_far), way = s.arc_far > s.arc_near ? 1.0 : -1.0;
+      if (s.parent >= 0 && tree_.segments[s.parent].curve == curve)
+        from = 0.5 * (tree_.segments[s.parent].arc_near + tree_.segments[s.parent].arc_far);
+      const Vec3 tangent = way * (s.drawn * Vec3::UnitZ());
+      const Vec3 e1 = (normal - normal.dot(tangent) * tangent).normalized();
+      const double middle = 0.5 * (from + to) - 0.5 * curves_[curve].length();
+      const Vec3 turn =
+          (to - from) *
+          ((number("curvature", 0) + number("gradient", 0) * middle) * e1 +
+           (number("curvature", 1) + number("gradient", 1) * middle) * tangent.cross(e1));
+      s.joint.rest = (s.joint.rest * rotation_exp(s.drawn.conjugate() * turn)).normalized();
+    }
+  }
+
   void read_law(const Effect& e) {
     JointLaw& law = tree_.law;
     const auto optional = [&](const char* key, double otherwise) {
@@ -336,8 +359,17 @@ class Builder {
       law.slider_curvature = optional("curvature", law.slider_curvature);
       law.slider_moment = optional("moment", law.slider_moment);
     }
-    if (e.name == "relaxation" || e.name == "creep")
-      law.memory.push_back({0.0, e.number("fraction"), e.number("time")});
+    if (e.name == "relaxation" || e.name == "creep") {
+      const auto start = e.words.find("start");
+      const bool hung = start != e.words.end() && start->second == "hung";
+      law.memory.push_back({0.0, e.number("fraction"), e.number("time"), hung});
+    }
+    if (e.name == "hysteresis") {
+      law.hysteresis_ratio = e.number("ratio");
+      law.hysteresis_moment = e.number("moment");
+      law.hysteresis_exponent = e.number("exponent");
+    }
+    if (e.name == "rest_shape") curve_rest(e);
     if (e.name == "structural_damping") add_ladder(e.number("loss_factor"));
     if (e.name == "yield") law.yield_curvature = e.number("curvature");
     if (e.name == "stiffness_drift") law.drift_rate += e.number("rate");
@@ -349,6 +381,14 @@ class Builder {
       if (e.place) air.curve = plant_.curve_index(e.place->curve);
       if (e.numbers.contains("velocity"))
         air.velocity = Eigen::Map<const Vec3>(e.numbers.at("velocity").data());
+      tree_.air.push_back(air);
+    }
+    if (e.name == "plate_drag") {
+      Air air;
+      air.area = e.number("normal");
+      air.across = e.number("tangential");
+      air.normal = Eigen::Map<const Vec3>(e.numbers.at("direction").data()).normalized();
+      if (e.place) air.curve = plant_.curve_index(e.place->curve);
       tree_.air.push_back(air);
     }
   }

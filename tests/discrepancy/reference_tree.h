@@ -14,10 +14,12 @@
 namespace pedicel::reference {
 
 /// A spring in series with a dashpot that adds instant K (phi - phi0) - share K q to a joint's
-/// moment, with q' = (phi - phi0 - q) / time and q = 0 at first.
+/// moment, with q' = (phi - phi0 - q) / time and q = 0 at first. Hung: it has relaxed under the
+/// plant's own weight, from the unloaded shape (phi0 = 0), before anything else was done.
 struct MemoryTerm {
   double instant = 0.0, share = 0.0;
   double time = 1.0;  ///< s
+  bool hung = false;
 };
 
 /// How every joint answers its rotation phi (rad), beyond M = K (phi + damping_time phi').
@@ -29,6 +31,9 @@ struct JointLaw {
   double slider_moment = std::numeric_limits<double>::infinity();     ///< N m
   double yield_curvature = std::numeric_limits<double>::infinity();   ///< 1/m, from the rest shape
   double drift_rate = 0.0;                                            ///< 1/s, of E over the clock
+  double hysteresis_ratio = 0.0;     ///< share of K that is Bouc-Wen's
+  double hysteresis_moment = 1.0;    ///< N m, of the whole K
+  double hysteresis_exponent = 1.0;  ///< 1 is Dahl's
   std::vector<MemoryTerm> memory;
 };
 
@@ -60,6 +65,10 @@ struct Air {
   double area = 0.0;                        ///< m2/m, the drag coefficient included
   double frequency = 0.0, amplitude = 0.0;  ///< Hz, 1: velocity times 1 + amplitude sin(2 pi f t)
   int curve = -1;                           ///< -1: all
+  /// Of a plate, with this normal (W, as drawn): `area` along it, `across` square to it, of the
+  /// whole velocity.
+  Vec3 normal = Vec3::Zero();
+  double across = 0.0;  ///< m2/m
 };
 
 struct Tree {

@@ -78,6 +78,7 @@ class Run {
       around.forces.push_back({at(tree, s.place), stranger_law(s)});
     if (trial.base) around.clamp = [this](double t) { return trial_.base->at(t); };
     solver = std::make_unique<Solver>(std::move(tree), std::move(around));
+    hang(mesh);
   }
 
   Place at(const Tree& tree, const plant::CurvePlace& place) const {
@@ -85,11 +86,13 @@ class Run {
   }
 
   // N, W: what the first hold does to the plant now.
-  Vec3 grip(double t) const {
+  Vec3 grip(double t) const { return grip(t, t); }
+  // `middle` says on which side of a jump that is.
+  Vec3 grip(double t, double middle) const {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < grips_; ++i) {
       const PointForce& point = solver->surroundings().forces[i];
-      sum += point.law(t, t, solver->position(point.place), Vec3::Zero()).force;
+      sum += point.law(t, middle, solver->position(point.place), Vec3::Zero()).force;
     }
     return sum;
   }
@@ -97,6 +100,22 @@ class Run {
   std::unique_ptr<Solver> solver;
 
  private:
+  // For hours under its own weight: all that hung terms carry is gone.
+  void hang(const Mesh& mesh) {
+    double gone = 0.0;
+    for (const MemoryTerm& term : solver->tree().law.memory) gone += term.hung ? term.share : 0.0;
+    if (gone == 0.0) return;
+    Tree relaxed = build_tree(subject_.plant, subject_.effects, {}, mesh.spacing);
+    std::erase_if(relaxed.law.memory, [](const MemoryTerm& term) { return term.hung; });
+    for (Segment& s : relaxed.segments) s.joint.stiffness *= 1.0 - gone;
+    Surroundings around;
+    around.gravity = trial_.gravity;
+    around.clock = trial_.clock;
+    Solver before(std::move(relaxed), std::move(around));
+    before.settle();
+    solver->hang(before.settled());
+  }
+
   // Its spring pulls through the stem, which gives along itself: in the joint coordinates it does
   // not, so what it would give is added to the spring's compliance. (EA over the length is 50 kN/m
   // where a grip has 150 N/m: 0.3 %.)
@@ -207,6 +226,35 @@ class Sensors {
     return scale * (turn * tracks_[marker].at(t - delay, step_));
   }
 
+  // s, of a sensor that follows as a low-pass.
+  double lag(const std::string& what) const {
+    double sum = 0.0;
+    for (const Effect& e : effects_)
+      if (e.name == "sensor_lag" && e.words.at("what") == what) sum += e.number("time");
+    return sum;
+  }
+
+  // What is seen follows, from its steady state on; exact for a straight line between steps.
+  void follow() {
+    const double time = lag("markers");
+    if (time == 0.0) return;
+    for (Track& track : tracks_) {
+      Vec3 y = track.x.front(), before = y;
+      for (std::size_t i = 0; i < track.x.size(); ++i) {
+        const Vec3 x = track.x[i];
+        if (i > 0) y = lagging(y, before, x, step_, time);
+        before = x;
+        track.x[i] = y;
+        track.v[i] = (x - y) / time;
+      }
+    }
+  }
+
+  static Vec3 lagging(const Vec3& y, const Vec3& from, const Vec3& to, double h, double time) {
+    const Vec3 behind = time / h * (to - from);
+    return to - behind + std::exp(-h / time) * (y - from + behind);
+  }
+
   Vec3 felt(const Vec3& force) const {
     const Effect* e = find(effects_, "force_gain");
     return e ? Vec3(e->number("gain") * force + vector_of(*e, "offset")) : force;
@@ -262,16 +310,25 @@ Record run_trial(const Subject& subject, const TrialPlan& trial,
   sensors.set_step(h);
   sensors.look(solver);
   if (trial.measures_force) record.force.resize(samples, 3);
+  const double force_lag = sensors.lag("force");
+  Vec3 pull = run.grip(0.0), shown = pull;
   for (int i = 0; i < samples; ++i) {
     const double t = i * trial.interval;
     for (int k = 0; k < substeps && i > 0; ++k) {
       solver.step(h);
       sensors.look(solver);
+      if (force_lag == 0.0) continue;
+      // Where a grip lets go at the step's end it has not done so within it.
+      shown = Sensors::lagging(shown, pull, run.grip(solver.time(), solver.time() - 0.5 * h), h,
+                               force_lag);
+      pull = run.grip(solver.time());
     }
     record.time.push_back(t);
     record.most_curvature = std::max(record.most_curvature, sharpest(solver));
-    if (trial.measures_force) record.force.row(i) = sensors.felt(run.grip(t));
+    if (trial.measures_force)
+      record.force.row(i) = sensors.felt(force_lag > 0.0 ? shown : run.grip(t));
   }
+  sensors.follow();
   record.markers.resize(samples, 3 * static_cast<int>(markers.size()));
   for (int i = 0; i < samples; ++i)
     for (std::size_t m = 0; m < markers.size(); ++m)

@@ -88,7 +88,7 @@ bool is_discretisation(const FitSummary& model, int count, const Evidence& evide
          (count < 2 || squares - sum * mean <= freedom + 3.0 * std::sqrt(2.0 * freedom));
 }
 
-std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales) {
+std::vector<Cause> fitted_causes(const Experiment& experiment, const Scales& scales) {
   const effects::StartContext context = context_of(experiment, scales);
   std::vector<Cause> causes;
   for (const effects::EffectDefinition& one : effects::effect_definitions()) {
@@ -96,6 +96,13 @@ std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& 
     const std::vector<effects::Start> starts = one.starts(context);
     if (!starts.empty()) causes.push_back({one.name, {starts.begin(), starts.end()}});
   }
+  return causes;
+}
+
+std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales) {
+  std::vector<Cause> causes = fitted_causes(experiment, scales);
+  std::erase_if(causes,
+                [](const Cause& cause) { return !effects::find_effect(cause.name)->is_candidate; });
   return causes;
 }
 

@@ -35,5 +35,7 @@ bool is_discretisation(const FitSummary& model, int count, const Evidence& evide
 
 /// Every known effect that the experiment could show.
 std::vector<Cause> candidate_causes(const Experiment& experiment, const Scales& scales);
+/// Those and the effects that no diagnosis tries by itself.
+std::vector<Cause> fitted_causes(const Experiment& experiment, const Scales& scales);
 
 }  // namespace pedicel::discrepancy

@@ -211,7 +211,7 @@ std::vector<Hypothesis> requested_starts(const Experiment& experiment,
       refuse(word, "is named twice");
     parsed.push_back(parse(word, experiment));
   }
-  const std::vector<Cause> causes = candidate_causes(experiment, scales_of(experiment));
+  const std::vector<Cause> causes = fitted_causes(experiment, scales_of(experiment));
   std::vector<Hypothesis> all{Hypothesis{}};
   for (const Group& one : group(parsed)) {
     const std::vector<Hypothesis> starts = starts_of(one, causes);

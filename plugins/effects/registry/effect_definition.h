@@ -114,8 +114,9 @@ struct EffectDefinition {
   std::variant<NoChange, ModelChange, GripChange, SensorChange> change;
 
   // For the diagnosis.
-  /// From where fits of it start; null: it is no candidate. Home::material: part of every baseline.
+  /// From where fits of it start; null: it is never fitted. Home::material: part of every baseline.
   std::vector<Start> (*starts)(const StartContext&) = nullptr;
+  bool is_candidate = true;  ///< false: a diagnosis does not try it; it is fitted where asked for
   std::vector<Sign> speaks_for;
   std::string tells_apart;  ///< an experiment that parts it from its look-alikes; may be empty
   std::vector<std::string> special_cases;  ///< effects that it has as special cases
