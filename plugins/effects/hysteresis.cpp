@@ -37,6 +37,7 @@ EffectDefinition define_hysteresis() {
                                                       t.number("exponent"));
                            });
                          }};
+  d.speaks_for = {{"loop_area", 5}, {"drive_history", 3}};
   d.tells_apart = "push to and fro by less and less: loops within loops";
   return d;
 }

@@ -27,6 +27,7 @@ EffectDefinition define_sensor_lag() {
     const bool force = effect.words.at("what") == "force";
     (force ? sensor.force_lag : sensor.marker_lag) += effect.number("time");
   }};
+  d.speaks_for = {{"time_shift", 2}, {"force_lag", 1}, {"delay_by_frequency", 1}};
   d.tells_apart =
       "shake at two frequencies: a lag makes the faster motion smaller, a delay only makes it late";
   return d;
