@@ -22,7 +22,8 @@ void judge(const std::filesystem::path& file) {
     judged.pick = discrepancy::judge_pick(judged.record);
     const auto& probability = judged.pick.probability;
     fuzz::require(!probability || (*probability >= 0.0 && *probability <= 1.0), "a probability");
-    fuzz::require(!to_text(judged).empty() && !to_json({judged}).empty(), "an answer");
+    fuzz::require(!discrepancy::to_text(judged).empty() && !discrepancy::to_json({judged}).empty(),
+                  "an answer");
   } catch (const InvalidFile&) {
   }
 }

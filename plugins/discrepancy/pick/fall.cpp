@@ -205,20 +205,32 @@ LargestLoad largest_load(const ForceCourse& course, const PickSettings& s) {
 }
 
 Fall whole_fall(const ForceCourse& course, const LargestLoad& load, const PickSettings& s) {
-  constexpr double nearly_all = 0.9;  // of the load: what is less has begun to go
   Fall fall;
   fall.pull = load.pull;
   fall.time = fall.onset = load.time;
   fall.before = load.force;
   fall.after = level_at_end(course, load, s);
   fall.share = (fall.before - fall.after) / fall.before;
-  fall.onset_error = s.level;
-  for (int i = course.first_at(load.time); i < course.size(); ++i) {
-    const double t = course.time(i);
-    if (course.mean(t - 0.5 * s.level, t + 0.5 * s.level).dot(load.pull) >= nearly_all * load.force)
-      fall.onset = t;
-  }
   return fall;
+}
+
+Beginning beginning_of(const ForceCourse& course, const Fall& fall, const PickSettings& s) {
+  const double lost = fall.before - fall.after, half_width = 0.5 * s.response;
+  const double end =
+      fall.half ? fall.time + s.settle + 2.0 * s.level : course.time(course.size() - 1);
+  // From behind: where the load was last above what is left then.
+  double half_gone = fall.time, tenth_gone = fall.time;
+  bool found_half = false;
+  for (int i = std::min(course.first_at(end), course.size() - 1); i >= 0; --i) {
+    const double t = course.time(i);
+    const double load = course.mean(t - half_width, t + half_width).dot(fall.pull);
+    if (!found_half && load >= fall.before - 0.5 * lost) half_gone = t, found_half = true;
+    if (!found_half || load < fall.before - 0.1 * lost) continue;
+    tenth_gone = t;
+    break;
+  }
+  const double back = 0.25 * (half_gone - tenth_gone);
+  return {tenth_gone - back, std::hypot(back, half_width, course.interval())};
 }
 
 bool ends_in_a_fall(const ForceCourse& course, const LargestLoad& load, const PickSettings& s) {

@@ -54,6 +54,13 @@ std::optional<Fall> find_fall(const ForceCourse& course, const PickSettings& set
 /// a time to half.
 Fall whole_fall(const ForceCourse& course, const LargestLoad& load, const PickSettings& settings);
 
+/// Where a slow fall begins, s, with a standard error: the straight line through its first half, a
+/// tenth to a half of what is lost.
+struct Beginning {
+  double time = 0.0, error = 0.0;
+};
+Beginning beginning_of(const ForceCourse& course, const Fall& fall, const PickSettings& settings);
+
 /// Whether most of the largest load goes at the very end, with no time left to see that it stays
 /// away.
 bool ends_in_a_fall(const ForceCourse& course, const LargestLoad& load,

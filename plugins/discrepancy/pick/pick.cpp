@@ -30,12 +30,17 @@ Pick unclear(Pick pick, const std::string& why) {
 /// The share of the largest load that a fall must begin with, to be one of the load.
 constexpr double least_load = 0.25;
 
-Pick with_probability(Pick pick, const PickSettings& s) {
-  const Fall& fall = *pick.fall;
+Pick with_probability(Pick pick, const ForceCourse& course, const PickSettings& s) {
+  Fall& fall = *pick.fall;
   pick.limit = std::hypot(s.response, pick.interval, 0.5 * fall.smoothing);
   const double half = fall.half.value_or(s.settle + 2.0 * s.level);
   pick.probability = probability_of_break(half, fall.half_error, pick.limit, s.sharpness);
   pick.end = *pick.probability >= 0.5 ? Pick::End::came_off : Pick::End::slipped;
+  if (pick.end == Pick::End::slipped) {
+    const Beginning beginning = beginning_of(course, fall, s);
+    fall.onset = beginning.time;
+    fall.onset_error = beginning.error;
+  }
   return pick;
 }
 
@@ -62,11 +67,12 @@ Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
     return unclear(pick, "the record is too short for a level of the force before and after");
   const LargestLoad load = largest_load(course, settings);
   if (pick.fall->share >= settings.share && pick.fall->before >= least_load * load.force)
-    return with_probability(std::move(pick), settings);
+    return with_probability(std::move(pick), course, settings);
   pick.fall = whole_fall(course, load, settings);
   if (ends_in_a_fall(course, load, settings))
     return unclear(std::move(pick), "the record ends while the force falls");
-  if (pick.fall->share >= settings.share) return with_probability(std::move(pick), settings);
+  if (pick.fall->share >= settings.share)
+    return with_probability(std::move(pick), course, settings);
   pick.end = Pick::End::held;
   return pick;
 }
@@ -93,7 +99,8 @@ std::string Pick::sentence() const {
                   2.0 * fall->onset_error) +
              lost() + text(" (probability %.2f).", *probability);
     case End::slipped:
-      return text("The fruit did not come off; the hand slipped from %.2f s on: ", fall->onset) +
+      return text("The fruit did not come off; the hand slipped from %.2f s (+- %.2f s) on: ",
+                  fall->onset, 2.0 * fall->onset_error) +
              lost() + text(" (probability %.2f).", 1.0 - *probability);
     case End::held:
       return text("The fruit did not come off; at the end %.0f %% of the load was still there.",

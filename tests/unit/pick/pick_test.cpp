@@ -50,6 +50,7 @@ TEST(Pick, TellsSlipsFromBreaks) {
   RecordProperty("named", named);
   RecordProperty("began_within_100_ms", began);
   EXPECT_GE(named, 0.95 * seeds);
+  EXPECT_GE(began, 0.8 * seeds);  // some slide a little before they are said to slip
 }
 
 TEST(Pick, TakesNothingForABreakThatHolds) {
