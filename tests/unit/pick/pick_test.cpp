@@ -79,6 +79,28 @@ TEST(Pick, IsNeverWrongAtStrongContrast) {
     }
 }
 
+// A slow sensor smears a break out; one of 5 Hz needs another response, as the manual says.
+TEST(Pick, SlowSensors) {
+  const auto named = [](MadePick::End end, double cutoff, const PickSettings& settings) {
+    int right = 0;
+    for (int seed = 1; seed <= 100; ++seed) {
+      MadePick made = drawn_pick(end, static_cast<std::uint64_t>(seed));
+      made.rate = 50.0;
+      made.cutoff = cutoff;
+      made.slip_time = std::max(made.slip_time, 0.3);
+      const Pick pick = judge_pick(make_pick(made), settings);
+      right += pick.outcome() == (end == MadePick::End::breaks ? "detached" : "failed");
+    }
+    return right;
+  };
+  EXPECT_GE(named(MadePick::End::breaks, 10.0, {}), 95);
+  EXPECT_LE(named(MadePick::End::breaks, 5.0, {}), 50);
+  PickSettings slow;
+  slow.response = 0.06;
+  EXPECT_GE(named(MadePick::End::breaks, 5.0, slow), 95);
+  EXPECT_GE(named(MadePick::End::slips, 5.0, slow), 95);
+}
+
 TEST(Pick, SaysHowSureItIs) {
   EXPECT_NEAR(probability_of_break(0.025, 0.0, 0.025, 3.0), 0.5, 1e-12);
   EXPECT_NEAR(probability_of_break(0.0125, 0.0, 0.025, 3.0), 8.0 / 9.0, 1e-12);
