@@ -25,6 +25,7 @@
 #include "pedicel/app/verbs/observe.h"
 #include "pedicel/app/verbs/parallel_worlds.h"
 #include "pedicel/app/verbs/param_sweep.h"
+#include "pedicel/app/verbs/pick.h"
 #include "pedicel/app/verbs/run_arguments.h"
 #include "pedicel/app/verbs/transfer.h"
 #include "pedicel/app/verbs/validate.h"
@@ -400,6 +401,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   const std::function<int()> import_files = add_import_verb(app);
   const std::function<int()> lab = add_lab_verb(app);
   const std::function<int()> transfer = add_transfer_verb(app);
+  const std::function<int()> pick = add_pick_verb(app);
   const std::function<int()> manual = add_manual_verb(app);
 
   ObserveArguments observed;
@@ -424,6 +426,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (app.got_subcommand("import")) return guarded(import_files);
   if (app.got_subcommand("lab")) return guarded(lab);
   if (app.got_subcommand("transfer")) return guarded(transfer);
+  if (app.got_subcommand("pick")) return guarded(pick);
   if (app.got_subcommand("manual")) return guarded(manual);
   if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });

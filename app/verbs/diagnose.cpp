@@ -11,6 +11,7 @@
 #include "pedicel/discrepancy/data/more_trials.h"
 #include "pedicel/discrepancy/procedure/diagnosis.h"
 #include "pedicel/discrepancy/report/report.h"
+#include "pedicel/discrepancy/select/symptom_numbers.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/plant/plant_file.h"
 
@@ -56,6 +57,14 @@ discrepancy::Experiment load_all(const DiagnoseArguments& a) {
   return experiment;
 }
 
+/// Where no cause is accepted, what the data show all the same.
+std::string what_is_seen(const discrepancy::Verdict& verdict) {
+  constexpr std::size_t most = 3;
+  const bool accepted = verdict.outcome == discrepancy::Outcome::named ||
+                        verdict.outcome == discrepancy::Outcome::adequate;
+  return accepted ? "" : symptoms_text(verdict, most);
+}
+
 int run(const DiagnoseArguments& a) {
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
@@ -80,7 +89,8 @@ int run(const DiagnoseArguments& a) {
   if (a.json)
     std::cout << to_json(diagnosis.verdict) << std::endl;
   else
-    std::cout << headline(diagnosis.verdict) << "\nwritten to " << folder.string() << std::endl;
+    std::cout << headline(diagnosis.verdict) << "\n"
+              << what_is_seen(diagnosis.verdict) << "written to " << folder.string() << std::endl;
   return stopped ? stop_exit_code() : exit_code(diagnosis.verdict.outcome);
 }
 

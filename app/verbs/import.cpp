@@ -149,18 +149,6 @@ ImportRequest request_of(const ImportArguments& a, ImportNotes& notes) {
   return request;
 }
 
-/// Each once, in one go: what to add to the command line.
-[[noreturn]] void refuse_missing(const std::vector<std::string>& missing) {
-  std::vector<std::string> once;
-  std::string text;
-  for (const std::string& sentence : missing) {
-    if (std::ranges::find(once, sentence) != once.end()) continue;
-    once.push_back(sentence);
-    text += (text.empty() ? "" : "\nerror: ") + sentence;
-  }
-  throw UsageError(text);
-}
-
 }  // namespace
 
 int import_verb(const ImportArguments& a) {
@@ -171,7 +159,7 @@ int import_verb(const ImportArguments& a) {
   ImportNotes notes;
   const ImportRequest request = request_of(a, notes);
   const discrepancy::Experiment experiment = discrepancy::import_experiment(request, notes);
-  if (!notes.missing.empty()) refuse_missing(notes.missing);
+  refuse_missing(notes.missing);
   if (!a.quiet)
     for (const std::string& sentence : notes.said) std::fprintf(stderr, "%s\n", sentence.c_str());
   stop_in_good_order();

@@ -79,6 +79,18 @@ double factor_of_text(const std::string& text, io::Quantity quantity, const std:
   throw UsageError(option + " " + in_quotes(text) + ": expected " + io::units_of(quantity));
 }
 
+void refuse_missing(const std::vector<std::string>& missing) {
+  if (missing.empty()) return;
+  std::vector<std::string> once;
+  std::string text;
+  for (const std::string& sentence : missing) {
+    if (std::ranges::find(once, sentence) != once.end()) continue;
+    once.push_back(sentence);
+    text += (text.empty() ? "" : "\nerror: ") + sentence;
+  }
+  throw UsageError(text);
+}
+
 std::pair<std::string, std::string> split_words(const std::string& text, char mark,
                                                 const std::string& option,
                                                 const std::string& expected) {

@@ -22,6 +22,10 @@ double length_of_text(const std::string& text, const std::string& option);
 /// A unit's size in SI units.
 double factor_of_text(const std::string& text, io::Quantity quantity, const std::string& option);
 
+/// Throws UsageError with what to add to the command line, each sentence once; nothing where there
+/// is none.
+void refuse_missing(const std::vector<std::string>& missing);
+
 /// The parts before and behind the last `mark`, both there.
 std::pair<std::string, std::string> split_words(const std::string& text, char mark,
                                                 const std::string& option,

@@ -48,7 +48,8 @@ EffectDefinition define_creep() {
                            .positive("time", 2.0 * longest, longest, 50.0 * longest));
     return starts;
   };
-  d.speaks_for = {{"force_drift", 2}, {"clock_trend", 2}};
+  d.speaks_for = {
+      {"force_drift", 2}, {"clock_trend", 2}, {"dynamic_over_static", 2}, {"drive_history", 2}};
   d.tells_apart = "hold a load for ten minutes, and watch the recovery for as long";
   d.limits = {{"time", false, "relaxation"}};
   return d;

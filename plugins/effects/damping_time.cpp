@@ -23,7 +23,7 @@ EffectDefinition define_damping_time() {
     // sees modulus over density alone).
     return {Start("damping_time").positive("factor", 1.0, 1.0 / 300.0, 300.0).prior(1.5, 1.0)};
   };
-  d.speaks_for = {{"damping", 1}};
+  d.speaks_for = {{"damping", 1}, {"loop_area_by_rate", 1}};
   d.material = &plant::MaterialValues::damping_time;
   d.known_to = &plant::MaterialKnowledge::damping_time;
   d.material_unit = "s";

@@ -47,7 +47,10 @@ EffectDefinition define_hysteresis() {
                            .positive("ratio", 0.2, 1e-3, 0.95));
     return starts;
   };
-  d.speaks_for = {{"loop_area", 2}, {"frequency_by_amplitude", 4}, {"damping_by_amplitude", 4}};
+  d.speaks_for = {{"loop_area", 5},
+                  {"drive_history", 3},
+                  {"frequency_by_amplitude", 6},
+                  {"damping_by_amplitude", 6}};
   d.tells_apart = "push to and fro by less and less: loops within loops";
   return d;
 }

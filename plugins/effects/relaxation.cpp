@@ -53,7 +53,11 @@ EffectDefinition define_relaxation() {
                          .positive("time", 0.4 * longest, 1e-3 * longest, longest));
     return starts;
   };
-  d.speaks_for = {{"loop_area", 2}, {"force_drift", 1}};
+  d.speaks_for = {{"loop_area", 2},
+                  {"force_drift", 1},
+                  {"dynamic_over_static", 1},
+                  {"loop_area_by_rate", 2},
+                  {"drive_history", 1}};
   d.tells_apart = "hold a push for minutes, and watch the recovery for as long";
   d.limits = {{"time", true, "creep"}};
   return d;

@@ -38,7 +38,7 @@ EffectDefinition define_sensor_lag() {
     add("markers");
     return starts;
   };
-  d.speaks_for = {{"time_shift", 2}};
+  d.speaks_for = {{"time_shift", 2}, {"force_lag", 1}, {"delay_by_frequency", 1}};
   d.tells_apart =
       "shake at two frequencies: a lag makes the faster motion smaller, a delay only makes it late";
   return d;

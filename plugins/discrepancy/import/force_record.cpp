@@ -1,8 +1,8 @@
 #include "pedicel/discrepancy/import/force_record.h"
 
 #include <array>
-#include <cmath>
 
+#include "pedicel/discrepancy/import/machine_column.h"
 #include "pedicel/discrepancy/import/machine_table.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/unit_text.h"
@@ -37,7 +37,7 @@ class ForceReader {
       return {};
     }
     record.time = in_si(*time, Quantity::time, statements_.time_unit, "--time-unit");
-    check_time(record.time, *time);
+    if (!record.time.empty()) check_increasing(table_, *time, diagnostics_);
     const std::array<const MachineColumn*, 3> parts = {table_.find({"fx"}), table_.find({"fy"}),
                                                        table_.find({"fz"})};
     if (parts[0] && parts[1] && parts[2] && !statements_.column)
@@ -57,36 +57,7 @@ class ForceReader {
   /// The values in SI units; none, with an error, where they cannot be.
   std::vector<double> in_si(const MachineColumn& column, Quantity quantity,
                             const std::optional<double>& told, const std::string& option) {
-    const auto unit = io::unit_of(column.unit);
-    const std::string name = "column " + in_quotes(column.name);
-    if (!column.fault.what.empty()) {
-      diagnostics_.error(column.fault.where, column.fault.what);
-      return {};
-    }
-    if (!told && column.unit.empty()) {
-      miss(name + " has no unit, expected " + option + " with " + io::units_of(quantity));
-      return {};
-    }
-    if (!told && (!unit || unit->quantity != quantity)) {
-      diagnostics_.error(column.where, name + " is in " + in_quotes(column.unit) + ", expected " +
-                                           io::units_of(quantity));
-      return {};
-    }
-    if (told && unit && unit->factor != *told)
-      say("warning: " + name + " is in " + in_quotes(column.unit) + ", and " + option +
-          " says otherwise, which counts");
-    std::vector<double> values = column.values;
-    for (double& value : values) value *= told ? *told : unit->factor;
-    return values;
-  }
-
-  void check_time(const std::vector<double>& time, const MachineColumn& column) {
-    for (std::size_t r = 0; r < time.size(); ++r)
-      if (std::isnan(time[r]) || (r > 0 && time[r] <= time[r - 1])) {
-        diagnostics_.error({file_.string(), table_.lines[r], column.columns[r]},
-                           "time does not increase here, expected one recording in time");
-        return;
-      }
+    return si_values(table_, column, quantity, {told, option}, diagnostics_, notes_);
   }
 
   void take_vector(const std::array<const MachineColumn*, 3>& parts, ForceRecord& record) {

@@ -7,6 +7,7 @@
 #include "pedicel/discrepancy/procedure/seen_ratios.h"
 #include "pedicel/discrepancy/procedure/shares.h"
 #include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/discrepancy/select/symptom_numbers.h"
 #include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
@@ -53,6 +54,7 @@ void VerdictWriter::write(const std::string& instead_of, int objecting) {
   report_parameters(state_.findings, state_.result);
   report_ratios(state_.findings, state_.result);
   report_detectable_limits(state_.causes, state_.result);
+  state_.result.verdict.symptoms = symptom_numbers(state_.findings.symptoms);
   choose_next();
 }
 
@@ -91,6 +93,7 @@ void VerdictWriter::write_partial() {
   }
   report_parameters(state_.findings, state_.result);
   report_ratios(state_.findings, state_.result);
+  verdict.symptoms = symptom_numbers(state_.findings.symptoms);
   report_detectable_limits(state_.causes, state_.result);
 }
 

@@ -91,6 +91,26 @@ void add_symptom(io::HtmlReport& page, const ReportData& report,
   page.plots(plots);
 }
 
+std::string listed(const std::vector<std::string>& words, const char* between = "; ") {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+// Whatever was accepted: what the data show, and which causes would make it.
+void add_symptom_numbers(io::HtmlReport& page, const Verdict& v) {
+  constexpr std::size_t most = 8;
+  std::vector<std::vector<std::string>> rows;
+  for (const SymptomNumber& one : v.symptoms) {
+    if (!one.shows || rows.size() == most) break;
+    rows.push_back({symptom_title(one.name), one.of.empty() ? "all trials" : one.of,
+                    with_error(one.value, one.error, one.unit), listed(one.speaks_for, ", ")});
+  }
+  if (rows.empty()) return;
+  page.subheading("What shows, in numbers");
+  page.table({"symptom", "of", "measured less refitted model", "speaks for"}, rows);
+}
+
 void add_cause_table(io::HtmlReport& page, const std::vector<NamedCause>& causes) {
   std::vector<std::vector<std::string>> rows;
   for (const NamedCause& cause : causes) {
@@ -138,12 +158,6 @@ void add_rivals(io::HtmlReport& page, const Diagnosis& d) {
                     left ? left_early : why_it_lost(candidate, d)});
   }
   if (!rows.empty()) page.table({"competing model", "behind (nats)", "why it lost"}, rows);
-}
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : "; ") + word;
-  return text;
 }
 
 void add_hiding(io::HtmlReport& page, const Verdict& v) {
@@ -215,6 +229,7 @@ void add_card(io::HtmlReport& page, const ReportData& report,
   const std::string remainder = remainder_text(v);
   if (concluded(v) && !remainder.empty()) page.paragraph(remainder);
   if (report.predicted && concluded(v)) add_symptom(page, report, pairs);
+  if (concluded(v)) add_symptom_numbers(page, v);
   add_causes(page, v);
   const std::string ratios = ratios_text(v);
   if (concluded(v) && !ratios.empty()) page.paragraph(ratios);

@@ -227,6 +227,11 @@ std::string symptom_title(const std::string& name) {
       {"force_scale", "size of the force"},
       {"force_drift", "drift of a held force"},
       {"clock_trend", "stiffness by the clock"},
+      {"dynamic_over_static", "stiffness, swinging over at rest"},
+      {"loop_area_by_rate", "energy of pushes, by rate"},
+      {"delay_by_frequency", "delay of the markers, by frequency"},
+      {"force_lag", "delay of the force"},
+      {"drive_history", "force by the drive's past"},
       {"bad_channel", "one deviating marker"},
       {"constant_offset", "constant offset of a marker"},
       {"length_scale", "lengths between markers"}};

@@ -62,6 +62,20 @@ Json to_json(const NamedCause& cause) {
   return json;
 }
 
+Json to_json(const std::vector<SymptomNumber>& symptoms) {
+  Json list = Json::array();
+  for (const SymptomNumber& one : symptoms)
+    list.push_back({{"name", one.name},
+                    {"of", one.of},
+                    {"value", number(one.value)},
+                    {"error", number(one.error)},
+                    {"unit", one.unit},
+                    {"shows", one.shows},
+                    {"speaks_for", one.speaks_for},
+                    {"sentence", one.sentence}});
+  return list;
+}
+
 Json to_json(const std::vector<NamedCause>& causes) {
   Json list = Json::array();
   for (const NamedCause& cause : causes) list.push_back(to_json(cause));
@@ -140,6 +154,7 @@ std::string to_json(const Verdict& verdict) {
                {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
                {"simulations", verdict.simulations},
                {"seconds", number(verdict.seconds)}};
+  if (!verdict.symptoms.empty()) json["symptoms"] = to_json(verdict.symptoms);
   if (verdict.partial) json["partial"] = true;
   return json.dump(2);
 }

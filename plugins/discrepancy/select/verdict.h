@@ -59,12 +59,23 @@ struct DetectableLimit {
   std::string unit;
 };
 
+/// A respect in which the data differ from the refitted model: measured less simulated.
+struct SymptomNumber {
+  std::string name, of;             ///< `of`: the trial, marker or curve; empty: all of them
+  double value = 0.0, error = 0.0;  ///< standard error
+  std::string unit;
+  bool shows = false;  ///< beyond chance
+  std::vector<std::string> speaks_for;
+  std::string sentence;
+};
+
 /// What verdict.json says: the page Verdict of the manual.
 struct Verdict {
   Outcome outcome = Outcome::adequate;
   std::vector<NamedCause> causes;   ///< what explains most first; under `ambiguous` likeliest first
   std::vector<NamedCause> details;  ///< real, and too small to matter
   std::vector<NamedCause> nearest;  ///< under `unknown`: what came closest
+  std::vector<SymptomNumber> symptoms;  ///< the clearest of each kind first
   std::vector<CompetingModel> competing;
   std::map<std::string, Estimate> parameters;
   /// "youngs_modulus/density": of the factors on the two, where the data see it far more closely

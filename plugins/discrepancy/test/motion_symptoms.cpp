@@ -79,9 +79,8 @@ void add_time_shift(const SymptomContext& context, std::vector<Symptom>& out) {
     if (!context.usable(t)) continue;
     Projection one(2);
     add_delays(context, t, one, &all);
-    Measured delay;
-    if (!solve_delay(context, t, delay) || delay.error > 0.05) continue;
-    const double f = main_frequency(context.velocity(t), context.trial(t).markers.time);
+  }
+  for (const auto& [t, f, delay] : trial_delays(context)) {
     plot.series[0].x.push_back(f);
     plot.series[0].y.push_back(1e3 * delay.value);
     for (const double side : {-1.96, 1.96, std::numeric_limits<double>::quiet_NaN()}) {
@@ -185,6 +184,20 @@ void add_out_of_plane(const SymptomContext& context, int t, std::vector<Symptom>
 }
 
 }  // namespace
+
+std::vector<TrialDelay> trial_delays(const SymptomContext& context) {
+  constexpr double widest = 0.05;  // s, error of a trial in which hardly anything moves
+  std::vector<TrialDelay> delays;
+  for (int t = 0; t < context.trials(); ++t) {
+    TrialDelay one;
+    one.trial = t;
+    if (!context.usable(t) || !solve_delay(context, t, one.delay) || one.delay.error > widest)
+      continue;
+    one.frequency = main_frequency(context.velocity(t), context.trial(t).markers.time);
+    delays.push_back(one);
+  }
+  return delays;
+}
 
 void add_motion_symptoms(const SymptomContext& context, std::vector<Symptom>& out) {
   add_time_shift(context, out);

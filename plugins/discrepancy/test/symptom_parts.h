@@ -44,11 +44,22 @@ std::vector<StaticStretch> static_stretches(const SymptomContext& context);
 /// "weights, 12 to 16 s"
 std::string stretch_name(const SymptomContext& context, const StaticStretch& stretch);
 
+/// By how much a trial's markers come late, and by which frequency it mostly moves.
+struct TrialDelay {
+  int trial = 0;
+  double frequency = 0.0;  ///< Hz
+  Measured delay;          ///< s
+};
+/// Of the trials in which something moves.
+std::vector<TrialDelay> trial_delays(const SymptomContext& context);
+
 void add_static_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
 void add_motion_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
 void add_oscillation_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
 void add_force_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
 void add_sensor_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
+/// After the others, which it looks at.
+void add_course_symptoms(const SymptomContext& context, std::vector<Symptom>& out);
 
 /// With the rest left to fill in.
 Symptom make_symptom(std::string name, std::string subject, double value, double standard_error);

@@ -161,6 +161,7 @@ std::vector<Symptom> symptoms(const Experiment& experiment, const DataSet& data,
   add_oscillation_symptoms(context, found);
   add_force_symptoms(context, found);
   add_sensor_symptoms(context, found);
+  add_course_symptoms(context, found);
   return found;
 }
 

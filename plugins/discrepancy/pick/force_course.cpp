@@ -1,0 +1,111 @@
+#include "pedicel/discrepancy/pick/force_course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double finest = 0.5e-3;  // s between samples: faster records are averaged to that
+
+double middle_of_three(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+/// Standard deviation of one sample: half the mean square of the steps between neighbours, which
+/// slow changes do not enter. At least what the sensor's own steps round off.
+double noise_of(const Eigen::MatrixXd& force, int count) {
+  double squares = 0.0, least = std::numeric_limits<double>::infinity();
+  int steps = 0;
+  for (Eigen::Index axis = 0; axis < force.cols(); ++axis)
+    for (int i = 1; i < force.rows(); ++i) {
+      const double step = std::abs(force(i, axis) - force(i - 1, axis));
+      if (step > 0.0) least = std::min(least, step);
+      if (i < count) squares += step * step, ++steps;
+    }
+  const double rounding = std::isfinite(least) ? least / std::sqrt(12.0) : 0.0;
+  return std::max(rounding, steps > 0 ? std::sqrt(0.5 * squares / steps) : 0.0);
+}
+
+}  // namespace
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+ForceCourse::ForceCourse(const PickRecord& record, double rest) {
+  take_rows(record);
+  if (time_.empty()) return;
+  const int resting = std::max(1, first_at(time_.front() + rest));
+  for (Eigen::Index axis = 0; axis < force_.cols(); ++axis) {
+    const auto start = force_.col(axis).head(resting);
+    force_.col(axis).array() -= median_of({start.begin(), start.end()});
+  }
+  noise_ = noise_of(force_, std::max(resting, 2));
+  take_spikes_out();
+  thin();
+  std::vector<double> steps;
+  for (int i = 1; i < size(); ++i) steps.push_back(time(i) - time(i - 1));
+  interval_ = median_of(steps);
+  sums_ = Eigen::MatrixXd::Zero(size() + 1, force_.cols());
+  for (int i = 0; i < size(); ++i) sums_.row(i + 1) = sums_.row(i) + force_.row(i);
+}
+
+void ForceCourse::take_rows(const PickRecord& record) {
+  force_.resize(record.force.rows(), record.force.cols());
+  for (Eigen::Index i = 0; i < record.force.rows(); ++i) {
+    if (!record.force.row(i).allFinite()) continue;
+    force_.row(static_cast<Eigen::Index>(time_.size())) = record.force.row(i);
+    time_.push_back(record.time[static_cast<std::size_t>(i)]);
+  }
+  force_.conservativeResize(size(), Eigen::NoChange);
+}
+
+// A sample apart from both its neighbours is no force. An edge stays where it is.
+void ForceCourse::take_spikes_out() {
+  const Eigen::MatrixXd raw = force_;
+  for (Eigen::Index axis = 0; axis < raw.cols(); ++axis)
+    for (Eigen::Index i = 1; i + 1 < raw.rows(); ++i)
+      force_(i, axis) = middle_of_three(raw(i - 1, axis), raw(i, axis), raw(i + 1, axis));
+}
+
+void ForceCourse::thin() {
+  int kept = 0;
+  for (int i = 0; i < size();) {
+    int end = i + 1;
+    while (end < size() && time(end) - time(i) < finest) ++end;
+    double sum = 0.0;
+    for (int j = i; j < end; ++j) sum += time(j) - time(i);
+    const double middle = time(i) + sum / (end - i);
+    const Eigen::RowVectorXd mean = force_.middleRows(i, end - i).colwise().mean();
+    time_[static_cast<std::size_t>(kept)] = middle;
+    force_.row(kept++) = mean;
+    i = end;
+  }
+  if (kept < size()) noise_ *= std::sqrt(static_cast<double>(kept) / size());
+  time_.resize(static_cast<std::size_t>(kept));
+  force_.conservativeResize(kept, Eigen::NoChange);
+}
+
+int ForceCourse::first_at(double moment) const {
+  return static_cast<int>(std::ranges::lower_bound(time_, moment) - time_.begin());
+}
+
+Eigen::VectorXd ForceCourse::mean(double from, double to) const {
+  const int first = first_at(from), end = first_at(to);
+  if (end > first) return (sums_.row(end) - sums_.row(first)).transpose() / (end - first);
+  return force(std::clamp(first, 0, size() - 1));
+}
+
+bool ForceCourse::covers(double from, double to) const {
+  const int first = first_at(from), end = first_at(to);
+  const double seen = end > first ? time(end - 1) - time(first) + interval_ : 0.0;
+  return seen >= 0.5 * (to - from);
+}
+
+}  // namespace pedicel::discrepancy

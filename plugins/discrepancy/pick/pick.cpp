@@ -1,0 +1,114 @@
+#include "pedicel/discrepancy/pick/pick.h"
+
+#include <cmath>
+#include <utility>
+
+#include "pedicel/core/check.h"
+#include "pedicel/discrepancy/data/sentence.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double least_peak = 8.0;       // noise units: so far chance alone does not come
+constexpr double odds_spread = 1.81380;  // pi / sqrt 3, standard deviation of the logistic
+
+void find_peak(const ForceCourse& course, Pick& pick) {
+  for (int i = 0; i < course.size(); ++i)
+    if (const double size = course.force(i).norm(); size > pick.peak_force) {
+      pick.peak_force = size;
+      pick.peak_time = course.time(i);
+    }
+}
+
+Pick unclear(Pick pick, const std::string& why) {
+  pick.end = Pick::End::unclear;
+  pick.why = why;
+  return pick;
+}
+
+/// The share of the largest load that a fall must begin with, to be one of the load.
+constexpr double least_load = 0.25;
+
+Pick with_probability(Pick pick, const ForceCourse& course, const PickSettings& s) {
+  Fall& fall = *pick.fall;
+  pick.limit = std::hypot(s.response, pick.interval, 0.5 * fall.smoothing);
+  const double half = fall.half.value_or(s.settle + 2.0 * s.level);
+  pick.probability = probability_of_break(half, fall.half_error, pick.limit, s.sharpness);
+  pick.end = *pick.probability >= 0.5 ? Pick::End::came_off : Pick::End::slipped;
+  if (pick.end == Pick::End::slipped) {
+    const Beginning beginning = beginning_of(course, fall, s);
+    fall.onset = beginning.time;
+    fall.onset_error = beginning.error;
+  }
+  return pick;
+}
+
+}  // namespace
+
+double probability_of_break(double half, double error, double limit, double sharpness) {
+  const double blur = sharpness * (half > 0.0 ? error / half : 1.0) / odds_spread;
+  const double power = sharpness / std::sqrt(1.0 + blur * blur);
+  return 1.0 / (1.0 + std::pow(half / limit, power));
+}
+
+Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
+  if (const std::string fault = check(settings); !fault.empty()) throw UsageError(fault);
+  const ForceCourse course(record, settings.rest);
+  Pick pick;
+  if (course.size() < 3) return unclear(pick, "fewer than three samples have all their values");
+  pick.noise = course.noise();
+  pick.interval = course.interval();
+  find_peak(course, pick);
+  if (pick.peak_force <= least_peak * pick.noise)
+    return unclear(pick, "the force stays within its noise");
+  pick.fall = find_fall(course, settings);
+  if (!pick.fall)
+    return unclear(pick, "the record is too short for a level of the force before and after");
+  const LargestLoad load = largest_load(course, settings);
+  if (pick.fall->share >= settings.share && pick.fall->before >= least_load * load.force)
+    return with_probability(std::move(pick), course, settings);
+  pick.fall = whole_fall(course, load, settings);
+  if (ends_in_a_fall(course, load, settings))
+    return unclear(std::move(pick), "the record ends while the force falls");
+  if (pick.fall->share >= settings.share)
+    return with_probability(std::move(pick), course, settings);
+  pick.end = Pick::End::held;
+  return pick;
+}
+
+std::optional<double> Pick::moment() const {
+  if (!fall || (end != End::came_off && end != End::slipped)) return std::nullopt;
+  return fall->onset;
+}
+
+std::string Pick::outcome() const {
+  if (end == End::unclear) return "unclear";
+  return end == End::came_off ? "detached" : "failed";
+}
+
+std::string Pick::sentence() const {
+  const auto lost = [this] {
+    return fall->half ? text("half of %.3g N went within %.3g ms", fall->before - fall->after,
+                             1e3 * *fall->half)
+                      : text("%.3g N went slowly", fall->before - fall->after);
+  };
+  switch (end) {
+    case End::came_off:
+      return text("The fruit came off at %.3f s (+- %.3f s): ", fall->onset,
+                  2.0 * fall->onset_error) +
+             lost() + text(" (probability %.2f).", *probability);
+    case End::slipped:
+      return text("The fruit did not come off; the hand slipped from %.2f s (+- %.2f s) on: ",
+                  fall->onset, 2.0 * fall->onset_error) +
+             lost() + text(" (probability %.2f).", 1.0 - *probability);
+    case End::held:
+      return text("The fruit did not come off; at the end %.0f %% of the load was still there.",
+                  100.0 * (1.0 - fall->share));
+    case End::unclear:
+      break;
+  }
+  return "How the pick ended cannot be told: " + why + ".";
+}
+
+}  // namespace pedicel::discrepancy

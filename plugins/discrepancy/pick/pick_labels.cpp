@@ -1,0 +1,162 @@
+#include "pedicel/discrepancy/pick/pick_labels.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <optional>
+
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/io/table_text.h"
+#include "pedicel/io/text_file.h"
+#include "pedicel/io/unit_text.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+std::optional<bool> outcome_of(std::string_view word) {
+  for (const char* known : {"detached", "came_off"})
+    if (io::same_but_case(word, known)) return true;
+  for (const char* known : {"failed", "slipped", "held"})
+    if (io::same_but_case(word, known)) return false;
+  return std::nullopt;
+}
+
+int column_of(const io::TableText& table, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    for (std::size_t c = 0; c < table.columns().size(); ++c)
+      if (io::same_but_case(table.columns()[c].name, name)) return static_cast<int>(c);
+  return -1;
+}
+
+/// "06" or "pick_06" or "pick_06.csv" of a path to pick_06.csv.
+bool names(const std::string& label, const std::filesystem::path& file) {
+  if (label == file.filename().string()) return true;
+  const std::string stem = file.stem().string();
+  if (label.empty() || !stem.ends_with(label)) return false;
+  const std::size_t before = stem.size() - label.size();
+  return before == 0 || std::isalnum(static_cast<unsigned char>(stem[before - 1])) == 0;
+}
+
+/// A record whose judgement hangs on the two numbers that are fitted.
+struct Timed {
+  double half, error, blur;  ///< s; `blur`: what the limit has besides the response
+  bool came_off;
+};
+
+double probability(const Timed& one, double response, double sharpness) {
+  return probability_of_break(one.half, one.error, std::hypot(response, one.blur), sharpness);
+}
+
+struct Fitted {
+  double response, sharpness;
+};
+
+/// Largest likelihood on a grid, but for one record. The grid's ends keep it from running away
+/// where one number parts the two kinds.
+std::optional<Fitted> fit_timed(const std::vector<Timed>& all, std::size_t but) {
+  constexpr int responses = 121, sharpnesses = 47;
+  std::optional<Fitted> best;
+  double most = 0.0;
+  std::array<int, 2> count = {0, 0};
+  for (std::size_t i = 0; i < all.size(); ++i) count[all[i].came_off ? 1 : 0] += i != but;
+  if (count[0] == 0 || count[1] == 0) return std::nullopt;
+  for (int r = 0; r < responses; ++r)
+    for (int s = 0; s < sharpnesses; ++s) {
+      const Fitted here = {5e-3 * std::pow(40.0, r / (responses - 1.0)), 0.5 + 0.25 * s};
+      double likelihood = 0.0;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i == but) continue;
+        const double p = probability(all[i], here.response, here.sharpness);
+        likelihood += std::log(std::max(all[i].came_off ? p : 1.0 - p, 1e-12));
+      }
+      if (!best || likelihood > most) best = here, most = likelihood;
+    }
+  return best;
+}
+
+}  // namespace
+
+std::vector<PickLabel> read_pick_labels(const std::filesystem::path& file,
+                                        Diagnostics& diagnostics) {
+  const std::string content = io::read_text_file(file);
+  io::TableText table(content, file.string(), diagnostics);
+  std::vector<PickLabel> labels;
+  if (!table.good()) return labels;
+  const int name = column_of(table, {"pick", "file", "name"}),
+            outcome = column_of(table, {"outcome", "label"});
+  if (name < 0 || outcome < 0) {
+    diagnostics.error({file.string(), table.header_line(), 1},
+                      "expected a column pick (or file) and a column outcome");
+    return labels;
+  }
+  while (table.next()) {
+    const std::string word(table.cells()[static_cast<std::size_t>(outcome)].text);
+    if (const auto came_off = outcome_of(word))
+      labels.push_back({std::string(table.cells()[static_cast<std::size_t>(name)].text), *came_off,
+                        table.at(static_cast<std::size_t>(name))});
+    else
+      diagnostics.repeated_error(
+          "outcome", table.at(static_cast<std::size_t>(outcome)),
+          in_quotes(word) + " is no outcome, expected detached, failed, slipped or held");
+  }
+  return labels;
+}
+
+LabelledPicks compare_with_labels(const std::vector<JudgedPick>& all,
+                                  const std::vector<PickLabel>& labels) {
+  LabelledPicks found;
+  std::vector<Timed> timed;
+  std::vector<std::size_t> rows;
+  for (const JudgedPick& judged : all) {
+    const auto label = std::ranges::find_if(
+        labels, [&](const PickLabel& one) { return names(one.name, judged.record.file); });
+    if (label == labels.end()) {
+      found.without_label.push_back(judged.record.file);
+      continue;
+    }
+    const Pick& pick = judged.pick;
+    const bool right =
+        pick.end != Pick::End::unclear && (pick.end == Pick::End::came_off) == label->came_off;
+    if (pick.probability && pick.fall->half) {
+      const double blur = std::hypot(pick.interval, 0.5 * pick.fall->smoothing);
+      timed.push_back({*pick.fall->half, pick.fall->half_error, blur, label->came_off});
+      rows.push_back(found.rows.size());
+    }
+    found.rows.push_back({judged.record.file, label->came_off, right, right});
+  }
+  for (std::size_t i = 0; i < timed.size(); ++i)
+    if (const auto others = fit_timed(timed, i))
+      found.rows[rows[i]].right_alone =
+          (probability(timed[i], others->response, others->sharpness) >= 0.5) == timed[i].came_off;
+  if (const auto fitted = fit_timed(timed, timed.size())) {
+    found.response = fitted->response;
+    found.sharpness = fitted->sharpness;
+  }
+  return found;
+}
+
+int LabelledPicks::right() const {
+  return static_cast<int>(std::ranges::count_if(rows, &Row::right));
+}
+
+int LabelledPicks::right_alone() const {
+  return static_cast<int>(std::ranges::count_if(rows, &Row::right_alone));
+}
+
+std::string LabelledPicks::to_text() const {
+  const std::string of = " of " + std::to_string(rows.size());
+  std::string lines = "labels: " + std::to_string(right()) + of + " right\n";
+  for (const Row& row : rows)
+    if (!row.right)
+      lines += "  " + row.file + " is labelled " + (row.came_off ? "detached" : "failed") + "\n";
+  for (const std::string& file : without_label) lines += "  " + file + " has no label\n";
+  if (response > 0.0)
+    lines += "each judged by what the others give: " + std::to_string(right_alone()) + of +
+             " right\n" +
+             text("these labels give --response %.3g --sharpness %.3g\n", response, sharpness);
+  return lines;
+}
+
+}  // namespace pedicel::discrepancy

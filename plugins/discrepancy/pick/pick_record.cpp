@@ -1,0 +1,153 @@
+#include "pedicel/discrepancy/pick/pick_record.h"
+
+#include <cctype>
+#include <string_view>
+
+#include "pedicel/discrepancy/import/machine_column.h"
+#include "pedicel/discrepancy/import/machine_table.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/unit_text.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+using io::Quantity;
+
+/// fx, force_x, wrench.force.x, /ft_sensor/wrench/force/x, field.wrench.force.x, with or without a
+/// unit behind it.
+bool is_force_axis(const std::string& heading, char axis) {
+  std::string name = io::split_unit(heading).name;
+  if (const auto mark = name.rfind('_'); mark != std::string::npos)
+    if (const auto unit = io::unit_of(name.substr(mark + 1));
+        unit && unit->quantity == Quantity::force)
+      name.resize(mark);
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string end(1, axis);
+  if (name == "f" + end || name == "f_" + end) return true;
+  for (const char* mark : {"_", ".", "/", " ", ""}) {
+    const std::string wanted = std::string("force") + mark + end;
+    if (!name.ends_with(wanted)) continue;
+    const std::size_t before = name.size() - wanted.size();
+    if (before == 0 || std::string_view("_./ ").find(name[before - 1]) != std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+class PickReader {
+ public:
+  PickReader(const std::filesystem::path& file, const PickColumns& said, Diagnostics& diagnostics,
+             ImportNotes& notes)
+      : file_(file.string()),
+        said_(said),
+        diagnostics_(diagnostics),
+        notes_(notes),
+        before_(diagnostics.error_count()),
+        table_(read_machine_table(file, diagnostics)) {}
+
+  PickRecord read() {
+    PickRecord record;
+    record.file = file_;
+    if (diagnostics_.error_count() > before_) return record;
+    if (table_.lines.empty()) {
+      diagnostics_.error(table_.head, "no row below the names, expected the rows of a record");
+      return record;
+    }
+    read_time(record);
+    const std::vector<const MachineColumn*> axes = force_columns();
+    record.force.resize(static_cast<Eigen::Index>(table_.lines.size()),
+                        static_cast<Eigen::Index>(axes.size()));
+    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+      const std::vector<double> values =
+          si_values(table_, *axes[axis], Quantity::force, {said_.force_unit, "--force-unit"},
+                    diagnostics_, notes_);
+      if (values.empty()) return record;
+      record.force.col(static_cast<Eigen::Index>(axis)) = Eigen::Map<const Eigen::VectorXd>(
+          values.data(), static_cast<Eigen::Index>(values.size()));
+      record.columns.push_back(axes[axis]->name);
+    }
+    return record;
+  }
+
+ private:
+  void read_time(PickRecord& record) {
+    const MachineColumn* time =
+        said_.time ? named(*said_.time)
+                   : table_.find({"time", "t", "timestamp", "elapsed time", "time stamp"});
+    if (time == nullptr) {
+      if (!said_.time)
+        diagnostics_.error(table_.head,
+                           "no column is the time, expected one named time or --time-column with "
+                           "one of: " +
+                               table_.names());
+      return;
+    }
+    record.time = si_values(table_, *time, Quantity::time, {said_.time_unit, "--time-unit"},
+                            diagnostics_, notes_);
+    if (!record.time.empty()) check_increasing(table_, *time, diagnostics_);
+  }
+
+  const MachineColumn* named(const std::string& name) {
+    const MachineColumn* column = table_.named(name);
+    if (column == nullptr)
+      diagnostics_.error(table_.head,
+                         "no column " + in_quotes(name) + ", expected one of: " + table_.names());
+    return column;
+  }
+
+  std::vector<const MachineColumn*> force_columns() {
+    std::vector<const MachineColumn*> found;
+    for (const std::string& name : said_.force)
+      if (const MachineColumn* column = named(name)) found.push_back(column);
+    if (!said_.force.empty()) return found;
+    for (const char axis : {'x', 'y', 'z'}) {
+      std::vector<const MachineColumn*> along;
+      for (const MachineColumn& column : table_.columns)
+        if (is_force_axis(column.name, axis)) along.push_back(&column);
+      if (along.size() > 1) return several();
+      found.insert(found.end(), along.begin(), along.end());
+    }
+    return found.empty() ? lone_force() : found;
+  }
+
+  std::vector<const MachineColumn*> several() {
+    notes_.missing.push_back(file_ +
+                             ": more than one sensor's force, expected --force-column once an "
+                             "axis, with some of: " +
+                             table_.names());
+    return {};
+  }
+
+  /// The only one in a unit of force, or with the name of a load.
+  std::vector<const MachineColumn*> lone_force() {
+    std::vector<const MachineColumn*> found;
+    for (const MachineColumn& column : table_.columns) {
+      const auto unit = io::unit_of(column.unit);
+      const bool known = io::match_column(column.name, "force").matches ||
+                         io::match_column(column.name, "load").matches;
+      if (unit ? unit->quantity == Quantity::force : known) found.push_back(&column);
+    }
+    if (found.size() == 1) return found;
+    notes_.missing.push_back(
+        file_ + (found.empty() ? ": no column" : ": more than one column") +
+        " is a force, expected --force-column once an axis, with some of: " + table_.names());
+    return {};
+  }
+
+  std::string file_;
+  const PickColumns& said_;
+  Diagnostics& diagnostics_;
+  ImportNotes& notes_;
+  int before_;
+  MachineTable table_;
+};
+
+}  // namespace
+
+PickRecord read_pick_record(const std::filesystem::path& file, const PickColumns& columns,
+                            Diagnostics& diagnostics, ImportNotes& notes) {
+  return PickReader(file, columns, diagnostics, notes).read();
+}
+
+}  // namespace pedicel::discrepancy

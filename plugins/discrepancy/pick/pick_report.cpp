@@ -1,0 +1,69 @@
+#include "pedicel/discrepancy/pick/pick_report.h"
+
+#include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/io/html_report.h"
+#include "pedicel/io/svg_plot.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double around = 0.4;  // s shown before and after the fall
+
+/// The force's size and its part along the pull, in a stretch of the record.
+io::LinePlot plot_of(const ForceCourse& course, const Pick& pick, const std::string& title,
+                     std::optional<std::pair<double, double>> stretch) {
+  io::LinePlot plot;
+  plot.title = title;
+  plot.x.label = "time (s)";
+  plot.y.label = "force (N)";
+  io::PlotSeries size{"size", {}, {}}, along{"along the pull", {}, {}};
+  along.markers = stretch.has_value();
+  for (int i = 0; i < course.size(); ++i) {
+    if (stretch && (course.time(i) < stretch->first || course.time(i) > stretch->second)) continue;
+    size.x.push_back(course.time(i));
+    size.y.push_back(course.force(i).norm());
+    along.x.push_back(course.time(i));
+    if (pick.fall) along.y.push_back(course.force(i).dot(pick.fall->pull));
+  }
+  plot.series.push_back(size);
+  if (pick.fall) plot.series.push_back(along);
+  if (const auto moment = pick.moment())
+    plot.events.push_back({*moment, pick.end == Pick::End::came_off ? "came off" : "slips"});
+  return plot;
+}
+
+}  // namespace
+
+void write_pick_report(const std::filesystem::path& file, const std::vector<JudgedPick>& all,
+                       const PickSettings& settings) {
+  io::HtmlReport report("Picks", text("%.0f records", static_cast<double>(all.size())));
+  std::vector<std::vector<std::string>> rows;
+  for (const JudgedPick& judged : all) {
+    const Pick& pick = judged.pick;
+    rows.push_back({judged.record.file, pick.outcome(),
+                    pick.probability ? text("%.3f", *pick.probability) : "",
+                    pick.moment() ? text("%.3f", *pick.moment()) : "",
+                    text("%.4g", pick.peak_force),
+                    pick.fall && pick.fall->half ? text("%.3g", 1e3 * *pick.fall->half) : ""});
+  }
+  report.table({"record", "outcome", "probability that it came off", "moment, s", "peak force, N",
+                "half of the load lost in, ms"},
+               rows);
+  for (const JudgedPick& judged : all) {
+    const Pick& pick = judged.pick;
+    report.heading(judged.record.file);
+    report.note(pick.sentence(), pick.end == Pick::End::came_off);
+    const ForceCourse course(judged.record, settings.rest);
+    if (course.size() < 2) continue;
+    std::vector<std::string> plots = {io::to_svg(plot_of(course, pick, "the record", {}))};
+    if (pick.fall)
+      plots.push_back(
+          io::to_svg(plot_of(course, pick, "its largest fall",
+                             std::pair(pick.fall->time - around, pick.fall->time + around))));
+    report.plots(plots);
+  }
+  report.write(file);
+}
+
+}  // namespace pedicel::discrepancy
