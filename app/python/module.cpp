@@ -2,7 +2,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "pedicel/app/python/errors.h"
-#include "pedicel/app/python/experiments.h"
 #include "pedicel/app/python/picture_thread.h"
 #include "pedicel/app/python/plant_class.h"
 #include "pedicel/app/python/run_class.h"
@@ -106,7 +105,6 @@ PYBIND11_MODULE(_core, module) {
   add_run_class(module);
   add_simulation_class(module);
   add_worlds_class(module);
-  add_experiments(module);
 }
 
 }  // namespace pedicel::python

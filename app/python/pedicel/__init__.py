@@ -12,6 +12,7 @@ from ._core import Event, Parameter, Plant, Reach, Run, Simulation, Variation, W
 from .errors import Diagnostic, Error, InvalidFile, NoPictures, Unstable, UsageError, WriteError
 from .experiments import (Cause, Estimate, Fit, FittedParameter, Validation, Verdict, diagnose, fit,
                           observe, validate)
+from .program import command
 
 __version__: str = _core.version
 
@@ -21,7 +22,7 @@ atexit.register(_core.end_pictures)
 __all__ = [
     "Cause", "Diagnostic", "Error", "Estimate", "Event", "Fit", "FittedParameter", "InvalidFile",
     "NoPictures", "Parameter", "Plant", "Reach", "Run", "Simulation", "Unstable", "UsageError",
-    "Validation", "Variation", "Verdict", "World", "Worlds", "WriteError", "asset", "diagnose", "fit", "observe",
+    "Validation", "Variation", "Verdict", "World", "Worlds", "WriteError", "asset", "command", "diagnose", "fit", "observe",
     "validate",
 ]
 

@@ -2,12 +2,13 @@
 
 import json
 import os
-import re
+import tempfile
+from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Union
 
-from . import _core
 from .errors import Diagnostic
+from .program import command, diagnostics_of, outputs
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -102,6 +103,21 @@ def _cause(data: Mapping[str, Any]) -> Cause:
                  data.get("because") or "", data.get("evidence"), dict(data))
 
 
+@contextmanager
+def _folder(out: Optional[Path]) -> Iterator[str]:
+    """Where the program may write: what nobody asked for goes afterwards."""
+    if out is not None:
+        yield os.fspath(out)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        yield os.path.join(folder, "out")
+
+
+def _options(folder: str, threads: int, seed: int) -> List[str]:
+    options = ["--out", folder, "--seed", str(seed), "--json", "--quiet"]
+    return options + (["--threads", str(threads)] if threads else [])
+
+
 def diagnose(experiment: Path, *, out: Optional[Path] = None, threads: int = 0, seed: int = 1,
              time_limit: Optional[float] = None,
              settings: Optional[Mapping[str, float]] = None) -> Verdict:
@@ -111,8 +127,14 @@ def diagnose(experiment: Path, *, out: Optional[Path] = None, threads: int = 0, 
     threads 0: all cores. time_limit: s, after which what is known is concluded. settings: of the
     manual's page on the diagnosis. Ctrl-C ends it.
     """
-    data = json.loads(_core.diagnose(os.fspath(experiment), os.fspath(out or ""), threads, seed,
-                                     time_limit, dict(settings or {})))
+    with _folder(out) as folder:
+        words = ["diagnose", experiment, *_options(folder, threads, seed)]
+        if time_limit is not None:
+            words += ["--time-limit", time_limit]
+        for name, value in (settings or {}).items():
+            words += ["--set", f"{name}={value!r}"]
+        # 10 and above say which verdict it is.
+        data = json.loads(command(*words, good=(0, 10, 11, 12, 13, 14)))
     return Verdict(data["verdict"], [_cause(one) for one in data.get("causes") or []],
                    _estimates(data.get("parameters")), data.get("gain"), data.get("remainder") or "",
                    data.get("next_experiment") or "", bool(data.get("partial")), data)
@@ -125,8 +147,8 @@ def fit(experiment: Path, parameters: Sequence[str], *, out: Optional[Path] = No
     parameters: youngs_modulus, density, damping_time, EFFECT.PARAMETER[@CURVE:AT] (free) or
     EFFECT.PARAMETER=VALUE[@CURVE:AT] (given). out: a folder for fit.json and fitted.plant.yaml.
     """
-    data = json.loads(_core.fit(os.fspath(experiment), list(parameters), os.fspath(out or ""), threads,
-                                seed))
+    with _folder(out) as folder:
+        data = json.loads(command("fit", experiment, *parameters, *_options(folder, threads, seed)))
     found = {one["name"]: FittedParameter(one["name"], one.get("value"), one.get("low"),
                                           one.get("high"), one.get("unit", ""), one.get("seen", True),
                                           one) for one in data["parameters"]}
@@ -142,22 +164,20 @@ def observe(model: Path, like: Path, out: Path, *, plant: str = "", seed: int = 
     standard deviations. effects: as in a file, "{name: ..., ...}": simulated, but not written.
     Returns the folder.
     """
-    _core.observe(os.fspath(model), os.fspath(like), os.fspath(out), plant, seed, noise_position,
-                  noise_force, noise_colour, list(effects))
+    words: List[Any] = ["observe", model, "--like", like, "--out", out, "--seed", seed,
+                        "--noise-position", noise_position, "--noise-force", noise_force,
+                        "--noise-colour", noise_colour]
+    for effect in effects:
+        words += ["--set", effect]
+    command(*words, *(["--plant", plant] if plant else []))
     return os.fspath(out)
-
-
-_LINE = re.compile(r"^(?P<file>.*?)(?::(?P<line>\d+))?(?::(?P<column>\d+))?: "
-                   r"(?P<severity>error|warning|notice): (?P<what>.*)$")
 
 
 def validate(*files: Path, packages: Sequence[str] = ()) -> Validation:
     """Checks plants, scenes, leaf templates, robots, meshes, experiments and tables without running them."""
-    good, text = _core.validate([os.fspath(one) for one in files], list(packages))
-    found = []
-    for line in text.splitlines():
-        match = _LINE.match(line)
-        if match:
-            found.append(Diagnostic(match["severity"], match["file"], int(match["line"] or 0),
-                                    int(match["column"] or 0), match["what"]))
-    return Validation(good, found, text)
+    words: List[Any] = ["validate", *files]
+    for package in packages:
+        words += ["--package", package]
+    text = "".join(outputs(words, (0, 3)))
+    found = diagnostics_of(text)
+    return Validation(not any(one.severity == "error" for one in found), found, text)
