@@ -53,7 +53,12 @@ std::string fruit_name(const cosserat::RodModel& model, int fruit) {
 
 PlantStep::PlantStep(cosserat::RodSystem& rods, coupling::ColliderSet& colliders,
                      LinkPose link_pose)
-    : rods_(rods), colliders_(colliders), link_pose_(std::move(link_pose)), contacts_(colliders) {}
+    : rods_(rods), colliders_(colliders), link_pose_(std::move(link_pose)), contacts_(colliders) {
+  // Before the first step nothing touches: who asks finds zeros.
+  contacts_.begin();
+  for (int p = 0; p < rods_.size(); ++p) contacts_.add(p, rods_.model(p), {});
+  contacts_.end();
+}
 
 void PlantStep::act(world::SimWorld& world, world::WorldReport& report) {
   // Bullet has moved the links; plants feel them where they are now.

@@ -63,7 +63,7 @@ void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
   else if (!trajectory_.empty())
     // A target is where the joint shall be at the end of this step.
     part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
-  for (int i = 0; i < q_.size(); ++i) {
+  for (int i = 0; i < q_.size() && !led_; ++i) {
     if (mode_ == "position") robot_.motors().set_position_target(i, q_[i], qd_[i]);
     if (mode_ == "velocity") robot_.motors().set_velocity_target(i, qd_[i]);
     if (mode_ == "torque") robot_.motors().set_torque(i, 0.0);
@@ -73,11 +73,18 @@ void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
 
 void RobotControl::go_to(const Eigen::VectorXd& q) {
   // A program may be ahead of a robot that could not keep up.
-  if (follows_program()) q_ = robot_.model().clamped(robot_.positions());
+  if (follows_program() || led_) q_ = robot_.model().clamped(robot_.positions());
   // A goal by hand ends the program, and only a new one takes over again.
   goal_ = robot_.model().clamped(q);
   // Else the program would go on where it was, as soon as the goal is reached.
   trajectory_ = lap_ = {};
+  led_ = false;
+}
+
+void RobotControl::lead_by_motors() {
+  goal_.reset();
+  trajectory_ = lap_ = {};
+  led_ = true;
 }
 
 // The way to the first lap, or the lap.
@@ -94,6 +101,7 @@ double RobotControl::program_time(double world_time) const {
 
 Eigen::VectorXd RobotControl::goal() const {
   if (goal_) return *goal_;
+  if (led_) return robot_.positions();
   if (trajectory_.empty()) return q_;
   Eigen::VectorXd q = q_, qd = qd_;
   const robot::Trajectory& last = lap_.empty() ? trajectory_ : lap_;

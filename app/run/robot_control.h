@@ -48,6 +48,7 @@ class RobotControl : public world::Participant {
     lap_ = {};
     start_ = start;
     goal_.reset();
+    led_ = false;
   }
   /// The same, and after its end a lap (from its time 0 on) over and over. The lap should end where
   /// it begins.
@@ -61,7 +62,11 @@ class RobotControl : public world::Participant {
   /// moved into the limits), at its speed limit at most, at 1 rad/s or 0.25 m/s where that is
   /// lower.
   void go_to(const Eigen::VectorXd& q);
-  /// Where it is told to go in the end (rad or m).
+  /// Gives up the program or the goal: from now on the motors do what robot().motors() is told, as
+  /// long as nothing else is asked for.
+  void lead_by_motors();
+  bool led_by_motors() const { return led_; }
+  /// Where it is told to go in the end (rad or m); led by its motors, where it is.
   Eigen::VectorXd goal() const;
   bool follows_program() const { return !trajectory_.empty() && !goal_; }
   bool loops() const { return follows_program() && !lap_.empty(); }
@@ -93,6 +98,7 @@ class RobotControl : public world::Participant {
   double start_ = 0.0;                   // s, of the trajectory
   std::optional<Eigen::VectorXd> goal_;  // of go_to()
   Eigen::VectorXd speed_;                // rad/s or m/s, of go_to()
+  bool led_ = false;                     // by its motors
   int tool_link_ = 0, gripper_ = -1;
   Vec3 tool_offset_;
   Eigen::VectorXd q_, qd_, start_of_step_;

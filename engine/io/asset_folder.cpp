@@ -1,10 +1,26 @@
 #include "pedicel/io/asset_folder.h"
 
+#include <dlfcn.h>
+
 namespace pedicel::io {
+
+namespace {
+
+// The file that this code lies in: the program, or a module that another program has loaded.
+std::filesystem::path file_of_this_code() {
+  Dl_info info;
+  if (!dladdr(reinterpret_cast<const void*>(&asset_folder_of), &info) || !info.dli_fname) return {};
+  std::error_code none;
+  return std::filesystem::canonical(info.dli_fname, none);
+}
+
+}  // namespace
 
 std::filesystem::path asset_folder() {
   std::error_code none;
-  return asset_folder_of(std::filesystem::read_symlink("/proc/self/exe", none));
+  // Of a program that was found on the path, dladdr() knows the name only.
+  const auto by_program = asset_folder_of(std::filesystem::read_symlink("/proc/self/exe", none));
+  return by_program.empty() ? asset_folder_of(file_of_this_code()) : by_program;
 }
 
 std::filesystem::path asset_folder_of(const std::filesystem::path& program) {

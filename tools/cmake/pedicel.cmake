@@ -12,12 +12,7 @@
 # a run's time, so the compiler need not either.
 function(pedicel_library NAME)
   cmake_parse_arguments(ARG "ALONE;COLD" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  string(REGEX REPLACE "^(engine|plugins)/" "" folder ${folder})
-  set(root ${PROJECT_BINARY_DIR}/include/${NAME})
-  get_filename_component(parent ${root}/pedicel/${folder} DIRECTORY)
-  file(MAKE_DIRECTORY ${parent})
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/pedicel/${folder} SYMBOLIC)
+  pedicel_include_root(${NAME} root)
   add_library(${NAME} STATIC ${ARG_SOURCES})
   target_include_directories(${NAME} PUBLIC $<BUILD_INTERFACE:${root}>)
   target_link_libraries(${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
@@ -28,6 +23,19 @@ function(pedicel_library NAME)
   if(ARG_COLD AND CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${NAME} PRIVATE -O2)
   endif()
+endfunction()
+
+# pedicel_include_root(NAME ROOT): ROOT becomes the include root of this folder, and `folder` the name
+# by which its headers are reached.
+function(pedicel_include_root NAME ROOT)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REGEX REPLACE "^(engine|plugins)/" "" folder ${folder})
+  set(root ${PROJECT_BINARY_DIR}/include/${NAME})
+  get_filename_component(parent ${root}/pedicel/${folder} DIRECTORY)
+  file(MAKE_DIRECTORY ${parent})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/pedicel/${folder} SYMBOLIC)
+  set(${ROOT} ${root} PARENT_SCOPE)
+  set(folder ${folder} PARENT_SCOPE)
 endfunction()
 
 # pedicel_test(NAME SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT s])

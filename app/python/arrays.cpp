@@ -1,0 +1,80 @@
+#include "pedicel/app/python/arrays.h"
+
+#include "pedicel/core/check.h"
+
+namespace pedicel::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::array read_only(const app::StateField& field, const std::vector<py::ssize_t>& shape,
+                    const void* data, const py::handle& owner) {
+  py::array array(field.flag ? py::dtype::of<bool>() : py::dtype::of<double>(), shape, {}, data,
+                  owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+std::vector<py::ssize_t> shape_of(const app::StateArrays& state, const app::StateField& field) {
+  std::vector<py::ssize_t> shape;
+  if (field.rows != app::Rows::one) shape.push_back(state.layout().rows(field.rows));
+  if (field.columns > 1) shape.push_back(field.columns);
+  return shape;
+}
+
+}  // namespace
+
+py::array worlds_view(app::StateArrays& state, app::Field field, const py::handle& owner) {
+  const app::StateField& one = app::state_fields()[static_cast<std::size_t>(field)];
+  std::vector<py::ssize_t> shape = shape_of(state, one);
+  shape.insert(shape.begin(), state.worlds());
+  if (one.flag) return read_only(one, shape, state.flags(field), owner);
+  return read_only(one, shape, state.numbers(field), owner);
+}
+
+py::array world_view(app::StateArrays& state, app::Field field, int world,
+                     const py::handle& owner) {
+  const app::StateField& one = app::state_fields()[static_cast<std::size_t>(field)];
+  const std::ptrdiff_t first =
+      static_cast<std::ptrdiff_t>(world) * state.layout().rows(one.rows) * one.columns;
+  if (one.flag) return read_only(one, shape_of(state, one), state.flags(field) + first, owner);
+  return read_only(one, shape_of(state, one), state.numbers(field) + first, owner);
+}
+
+std::string words_of(const app::StateField& field, bool worlds) {
+  std::string shape = worlds ? "worlds" : "";
+  const auto add = [&](const std::string& axis) { shape += (shape.empty() ? "" : ", ") + axis; };
+  if (field.rows != app::Rows::one) add(std::string(name_of(field.rows)));
+  if (field.columns > 1) add(std::to_string(field.columns));
+  if (shape.find(',') == std::string::npos) shape += ",";
+  return "(" + shape + "), " + (field.flag ? "bool" : std::string(field.unit)) + ": " +
+         std::string(field.sentence) + ".";
+}
+
+std::vector<double> numbers_of(const Numbers& numbers, std::size_t count, const char* what) {
+  if (numbers.ndim() != 1 || static_cast<std::size_t>(numbers.size()) != count)
+    throw UsageError(std::string(what) + ": has " + std::to_string(numbers.size()) +
+                     " numbers in " + std::to_string(numbers.ndim()) + " axes, expected " +
+                     std::to_string(count) + " in one");
+  return {numbers.data(), numbers.data() + count};
+}
+
+Vec3 vec3_of(const Numbers& numbers, const char* what) {
+  const std::vector<double> v = numbers_of(numbers, 3, what);
+  return {v[0], v[1], v[2]};
+}
+
+Quat quat_of(const Numbers& numbers, const char* what) {
+  const std::vector<double> q = numbers_of(numbers, 4, what);
+  const Quat quat(q[3], q[0], q[1], q[2]);
+  if (!(quat.norm() > 1.0e-6))
+    throw UsageError(std::string(what) + ": has no length, expected a quaternion x y z w");
+  return quat.normalized();
+}
+
+py::array_t<double> array_of(const Eigen::VectorXd& vector) {
+  return py::array_t<double>(vector.size(), vector.data());
+}
+
+}  // namespace pedicel::python

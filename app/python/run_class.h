@@ -1,0 +1,54 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "pedicel/app/draw/scene_view.h"
+#include "pedicel/app/python/arrays.h"
+#include "pedicel/app/steer/steered_run.h"
+
+namespace pedicel::python {
+
+/// A run that Python leads: a Simulation, or one of several Worlds. One call at a time works on it;
+/// others wait, without the interpreter's lock.
+class Run {
+ public:
+  virtual ~Run() = default;
+  virtual app::SteeredRun& run() = 0;
+  virtual app::StateArrays& state() = 0;
+  virtual std::mutex& mutex() = 0;
+  virtual int world() const { return 0; }
+
+  long seed = 0;
+
+  /// Does what is given with the run, alone and without the interpreter's lock.
+  template <class Task>
+  auto alone(const Task& task) {
+    const pybind11::gil_scoped_release release;
+    const std::lock_guard lock(mutex());
+    return task(run());
+  }
+  void fill() { state().fill(run().simulation(), world()); }
+  /// All worlds that share the arrays.
+  virtual void fill_all() { fill(); }
+
+  void step(long count);
+  void reset(const std::optional<long>& wanted_seed, const pybind11::dict& settings);
+  void act(app::Act act);
+  pybind11::array_t<std::uint8_t> render(const std::string& camera, int width, int height,
+                                         bool strain, bool text);
+
+ private:
+  std::unique_ptr<app::SceneView> view_;  // of the simulation of that generation
+  long generation_ = -1;
+};
+
+/// Class pedicel.Run with everything that a run can do.
+void add_run_class(pybind11::module_& module);
+void add_simulation_class(pybind11::module_& module);
+void add_worlds_class(pybind11::module_& module);
+
+}  // namespace pedicel::python

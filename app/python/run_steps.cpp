@@ -1,0 +1,86 @@
+#include <pybind11/numpy.h>
+
+#include "pedicel/app/python/errors.h"
+#include "pedicel/app/python/picture_thread.h"
+#include "pedicel/app/python/run_class.h"
+#include "pedicel/app/python/scenes.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/timer.h"
+
+namespace pedicel::python {
+
+namespace py = pybind11;
+
+void Run::step(long count) {
+  constexpr double heard = 0.1;  // s, after which Ctrl-C is heard
+  if (count < 0) throw UsageError("step(" + std::to_string(count) + "): expected 0 steps or more");
+  const py::gil_scoped_release release;
+  const std::lock_guard lock(mutex());
+  Timer since;
+  bool good = !run().failed();
+  for (long i = 0; i < count && good; ++i) {
+    good = run().step();
+    if (since.seconds() < heard) continue;
+    since.restart();
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() == 0) continue;
+    fill();
+    throw py::error_already_set();
+  }
+  fill();
+  if (!good) throw Unstable(run().failure());
+}
+
+void Run::reset(const std::optional<long>& wanted_seed, const py::dict& settings) {
+  if (wanted_seed) seed = *wanted_seed;
+  const app::SteeredScene::Settings texts = settings_of(settings);
+  alone([&](app::SteeredRun& one) {
+    // Refused settings leave it at time 0, too.
+    try {
+      one.reset(texts);
+    } catch (...) {
+      fill();
+      throw;
+    }
+    fill();
+  });
+}
+
+void Run::act(app::Act act) {
+  alone([&](app::SteeredRun& one) { one.act(std::move(act)); });
+}
+
+namespace {
+
+void check_camera(const app::Simulation& simulation, const std::string& camera) {
+  if (camera.empty()) return;
+  std::vector<std::string> names;
+  for (const world::SceneCamera& one : simulation.scene().cameras) {
+    if (one.name == camera) return;
+    names.push_back(one.name);
+  }
+  throw UsageError("no camera " + in_quotes(camera) + ", expected one of: " + app::list_of(names));
+}
+
+}  // namespace
+
+py::array_t<std::uint8_t> Run::render(const std::string& camera, int width, int height, bool strain,
+                                      bool text) {
+  std::optional<render::Image> image;
+  alone([&](app::SteeredRun& one) {
+    check_camera(one.simulation(), camera);
+    if (generation_ != one.generation()) view_ = std::make_unique<app::SceneView>(one.simulation());
+    generation_ = one.generation();
+    app::Frame frame;
+    view_->fill(frame, strain);
+    if (!text) frame.caption.clear(), frame.note.clear(), frame.legend.reset();
+    const render::Camera from = view_->camera(camera, frame);
+    PictureThread::get().run(
+        [&](app::PictureTaker& taker) { image = taker.take(frame, from, width, height); });
+  });
+  py::array_t<std::uint8_t> pixels({height, width, 3});
+  std::copy(image->rgb.begin(), image->rgb.end(), pixels.mutable_data());
+  return pixels;
+}
+
+}  // namespace pedicel::python

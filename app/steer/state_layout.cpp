@@ -1,0 +1,103 @@
+#include "pedicel/app/steer/state_layout.h"
+
+#include <algorithm>
+
+#include "pedicel/app/run/plant_step.h"
+#include "pedicel/core/check.h"
+
+namespace pedicel::app {
+
+namespace {
+
+std::vector<std::string>& names_of(StateLayout& layout, Rows kind) {
+  return layout.names[static_cast<int>(kind)];
+}
+
+void add_plant(StateLayout& layout, const cosserat::RodModel& model) {
+  const int segments = layout.rows(Rows::segment), organs = layout.rows(Rows::organ);
+  layout.first_segment.push_back(segments);
+  layout.first_organ.push_back(organs);
+  layout.first_fruit.push_back(layout.rows(Rows::fruit));
+  for (const cosserat::Element& element : model.elements) {
+    layout.segment_organ.push_back(organs + element.organ);
+    layout.segment_parent.push_back(element.parent < 0 ? -1 : segments + element.parent);
+    names_of(layout, Rows::segment).push_back(model.organs[element.organ]);
+  }
+  for (const std::string& organ : model.organs) names_of(layout, Rows::organ).push_back(organ);
+  for (std::size_t f = 0; f < model.fruits.size(); ++f)
+    names_of(layout, Rows::fruit).push_back(fruit_name(model, static_cast<int>(f)));
+}
+
+// Colliders of one link or body are one row. Fruits that fall become colliders later on.
+void add_touching(StateLayout& layout, const coupling::ColliderSet& colliders) {
+  std::vector<std::string>& names = names_of(layout, Rows::touching);
+  for (int c = 0; c < colliders.size(); ++c) {
+    const std::string& name = colliders.collider(c).name;
+    const auto found = std::ranges::find(names, name);
+    layout.touching_of.push_back(static_cast<int>(found - names.begin()));
+    if (found == names.end()) names.push_back(name);
+  }
+}
+
+OrganPlace place_in_stem(const cosserat::RodModel& model, int plant, int organ, double at) {
+  double left = 0.0;
+  for (const cosserat::Element& element : model.elements)
+    if (element.organ == organ) left += element.length;
+  left *= at;
+  OrganPlace place{plant, 0, 0.0};
+  for (int e = 0; e < model.size(); ++e) {
+    if (model.elements[e].organ != organ) continue;
+    const double length = model.elements[e].length;
+    place = {plant, e, std::max(0.0, length - left)};
+    if (left <= length) break;
+    left -= length;
+  }
+  return place;
+}
+
+}  // namespace
+
+StateLayout::StateLayout(const Simulation& simulation) {
+  names_of(*this, Rows::one).emplace_back();
+  for (int p = 0; p < simulation.rods().size(); ++p) add_plant(*this, simulation.rods().model(p));
+  first_segment.push_back(rows(Rows::segment));
+  first_fruit.push_back(rows(Rows::fruit));
+  first_organ.push_back(rows(Rows::organ));
+  if (const RobotControl* robot = simulation.robot()) {
+    names_of(*this, Rows::joint) = robot->robot().model().joint_names();
+    for (const robot::Link& link : robot->description().links)
+      names_of(*this, Rows::link).push_back(link.name);
+  }
+  for (const world::BodyDescription& body : simulation.scene().bodies)
+    names_of(*this, Rows::body).push_back(body.name);
+  add_touching(*this, simulation.colliders());
+}
+
+OrganPlace find_organ_place(const Simulation& simulation, const std::string& organ, double at) {
+  if (!(at >= 0.0 && at <= 1.0))
+    throw UsageError("at = " + std::to_string(at) + ": must be between 0 and 1");
+  const cosserat::RodSystem& rods = simulation.rods();
+  std::vector<std::string> names;
+  for (int p = 0; p < rods.size(); ++p) {
+    const cosserat::RodModel& model = rods.model(p);
+    for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
+      names.push_back(fruit_name(model, f));
+      if (names.back() == organ) return {p, model.fruits[f].element, model.fruits[f].back};
+    }
+    for (int o = 0; o < static_cast<int>(model.organs.size()); ++o) {
+      names.push_back(model.organs[o]);
+      if (names.back() == organ) return place_in_stem(model, p, o, at);
+    }
+  }
+  throw UsageError("no organ " + in_quotes(organ) + ", expected one of: " + list_of(names));
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown, names.size()); ++i)
+    text += (i ? ", " : "") + names[i];
+  return text + (names.size() > shown ? ", ..." : names.empty() ? "(there is none)" : "");
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,120 @@
+#include "pedicel/app/steer/variation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/core/random.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/yaml.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using Distribution = VariedNumber::Distribution;
+
+const std::vector<std::string>& distribution_words() {
+  static const std::vector<std::string> words = {"uniform", "normal", "lognormal", "choice"};
+  return words;
+}
+
+void read_bounds(io::YamlMap& map, VariedNumber& one, bool required) {
+  one.low = -std::numeric_limits<double>::infinity();
+  one.high = -one.low;
+  if (required || map.has("low")) one.low = map.number("low", io::any_number);
+  if (required || map.has("high")) one.high = map.number("high", io::any_number);
+  if (map.has("low") && map.has("high") && one.low > one.high)
+    map.error("low is above high, expected low <= high");
+}
+
+void read_values(io::YamlMap& map, VariedNumber& one) {
+  const auto node = map.required("values");
+  if (!node) return;
+  for (const io::YamlNode& value : node->list("values")) one.values.push_back(value.text("values"));
+  if (one.values.empty()) node->error("values: is empty, expected one or more");
+}
+
+VariedNumber read_number(const std::string& key, const io::YamlNode& node) {
+  VariedNumber one;
+  one.key = key;
+  one.where = node.position();
+  io::YamlMap map(node, "what varies");
+  const std::string word = map.choice("distribution", distribution_words(), "uniform");
+  const auto found = std::ranges::find(distribution_words(), word) - distribution_words().begin();
+  one.distribution = static_cast<Distribution>(found);
+  if (one.distribution == Distribution::choice) {
+    read_values(map, one);
+  } else if (one.distribution == Distribution::uniform) {
+    read_bounds(map, one, true);
+  } else {
+    const double least = one.distribution == Distribution::lognormal ? 1.0e-300 : -1.0e300;
+    one.mean = map.number("mean", {least, 1.0e300});
+    one.deviation = map.number("deviation", {0.0, 1.0e300});
+    read_bounds(map, one, false);
+  }
+  map.finish();
+  return one;
+}
+
+std::vector<VariedNumber> read_map(const io::YamlNode& node) {
+  std::vector<VariedNumber> all;
+  if (!node.is_map()) {
+    node.error("vary: expected a map of keys of --set");
+    return all;
+  }
+  for (const auto& entry : node.raw())
+    all.push_back(
+        read_number(entry.first.Scalar(), {entry.second, node.file(), node.diagnostics()}));
+  return all;
+}
+
+double draw_once(const VariedNumber& one, Random& random) {
+  if (one.distribution == Distribution::uniform) return random.uniform(one.low, one.high);
+  const double unit = random.normal();
+  if (one.distribution == Distribution::normal) return one.mean + one.deviation * unit;
+  // Mean and deviation of exp(m + s unit) are those asked for.
+  const double s2 = std::log1p(std::pow(one.deviation / one.mean, 2));
+  return std::exp(std::log(one.mean) - 0.5 * s2 + std::sqrt(s2) * unit);
+}
+
+std::string draw_text(const VariedNumber& one, Random& random) {
+  if (one.distribution == Distribution::choice)
+    return one.values[static_cast<std::size_t>(
+        random.integer(0, static_cast<int>(one.values.size()) - 1))];
+  constexpr int tries = 1000;
+  double value = draw_once(one, random);
+  for (int i = 0; i < tries && !(value >= one.low && value <= one.high); ++i)
+    value = draw_once(one, random);
+  return io::exact_number(std::clamp(value, one.low, one.high));
+}
+
+}  // namespace
+
+Variation Variation::read(const std::filesystem::path& path) {
+  Diagnostics diagnostics;
+  Variation variation;
+  io::YamlMap map(io::load_yaml(path, diagnostics), "a variation");
+  if (io::check_format(map, "pedicel-variation", 1)) {
+    if (const auto vary = map.required("vary")) variation.numbers_ = read_map(*vary);
+    map.finish();
+  }
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  return variation;
+}
+
+Variation Variation::parse(const std::string& text, const std::string& name) {
+  Diagnostics diagnostics;
+  Variation variation;
+  variation.numbers_ = read_map(io::parse_yaml(text, name, diagnostics));
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  return variation;
+}
+
+std::vector<std::pair<std::string, std::string>> Variation::draw(std::uint64_t seed) const {
+  std::vector<std::pair<std::string, std::string>> drawn;
+  Random random(seed);
+  for (const VariedNumber& one : numbers_) drawn.emplace_back(one.key, draw_text(one, random));
+  return drawn;
+}
+
+}  // namespace pedicel::app
