@@ -29,7 +29,7 @@ void Baseline::refit_base() {
 }
 
 void Baseline::refit_parameters() {
-  state_.log.say("refitting modulus, density and damping", 0.02);
+  state_.log.say("refitting modulus, density and damping", 0.01);
   Evaluator evaluator = state_.setup->evaluator();
   const Hypothesis start = baseline_start(evaluator, state_.fit_options(), state_.result.unseen);
   // Short first: over a whole record a wrong frequency is out of phase, and a fit stays there.
@@ -104,7 +104,7 @@ void Baseline::refine() {
   const NumericsCheck check = state_.setup->refine(
       state_.result.base,
       {[this](int round) {
-         state_.log.say("checking our own numerical error", 0.05 + 0.03 * round);
+         state_.log.say("checking our own numerical error", 0.02 + 0.01 * round);
        },
        [this](const NumericsCheck& coarse) {
          state_.log.note(
@@ -141,7 +141,7 @@ bool Baseline::is_masked(const NumericsCheck& check) const {
 }
 
 void Baseline::look() {
-  state_.log.say("looking for anything that is wrong", 0.15);
+  state_.log.say("looking for anything that is wrong", 0.06);
   check_.anchor_at(state_.result.base);
   state_.result.directions = check_.directions_at(state_.result.base);
   if (state_.stopped()) return;

@@ -51,7 +51,7 @@ void CauseSearch::search() {
   state_.simulators->renew_fine();
   state_.result.ranking =
       refit_all(state_.simulators->workers(), state_.result.base, state_.causes,
-                state_.result.directions, refit_options(0.2, 0.6, "refitting candidates"));
+                state_.result.directions, refit_options(0.12, 0.72, "refitting candidates"));
   if (state_.stopped()) return;
   for (std::size_t i = 0; i < std::min<std::size_t>(6, state_.result.ranking.size()); ++i)
     if (state_.result.ranking[i].whole)
@@ -80,7 +80,7 @@ bool CauseSearch::one_force_does_more() {
   const std::string sentence = "the best known cause, " + best.cause +
                                text(", leaves %.2g %% of what is wrong", 100.0 * left);
   state_.log.note("One force is asked for: " + sentence + ".");
-  const MissingForce& force = force_.find(0.6);
+  const MissingForce& force = force_.find(0.72);
   if (!force.found || force.fit.why == "not run" ||
       1.0 - force.share > state_.settings().evidence.left_by_force * left)
     return false;
@@ -100,13 +100,13 @@ void CauseSearch::extend() {
       state_.result.after.raised = false;
       return;
     }
-    const double from = 0.5 + 0.15 * static_cast<double>(state_.findings.chain.size());
+    const double from = 0.62 + 0.1 * static_cast<double>(state_.findings.chain.size());
     // The most significant directions alone: each candidate takes a fit.
     const std::vector<Cause> likely =
         screened(state_.causes, directions, state_.settings().budget.screened);
     const std::vector<Candidate> next =
         refit_all(state_.simulators->workers(), state_.result.best, likely, directions,
-                  refit_options(from, from + 0.15, "looking for another cause"));
+                  refit_options(from, from + 0.1, "looking for another cause"));
     if (state_.stopped() || next.empty()) return;
     const Candidate& first = next.front();
     state_.log.fit(text("Beside what was found, evidence %.4g", first.evidence), first.fit,

@@ -7,6 +7,8 @@
 
 namespace pedicel::discrepancy {
 
+// Shares are those of the time that one named cause takes; a second cause takes about as long
+// again.
 void DiagnosisLog::say(const std::string& what, double share) const {
   if (progress_) progress_(what, share);
 }

@@ -24,7 +24,7 @@ bool stands_at_bound(const Candidate& found) {
 }  // namespace
 
 void VerdictWriter::write(const std::string& instead_of, int objecting) {
-  state_.log.say("writing the verdict", 0.95);
+  state_.log.say("writing the verdict", 0.92);
   state_.findings.step = state_.result.numerics.dt;
   if (state_.findings.chain.size() > 1)
     state_.findings.held_out = state_.held_out_by(state_.result.best);
@@ -44,7 +44,7 @@ void VerdictWriter::write(const std::string& instead_of, int objecting) {
   }
   judge_named(instead_of, objecting);
   if (!state_.stopped()) {
-    state_.log.say("weighing what explains how much", 0.97);
+    state_.log.say("weighing what explains how much", 0.94);
     Evaluator evaluator = state_.setup->evaluator();
     tell_shares(evaluator, state_.findings, state_.fit_options(), state_.result);
   }
@@ -138,7 +138,7 @@ void VerdictWriter::ask_for_one_force() {
       explained > (several ? weights.beyond_doubt_together : weights.beyond_doubt))
     return;
   const MissingForce& force = force_.find(
-      0.96, weights.worthwhile_force * (state_.result.base.cost - state_.result.best.cost));
+      0.94, weights.worthwhile_force * (state_.result.base.cost - state_.result.best.cost));
   // Then what was named stands.
   if (!force.found || force.fit.why == "not run") return;
   // With the noise as it was read last.
@@ -164,7 +164,7 @@ void VerdictWriter::ask_for_one_force() {
 }
 
 void VerdictWriter::tell_of_force() {
-  const MissingForce& force = state_.result.force = force_.find(0.96);
+  const MissingForce& force = state_.result.force = force_.find(0.94);
   name_nothing(state_.result.verdict);
   std::string& remainder = state_.result.verdict.remainder;
   if (!remainder.empty()) remainder += ". ";

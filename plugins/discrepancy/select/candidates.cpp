@@ -178,18 +178,18 @@ class Refits {
         whole.begin() + std::min<std::ptrdiff_t>(budget_.foremost, std::ssize(whole));
     std::vector<int> first(whole.begin(), others), behind(others, whole.end());
     longest_first(behind);
-    fit_whole(first, Limits{&budget_}, 0.5, 0.6);
+    fit_whole(first, Limits{&budget_}, 0.0, 0.4);
     // The foremost set the mark for the rest.
     Limits limits{&budget_, base_.cost, base_.cost};
     for (const int i : first) limits.least = std::min(limits.least, candidates_[i].fit.cost);
-    fit_whole(behind, limits, 0.6, 0.7);
+    fit_whole(behind, limits, 0.4, 0.75);
     extend_special_cases();
     const std::vector<int> near = leading(whole, budget_.lost_early);
-    refit_coarse(near, budget_.whole_iterations, 0.7);
+    refit_coarse(near, budget_.whole_iterations, 0.75);
     std::vector<int> moving = leading(near, budget_.lost_late);
     // What has converged gains nothing by more steps.
     std::erase_if(moving, [&](int i) { return candidates_[i].fit.converged; });
-    refit_coarse(moving, options_.fit.iterations, 0.75);
+    refit_coarse(moving, options_.fit.iterations, 0.8);
     // Stopped before it was its turn: no candidate, rather than one with a cost of zero.
     std::erase_if(candidates_, [](const Candidate& c) { return c.fit.why == "not run"; });
     std::vector<Candidate*> all;
@@ -201,7 +201,15 @@ class Refits {
   }
 
  private:
+  // Share of the time that the first parts take, where they are fitted, and what is done when a
+  // share of the rest is.
+  static constexpr double first_parts = 0.4;
+  double done(double of_rest) const {
+    return fitted_first_ ? first_parts + (1.0 - first_parts) * of_rest : of_rest;
+  }
+
   void fit_first_parts() {
+    fitted_first_ = true;
     FitOptions early = options_.fit;
     early.horizon = budget_.candidate_horizon;
     const double early_cost =
@@ -212,7 +220,7 @@ class Refits {
     std::vector<int> all(causes_.size());
     std::iota(all.begin(), all.end(), 0);
     longest_first(all);
-    share_out(coarse_, static_cast<int>(all.size()), options_, 0.0, 0.5,
+    share_out(coarse_, static_cast<int>(all.size()), options_, 0.0, first_parts,
               [&](Evaluator& evaluator, int c) {
                 const int i = all[c];
                 candidates_[i].fit =
@@ -252,7 +260,7 @@ class Refits {
   }
 
   void fit_whole(const std::vector<int>& chosen, const Limits& limits, double from, double to) {
-    share_out(coarse_, static_cast<int>(chosen.size()), options_, from, to,
+    share_out(coarse_, static_cast<int>(chosen.size()), options_, done(from), done(to),
               [&](Evaluator& evaluator, int c) { fit_whole(evaluator, chosen[c], limits); });
   }
 
@@ -367,7 +375,7 @@ class Refits {
   void refit_coarse(const std::vector<int>& chosen, int iterations, double from) {
     FitOptions rest = options_.fit;
     rest.iterations = std::min(rest.iterations, iterations);
-    share_out(coarse_, static_cast<int>(chosen.size()), options_, from, from + 0.05,
+    share_out(coarse_, static_cast<int>(chosen.size()), options_, done(from), done(from + 0.05),
               [&](Evaluator& evaluator, int c) {
                 FitSummary& found = candidates_[chosen[c]].fit;
                 found = refit(evaluator, found, rest);
@@ -399,7 +407,7 @@ class Refits {
       }
       // Fine fits change the order, and the order says who needs one: until both agree.
       if (open.empty()) return;
-      share_out(fine_, static_cast<int>(open.size()), options_, 0.8, 1.0,
+      share_out(fine_, static_cast<int>(open.size()), options_, done(0.85), 1.0,
                 [&](Evaluator& evaluator, int i) {
                   const bool to_the_end = is_near_the_best(*open[i]);
                   FitOptions options = options_.fit;
@@ -470,6 +478,7 @@ class Refits {
   const std::vector<double> score_;
   const int samples_;
   std::vector<Candidate> candidates_;
+  bool fitted_first_ = false;
   HeldOutModel
       base_held_out_;  // on the held-out trials, as those of the causes that were fitted whole
   std::map<std::string, HeldOutModel> kept_;
