@@ -1,5 +1,4 @@
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/effects/relaxation_start.h"
+#include "pedicel/effects/decaying_moment.h"
 
 namespace pedicel::effects {
 
@@ -11,33 +10,8 @@ EffectDefinition define_relaxation() {
   d.sentence = "a part of the moment decays (standard linear solid)";
   d.home = Home::joint;
   d.family = Family::memory;
-  d.parameters = {
-      {.name = "fraction",
-       .bounds = io::fraction,
-       .sentence = "of the moment that decays",
-       .vanishes = Vanishes::at_zero,
-       .first = {0.2}},
-      {.name = "time",
-       .unit = "s",
-       .bounds = io::positive,
-       .sentence = "in which it decays",
-       .role = Role::shape,
-       .first = {10.0}},
-      {.name = "start",
-       .sentence = "from which shape it is counted; hung: it had relaxed before, under gravity",
-       .size = 0,
-       .required = false,
-       .otherwise = "`settled`",
-       .offered = false,
-       .words = {"settled", "unloaded", "hung"},
-       .role = Role::shape}};
-  d.change =
-      ModelChange{Stage::laws, [](ModelTarget& t) {
-                    const cosserat::RelaxationStart start = relaxation_start(t.effect);
-                    t.each_law([&](int, cosserat::JointLaw& law) {
-                      cosserat::add_relaxation(law, t.number("fraction"), t.number("time"), start);
-                    });
-                  }};
+  d.parameters = decaying_parameters();
+  d.change = ModelChange{Stage::laws, add_decaying_moment};
   d.starts = [](const StartContext& c) {
     std::vector<Start> starts;
     const double longest = c.scales.duration;
