@@ -73,9 +73,9 @@ TEST_F(PickData, TheForceDoesNotTellWhatTheTimeTells) {
   const auto peak = [](const Pick& pick) { return pick.peak_force; };
   const auto half = [](const Pick& pick) { return pick.fall->half.value_or(1.0); };
   const auto off = values(true, half), failed = values(false, half);
-  EXPECT_LT(median_of(off), 0.01);
-  EXPECT_GT(median_of(failed), 0.04);
-  EXPECT_NEAR(median_of(values(true, peak)), median_of(values(false, peak)), 6.0);
+  EXPECT_LT(middle_of(off), 0.01);
+  EXPECT_GT(middle_of(failed), 0.04);
+  EXPECT_NEAR(middle_of(values(true, peak)), middle_of(values(false, peak)), 6.0);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ class Line {
     const double from = place_.time + s_.settle + s_.level;
     std::vector<double> values = values_in(from, from + 2.0 * s_.level);
     if (values.empty()) values = values_in(place_.time + s_.settle, from);
-    return median_of(values);
+    return middle_of(values);
   }
 
   /// Takes the samples around the fall, averaged over `width` s.

@@ -31,7 +31,7 @@ double noise_of(const Eigen::MatrixXd& force, int count) {
 
 }  // namespace
 
-double median_of(std::vector<double> values) {
+double middle_of(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -44,14 +44,14 @@ ForceCourse::ForceCourse(const PickRecord& record, double rest) {
   const int resting = std::max(1, first_at(time_.front() + rest));
   for (Eigen::Index axis = 0; axis < force_.cols(); ++axis) {
     const auto start = force_.col(axis).head(resting);
-    force_.col(axis).array() -= median_of({start.begin(), start.end()});
+    force_.col(axis).array() -= middle_of({start.begin(), start.end()});
   }
   noise_ = noise_of(force_, std::max(resting, 2));
   take_spikes_out();
   thin();
   std::vector<double> steps;
   for (int i = 1; i < size(); ++i) steps.push_back(time(i) - time(i - 1));
-  interval_ = median_of(steps);
+  interval_ = middle_of(steps);
   sums_ = Eigen::MatrixXd::Zero(size() + 1, force_.cols());
   for (int i = 0; i < size(); ++i) sums_.row(i + 1) = sums_.row(i) + force_.row(i);
 }

@@ -39,6 +39,6 @@ class ForceCourse {
 };
 
 /// Middle value; 0 of none.
-double median_of(std::vector<double> values);
+double middle_of(std::vector<double> values);
 
 }  // namespace pedicel::discrepancy
