@@ -55,6 +55,8 @@ def function(name, member, indent, static=False):
     doc = inspect.getdoc(member) or ""
     first, _, rest = doc.partition("\n")
     match = re.match(rf"{re.escape(name)}\((.*)\)(?: -> (.*))?$", first)
+    if not match and name == "__init__":
+        return ""  # made by the module only
     if not match:
         return f"{indent}def {name}(self, *args: Any, **kwargs: Any) -> Any: ...\n"
     inside = re.sub(r"^self: [^,)]*", "self", arguments(plain(match[1])))

@@ -18,8 +18,8 @@ plan = os.path.join(folder, "plan")
 for trial in ("x", "y"):
     os.makedirs(os.path.join(plan, trial))
     with open(os.path.join(plan, trial, "markers.csv"), "w") as table:
-        table.write("time,low.x,low.y,low.z,top.x,top.y,top.z\n")
-        table.writelines(f"{0.01 * i:.2f},,,,,,\n" for i in range(151))
+        table.write("time,foot.x,foot.y,foot.z,low.x,low.y,low.z,top.x,top.y,top.z\n")
+        table.writelines(f"{0.01 * i:.2f},,,,,,,,,\n" for i in range(151))
 plant.save(os.path.join(plan, "plant.yaml"))
 with open(os.path.join(plan, "experiment.yaml"), "w") as file:
     file.write("""format: pedicel-experiment
@@ -27,6 +27,7 @@ version: 1
 title: a stem, loaded and let go
 plant: plant.yaml
 markers:
+  - {name: foot, curve: stem, at: 0.1}
   - {name: low, curve: stem, at: 0.4}
   - {name: top, curve: stem, at: 1.0}
 trials:
@@ -50,7 +51,8 @@ measured = pedicel.observe(
 assert pedicel.validate(measured), pedicel.validate(measured).text
 
 # %% [markdown]
-# The diagnosis takes a minute or so.
+# The diagnosis takes a minute or so. A short weak piece at the foot bends as a soft root does, so these
+# data may not tell the two apart: then the verdict is `ambiguous`, and the likeliest cause comes first.
 
 # %%
 verdict = pedicel.diagnose(measured, out=os.path.join(folder, "diagnosis"))
@@ -59,6 +61,7 @@ cause = verdict.causes[0]
 print(cause.because)
 for name, estimate in cause.parameters.items():
     print(f"{name} = {estimate.value:.3g} ({estimate.low:.3g} to {estimate.high:.3g}) {estimate.unit}")
-assert verdict.names == ["base_compliance"]
+print("next experiment:", verdict.next_experiment)
+assert verdict.verdict in ("named", "ambiguous") and cause.name == "base_compliance"
 assert abs(cause.parameters["stiffness"].value / 2.0 - 1) < 0.1
 print("report:", os.path.join(folder, "diagnosis", "report.html"))

@@ -83,4 +83,5 @@ learned = single(lambda env, o: actions(mean[None], o[None])[0], seeds)
 by_hand = single(lambda env, o: scripted.reveal(env.task), seeds)
 random = single(lambda env, o: env.action_space.sample(), seeds)
 print(f"learned {learned:.2f}, by hand {by_hand:.2f}, random {random:.2f}")
-assert learned > random
+if seconds >= 300:
+    assert learned > max(by_hand, random)

@@ -28,15 +28,20 @@ class RevealTask(Task):
         self.hand = [i for i, name in enumerate(run.touching_names)
                      if "finger" in name or "gripper" in name or "hand" in name]
         self.fruit_name = run.fruit_names[0]
-        # What hides it: every organ but the one that carries it.
-        hiding = np.flatnonzero([not name.startswith("bush/truss") for name in run.segment_names])
-        self.places = hiding[np.linspace(0, len(hiding) - 1, 12).round().astype(int)]
+        # What hides it: every organ but those that carry it.
+        self.hiding = np.flatnonzero([name not in ("bush/truss", "bush/stem") for name in run.segment_names])
+        self.places = self.hiding[np.linspace(0, len(self.hiding) - 1, 12).round().astype(int)]
         self.seen = 0.0
 
     def begin(self, random: np.random.Generator, options: Dict[str, Any]) -> None:
         self.seen = self.first = self.run.visible_share(self.fruit_name, self.camera)
-        self.lasted, self.peak = 0, 0.0
+        self.lasted, self.peak, self.away = 0, 0.0, self.distance()
         self.revealed = self.overloaded = False
+
+    def distance(self) -> float:
+        """From the tool to what hides the fruit, m."""
+        away = self.run.positions[self.hiding] - self.run.tool_pose[:3]
+        return float(np.linalg.norm(away, axis=1).min())
 
     def hand_force(self) -> float:
         return float(np.linalg.norm(self.run.link_forces[self.hand].sum(axis=0)))
@@ -57,8 +62,10 @@ class RevealTask(Task):
         margin = self.margin()
         strained, self.peak = max(0.0, margin - self.peak), max(self.peak, margin)
         self.overloaded = margin > self.limit
+        before_away, self.away = self.away, self.distance()
         self.terms = {
             "time": -0.02,
+            "approach": 2.0 * (before_away - self.away),
             "more_seen": 2.0 * (self.seen - before),
             "revealed": 10.0 if self.revealed else 0.0,
             "strained": -1.0 * strained,
