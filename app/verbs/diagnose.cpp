@@ -7,10 +7,13 @@
 #include <memory>
 
 #include "pedicel/app/verbs/experiment_run.h"
+#include "pedicel/app/verbs/scene_experiment.h"
+#include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/data/more_trials.h"
 #include "pedicel/discrepancy/procedure/diagnosis.h"
 #include "pedicel/discrepancy/report/report.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
 #include "pedicel/discrepancy/select/symptom_numbers.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/plant/plant_file.h"
@@ -66,6 +69,11 @@ std::string what_is_seen(const discrepancy::Verdict& verdict) {
 }
 
 int run(const DiagnoseArguments& a) {
+  if (discrepancy::is_scene_experiment(a.experiment)) {
+    if (!a.with.empty() || !a.settings.empty())
+      throw UsageError(a.experiment + ": its model is a scene, expected no --with and no --set");
+    return diagnose_scene_verb(a);
+  }
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
   const discrepancy::Experiment experiment = load_all(a);

@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <thread>
 
+#include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
 #include "pedicel/io/output_folder.h"
 
 namespace pedicel::app {
@@ -53,6 +55,11 @@ void add_experiment_options(CLI::App& verb, ExperimentArguments& a, const Experi
 }
 
 discrepancy::Experiment load_experiment(const ExperimentArguments& a) {
+  if (discrepancy::is_scene_experiment(a.experiment))
+    throw UsageError(a.experiment +
+                     ": its model is a scene, a robot at plants, expected an experiment with "
+                     "`plant:`; `pedicel validate`, `observe` and `diagnose` know experiments of "
+                     "scenes");
   Diagnostics diagnostics;
   auto experiment = discrepancy::read_experiment(a.experiment, diagnostics);
   if (!experiment) throw InvalidFile(diagnostics);

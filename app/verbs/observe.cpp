@@ -7,9 +7,11 @@
 #include "pedicel/app/run/plant_overrides.h"
 #include "pedicel/app/run/scene_plants.h"
 #include "pedicel/app/verbs/parallel_worlds.h"
+#include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/random.h"
 #include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
 #include "pedicel/discrepancy/simulate/simulator.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/output_folder.h"
@@ -172,6 +174,7 @@ discrepancy::Experiment observed(const ObserveArguments& a, discrepancy::Experim
 }
 
 int observe_verb(const ObserveArguments& a) {
+  if (discrepancy::is_scene_experiment(a.like)) return observe_scene_verb(a);
   const Experiment experiment = observed(a, read_experiment(a.like));
   stop_in_good_order();
   const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {

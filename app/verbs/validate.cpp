@@ -10,8 +10,10 @@
 #include "pedicel/app/run/mesh_fields.h"
 #include "pedicel/app/run/simulation.h"
 #include "pedicel/app/session/document/document.h"
+#include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/app/verbs/validate_tables.h"
 #include "pedicel/discrepancy/admission/admission.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
 #include "pedicel/geometry/mesh.h"
 #include "pedicel/io/text_file.h"
 #include "pedicel/io/yaml.h"
@@ -100,6 +102,7 @@ std::string check_scene(const std::filesystem::path& path, const Options& given,
 // The plant is built, too.
 std::string check_experiment(const std::filesystem::path& path, const Options& given,
                              Diagnostics& diagnostics) {
+  if (discrepancy::is_scene_experiment(path)) return check_scene_experiment(path, diagnostics);
   const auto experiment = discrepancy::read_experiment(path, diagnostics);
   if (!experiment) return {};
   check_plant(experiment->plant_path, given, diagnostics);

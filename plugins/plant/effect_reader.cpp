@@ -61,6 +61,11 @@ CurvePlace read_place(io::YamlMap& map, bool whole_curve) {
   return place;
 }
 
+void read_effect_parameters(io::YamlMap& map, const std::vector<EffectParameter>& parameters,
+                            Effect& effect) {
+  for (const EffectParameter& parameter : parameters) read_parameter(map, parameter, effect);
+}
+
 Effect read_effect(const io::YamlNode& node, EffectFile file) {
   Effect effect;
   effect.where = node.position();
@@ -79,8 +84,7 @@ Effect read_effect(const io::YamlNode& node, EffectFile file) {
                 ", not here");
     return effect;
   }
-  for (const EffectParameter& parameter : definition->parameters)
-    read_parameter(map, parameter, effect);
+  read_effect_parameters(map, definition->parameters, effect);
   if (const auto place = definition->needs_place ? map.required("where") : map.optional("where")) {
     io::YamlMap place_map(*place, "where");
     effect.place = read_place(place_map, !definition->needs_place);

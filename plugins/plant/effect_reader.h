@@ -9,6 +9,11 @@ namespace pedicel::plant {
 /// curve alone counts, and `at` may be left out.
 CurvePlace read_place(io::YamlMap& map, bool whole_curve = false);
 
+/// Reads the parameters of an effect out of its map.
+void read_effect_parameters(io::YamlMap& map,
+                            const std::vector<effects::EffectParameter>& parameters,
+                            Effect& effect);
+
 /// Reads one entry of an `effects:` list of a file of that kind, with its name and its parameters
 /// checked against the effect's definition. Faults go to the node's diagnostics.
 Effect read_effect(const io::YamlNode& node, effects::EffectFile file);

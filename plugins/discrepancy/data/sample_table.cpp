@@ -126,12 +126,10 @@ void SampleTable::check_time() {
           "time " + io::exact_number(time(0)) + " is before the trial begins, expected >= 0");
 }
 
-std::vector<int> SampleTable::find(const std::vector<std::string>& expected, io::Quantity quantity,
-                                   const std::string& all) {
+// Where each name stands, -1: nowhere. What stands twice is an error.
+std::vector<int> SampleTable::match(const std::vector<std::string>& expected,
+                                    std::vector<std::string>& unknown, int& first_unknown) {
   std::vector<int> found(expected.size(), -1);
-  std::vector<std::string> unknown;
-  int first_unknown = 0;
-  bool twice = false;
   for (int c = 0; c < static_cast<int>(table_.columns.size()); ++c) {
     if (c == time_ || std::ranges::count(counters_, c) > 0) continue;
     const std::string& name = table_.columns[c];
@@ -140,17 +138,37 @@ std::vector<int> SampleTable::find(const std::vector<std::string>& expected, io:
       if (unknown.empty()) first_unknown = c;
       unknown.push_back(name);
     } else if (found[index] >= 0) {
-      twice = true;
       error(table_.header_line, c,
             "column " + printable(name, 60) + " appears twice, expected it once");
     } else {
       found[index] = c;
     }
   }
-  if (twice) return found;
+  return found;
+}
+
+std::vector<int> SampleTable::find(const std::vector<std::string>& expected, io::Quantity quantity,
+                                   const std::string& all) {
+  std::vector<std::string> unknown;
+  int first_unknown = 0;
+  std::vector<int> found = match(expected, unknown, first_unknown);
+  if (!good()) return found;
   say_differences(unknown, first_unknown, missing_of(expected, found), all);
   for (std::size_t i = 0; good() && i < expected.size(); ++i)
     to_si(found[i], expected[i], is_quaternion(expected[i]) ? io::Quantity::none : quantity);
+  return found;
+}
+
+std::vector<int> SampleTable::find_some(const std::vector<Wanted>& wanted, const std::string& all) {
+  std::vector<std::string> names, unknown;
+  for (const Wanted& one : wanted) names.push_back(one.name);
+  int first_unknown = 0;
+  std::vector<int> found = match(names, unknown, first_unknown);
+  if (!good()) return found;
+  const bool none = std::ranges::all_of(found, [](int column) { return column < 0; });
+  say_differences(unknown, first_unknown, none ? names : std::vector<std::string>(), all);
+  for (std::size_t i = 0; good() && i < names.size(); ++i)
+    if (found[i] >= 0) to_si(found[i], names[i], wanted[i].quantity);
   return found;
 }
 

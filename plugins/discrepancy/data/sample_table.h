@@ -27,6 +27,12 @@ class SampleTable {
   /// Each of `expected` once and nothing else: their indices. `all` says them in a sentence.
   std::vector<int> find(const std::vector<std::string>& expected, io::Quantity quantity,
                         const std::string& all);
+  struct Wanted {
+    std::string name;
+    io::Quantity quantity;
+  };
+  /// Some of `wanted`, at least one, and nothing else: their indices, -1 for what is not there.
+  std::vector<int> find_some(const std::vector<Wanted>& wanted, const std::string& all);
   /// The three cells of a point are all there or none is.
   void check_points(const std::vector<int>& columns);
   Samples samples(const std::vector<int>& columns) const;
@@ -39,6 +45,8 @@ class SampleTable {
   void check_time();
   bool counts_frames(int column) const;
   void to_si(int column, const std::string& name, io::Quantity quantity);
+  std::vector<int> match(const std::vector<std::string>& expected,
+                         std::vector<std::string>& unknown, int& first_unknown);
   void say_differences(std::vector<std::string> unknown, int first_unknown,
                        const std::vector<std::string>& missing, const std::string& all);
 

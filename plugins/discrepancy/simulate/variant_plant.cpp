@@ -17,13 +17,24 @@ bool is_of_sensor(const plant::Effect& effect) {
   return known && known->home == effects::Home::sensor;
 }
 
+namespace {
+
+plant::BuildOptions with_junction(double junction) {
+  plant::BuildOptions options;
+  options.junction = junction;
+  return options;
+}
+
+}  // namespace
+
 PlantMaker::PlantMaker(const Experiment& experiment, double distance, double junction)
-    : file_(experiment.plant) {
+    : PlantMaker(experiment.plant, distance, with_junction(junction)) {}
+
+PlantMaker::PlantMaker(plant::PlantFile file, double distance, const plant::BuildOptions& options)
+    : file_(std::move(file)) {
   own_effects_ = std::move(file_.effects);
   file_.effects.clear();
   file_.distance = distance;
-  plant::BuildOptions options;
-  options.junction = junction;
   Diagnostics diagnostics;
   auto built = plant::build_plant(file_, options, diagnostics);
   if (!built) throw InvalidFile(diagnostics);

@@ -18,6 +18,8 @@ class PlantMaker {
   /// `distance` and `junction` (m) as in plant::BuildOptions. Throws InvalidFile where the plant
   /// cannot be built.
   PlantMaker(const Experiment& experiment, double distance, double junction);
+  /// The same of a plant that stands somewhere under any gravity.
+  PlantMaker(plant::PlantFile file, double distance, const plant::BuildOptions& options);
 
   /// With a trial's masses, the plant file's own effects and then those of `effects` that belong to
   /// a plant. Throws UsageError where one of them cannot be simulated.

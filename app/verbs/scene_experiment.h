@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pedicel/app/verbs/experiment_run.h"
+#include "pedicel/app/verbs/observe.h"
+#include "pedicel/core/diagnostics.h"
+
+/// The verbs for experiments whose model is a scene: a robot at plants.
+namespace pedicel::app {
+
+/// For `pedicel validate`: reads and builds all of it; what it has in a sentence. Faults go to the
+/// diagnostics.
+std::string check_scene_experiment(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// `pedicel observe SCENE --like EXPERIMENT`, where the experiment is one of a scene. `model` is
+/// a scene, or an experiment of one. Throws InvalidFile, UsageError, UnstableWorld, io::WriteError.
+int observe_scene_verb(const ObserveArguments& arguments);
+
+/// `pedicel diagnose` of such an experiment: fits, candidates and verdict go to `out`. Returns the
+/// exit code. Throws InvalidFile, UsageError, io::WriteError.
+int diagnose_scene_verb(const ExperimentArguments& arguments);
+
+}  // namespace pedicel::app

@@ -1,0 +1,145 @@
+#include "pedicel/discrepancy/scene/arm.h"
+
+#include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/geometry/mesh_distance.h"
+#include "pedicel/geometry/shapes.h"
+#include "pedicel/robot/inertial_sum.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+robot::RobotDescription with_tool(const SceneExperiment& experiment, const SceneState& state) {
+  robot::RobotDescription robot = experiment.robot;
+  if (!experiment.scene.robot) return robot;
+  const int tool = tool_link(*experiment.scene.robot, robot);
+  for (robot::Joint& joint : robot.joints) {
+    if (joint.child != tool) continue;
+    // In the axes of the carrying link.
+    joint.X_PJ.position += state.tool_offset;
+    joint.X_PJ.rotation = Quat(Eigen::AngleAxisd(state.tool_rotation.norm(),
+                                                 state.tool_rotation.norm() > 0.0
+                                                     ? Vec3(state.tool_rotation.normalized())
+                                                     : Vec3(Vec3::UnitX()))) *
+                          joint.X_PJ.rotation;
+  }
+  return robot;
+}
+
+robot::Inertial with_mass(const robot::Inertial& link, double mass, const Vec3& centre) {
+  robot::Inertial sum;
+  sum.mass = link.mass + mass;
+  sum.com_L = (link.mass * link.com_L + mass * centre) / sum.mass;
+  const auto about = [&](double m, const Vec3& p) -> Mat3 {
+    const Mat3 s = skew(p - sum.com_L);
+    return -m * s * s;
+  };
+  sum.inertia = link.inertia + about(link.mass, link.com_L) + about(mass, centre);
+  return sum;
+}
+
+}  // namespace
+
+int tool_link(const world::SceneRobot& scene, const robot::RobotDescription& robot) {
+  const int named = robot.link(scene.tool.empty() ? "tool" : scene.tool);
+  return named >= 0 ? named : static_cast<int>(robot.links.size()) - 1;
+}
+
+Arm::Arm(const SceneExperiment& experiment, const SceneState& state)
+    : description_(with_tool(experiment, state)),
+      model_(description_, experiment.scene.robot ? experiment.scene.robot->base : Pose{}) {
+  tool_ = experiment.scene.robot ? tool_link(*experiment.scene.robot, description_) : 0;
+  for (const robot::Link& link : description_.links) inertials_.push_back(link.inertial);
+  if (state.payload > 0.0)
+    inertials_[static_cast<std::size_t>(tool_)] =
+        with_mass(inertials_[static_cast<std::size_t>(tool_)], state.payload, state.payload_centre);
+  beyond_.resize(description_.links.size());
+  // Parents come before their children.
+  for (auto element = model_.elements().rbegin(); element != model_.elements().rend(); ++element) {
+    std::vector<int>& own = beyond_[static_cast<std::size_t>(element->link)];
+    own.insert(own.begin(), element->link);
+    if (element->parent < 0) continue;
+    std::vector<int>& parent = beyond_[static_cast<std::size_t>(element->parent)];
+    parent.insert(parent.end(), own.begin(), own.end());
+  }
+  start_ = model_.neutral();
+  if (experiment.scene.robot)
+    for (const auto& [joint, value] : experiment.scene.robot->joints)
+      if (const int dof = model_.joint_index(joint); dof >= 0) start_[dof] = value;
+}
+
+Eigen::Matrix<double, 6, 1> Arm::own_wrench(int link, const JointPath::Point& motion,
+                                            const Vec3& gravity) const {
+  // Accelerations by the recursion of the Newton-Euler algorithm, in world axes.
+  std::vector<Pose> poses;
+  model_.link_poses(motion.q, poses);
+  std::vector<robot::Twist> twists;
+  model_.link_velocities(poses, motion.qd, twists);
+  struct Acceleration {
+    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+  };
+  std::vector<Acceleration> all(poses.size());
+  for (const robot::KinematicModel::Element& e : model_.elements()) {
+    if (e.parent < 0) continue;
+    const auto l = static_cast<std::size_t>(e.link), p = static_cast<std::size_t>(e.parent);
+    const Vec3 r = poses[l].position - poses[p].position;
+    const Vec3 w = twists[p].angular;
+    all[l].angular = all[p].angular;
+    all[l].linear = all[p].linear + all[p].angular.cross(r) + w.cross(w.cross(r));
+    if (e.dof < 0) continue;
+    // The child's frame turns about its own joint axis, which has the same place in both.
+    const Vec3 axis = poses[l].rotation * e.axis;
+    const double v = e.multiplier * motion.qd[e.dof], a = e.multiplier * motion.qdd[e.dof];
+    if (e.type == robot::JointType::prismatic) {
+      all[l].linear += axis * a + 2.0 * w.cross(axis * v);
+    } else {
+      all[l].angular += axis * a + w.cross(axis * v);
+    }
+  }
+  const auto own = static_cast<std::size_t>(link);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (const int beyond : beyond_[own]) {
+    const auto b = static_cast<std::size_t>(beyond);
+    const robot::Inertial& body = inertials_[b];
+    const Vec3 arm = poses[b].rotation * body.com_L;
+    const Vec3 w = twists[b].angular, dw = all[b].angular;
+    const Vec3 acceleration = all[b].linear + dw.cross(arm) + w.cross(w.cross(arm));
+    const Vec3 f = body.mass * (gravity - acceleration);
+    const Mat3 r = poses[b].rotation.toRotationMatrix();
+    const Mat3 inertia = r * body.inertia * r.transpose();
+    const Vec3 m = -(inertia * dw + w.cross(inertia * w));
+    force += f;
+    moment += m + (poses[b].position + arm - poses[own].position).cross(f);
+  }
+  Eigen::Matrix<double, 6, 1> wrench;
+  wrench << poses[own].rotation.conjugate() * force, poses[own].rotation.conjugate() * moment;
+  return wrench;
+}
+
+LinkFields link_fields(const robot::RobotDescription& robot) {
+  const auto field =
+      [](const robot::Geometry& g) -> std::shared_ptr<const geometry::SignedDistance> {
+    switch (g.kind) {
+      case robot::Geometry::Kind::box:
+        return std::make_shared<geometry::BoxDistance>(g.size);
+      case robot::Geometry::Kind::sphere:
+        return std::make_shared<geometry::SphereDistance>(g.radius);
+      case robot::Geometry::Kind::cylinder:
+        return std::make_shared<geometry::CylinderDistance>(g.radius, g.length);
+      case robot::Geometry::Kind::capsule:
+        return std::make_shared<geometry::CapsuleDistance>(g.radius, g.length);
+      case robot::Geometry::Kind::mesh:
+        break;
+    }
+    return std::make_shared<geometry::MeshDistance>(*g.mesh);
+  };
+  LinkFields fields;
+  for (const robot::Link& link : robot.links) {
+    fields.emplace_back();
+    for (const robot::Collision& collision : link.collisions)
+      fields.back().push_back(field(collision.geometry));
+  }
+  return fields;
+}
+
+}  // namespace pedicel::discrepancy

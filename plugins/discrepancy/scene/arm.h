@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pedicel/coupling/collider.h"
+#include "pedicel/discrepancy/scene/scene_state.h"
+#include "pedicel/discrepancy/scene/smooth_readings.h"
+#include "pedicel/robot/kinematics.h"
+
+namespace pedicel::discrepancy {
+
+/// A robot's arm as a variant of the scene has it: where its links are at joint positions, and what
+/// they weigh. Joints that no table has stand where the scene starts them.
+class Arm {
+ public:
+  Arm(const SceneExperiment& experiment, const SceneState& state);
+
+  const robot::KinematicModel& model() const { return model_; }
+  const robot::RobotDescription& description() const { return description_; }
+  const Eigen::VectorXd& start() const { return start_; }
+  int tool() const { return tool_; }
+  /// Links that move with a link: itself and all beyond it.
+  const std::vector<int>& beyond(int link) const { return beyond_[static_cast<std::size_t>(link)]; }
+  /// A link and the payload, as one.
+  const robot::Inertial& inertial(int link) const {
+    return inertials_[static_cast<std::size_t>(link)];
+  }
+
+  /// N and N m in the link's frame, about its origin: weight and inertia of the link and all
+  /// beyond it, as they pull at what carries it, at poses of the model at q.
+  Eigen::Matrix<double, 6, 1> own_wrench(int link, const JointPath::Point& motion,
+                                         const Vec3& gravity) const;
+
+ private:
+  robot::RobotDescription description_;
+  robot::KinematicModel model_;
+  std::vector<robot::Inertial> inertials_;
+  std::vector<std::vector<int>> beyond_;
+  Eigen::VectorXd start_;
+  int tool_ = 0;
+};
+
+/// The link that the scene calls the tool, else one called "tool", else the last.
+int tool_link(const world::SceneRobot& scene, const robot::RobotDescription& robot);
+
+/// A colliders' set of a scene: ground, resting bodies and the links of an arm at `X_WL`. `fields`
+/// of its links are shared by all variants.
+using LinkFields = std::vector<std::vector<std::shared_ptr<const geometry::SignedDistance>>>;
+LinkFields link_fields(const robot::RobotDescription& robot);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,81 @@
+#include "pedicel/discrepancy/scene/arm_run.h"
+
+#include <cmath>
+
+#include "pedicel/robot/robot.h"
+#include "pedicel/robot/trajectory.h"
+#include "pedicel/world/sim_world.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+robot::RobotDescription with_friction(const Arm& arm, const SceneState& state) {
+  robot::RobotDescription robot = arm.description();
+  for (int dof = 0; dof < arm.model().dofs(); ++dof) {
+    robot::Joint& joint = robot.joints[static_cast<std::size_t>(
+        robot.joint(arm.model().joint_names()[static_cast<std::size_t>(dof)]))];
+    joint.friction += state.coulomb[dof];
+    joint.damping += state.viscous[dof];
+  }
+  for (std::size_t l = 0; l < robot.links.size(); ++l)
+    robot.links[l].inertial = arm.inertial(static_cast<int>(l));
+  return robot;
+}
+
+robot::Trajectory commands_of(const SceneTrial& trial, const Arm& arm) {
+  std::vector<Eigen::VectorXd> rows;
+  for (int r = 0; r < trial.commands.size(); ++r) {
+    Eigen::VectorXd q = rows.empty() ? arm.start() : rows.back();
+    for (std::size_t c = 0; c < trial.command_columns.size(); ++c)
+      if (const double value = trial.commands.value(r, static_cast<long>(c)); std::isfinite(value))
+        q[trial.command_columns[c]] = value;
+    rows.push_back(q);
+  }
+  return {trial.commands.time, rows};
+}
+
+}  // namespace
+
+JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
+                  const SceneState& state, const Arm& arm, double dt, double until) {
+  const robot::RobotDescription description = with_friction(arm, state);
+  world::WorldSettings settings;
+  settings.dt = dt;
+  settings.gravity = experiment.scene.gravity;
+  world::SimWorld world(settings);
+  robot::RobotSettings how;
+  how.base_pose = experiment.scene.robot->base;
+  how.collide = false;
+  robot::Robot robot(description, how, world.bullet());
+  const robot::Trajectory commands = commands_of(trial, arm);
+  Eigen::VectorXd q = arm.start(), qd = Eigen::VectorXd::Zero(q.size());
+  // A row at t holds what was told at t - delay.
+  const auto told = [&](double t) { commands.sample(t + state.robot_delay, q, qd); };
+  told(0.0);
+  qd.setZero();
+  robot.reset(q, qd);
+  const int steps = static_cast<int>(std::ceil(until / dt - 1.0e-9));
+  std::vector<double> time = {0.0};
+  std::vector<Eigen::VectorXd> positions = {q}, velocities = {qd};
+  Eigen::VectorXd lagged = q, lagged_speed = qd;
+  const double lag = state.tracking_lag;
+  const double kept = lag > 0.0 ? std::exp(-dt / lag) : 0.0;
+  for (int k = 1; k <= steps; ++k) {
+    told(k * dt);
+    const Eigen::VectorXd before = lagged;
+    // First order, exact for a target that goes evenly within a step.
+    lagged = q - lag * qd + kept * (before - q + dt * qd + lag * qd);
+    lagged_speed = lag > 0.0 ? Eigen::VectorXd((lagged - before) / dt) : qd;
+    robot.motors().set_position_targets(lagged, lagged_speed);
+    robot.begin_step(dt);
+    world.step();
+    robot.end_step();
+    time.push_back(k * dt);
+    positions.push_back(robot.positions());
+    velocities.push_back(robot.velocities());
+  }
+  return JointPath::through(std::move(time), positions, velocities);
+}
+
+}  // namespace pedicel::discrepancy

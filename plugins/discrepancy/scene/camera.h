@@ -1,0 +1,15 @@
+#pragma once
+
+#include "pedicel/discrepancy/scene/scene_experiment.h"
+
+namespace pedicel::discrepancy {
+
+/// px, where a camera sees a point (m, W); NaN for one that is not in front of it. The picture's
+/// edges do not count: what was seen is the data's affair.
+Eigen::Vector2d image_of(const Camera& camera, const Vec3& point_W);
+
+/// Rotation of a camera at `eye` that looks at `target` with the world's Z upward: x right, y down,
+/// z forward.
+Quat looking_at(const Vec3& eye, const Vec3& target);
+
+}  // namespace pedicel::discrepancy

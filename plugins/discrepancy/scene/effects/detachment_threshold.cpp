@@ -1,0 +1,40 @@
+#include <algorithm>
+
+#include "pedicel/discrepancy/scene/scene_effects.h"
+
+namespace pedicel::discrepancy {
+
+SceneEffectDefinition define_detachment_threshold() {
+  SceneEffectDefinition d;
+  d.name = "detachment_threshold";
+  d.plain_name = "stalks that hold more or less";
+  d.sentence = "fruits come off at a multiple of the thresholds of the file";
+  d.parameters = {
+      {.name = "factor",
+       .unit = "1",
+       .bounds = io::positive,
+       .sentence = "on every threshold of the file",
+       .vanishes = effects::Vanishes::at_one,
+       .first = {1.0}},
+      {.name = "plant",
+       .sentence = "which plant",
+       .size = 0,
+       .required = false,
+       .otherwise = "all"},
+  };
+  d.apply = [](const SceneEffectTarget& t) {
+    t.each_plant([&](SceneState::Plant& plant) { plant.threshold *= t.number("factor"); });
+  };
+  d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
+    const bool recorded = std::ranges::any_of(c.experiment.trials, [](const SceneTrial& trial) {
+      return std::ranges::any_of(trial.events,
+                                 [](const SceneEvent& e) { return e.event == "detached"; });
+    });
+    if (!recorded) return {};
+    return {effects::Start("detachment_threshold").positive("factor", 1.0, 0.1, 10.0)};
+  };
+  d.tells_apart = "pull a fruit with a force gauge until it comes off";
+  return d;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,42 @@
+#include "pedicel/discrepancy/scene/scene_effects.h"
+
+namespace pedicel::discrepancy {
+
+SceneEffectDefinition define_tool_pose() {
+  SceneEffectDefinition d;
+  d.name = "tool_pose";
+  d.plain_name = "a tool that is mounted elsewhere";
+  d.sentence = "the tool sits elsewhere in the link that carries it";
+  d.parameters = {
+      {.name = "offset",
+       .unit = "m",
+       .bounds = io::any_number,
+       .sentence = "in the axes of the carrying link",
+       .size = 3,
+       .vanishes = effects::Vanishes::at_zero,
+       .first = {0.0, 0.0, 0.0}},
+      {.name = "rotation",
+       .unit = "rad",
+       .bounds = io::any_number,
+       .sentence = "rotation vector in these axes",
+       .size = 3,
+       .required = false,
+       .otherwise = "0",
+       .vanishes = effects::Vanishes::at_zero,
+       .first = {0.0, 0.0, 0.0}},
+  };
+  d.apply = [](const SceneEffectTarget& t) {
+    t.state.tool_offset += t.vector("offset");
+    if (t.has("rotation")) t.state.tool_rotation += t.vector("rotation");
+  };
+  d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
+    if (!c.experiment.scene.robot) return {};
+    return {effects::Start("tool_pose")
+                .vector("offset", Vec3::Zero(), 1.0e-3, 0.05)
+                .vector("rotation", Vec3::Zero(), 0.01, 0.5)};
+  };
+  d.tells_apart = "touch a known point with the tool from two sides";
+  return d;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,54 @@
+#include "pedicel/discrepancy/scene/scene_effects.h"
+
+namespace pedicel::discrepancy {
+
+SceneEffectDefinition define_wrench_bias() {
+  SceneEffectDefinition d;
+  d.name = "wrench_bias";
+  d.plain_name = "a wrench sensor whose zero is off";
+  d.sentence = "a wrench sensor has a constant bias";
+  d.is_only_seen = true;
+  d.parameters = {
+      {.name = "force",
+       .unit = "N",
+       .bounds = io::any_number,
+       .sentence = "in the sensor's frame",
+       .size = 3,
+       .vanishes = effects::Vanishes::at_zero,
+       .first = {0.0, 0.0, 0.0}},
+      {.name = "moment",
+       .unit = "N m",
+       .bounds = io::any_number,
+       .sentence = "in the sensor's frame",
+       .size = 3,
+       .required = false,
+       .otherwise = "0",
+       .vanishes = effects::Vanishes::at_zero,
+       .first = {0.0, 0.0, 0.0}},
+      {.name = "wrench",
+       .sentence = "which sensor",
+       .size = 0,
+       .required = false,
+       .otherwise = "all"},
+  };
+  d.apply = [](const SceneEffectTarget& t) {
+    t.each_gauge([&](SceneState::Gauge& gauge) {
+      gauge.force += t.vector("force");
+      if (t.has("moment")) gauge.moment += t.vector("moment");
+    });
+  };
+  d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
+    std::vector<effects::Start> starts;
+    for (const WrenchSensor& sensor : c.experiment.wrenches) {
+      effects::Start start("wrench_bias");
+      if (c.experiment.wrenches.size() > 1) start.word("wrench", sensor.name);
+      starts.push_back(start.vector("force", Vec3::Zero(), 0.05, 100.0)
+                           .vector("moment", Vec3::Zero(), 5.0e-3, 10.0));
+    }
+    return starts;
+  };
+  d.tells_apart = "read the sensor while nothing touches the tool, in several orientations";
+  return d;
+}
+
+}  // namespace pedicel::discrepancy

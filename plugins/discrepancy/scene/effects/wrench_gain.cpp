@@ -1,0 +1,40 @@
+#include "pedicel/discrepancy/scene/scene_effects.h"
+
+namespace pedicel::discrepancy {
+
+SceneEffectDefinition define_wrench_gain() {
+  SceneEffectDefinition d;
+  d.name = "wrench_gain";
+  d.plain_name = "a wrench sensor with a wrong gain";
+  d.sentence = "a wrench sensor reads a multiple of what acts";
+  d.is_only_seen = true;
+  d.parameters = {
+      {.name = "gain",
+       .unit = "1",
+       .bounds = io::positive,
+       .sentence = "on force and moment",
+       .vanishes = effects::Vanishes::at_one,
+       .first = {1.0}},
+      {.name = "wrench",
+       .sentence = "which sensor",
+       .size = 0,
+       .required = false,
+       .otherwise = "all"},
+  };
+  d.apply = [](const SceneEffectTarget& t) {
+    t.each_gauge([&](SceneState::Gauge& gauge) { gauge.gain *= t.number("gain"); });
+  };
+  d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
+    std::vector<effects::Start> starts;
+    for (const WrenchSensor& sensor : c.experiment.wrenches) {
+      effects::Start start("wrench_gain");
+      if (c.experiment.wrenches.size() > 1) start.word("wrench", sensor.name);
+      starts.push_back(start.positive("gain", 1.0, 0.1, 10.0));
+    }
+    return starts;
+  };
+  d.tells_apart = "hang a known weight on the tool";
+  return d;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,153 @@
+#include "pedicel/discrepancy/scene/scene_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+/// In units of the noise: what a sample counts whose prediction failed.
+constexpr double failed = 1.0e3;
+
+/// call(samples, prediction or null, column of both, kind)
+template <class Call>
+void for_each_channel(const SceneTrial& trial, const SceneReadings* readings, const Call& call) {
+  const auto table = [&](const Samples& samples, const Eigen::MatrixXd* predicted,
+                         const auto& kind) {
+    for (long c = 0; c < samples.value.cols(); ++c) call(samples, predicted, c, kind(c));
+  };
+  table(trial.markers, readings ? &readings->markers : nullptr,
+        [](long) { return SceneChannel::position; });
+  for (std::size_t i = 0; i < trial.pixels.size(); ++i)
+    table(trial.pixels[i], readings ? &readings->pixels[i] : nullptr,
+          [](long) { return SceneChannel::pixel; });
+  for (std::size_t i = 0; i < trial.wrenches.size(); ++i)
+    table(trial.wrenches[i], readings ? &readings->wrenches[i] : nullptr,
+          [](long c) { return c < 3 ? SceneChannel::force : SceneChannel::moment; });
+  table(trial.torques, readings ? &readings->torques : nullptr,
+        [](long) { return SceneChannel::torque; });
+  // Elsewhere they drive the model.
+  if (trial.follows_commands)
+    table(trial.joints, readings ? &readings->joints : nullptr,
+          [](long) { return SceneChannel::joint; });
+}
+
+// Of white noise on something smooth: a parabola through neighbours leaves 6 variances.
+double scatter(const Eigen::VectorXd& x) {
+  std::vector<double> parts;
+  const long length = std::max(8L, x.size() / 10);
+  for (long first = 0; first + length <= x.size(); first += length) {
+    double square = 0.0;
+    int count = 0;
+    for (long i = first; i + 3 < first + length; ++i) {
+      const double d = x[i + 3] - 3.0 * x[i + 2] + 3.0 * x[i + 1] - x[i];
+      if (!std::isfinite(d)) continue;
+      square += d * d / 20.0;
+      ++count;
+    }
+    if (count > length / 2) parts.push_back(square / count);
+  }
+  if (parts.empty()) return 0.0;
+  std::ranges::nth_element(parts, parts.begin() + static_cast<long>(parts.size() / 4));
+  return std::sqrt(parts[parts.size() / 4]);
+}
+
+}  // namespace
+
+const char* channel_name(SceneChannel kind) {
+  constexpr const char* names[] = {"position", "pixel", "force", "moment", "torque", "joint"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+SceneDataSet::SceneDataSet(const SceneExperiment& experiment) : experiment_(&experiment) {
+  const SceneNoise& noise = experiment.noise;
+  const std::optional<double> stated[] = {noise.position_std, noise.pixel_std,  noise.force_std,
+                                          noise.moment_std,   noise.torque_std, noise.joint_std};
+  for (std::size_t k = 0; k < deviation_.size(); ++k) {
+    if (stated[k]) {
+      deviation_[k] = *stated[k];
+      continue;
+    }
+    double square = 0.0;
+    int count = 0;
+    for (const SceneTrial& trial : experiment.trials)
+      for_each_channel(
+          trial, nullptr,
+          [&](const Samples& samples, const Eigen::MatrixXd*, long c, SceneChannel kind) {
+            if (static_cast<std::size_t>(kind) != k) return;
+            const double own = scatter(samples.value.col(c));
+            if (own == 0.0) return;
+            square += own * own;
+            ++count;
+          });
+    deviation_[k] = count > 0 ? std::sqrt(square / count) : 1.0;
+  }
+}
+
+int SceneDataSet::size(int trial) const {
+  int count = 0;
+  for_each_channel(experiment_->trials[static_cast<std::size_t>(trial)], nullptr,
+                   [&](const Samples& samples, const Eigen::MatrixXd*, long, SceneChannel) {
+                     count += samples.size();
+                   });
+  return count;
+}
+
+int SceneDataSet::samples(int trial, double until) const {
+  int count = 0;
+  for_each_channel(experiment_->trials[static_cast<std::size_t>(trial)], nullptr,
+                   [&](const Samples& samples, const Eigen::MatrixXd*, long c, SceneChannel) {
+                     for (int i = 0; i < samples.size(); ++i)
+                       count += samples.time[static_cast<std::size_t>(i)] <= until &&
+                                        std::isfinite(samples.value(i, c))
+                                    ? 1
+                                    : 0;
+                   });
+  return count;
+}
+
+void SceneDataSet::residual(int trial, const SceneReadings& readings, double until,
+                            Eigen::Ref<Eigen::VectorXd> out) const {
+  long place = 0;
+  for_each_channel(
+      experiment_->trials[static_cast<std::size_t>(trial)], &readings,
+      [&](const Samples& samples, const Eigen::MatrixXd* predicted, long c, SceneChannel kind) {
+        for (int i = 0; i < samples.size(); ++i) {
+          double r = 0.0;
+          const double measured = samples.value(i, c);
+          if (samples.time[static_cast<std::size_t>(i)] <= until && std::isfinite(measured)) {
+            r = (measured - (*predicted)(i, c)) / deviation(kind);
+            if (!std::isfinite(r)) r = failed;
+          }
+          out[place++] = r;
+        }
+      });
+}
+
+std::array<SceneDataSet::Sum, scene_channels> SceneDataSet::sums(
+    int trial, const SceneReadings& readings) const {
+  std::array<Sum, scene_channels> sums;
+  for_each_channel(
+      experiment_->trials[static_cast<std::size_t>(trial)], &readings,
+      [&](const Samples& samples, const Eigen::MatrixXd* predicted, long c, SceneChannel kind) {
+        Sum& sum = sums[static_cast<std::size_t>(kind)];
+        for (int i = 0; i < samples.size(); ++i) {
+          const double measured = samples.value(i, c);
+          if (!std::isfinite(measured)) continue;
+          double r = (measured - (*predicted)(i, c)) / deviation(kind);
+          if (!std::isfinite(r)) r = failed;
+          sum.square += r * r;
+          ++sum.count;
+        }
+      });
+  return sums;
+}
+
+double SceneDataSet::beyond_noise(const Sum& sum) {
+  const double mean = sum.count > 0 ? sum.square / sum.count : 0.0;
+  return mean > 1.0 ? std::sqrt(mean - 1.0) : 0.0;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "pedicel/discrepancy/scene/scene_observation.h"
+
+namespace pedicel::discrepancy {
+
+/// What a column of a scene's tables measures; each kind has one noise.
+enum class SceneChannel { position, pixel, force, moment, torque, joint };
+inline constexpr int scene_channels = 6;
+const char* channel_name(SceneChannel kind);
+
+/// Measured less predicted of a scene's trials, in units of the noise.
+class SceneDataSet {
+ public:
+  /// Deviations as stated; what is not is estimated from how neighbouring samples differ (half the
+  /// mean square of second differences at rest: the smallest of ten parts of each column). Keeps a
+  /// reference.
+  explicit SceneDataSet(const SceneExperiment& experiment);
+
+  double deviation(SceneChannel kind) const { return deviation_[static_cast<std::size_t>(kind)]; }
+  /// Entries of residual() of a trial; those without a measurement are 0.
+  int size(int trial) const;
+  /// Measured samples of a trial up to `until` (s).
+  int samples(int trial, double until) const;
+  void residual(int trial, const SceneReadings& readings, double until,
+                Eigen::Ref<Eigen::VectorXd> out) const;
+
+  struct Sum {
+    double square = 0.0;
+    int count = 0;
+    double rms() const { return count > 0 ? std::sqrt(square / count) : 0.0; }
+    Sum& operator+=(const Sum& other) {
+      square += other.square;
+      count += other.count;
+      return *this;
+    }
+  };
+  /// By kind.
+  std::array<Sum, scene_channels> sums(int trial, const SceneReadings& readings) const;
+  /// RMS of a residual without the noise's own share: 0 where there is no more than that.
+  static double beyond_noise(const Sum& sum);
+
+ private:
+  const SceneExperiment* experiment_;
+  std::array<double, scene_channels> deviation_{};
+};
+
+}  // namespace pedicel::discrepancy

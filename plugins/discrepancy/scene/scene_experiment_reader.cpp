@@ -1,0 +1,510 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "pedicel/discrepancy/scene/camera.h"
+#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "pedicel/discrepancy/scene/scene_tables.h"
+#include "pedicel/io/yaml.h"
+#include "pedicel/plant/effect_reader.h"
+#include "pedicel/robot/kinematics.h"
+#include "pedicel/urdf/urdf_reader.h"
+#include "pedicel/world/scene_reader.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+using io::YamlMap;
+using io::YamlNode;
+
+/// Rows of all tables of a trial, so that no folder fills the memory.
+constexpr int most_trials = 1000;
+constexpr std::size_t most_markers = 1000, most_cameras = 100, most_wrenches = 100;
+constexpr double same_time = 1.0e-9;  // s
+
+template <class Items>
+int index_of(const Items& items, const std::string& name) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (items[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+template <class Items>
+std::string names_of(const Items& items) {
+  std::string names;
+  for (const auto& item : items) names += (names.empty() ? "" : ", ") + item.name;
+  return names.empty() ? "none" : names;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const YamlNode& node, const std::filesystem::path& instead)
+      : node_(node), diagnostics_(node.diagnostics()), instead_(instead) {}
+
+  SceneExperiment read(const std::filesystem::path& folder) {
+    out_.folder = folder;
+    YamlMap map(node_, "an experiment");
+    if (!node_.is_map() || !io::check_format(map, "pedicel-experiment", 1)) return {};
+    out_.title = map.text("title", "");
+    read_scene(map);
+    // Without a whole scene names cannot be looked up: its own faults are enough.
+    if (!whole_) return {};
+    read_each(map, "cameras", most_cameras, out_.cameras,
+              [&](const YamlNode& node) { return read_camera(node); });
+    read_each(map, "wrenches", most_wrenches, out_.wrenches,
+              [&](const YamlNode& node) { return read_wrench_sensor(node); });
+    read_each(map, "markers", most_markers, out_.markers,
+              [&](const YamlNode& node) { return read_marker(node); });
+    if (const auto noise = map.optional("noise")) read_noise(*noise);
+    if (const auto trials = map.required("trials")) read_trials(*trials);
+    // Afterwards, because they may name trials.
+    out_.effects = read_effects(map);
+    map.finish();
+    return std::move(out_);
+  }
+
+ private:
+  void read_scene(YamlMap& map) {
+    const auto node = map.required("scene");
+    if (!node) return;
+    out_.scene_path = node->text("scene");
+    if (out_.scene_path.empty()) return;
+    std::filesystem::path file = out_.folder / out_.scene_path;
+    if (!instead_.empty()) {
+      file = instead_;
+      out_.scene_path = instead_.filename();
+    }
+    if (map.has("plant"))
+      map.optional("plant")->error(
+          "plant beside scene, expected one of them: a scene names its plants");
+    const int before = diagnostics_.error_count();
+    auto scene = world::read_scene(file, diagnostics_);
+    if (!scene) return;
+    out_.scene = std::move(*scene);
+    if (!out_.scene.robot)
+      node->error("the scene has no robot, expected one whose joints were measured");
+    else
+      read_robot(*out_.scene.robot);
+    for (const world::ScenePlant& plant : out_.scene.plants) read_plant(*node, plant);
+    if (out_.scene.plants.empty()) node->error("the scene has no plants, expected at least one");
+    whole_ = diagnostics_.error_count() == before;
+    if (!whole_) return;
+    try {
+      nominal_state(out_);
+    } catch (const InvalidFile& fault) {
+      diagnostics_.add(fault);
+      whole_ = false;
+    }
+  }
+
+  void read_robot(const world::SceneRobot& robot) {
+    robot::PackagePaths paths = robot::PackagePaths::from_environment();
+    for (const auto& [name, path] : robot.packages) paths.add(name + "=" + path.string());
+    auto description = robot::read_urdf(robot.file, paths, diagnostics_);
+    if (description) out_.robot = std::move(*description);
+    if (!description) return;
+    const robot::KinematicModel model(out_.robot);
+    for (const auto& [joint, value] : robot.joints)
+      if (model.joint_index(joint) < 0)
+        diagnostics_.error(robot.where, "joints: no joint \"" + joint + "\", expected one of: " +
+                                            joined(joint_names(out_.robot)));
+    if (!robot.tool.empty() && out_.robot.link(robot.tool) < 0)
+      diagnostics_.error(robot.where, "tool: no link \"" + robot.tool + "\" in " + out_.robot.file);
+  }
+
+  static std::string joined(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+  }
+
+  void read_plant(const YamlNode& scene, const world::ScenePlant& plant) {
+    if (plant.source != world::ScenePlant::Source::file || plant.optional ||
+        plant.repeat[0] * plant.repeat[1] != 1 || !plant.set.empty())
+      return scene.error("plant \"" + plant.name +
+                         "\" of the scene, expected a plant file without set: and repeat:");
+    auto file = plant::read_plant_file(plant.file, diagnostics_);
+    if (!file) return;
+    file->name = plant.name;
+    out_.plants.push_back({plant.name, std::move(*file), plant.file, plant.pose});
+  }
+
+  template <class Item, class Read>
+  void read_each(YamlMap& map, const char* key, std::size_t most, std::vector<Item>& items,
+                 const Read& read) {
+    for (const YamlNode& node : map.list(key)) {
+      if (items.size() == most)
+        return node.error(std::string(key) + ": the list goes on, expected at most " +
+                          std::to_string(most));
+      Item item = read(node);
+      if (!item.name.empty() && index_of(items, item.name) >= 0)
+        node.error(std::string(key) + ": \"" + item.name +
+                   "\" appears twice, expected each name once");
+      items.push_back(std::move(item));
+    }
+  }
+
+  SceneMarker read_marker(const YamlNode& node) {
+    YamlMap map(node, "a marker");
+    SceneMarker marker;
+    marker.name = map.text("name");
+    if (const auto link = map.optional("link")) {
+      marker.link = link_of(*link, "link");
+      marker.offset_L = map.vector("offset", Vec3::Zero());
+    } else {
+      marker.plant = plant_of(map);
+      if (const auto fruit = map.optional("fruit")) {
+        marker.fruit = fruit_of(*fruit, marker.plant);
+      } else {
+        marker.place = place(map, marker.plant);
+      }
+    }
+    map.finish();
+    return marker;
+  }
+
+  int plant_of(YamlMap& map) {
+    const auto node = map.optional("plant");
+    if (!node) {
+      if (out_.plants.size() > 1) map.error("no plant, expected one of: " + names_of(out_.plants));
+      return 0;
+    }
+    const std::string name = node->text("plant");
+    const int found = out_.plant_index(name);
+    if (found < 0)
+      node->error("plant \"" + name + "\" is unknown, expected one of: " + names_of(out_.plants));
+    return std::max(0, found);
+  }
+
+  int fruit_of(const YamlNode& node, int plant) {
+    const std::string name = node.text("fruit");
+    const auto& fruits = out_.plants[static_cast<std::size_t>(plant)].file.fruits;
+    const int found = index_of(fruits, name);
+    if (found < 0)
+      node.error("fruit \"" + name + "\" is unknown, expected one of: " + names_of(fruits));
+    return std::max(0, found);
+  }
+
+  int link_of(const YamlNode& node, const char* what) {
+    const std::string name = node.text(what);
+    const int found = out_.robot.link(name);
+    if (found < 0)
+      node.error(std::string(what) + " \"" + name +
+                 "\" is unknown, expected one of: " + names_of(out_.robot.links));
+    return std::max(0, found);
+  }
+
+  plant::CurvePlace place(YamlMap& map, int plant) {
+    plant::CurvePlace found = plant::read_place(map);
+    const plant::PlantFile& file = out_.plants[static_cast<std::size_t>(plant)].file;
+    if (!found.curve.empty() && file.curve_index(found.curve) < 0)
+      diagnostics_.error(
+          found.where,
+          "curve \"" + found.curve + "\" is unknown, expected one of: " + names_of(file.curves));
+    return found;
+  }
+
+  Camera read_camera(const YamlNode& node) {
+    YamlMap map(node, "a camera");
+    Camera camera;
+    camera.name = map.text("name");
+    const auto size = map.optional("size");
+    if (size) {
+      const std::vector<double> both = size->numbers("size", {1.0, 1.0e5});
+      if (both.size() == 2)
+        camera.size = {static_cast<int>(both[0]), static_cast<int>(both[1])};
+      else
+        size->error("size: expected two numbers, width and height in px");
+    }
+    camera.centre = {0.5 * camera.size[0], 0.5 * camera.size[1]};
+    if (map.has("eye")) {
+      const Vec3 eye = map.vector("eye"), target = map.vector("target");
+      if (!((target - eye).norm() > 0.0)) node.error("target: expected another place than eye");
+      camera.X_WC = {eye, looking_at(eye, target)};
+      const double fov = map.number("fov", {1.0e-3, 3.1});
+      camera.focal.setConstant(0.5 * camera.size[1] / std::tan(0.5 * fov));
+    } else {
+      camera.X_WC.position = map.vector("position");
+      if (const auto turn = map.required("orientation"))
+        camera.X_WC.rotation = turn->quaternion("orientation");
+      camera.focal = pair(map, "focal", true, camera.focal);
+    }
+    camera.centre = pair(map, "centre", false, camera.centre);
+    if (const auto lens = map.optional("distortion")) {
+      const std::vector<double> all = lens->numbers("distortion", {-1.0e3, 1.0e3});
+      if (all.size() == 5)
+        std::ranges::copy(all, camera.distortion.begin());
+      else
+        lens->error("distortion: expected five numbers, k1 k2 p1 p2 k3");
+    }
+    map.finish();
+    return camera;
+  }
+
+  static Eigen::Vector2d pair(YamlMap& map, const char* key, bool required,
+                              const Eigen::Vector2d& otherwise) {
+    const auto node = required ? map.required(key) : map.optional(key);
+    if (!node) return otherwise;
+    const std::vector<double> both =
+        node->numbers(key, required ? io::Bounds{1.0e-3, 1.0e7} : io::any_number);
+    if (both.size() == 2) return {both[0], both[1]};
+    node->error(std::string(key) + ": expected two numbers, px");
+    return otherwise;
+  }
+
+  WrenchSensor read_wrench_sensor(const YamlNode& node) {
+    YamlMap map(node, "a wrench");
+    WrenchSensor sensor;
+    sensor.name = map.text("name");
+    if (const auto link = map.required("link")) sensor.link = link_of(*link, "link");
+    sensor.tared = map.boolean("tared", false);
+    map.finish();
+    return sensor;
+  }
+
+  void read_noise(const YamlNode& node) {
+    YamlMap map(node, "noise");
+    SceneNoise& noise = out_.noise;
+    const std::pair<const char*, std::optional<double>*> all[] = {
+        {"position_std", &noise.position_std}, {"pixel_std", &noise.pixel_std},
+        {"force_std", &noise.force_std},       {"moment_std", &noise.moment_std},
+        {"joint_std", &noise.joint_std},       {"torque_std", &noise.torque_std}};
+    for (const auto& [key, value] : all)
+      if (const auto std = map.optional(key)) *value = std->number(key, io::positive);
+    map.finish();
+  }
+
+  std::vector<plant::Effect> read_effects(YamlMap& map) {
+    std::vector<plant::Effect> effects;
+    for (const YamlNode& node : map.list("effects"))
+      effects.push_back(read_scene_effect(node, out_));
+    return effects;
+  }
+
+  void read_trials(const YamlNode& list) {
+    for (const YamlNode& node : list.list("trials")) {
+      if (out_.trials.size() == most_trials)
+        return node.error("trials: the list goes on, expected at most " +
+                          std::to_string(most_trials));
+      SceneTrial trial = read_trial(node);
+      if (!trial.name.empty() && index_of(out_.trials, trial.name) >= 0)
+        node.error("trial \"" + trial.name + "\" appears twice, expected each name once");
+      out_.trials.push_back(std::move(trial));
+    }
+    if (list.is_list() && out_.trials.empty()) list.error("no trials, expected at least one");
+  }
+
+  SceneTrial read_trial(const YamlNode& node) {
+    YamlMap map(node, "a trial");
+    SceneTrial trial;
+    trial.name = map.text("name");
+    const auto folder = map.required("folder");
+    if (folder) trial.folder = folder->text("folder");
+    if (map.has("use"))
+      trial.use =
+          map.choice("use", {"fit", "check"}, "fit") == "fit" ? Trial::Use::fit : Trial::Use::check;
+    trial.clock = map.number("clock", io::any_number, 0.0);
+    for (const YamlNode& item : map.list("masses")) trial.masses.push_back(read_mass(item));
+    if (const auto robot = map.required("robot")) {
+      YamlMap follows(*robot, "robot");
+      if (follows.required("follows"))
+        trial.follows_commands =
+            follows.choice("follows", {"joints", "commands"}, "joints") == "commands";
+      follows.finish();
+    }
+    if (const auto plants = map.optional("plants")) read_poses(*plants, trial);
+    trial.effects = read_effects(map);
+    map.finish();
+    if (trial.folder.empty()) return trial;
+    const std::filesystem::path at = out_.folder / trial.folder;
+    if (!std::filesystem::is_directory(at))
+      folder->error("folder " + at.string() + " does not exist, expected the trial's tables in it");
+    else
+      read_tables(at, trial);
+    return trial;
+  }
+
+  SceneTrial::Mass read_mass(const YamlNode& node) {
+    YamlMap map(node, "a mass");
+    SceneTrial::Mass mass;
+    mass.plant = plant_of(map);
+    mass.mass.place = place(map, mass.plant);
+    mass.mass.mass = map.number("mass", io::positive);
+    map.finish();
+    return mass;
+  }
+
+  void read_poses(const YamlNode& node, SceneTrial& trial) {
+    YamlMap map(node, "plants");
+    for (std::size_t p = 0; p < out_.plants.size(); ++p) {
+      const auto entry = map.optional(out_.plants[p].name);
+      if (!entry) continue;
+      YamlMap pose(*entry, "a plant's place");
+      Pose moved = out_.plants[p].pose;
+      moved.position = pose.vector("position", moved.position);
+      moved.rotation = pose.quaternion("orientation", moved.rotation);
+      pose.finish();
+      trial.poses[static_cast<int>(p)] = moved;
+    }
+    map.finish();
+  }
+
+  void read_tables(const std::filesystem::path& folder, SceneTrial& trial) {
+    const auto there = [&](const std::string& name) {
+      return std::filesystem::exists(folder / name);
+    };
+    // One of the two drives the arm; the other may be there, too.
+    const std::string driver = trial.follows_commands ? "commands.csv" : "joints.csv";
+    if (there("joints.csv") || !trial.follows_commands)
+      trial.joints = read_joint_table(folder / "joints.csv", out_.robot, io::Quantity::angle,
+                                      trial.joint_columns, diagnostics_);
+    if (there("commands.csv") || trial.follows_commands)
+      trial.commands = read_joint_table(folder / "commands.csv", out_.robot, io::Quantity::angle,
+                                        trial.command_columns, diagnostics_);
+    if (there("torques.csv"))
+      trial.torques = read_joint_table(folder / "torques.csv", out_.robot, io::Quantity::moment,
+                                       trial.torque_columns, diagnostics_);
+    if (there("markers.csv"))
+      trial.markers = read_scene_markers(folder / "markers.csv", out_.markers, diagnostics_);
+    for (const Camera& camera : out_.cameras) {
+      const std::string name = "pixels_" + camera.name + ".csv";
+      trial.pixels.push_back(there(name) ? read_pixels(folder / name, out_.markers, diagnostics_)
+                                         : Samples{});
+    }
+    for (const WrenchSensor& sensor : out_.wrenches) {
+      const std::string name = "wrench_" + sensor.name + ".csv";
+      trial.wrenches.push_back(there(name) ? read_wrench(folder / name, diagnostics_) : Samples{});
+    }
+    if (there("events.csv")) read_events(folder / "events.csv", trial);
+    check_strangers(folder);
+    check_begin(folder, driver, trial);
+  }
+
+  // A table of an instrument that experiment.yaml does not have would be passed over in silence.
+  void check_strangers(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      const auto named = [&](const std::string& head, const auto& items, const char* what) {
+        if (!name.starts_with(head) || !name.ends_with(".csv")) return;
+        const std::string own = name.substr(head.size(), name.size() - head.size() - 4);
+        if (index_of(items, own) < 0)
+          diagnostics_.error({entry.path().string(), 1, 1},
+                             std::string("a table of ") + what + " " + in_quotes(own) +
+                                 ", expected one of: " + names_of(items));
+      };
+      named("pixels_", out_.cameras, "camera");
+      named("wrench_", out_.wrenches, "wrench");
+    }
+  }
+
+  void check_begin(const std::filesystem::path& folder, const std::string& driver,
+                   const SceneTrial& trial) {
+    const Samples& lead = trial.follows_commands ? trial.commands : trial.joints;
+    if (lead.size() == 0) {
+      if (std::filesystem::exists(folder / driver))
+        diagnostics_.error({(folder / driver).string(), 1, 1},
+                           "the table has no rows, expected where the joints are");
+      return;
+    }
+    for (long c = 0; c < lead.value.cols(); ++c)
+      if (lead.value.col(c).array().isNaN().all())
+        diagnostics_.error({(folder / driver).string(), 1, 1},
+                           "a joint has no readings at all, expected some or no such column");
+    const auto check = [&](const std::string& name, const Samples& samples) {
+      if (samples.size() > 0 && samples.time.front() < lead.time.front() - same_time)
+        diagnostics_.error({(folder / name).string(), 2, 1},
+                           "its first row, at " + io::format_number(samples.time.front()) +
+                               " s, is before the first row of " + driver + ", at " +
+                               io::format_number(lead.time.front()) +
+                               " s: expected none before the arm's log begins");
+    };
+    check("markers.csv", trial.markers);
+    check("torques.csv", trial.torques);
+    if (trial.follows_commands) check("joints.csv", trial.joints);
+    for (std::size_t c = 0; c < trial.pixels.size(); ++c)
+      check("pixels_" + out_.cameras[c].name + ".csv", trial.pixels[c]);
+    for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
+      check("wrench_" + out_.wrenches[w].name + ".csv", trial.wrenches[w]);
+  }
+
+  void read_events(const std::filesystem::path& file, SceneTrial& trial) {
+    std::vector<SourcePosition> places;
+    trial.events = read_scene_events(file, places, diagnostics_);
+    for (std::size_t i = 0; i < trial.events.size(); ++i) {
+      const SceneEvent& event = trial.events[i];
+      const bool known = std::ranges::any_of(out_.plants, [&](const ScenePlantFile& plant) {
+        return index_of(plant.file.fruits, event.what) >= 0 ||
+               index_of(plant.file.curves, event.what) >= 0;
+      });
+      if (!known)
+        diagnostics_.repeated_error(
+            "no organ", places[i],
+            "what: " + in_quotes(event.what) + " is no fruit or curve of a plant of the scene");
+      if (!event.by.empty() && out_.robot.link(event.by) < 0 &&
+          (event.event == "grasped" || event.event == "released"))
+        diagnostics_.repeated_error(
+            "no link", places[i],
+            "by: " + in_quotes(event.by) + ", expected one of: " + names_of(out_.robot.links));
+    }
+  }
+
+  const YamlNode& node_;
+  Diagnostics& diagnostics_;
+  const std::filesystem::path& instead_;
+  SceneExperiment out_;
+  bool whole_ = false;
+};
+
+std::filesystem::path file_of(const std::filesystem::path& path) {
+  return std::filesystem::is_directory(path) ? path / "experiment.yaml" : path;
+}
+
+}  // namespace
+
+double SceneTrial::duration() const {
+  double last = 0.0;
+  const auto look = [&](const Samples& samples) {
+    if (samples.size() > 0) last = std::max(last, samples.time.back());
+  };
+  for (const Samples* samples : {&joints, &commands, &torques, &markers}) look(*samples);
+  for (const Samples& samples : pixels) look(samples);
+  for (const Samples& samples : wrenches) look(samples);
+  return last;
+}
+
+int SceneExperiment::plant_index(const std::string& name) const {
+  return index_of(plants, name);
+}
+
+std::vector<std::string> joint_names(const robot::RobotDescription& robot) {
+  return robot::KinematicModel(robot).joint_names();
+}
+
+bool is_scene_experiment(const std::filesystem::path& path) {
+  Diagnostics ignored;
+  try {
+    const YamlNode node = io::load_yaml(file_of(path), ignored);
+    return node.is_map() && node.raw()["scene"] && node.raw()["format"] &&
+           node.raw()["format"].IsScalar() && node.raw()["format"].Scalar() == "pedicel-experiment";
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+std::optional<SceneExperiment> read_scene_experiment(const std::filesystem::path& path,
+                                                     Diagnostics& diagnostics,
+                                                     const std::filesystem::path& scene) {
+  const int before = diagnostics.error_count();
+  const std::filesystem::path file = file_of(path);
+  try {
+    const YamlNode node = io::load_yaml(file, diagnostics);
+    SceneExperiment experiment = SceneReader(node, scene).read(file.parent_path());
+    if (diagnostics.error_count() == before) return experiment;
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+  }
+  return std::nullopt;
+}
+
+}  // namespace pedicel::discrepancy

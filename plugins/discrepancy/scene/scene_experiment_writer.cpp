@@ -1,0 +1,175 @@
+#include <set>
+
+#include "pedicel/core/check.h"
+#include "pedicel/discrepancy/scene/scene_tables.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/text_file.h"
+#include "pedicel/plant/leaf_template.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+using io::exact_number;
+using plant::yaml_word;
+namespace fs = std::filesystem;
+
+template <class Values>
+std::string list_text(const Values& values) {
+  std::string text;
+  for (const auto& value : values)
+    text += (text.empty() ? "" : ", ") + exact_number(static_cast<double>(value));
+  return "[" + text + "]";
+}
+
+std::string place_text(const SceneExperiment& experiment, int plant,
+                       const plant::CurvePlace& place) {
+  return "plant: " + yaml_word(experiment.plants[static_cast<std::size_t>(plant)].name) +
+         ", curve: " + yaml_word(place.curve) + ", at: " + exact_number(place.at);
+}
+
+std::string marker_text(const SceneExperiment& experiment, const SceneMarker& marker) {
+  std::string text = "  - {name: " + yaml_word(marker.name) + ", ";
+  if (marker.plant < 0)
+    return text + "link: " +
+           yaml_word(experiment.robot.links[static_cast<std::size_t>(marker.link)].name) +
+           ", offset: " + list_text(marker.offset_L) + "}\n";
+  const ScenePlantFile& plant = experiment.plants[static_cast<std::size_t>(marker.plant)];
+  if (marker.fruit < 0) return text + place_text(experiment, marker.plant, marker.place) + "}\n";
+  return text + "plant: " + yaml_word(plant.name) +
+         ", fruit: " + yaml_word(plant.file.fruits[static_cast<std::size_t>(marker.fruit)].name) +
+         "}\n";
+}
+
+std::string instruments_text(const SceneExperiment& experiment) {
+  std::string text = experiment.markers.empty() ? "" : "markers:\n";
+  for (const SceneMarker& marker : experiment.markers) text += marker_text(experiment, marker);
+  if (!experiment.cameras.empty()) text += "cameras:\n";
+  for (const Camera& camera : experiment.cameras)
+    text += "  - {name: " + yaml_word(camera.name) +
+            ", position: " + list_text(camera.X_WC.position) +
+            ", orientation: " + list_text(camera.X_WC.rotation.coeffs()) +
+            ", focal: " + list_text(camera.focal) + ", centre: " + list_text(camera.centre) +
+            ", size: " + list_text(camera.size) + ", distortion: " + list_text(camera.distortion) +
+            "}\n";
+  if (!experiment.wrenches.empty()) text += "wrenches:\n";
+  for (const WrenchSensor& sensor : experiment.wrenches)
+    text += "  - {name: " + yaml_word(sensor.name) + ", link: " +
+            yaml_word(experiment.robot.links[static_cast<std::size_t>(sensor.link)].name) +
+            ", tared: " + (sensor.tared ? "true" : "false") + "}\n";
+  return text;
+}
+
+std::string noise_text(const SceneNoise& noise) {
+  const std::pair<const char*, const std::optional<double>&> all[] = {
+      {"position_std", noise.position_std}, {"pixel_std", noise.pixel_std},
+      {"force_std", noise.force_std},       {"moment_std", noise.moment_std},
+      {"joint_std", noise.joint_std},       {"torque_std", noise.torque_std}};
+  std::string text;
+  for (const auto& [key, value] : all)
+    if (value) text += (text.empty() ? "" : ", ") + std::string(key) + ": " + exact_number(*value);
+  return text.empty() ? text : "noise: {" + text + "}\n";
+}
+
+std::string effects_text(const std::vector<plant::Effect>& effects, const std::string& indent) {
+  std::string text = effects.empty() ? "" : indent + "effects:\n";
+  for (const plant::Effect& effect : effects)
+    text += indent + "  - " + plant::effect_text(effect) + "\n";
+  return text;
+}
+
+std::string trial_text(const SceneExperiment& experiment, const SceneTrial& trial) {
+  std::string text = "  - name: " + yaml_word(trial.name) + "\n";
+  text += "    folder: " + yaml_word(trial.name) + "\n";
+  if (trial.use != Trial::Use::unset)
+    text += std::string("    use: ") + (trial.use == Trial::Use::fit ? "fit" : "check") + "\n";
+  if (trial.clock != 0.0) text += "    clock: " + exact_number(trial.clock) + "\n";
+  if (!trial.masses.empty()) text += "    masses:\n";
+  for (const SceneTrial::Mass& mass : trial.masses)
+    text += "      - {" + place_text(experiment, mass.plant, mass.mass.place) +
+            ", mass: " + exact_number(mass.mass.mass) + "}\n";
+  text += std::string("    robot: {follows: ") + (trial.follows_commands ? "commands" : "joints") +
+          "}\n";
+  if (!trial.poses.empty()) text += "    plants:\n";
+  for (const auto& [plant, pose] : trial.poses)
+    text += "      " + yaml_word(experiment.plants[static_cast<std::size_t>(plant)].name) +
+            ": {position: " + list_text(pose.position) +
+            ", orientation: " + list_text(pose.rotation.coeffs()) + "}\n";
+  return text + effects_text(trial.effects, "    ");
+}
+
+std::string experiment_text(const SceneExperiment& experiment) {
+  std::string text = "format: pedicel-experiment\nversion: 1\n";
+  if (!experiment.title.empty()) text += "title: " + yaml_word(experiment.title) + "\n";
+  text += "scene: " + yaml_word(experiment.scene_path.string()) + "\n";
+  text += instruments_text(experiment) + noise_text(experiment.noise) +
+          effects_text(experiment.effects, "") + "trials:\n";
+  for (const SceneTrial& trial : experiment.trials) text += trial_text(experiment, trial);
+  return text;
+}
+
+std::vector<std::string> columns_of(const SceneExperiment& experiment,
+                                    const std::vector<int>& columns) {
+  const std::vector<std::string> all = joint_names(experiment.robot);
+  std::vector<std::string> names;
+  for (const int column : columns) names.push_back(all[static_cast<std::size_t>(column)]);
+  return names;
+}
+
+void write_tables(const fs::path& folder, const SceneExperiment& experiment,
+                  const SceneTrial& trial) {
+  const auto write = [&](const std::string& file, const std::vector<std::string>& names,
+                         const Samples& samples) {
+    if (samples.size() > 0) io::write_file_atomically(folder / file, table_text(names, samples));
+  };
+  write("joints.csv", columns_of(experiment, trial.joint_columns), trial.joints);
+  write("commands.csv", columns_of(experiment, trial.command_columns), trial.commands);
+  write("torques.csv", columns_of(experiment, trial.torque_columns), trial.torques);
+  write("markers.csv", marker_columns(experiment.markers), trial.markers);
+  for (std::size_t c = 0; c < trial.pixels.size(); ++c)
+    write("pixels_" + experiment.cameras[c].name + ".csv", pixel_columns(experiment.markers),
+          trial.pixels[c]);
+  for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
+    write("wrench_" + experiment.wrenches[w].name + ".csv", wrench_columns(), trial.wrenches[w]);
+  if (!trial.events.empty())
+    io::write_file_atomically(folder / "events.csv", scene_events_text(trial.events));
+}
+
+/// All files that a scene names, its own first.
+std::set<fs::path> files_of(const SceneExperiment& experiment) {
+  std::set<fs::path> files = {experiment.scene.file, experiment.scene.robot->file};
+  for (const robot::Link& link : experiment.robot.links) {
+    for (const robot::Collision& shape : link.collisions)
+      if (!shape.geometry.mesh_file.empty()) files.insert(shape.geometry.mesh_file);
+    for (const robot::Visual& shape : link.visuals)
+      if (!shape.geometry.mesh_file.empty()) files.insert(shape.geometry.mesh_file);
+  }
+  for (const ScenePlantFile& plant : experiment.plants) {
+    files.insert(plant.path);
+    for (const plant::PlantLeaf& leaf : plant.file.leaves)
+      if (const auto file = plant::find_leaf_template(leaf.leaf_template, plant.file.leaf_folders))
+        files.insert(*file);
+  }
+  return files;
+}
+
+}  // namespace
+
+void write_scene_experiment(const fs::path& folder, const SceneExperiment& experiment) {
+  const fs::path from = fs::weakly_canonical(experiment.scene.file).parent_path();
+  const fs::path to = folder / experiment.scene_path.parent_path();
+  for (const fs::path& file : files_of(experiment)) {
+    const fs::path beside = fs::weakly_canonical(file).lexically_relative(from);
+    if (beside.empty() || *beside.begin() == "..")
+      throw UsageError(file.string() + " is not below the folder of its scene, " + from.string() +
+                       ": expected there what an experiment carries along");
+    io::write_file_atomically(to / beside, io::read_text_file(file));
+  }
+  for (const SceneTrial& trial : experiment.trials)
+    write_tables(folder / trial.name, experiment, trial);
+  // Last, so that a folder with an experiment.yaml is whole.
+  io::write_file_atomically(folder / "experiment.yaml", experiment_text(experiment));
+}
+
+}  // namespace pedicel::discrepancy

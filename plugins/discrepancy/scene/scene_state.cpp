@@ -1,0 +1,25 @@
+#include "pedicel/discrepancy/scene/scene_state.h"
+
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/robot/kinematics.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::discrepancy {
+
+SceneState nominal_state(const SceneExperiment& experiment) {
+  SceneState state;
+  Diagnostics diagnostics;
+  int direction = state.coupling.two_way ? 1 : 0;
+  world::apply_settings(experiment.scene.coupling, "coupling",
+                        coupling::parameters_of(state.coupling),
+                        {{"direction", {"one_way", "two_way"}, &direction}}, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  state.plants.resize(experiment.plants.size());
+  const int dofs = robot::KinematicModel(experiment.robot).dofs();
+  state.joint_offset = state.coulomb = state.viscous = Eigen::VectorXd::Zero(dofs);
+  state.gauges.resize(experiment.wrenches.size());
+  state.cameras = experiment.cameras;
+  return state;
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/scene/scene_data.h"
+#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "pedicel/discrepancy/scene/scene_simulator.h"
+#include "pedicel/discrepancy/simulate/hypothesis.h"
+
+namespace pedicel::discrepancy {
+
+struct SceneFitOptions {
+  std::vector<int> trials;
+  int iterations = 12;      ///< at most
+  double least_gain = 0.5;  ///< nats, of a step; in units of what the model leaves
+};
+
+/// A model of a scene fitted to some trials.
+struct SceneFitResult {
+  Hypothesis model;
+  Eigen::VectorXd residual;        ///< in units of the noise, of all trials fitted
+  Eigen::MatrixXd jacobian;        ///< of the prediction by the unknowns
+  Eigen::VectorXd standard_error;  ///< of the unknowns, with what the model leaves as noise
+  SceneDataSet::Sum sum;           ///< of the residual
+  int evaluations = 0;             ///< simulations of all trials
+  bool converged = false;
+};
+
+/// Residuals of models over the same trials, side by side.
+class SceneEvaluator {
+ public:
+  SceneEvaluator(SceneSimulator& simulator, const SceneDataSet& data)
+      : simulator_(simulator), data_(data) {}
+
+  /// One column a model.
+  Eigen::MatrixXd residuals(std::span<const Hypothesis> models, std::span<const int> trials);
+  SceneDataSet::Sum sum(const Eigen::VectorXd& residual, std::span<const int> trials) const;
+  SceneSimulator& simulator() { return simulator_; }
+  const SceneDataSet& data() const { return data_; }
+
+ private:
+  SceneSimulator& simulator_;
+  const SceneDataSet& data_;
+};
+
+/// Bounded least squares (Ceres) from the model's values on.
+SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
+                         const SceneFitOptions& options);
+
+/// What a model predicts and how that changes with its unknowns, without a fit.
+SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
+                       std::span<const int> trials);
+
+/// Modulus, density and damping of the plants, as factors on what their files say.
+Hypothesis scene_baseline(const SceneExperiment& experiment);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,240 @@
+// Each effect of a scene against what mechanics or optics say of it.
+
+#include <gmock/gmock.h>
+
+#include "arm_at_stem.h"
+#include "pedicel/cosserat/solver/standing.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+constexpr double g = 9.81;
+constexpr int tip = 0, middle = 3, nail = 6;  // columns of the markers
+
+class SceneEffects : public testing::Test {
+ protected:
+  // Far from the stem: nothing is touched.
+  SceneExperiment& free() {
+    if (!free_) {
+      at_.gap = "0.5";
+      at_.write_all();
+      free_ = at_.read();
+    }
+    return *free_;
+  }
+  // The finger pushes the stem.
+  SceneExperiment& pushing() {
+    if (!pushing_) {
+      at_.write_all();
+      pushing_ = at_.read();
+    }
+    return *pushing_;
+  }
+  ArmAtStem at_;
+  std::optional<SceneExperiment> free_, pushing_;
+};
+
+Vec3 point(const Eigen::MatrixXd& rows, long row, int column) {
+  return rows.row(row).segment<3>(column).transpose();
+}
+
+TEST_F(SceneEffects, PlantPoseMovesAndTurnsThePlantAboutItsRoot) {
+  const SceneReadings plain = readings_of(free());
+  const SceneReadings moved = readings_of(
+      free(), {"{name: plant_pose, offset: [0.01, -0.02, 0.003], yaw: 0.4, plant: bush}"});
+  const Vec3 root(ArmAtStem::reach, 0.5, 0);
+  const Quat turn(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));
+  for (const int column : {tip, middle}) {
+    const Vec3 expected =
+        root + Vec3(0.01, -0.02, 0.003) + turn * (point(plain.markers, 60, column) - root);
+    EXPECT_LT((point(moved.markers, 60, column) - expected).norm(), 1e-7);
+  }
+  EXPECT_LT((point(moved.markers, 60, nail) - point(plain.markers, 60, nail)).norm(), 1e-12);
+}
+
+TEST_F(SceneEffects, JointOffsetTurnsTheArmBeyondItsReadings) {
+  const SceneReadings moved =
+      readings_of(free(), {"{name: joint_offset, joint: turn, offset: 0.05}"});
+  const Vec3 place = point(moved.markers, 0, nail);
+  EXPECT_NEAR(place.x(), ArmAtStem::reach * std::cos(0.05), 1e-5);
+  EXPECT_NEAR(place.y(), ArmAtStem::reach * std::sin(0.05), 1e-5);
+  EXPECT_NEAR(place.z(), 0.4, 1e-9);
+}
+
+TEST_F(SceneEffects, RobotLatencyPutsTheLogBehindTheOtherInstruments) {
+  const SceneReadings plain = readings_of(free());
+  const SceneReadings late = readings_of(free(), {"{name: robot_latency, delay: 0.05}"});
+  // A row of the log at t holds what was at t - 0.05 s: what is at 0.45 s stands in it at 0.5 s.
+  EXPECT_LT((point(late.markers, 45, nail) - point(plain.markers, 50, nail)).norm(), 1e-6);
+}
+
+TEST_F(SceneEffects, ToolPoseMountsTheToolElsewhereInItsCarrier) {
+  const SceneReadings moved =
+      readings_of(free(), {"{name: tool_pose, offset: [0.01, 0, 0.02], rotation: [0.1, 0, 0]}"});
+  const Vec3 expected = Vec3(ArmAtStem::reach + 0.01, 0, 0.32) +
+                        Eigen::AngleAxisd(0.1, Vec3::UnitX()) * Vec3(0, 0, 0.1);
+  EXPECT_LT((point(moved.markers, 0, nail) - expected).norm(), 1e-5);
+}
+
+TEST_F(SceneEffects, TheWrenchIsWeightAndInertiaOfTheLink) {
+  const Eigen::MatrixXd wrench = readings_of(free()).wrenches[0];
+  EXPECT_NEAR(wrench(0, 2), -0.05 * g, 1e-6);
+  // Halfway it swings with 1.875 swing / 0.8 rad/s: outward by m r w^2.
+  const double w = 1.875 * at_.swing / 0.8;
+  EXPECT_NEAR(wrench(50, 0), 0.05 * ArmAtStem::reach * w * w, 1e-4);
+}
+
+TEST_F(SceneEffects, PayloadAddsItsWeightAndMoment) {
+  const Eigen::MatrixXd plain = readings_of(free()).wrenches[0];
+  const Eigen::MatrixXd loaded =
+      readings_of(free(), {"{name: payload, mass: 0.1, centre: [0.03, 0, 0.05]}"}).wrenches[0];
+  EXPECT_NEAR(loaded(0, 2) - plain(0, 2), -0.1 * g, 1e-9);
+  // r x F with F = (0, 0, -m g).
+  EXPECT_NEAR(loaded(0, 4) - plain(0, 4), 0.03 * 0.1 * g, 1e-9);
+}
+
+TEST_F(SceneEffects, WrenchBiasAndGainActOnWhatIsMeasured) {
+  const Eigen::MatrixXd plain = readings_of(free()).wrenches[0];
+  const Eigen::MatrixXd off =
+      readings_of(free(), {"{name: wrench_bias, force: [0.1, 0.2, 0.3], moment: [0.01, 0, 0]}",
+                           "{name: wrench_gain, gain: 1.1, wrench: wrist}"})
+          .wrenches[0];
+  Eigen::Matrix<double, 1, 6> bias;
+  bias << 0.1, 0.2, 0.3, 0.01, 0, 0;
+  EXPECT_LT((off.row(30) - 1.1 * plain.row(30) - bias).norm(), 1e-9);
+}
+
+TEST_F(SceneEffects, CamerasSeeByPinholeAndBrown) {
+  // The camera looks along +y from (0.4, -1, 0.3): x right is +x, y down is -z.
+  const SceneReadings plain = readings_of(free());
+  const Vec3 p = point(plain.markers, 0, nail);
+  const double x = (p.x() - 0.4) / (p.y() + 1.0), y = -(p.z() - 0.3) / (p.y() + 1.0);
+  EXPECT_NEAR(plain.pixels[0](0, 4), 640 + 1000 * x, 1e-3);
+  EXPECT_NEAR(plain.pixels[0](0, 5), 360 + 1000 * y, 1e-3);
+  const auto seen = [&](const std::string& effect) -> Eigen::Vector2d {
+    return readings_of(free(), {effect}).pixels[0].row(0).segment<2>(4).transpose();
+  };
+  EXPECT_LT(
+      (seen("{name: camera_focal, factor: 1.02}") - Eigen::Vector2d(640 + 1020 * x, 360 + 1020 * y))
+          .norm(),
+      1e-3);
+  const double radial = 1.0 + 0.1 * (x * x + y * y);
+  EXPECT_LT((seen("{name: lens_distortion, k1: 0.1}") -
+             Eigen::Vector2d(640 + 1000 * x * radial, 360 + 1000 * y * radial))
+                .norm(),
+            1e-3);
+  EXPECT_LT((seen("{name: camera_pose, offset: [0.01, 0, 0]}") -
+             Eigen::Vector2d(640 + 1000 * (x - 0.01 / (p.y() + 1.0)), 360 + 1000 * y))
+                .norm(),
+            1e-3);
+  // Turned about its own forward axis by a: the picture turns by -a about the centre.
+  const double a = 0.02;
+  const Eigen::Vector2d turned(std::cos(a) * x + std::sin(a) * y,
+                               -std::sin(a) * x + std::cos(a) * y);
+  EXPECT_LT((seen("{name: camera_pose, offset: [0, 0, 0], rotation: [0, 0, 0.02]}") -
+             (Eigen::Vector2d(640, 360) + 1000 * turned))
+                .norm(),
+            1e-3);
+}
+
+TEST_F(SceneEffects, JointFrictionAddsToTheMotorsTorque) {
+  const Eigen::MatrixXd plain = readings_of(free()).torques;
+  const Eigen::MatrixXd more =
+      readings_of(free(), {"{name: joint_friction, coulomb: 0.4, viscous: 2}"}).torques;
+  const double w = 1.875 * at_.swing / 0.8;
+  EXPECT_NEAR(more(50, 0) - plain(50, 0), 0.4 + 2.0 * w, 1e-3);
+  // Before it moves: what is left of the readings' noise.
+  EXPECT_NEAR(more(0, 0) - plain(0, 0), 0.0, 0.05);
+}
+
+TEST_F(SceneEffects, APushedStemPushesBackAsABeamDoes) {
+  // The stem leans away from the finger, whose lower edge, 0.2 m high, pushes: F = 3 EI d / h^3.
+  const SceneReadings readings = readings_of(pushing());
+  const long last = readings.wrenches[0].rows() - 1;
+  const double height = 0.2;
+  const double way = ArmAtStem::reach * std::sin(at_.joint(at_.duration)) - 0.03 + 0.006 + 0.004;
+  const double stiffness = 3.0 * 1.0e9 * M_PI / 4.0 * std::pow(0.004, 4) / std::pow(height, 3);
+  EXPECT_NEAR(-readings.wrenches[0](last, 1), stiffness * way, 0.15 * stiffness * way);
+}
+
+TEST_F(SceneEffects, FrictionOfTheContactIsCoulombs) {
+  // The finger goes on a circle about its axis, and the stem along the finger's face.
+  for (const double mu : {0.03, 0.06}) {
+    const SceneReadings readings = readings_of(
+        pushing(), {"{name: contact_friction, coefficient: " + std::to_string(mu) + "}"});
+    double most = 0.0;
+    for (const auto& row : readings.wrenches[0].rowwise()) {
+      // Less its own weight; the edge's normal leans as the stem does.
+      const Vec3 force = row.head<3>().transpose() + Vec3(0, 0, 0.05 * g);
+      const double across = force.tail<2>().norm();
+      if (across > 0.5) most = std::max(most, std::abs(force.x()) / across);
+    }
+    EXPECT_NEAR(most, mu, 0.1 * mu + 0.01);
+  }
+}
+
+TEST_F(SceneEffects, ContactFrictionOfOneLinkLeavesTheOthers) {
+  SceneState state = nominal_state(pushing());
+  apply_scene_effect(scene_effect("{name: contact_friction, factor: 0.5, link: finger}", pushing()),
+                     pushing(), state);
+  EXPECT_DOUBLE_EQ(state.coupling.friction, 0.5);
+  EXPECT_DOUBLE_EQ(state.friction_of_link.at(pushing().robot.link("finger")), 0.25);
+}
+
+TEST_F(SceneEffects, ContactComplianceLetsTheToolSinkIn) {
+  const SceneReadings stiff = readings_of(pushing());
+  const SceneReadings soft =
+      readings_of(pushing(), {"{name: contact_compliance, stiffness: 1000}"});
+  const long last = stiff.wrenches[0].rows() - 1;
+  const auto force = [&](const SceneReadings& r) { return -r.wrenches[0](last, 1); };
+  // Springs in series: the whole way is that of the stem and of the contact.
+  const double way = ArmAtStem::reach * std::sin(at_.joint(at_.duration)) - 0.02;
+  const double stem = force(stiff) / way;
+  EXPECT_NEAR(force(soft), way / (1.0 / stem + 1.0 / 1000.0), 0.1 * force(soft));
+}
+
+TEST_F(SceneEffects, ReactionTurnsTheJointByTorqueOverStiffness) {
+  const double stiffness = 20.0;
+  const SceneReadings given = readings_of(pushing(), {"{name: reaction, joint_stiffness: 20}"});
+  const long last = given.markers.rows() - 1;
+  const Vec3 place = point(given.markers, last, nail);
+  const double turned = std::atan2(place.y(), place.x()) - at_.joint(at_.duration);
+  // The push on the finger, in the finger's frame: along y it turns the joint, at the reach.
+  const Eigen::RowVectorXd wrench = given.wrenches[0].row(given.wrenches[0].rows() - 1);
+  const double torque = ArmAtStem::reach * wrench[1] + wrench[5];
+  EXPECT_NEAR(turned, torque / stiffness, 0.02 * std::abs(turned));
+  EXPECT_LT(turned, -0.002);
+  // A rigid arm pushes harder.
+  const SceneReadings rigid = readings_of(pushing());
+  EXPECT_GT(std::abs(rigid.wrenches[0](given.wrenches[0].rows() - 1, 1)), std::abs(wrench[1]));
+}
+
+TEST_F(SceneEffects, FruitsWeighAndHoldMultiplesOfTheFile) {
+  SceneState state = nominal_state(free());
+  apply_scene_effect(scene_effect("{name: fruit_mass, factor: 1.5}", free()), free(), state);
+  apply_scene_effect(scene_effect("{name: detachment_threshold, factor: 0.7}", free()), free(),
+                     state);
+  apply_scene_effect(scene_effect("{name: detachment_threshold, factor: 2}", free()), free(),
+                     state);
+  EXPECT_DOUBLE_EQ(state.plants[0].fruit_mass, 1.5);
+  EXPECT_DOUBLE_EQ(state.plants[0].threshold, 1.4);
+}
+
+TEST_F(SceneEffects, EveryDefinitionCanBeReadAndDoesNothingWhereItVanishes) {
+  const SceneReadings plain = readings_of(free());
+  for (const SceneEffectDefinition& one : scene_effect_definitions()) {
+    EXPECT_FALSE(one.sentence.empty()) << one.name;
+    EXPECT_FALSE(one.tells_apart.empty()) << one.name;
+    EXPECT_TRUE(one.apply) << one.name;
+  }
+  const SceneReadings same = readings_of(
+      free(), {"{name: plant_pose, offset: [0, 0, 0]}", "{name: tool_pose, offset: [0, 0, 0]}",
+               "{name: joint_offset, joint: turn, offset: 0}", "{name: wrench_gain, gain: 1}",
+               "{name: payload, mass: 0}", "{name: camera_focal, factor: 1}"});
+  EXPECT_LT((same.markers - plain.markers).norm(), 1e-12);
+  EXPECT_LT((same.wrenches[0] - plain.wrenches[0]).norm(), 1e-12);
+  EXPECT_LT((same.pixels[0] - plain.pixels[0]).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
