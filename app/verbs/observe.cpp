@@ -110,6 +110,18 @@ void keep_gaps(const discrepancy::Samples& measured, Eigen::MatrixXd& predicted)
   predicted = measured.value.array().isNaN().select(measured.value, predicted);
 }
 
+// Another noise than the hold's, which has the same seed: of the columns beside it.
+void add_wrench_noise(const ObserveArguments& a, std::uint64_t seed, discrepancy::Samples& wrench) {
+  discrepancy::Samples part = wrench;
+  const auto add = [&](int first, double deviation, std::uint64_t own) {
+    part.value = wrench.value.middleCols(first, 3);
+    add_noise(part, deviation, a.noise_colour, own);
+    wrench.value.middleCols(first, 3) = part.value;
+  };
+  add(0, a.noise_force, seed + 500000);
+  add(3, a.noise_moment, seed + 1000000);
+}
+
 void simulate(const ObserveArguments& a, Experiment& experiment) {
   // Fruits come off by the plant's own thresholds, not when the other one's did.
   for (Trial& trial : experiment.trials) trial.events.clear();
@@ -128,6 +140,11 @@ void simulate(const ObserveArguments& a, Experiment& experiment) {
     trial.markers.value = std::move(found[t].markers);
     add_noise(trial.markers, a.noise_position, a.noise_colour, a.seed + 2 * t);
     trial.events = std::move(found[t].events);
+    if (trial.wrench.size() > 0) {
+      keep_gaps(trial.wrench, found[t].wrench);
+      trial.wrench.value = std::move(found[t].wrench);
+      add_wrench_noise(a, a.seed + 2 * t + 1, trial.wrench);
+    }
     if (trial.force.size() == 0) continue;
     keep_gaps(trial.force, found[t].force);
     trial.force.value = std::move(found[t].force);
@@ -149,6 +166,8 @@ void add_observe_options(CLI::App& observe, ObserveArguments& a) {
       ->check(CLI::NonNegativeNumber);
   observe.add_option("--noise-force", a.noise_force, "standard deviation, N")
       ->check(CLI::NonNegativeNumber);
+  observe.add_option("--noise-moment", a.noise_moment, "standard deviation, N m")
+      ->check(CLI::NonNegativeNumber);
   observe
       .add_option("--noise-colour", a.noise_colour, "correlation with the sample before (AR(1))")
       ->check(CLI::Range(0.0, 0.999));
@@ -169,6 +188,7 @@ discrepancy::Experiment observed(const ObserveArguments& a, discrepancy::Experim
   like.noise = {};
   if (a.noise_position > 0.0) like.noise.position_std = a.noise_position;
   if (a.noise_force > 0.0) like.noise.force_std = a.noise_force;
+  if (a.noise_moment > 0.0) like.noise.moment_std = a.noise_moment;
   simulate(a, like);
   return like;
 }

@@ -22,6 +22,7 @@ struct ObserveArguments {
   std::uint64_t seed = 1;       ///< of the noise
   double noise_position = 0.0;  ///< m, standard deviation
   double noise_force = 0.0;     ///< N, standard deviation
+  double noise_moment = 0.0;    ///< N m, standard deviation
   double noise_colour = 0.0;    ///< 1, correlation of a sample's noise with the one before: AR(1)
   double distance = 0.005;      ///< m between nodes
   double dt = 1.0 / 1920;       ///< s

@@ -172,6 +172,8 @@ Kind kind_of_table(TableKind kind) {
       return table<TableKind::path>();
     case TableKind::force:
       return table<TableKind::force>();
+    case TableKind::wrench:
+      return table<TableKind::wrench>();
     case TableKind::events:
       return table<TableKind::events>();
     case TableKind::trajectory:

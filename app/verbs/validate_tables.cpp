@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* readable =
     "a skeleton (x,y,z,parentid,vid,edgetype), cylinders (id,parent_id,start_x,...), markers "
-    "(time,NAME.x,NAME.y,NAME.z,...), a path (time,x,y,z), a force (time,fx,fy,fz), events "
+    "(time,NAME.x,NAME.y,NAME.z,...), a path (time,x,y,z), a force (time,fx,fy,fz), force and "
+    "moment (time,fx,fy,fz,tx,ty,tz), events "
     "(time,event,what) or a trajectory (time_s,JOINT,...)";
 
 std::vector<std::string> names_of(const io::TableText& table) {
@@ -52,8 +53,16 @@ TableKind kind_of_columns(const std::vector<std::string>& names) {
   const io::ColumnMatch time = io::match_column(names.front(), "time");
   if (!time.matches && !io::match_column(names.front(), "t").matches) return TableKind::unknown;
   if (has(names, "event")) return TableKind::events;
-  if (has(names, "fx") && has(names, "fy") && has(names, "fz") && names.size() == 4)
-    return TableKind::force;
+  // One axis may do.
+  const auto all_of = [&](std::initializer_list<const char*> wanted) {
+    const auto is_wanted = [&](const std::string& name) {
+      return std::any_of(wanted.begin(), wanted.end(),
+                         [&](const char* one) { return io::match_column(name, one).matches; });
+    };
+    return names.size() > 1 && std::all_of(names.begin() + 1, names.end(), is_wanted);
+  };
+  if (all_of({"fx", "fy", "fz"})) return TableKind::force;
+  if (all_of({"fx", "fy", "fz", "tx", "ty", "tz"})) return TableKind::wrench;
   if (has(names, "x") && has(names, "y") && has(names, "z")) return TableKind::path;
   const bool markers = std::all_of(names.begin() + 1, names.end(), [](const std::string& name) {
     return !marker_of(name).empty();
@@ -152,6 +161,8 @@ const char* name_of(TableKind kind) {
       return "path";
     case TableKind::force:
       return "force";
+    case TableKind::wrench:
+      return "force and moment";
     case TableKind::events:
       return "events";
     case TableKind::trajectory:
@@ -171,6 +182,8 @@ std::string check_table(const std::filesystem::path& path, TableKind kind,
       return count_text(discrepancy::read_path(path, diagnostics).time.size(), "rows");
     case TableKind::force:
       return count_text(discrepancy::read_force(path, diagnostics).time.size(), "samples");
+    case TableKind::wrench:
+      return count_text(discrepancy::read_wrench(path, diagnostics).time.size(), "samples");
     case TableKind::events:
       return check_events(path, diagnostics);
     case TableKind::trajectory:

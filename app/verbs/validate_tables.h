@@ -9,7 +9,17 @@
 namespace pedicel::app {
 
 /// A table that the program reads, told by its header.
-enum class TableKind { skeleton, cylinders, markers, path, force, events, trajectory, unknown };
+enum class TableKind {
+  skeleton,
+  cylinders,
+  markers,
+  path,
+  force,
+  wrench,
+  events,
+  trajectory,
+  unknown
+};
 
 /// What a file's header says; nothing where the file is no table (one column, or no text).
 std::optional<TableKind> table_kind(const std::filesystem::path& path);

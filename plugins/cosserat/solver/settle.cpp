@@ -1,11 +1,18 @@
 #include "pedicel/core/stop.h"
 #include "pedicel/cosserat/model/joint_law.h"
 #include "pedicel/cosserat/solver/direct_solver.h"
+#include "pedicel/cosserat/solver/settle_touching.h"
 
 namespace pedicel::cosserat {
 
 StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
                   std::span<const Load> loads, int iterations) {
+  return settle_touching(model, state, gravity, loads, {}, iterations);
+}
+
+StepReport settle_touching(const RodModel& model, RodState& state, const Vec3& gravity,
+                           std::span<const Load> loads, std::span<ContactSource* const> contacts,
+                           int iterations) {
   RodSettings settings;
   settings.integrator = Integrator::backward_euler;
   settings.newton_iterations = iterations;
@@ -15,6 +22,7 @@ StepReport settle(const RodModel& model, RodState& state, const Vec3& gravity,
   input.dt = 1.0e3;  // s: inertia and damping weigh nothing against stiffness
   input.gravity = gravity;
   input.loads = loads;
+  input.contacts = contacts;
   const double time = state.time;
   const auto rest = [&] {
     for (int e = 0; e < state.size(); ++e) {

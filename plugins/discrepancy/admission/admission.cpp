@@ -168,7 +168,7 @@ bool leave_out_after_break(Trial& trial) {
   for (const MeasuredEvent& event : trial.events)
     if (event.is_detachment()) first = std::min(first, event.time);
   bool any = false;
-  for (Samples* samples : {&trial.markers, &trial.force})
+  for (Samples* samples : {&trial.markers, &trial.force, &trial.wrench})
     for (int i = 0; i < samples->size(); ++i) {
       const double interval =
           samples->time[std::min(i + 1, samples->size() - 1)] - samples->time[std::max(i - 1, 0)];
@@ -194,13 +194,18 @@ Admission admit(const Experiment& experiment) {
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     if (leave_out_after_break(trial))
       admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
+    if (trial.is_static) {
+      admission.samples += count_finite(trial.markers.value) + count_finite(trial.force.value) +
+                           count_finite(trial.wrench.value);
+      continue;  // its rows are no neighbours in time
+    }
     admission.swaps += put_back(exchanges_in(trial.markers.value), trial.markers.value);
     const double scatter = scatter_of_markers(trial);
     const double noise = std::min(scatter, experiment.noise.position_std.value_or(scatter));
     if (noise > least_noise)
       for (Eigen::Index c = 0; c + 3 <= trial.markers.value.cols(); c += 3)
         admission.filled += take_out_filled(trial.markers.value.middleCols(c, 3), noise);
-    for (Samples* samples : {&trial.markers, &trial.force}) {
+    for (Samples* samples : {&trial.markers, &trial.force, &trial.wrench}) {
       const std::vector<char> spared = beside_jumps(trial, samples->time);
       for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
         admission.samples += count_finite(samples->value.col(c));
@@ -212,7 +217,9 @@ Admission admit(const Experiment& experiment) {
         admission.outliers += take_out_outliers(samples->value.middleCols(c, 3), spared);
       }
     }
-    if (count_finite(trial.markers.value) + count_finite(trial.force.value) == 0)
+    if (count_finite(trial.markers.value) + count_finite(trial.force.value) +
+            count_finite(trial.wrench.value) ==
+        0)
       admission.refusal = "trial " + trial.name + " holds no usable sample";
   }
   const auto remark = [&](int count, const std::string& what) {

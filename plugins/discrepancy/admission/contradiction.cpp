@@ -10,11 +10,32 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+/// What a check takes for granted, beside the rest.
+enum class Needs {
+  nothing,
+  time,  ///< rows at times: not the rows of a static series
+  rest,  ///< and a plant that rests until something is done
+};
+struct Question {
+  Check* ask;
+  Needs needs;
+};
+
 // In this order: a wrong clock or unit makes all that comes later look wrong, too.
-constexpr std::array checks = {check_copies,      check_clock,       check_units, check_frame,
-                               check_frame_steps, check_labels,      check_holds, check_drive,
-                               check_rate,        check_releases,    check_paths, check_loads,
-                               check_jumps,       check_force_clock, check_force};
+constexpr std::array checks = {
+    Question{check_copies, Needs::nothing},   Question{check_clock, Needs::time},
+    Question{check_units, Needs::nothing},    Question{check_frame, Needs::nothing},
+    Question{check_frame_steps, Needs::time}, Question{check_labels, Needs::nothing},
+    Question{check_holds, Needs::rest},       Question{check_drive, Needs::time},
+    Question{check_rate, Needs::time},        Question{check_releases, Needs::rest},
+    Question{check_paths, Needs::nothing},    Question{check_loads, Needs::rest},
+    Question{check_jumps, Needs::time},       Question{check_force_clock, Needs::time},
+    Question{check_force, Needs::time}};
+
+bool is_met(Needs needs, const Trial& trial) {
+  if (needs == Needs::rest && trial.window) return false;
+  return needs == Needs::nothing || !trial.is_static;
+}
 
 }  // namespace
 
@@ -24,7 +45,9 @@ std::vector<Contradiction> contradictions(const Experiment& experiment) {
   for (const Trial& trial : experiment.trials) {
     const TrialView view{experiment, trial, layout ? &*layout : nullptr};
     for (std::size_t kind = 0; kind < checks.size(); ++kind)
-      if (auto one = checks[kind](view)) {
+      if (!is_met(checks[kind].needs, trial)) {
+        continue;
+      } else if (auto one = checks[kind].ask(view)) {
         found.push_back(
             {trial.name, trial.folder / one->file, static_cast<int>(kind), std::move(one->what)});
         break;

@@ -10,10 +10,12 @@ namespace {
 
 constexpr std::size_t looks = 5;  // samples whose median a single outlier does not move
 
-// Axis by axis the median of the first samples that were seen; NaN where there is none.
-Vec3 first_seen(const Samples& markers, int m) {
+// Axis by axis the median of the first samples that were seen; NaN where there is none. What begins
+// in motion goes to and fro about where it would rest: of all its samples.
+Vec3 first_seen(const Trial& trial, int m) {
+  const Samples& markers = trial.markers;
   std::vector<double> axis[3];
-  for (int row = 0; row < markers.size() && axis[0].size() < looks; ++row) {
+  for (int row = 0; row < markers.size() && (axis[0].size() < looks || trial.window); ++row) {
     const Vec3 x = markers.value.block<1, 3>(row, 3 * m).transpose();
     if (x.allFinite())
       for (int c = 0; c < 3; ++c) axis[c].push_back(x[c]);
@@ -49,7 +51,7 @@ FirstPlaces first_places(const TrialView& view) {
   }
   places.root = base * view.layout->root();
   for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
-    const Vec3 seen = first_seen(view.trial.markers, m);
+    const Vec3 seen = first_seen(view.trial, m);
     if (!seen.allFinite()) continue;
     const Spot& spot = view.layout->markers()[m];
     places.marker.push_back(m);

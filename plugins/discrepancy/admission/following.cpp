@@ -23,6 +23,12 @@ Drive hold_drive(const TrialView& view, const Hold& hold) {
           [path, start](double t) { return Vec3(path->position_at(t) - start); }, hold.release};
 }
 
+// A point that slides is not held to its path across the axes that it is led along, and what pushes
+// it may be anywhere before it touches: such a path leads nothing by itself.
+bool leads(const Hold& hold) {
+  return !hold.path.time.empty() && !hold.slides();
+}
+
 Drive base_drive(const TrialView& view) {
   const DrivenPath* path = &*view.trial.base;
   const Vec3 start = path->position.front();
@@ -73,7 +79,7 @@ std::vector<Drive> drives_of(const TrialView& view) {
   for (const MeasuredEvent& event : view.trial.events)
     if (event.is_detachment()) broken = std::min(broken, event.time);
   for (const Hold& hold : view.trial.holds) {
-    if (hold.path.time.empty()) continue;
+    if (!leads(hold)) continue;
     drives.push_back(hold_drive(view, hold));
     drives.back().until = std::min(drives.back().until, broken);
   }

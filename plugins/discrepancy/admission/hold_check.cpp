@@ -116,6 +116,7 @@ std::optional<Fault> check_holds(const TrialView& view) {
   if (!view.layout) return std::nullopt;
   for (const Hold& hold : view.trial.holds) {
     if (hold.path.time.empty()) continue;
+    if (hold.slides()) continue;  // it may begin beside its path
     if (auto fault = turned_quaternion(hold.path)) return fault;
     if (auto fault = begins_elsewhere(view, hold)) return fault;
   }

@@ -38,7 +38,14 @@ struct Hold {
   plant::CurvePlace place;
   DrivenPath path;
   double release = std::numeric_limits<double>::infinity();  ///< s
-  std::optional<double> stiffness;                           ///< N/m; absent: rigid
+  std::optional<double> stiffness{};                         ///< N/m; absent: rigid
+  /// Unit vectors (W), across each other, along which alone it leads: the point slides along the
+  /// others without friction. Empty: it leads along all.
+  std::vector<Vec3> axes{};
+  bool one_sided = false;  ///< of a single axis: it only pushes, along the axis
+  bool direction = false;  ///< of the path's orientation it leads the segment's direction alone
+
+  bool slides() const { return !axes.empty(); }
 };
 
 /// A force that acts for from <= t < to.
@@ -49,7 +56,8 @@ struct TimedLoad {
   double to = std::numeric_limits<double>::infinity();
 };
 
-/// Samples over time: one row a sample, NaN where nothing was measured.
+/// Samples over time: one row a sample, NaN where nothing was measured; a whole column of NaN is an
+/// axis that was not measured.
 struct Samples {
   std::vector<double> time;  ///< s, increasing
   Eigen::MatrixXd value;     ///< samples x columns
@@ -75,11 +83,21 @@ struct Trial {
   std::vector<Hold> holds;
   std::vector<TimedLoad> loads;
   std::optional<DrivenPath> base;
+  /// s: it begins in motion, and its first samples, up to this time, say how the plant stands and
+  /// moves at time 0. Absent: at rest.
+  std::optional<double> window;
+  /// Without time: row i of every table belongs together, with the plant in equilibrium. A sample's
+  /// time is then the number of its row.
+  bool is_static = false;
   std::vector<plant::Effect> effects;  ///< at the sensor or the grip, known in this trial
 
   Samples markers;  ///< m, W; 3 columns a marker, in the experiment's order
   Samples force;    ///< N, W; 3 columns: the first hold's pull on the plant; empty: not measured
   std::vector<MeasuredEvent> events;
+  /// N and N m, W; 6 columns: force and moment of what carries the plant on it, at the root as it
+  /// is then; empty: not measured.
+  Samples wrench;
+  std::filesystem::path wrench_file;  ///< from the trial's folder
 
   double duration() const;  ///< s, of the last sample of anything
 };
@@ -88,6 +106,9 @@ struct Trial {
 struct StatedNoise {
   std::optional<double> position_std;  ///< m
   std::optional<double> force_std;     ///< N
+  std::optional<double> moment_std{};  ///< N m
+  /// m, of the rows of paths themselves: what led the plant went elsewhere than they say.
+  std::optional<double> path_std{};
 };
 
 /// An experiment folder, whole: the page Experiment folder of the manual.

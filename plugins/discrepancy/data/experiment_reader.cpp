@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "pedicel/discrepancy/data/drive_reader.h"
 #include "pedicel/discrepancy/data/experiment_progress.h"
 #include "pedicel/discrepancy/data/experiment_tables.h"
 #include "pedicel/effects/registry/effect_definition.h"
@@ -14,6 +15,9 @@ namespace {
 
 using io::YamlMap;
 using io::YamlNode;
+
+constexpr double usual_window = 0.2;  // s
+constexpr int least_in_window = 3;    // rows
 
 class Reader {
  public:
@@ -86,6 +90,10 @@ class Reader {
       experiment_.noise.position_std = std->number("position_std", io::positive);
     if (const auto std = map.optional("force_std"))
       experiment_.noise.force_std = std->number("force_std", io::positive);
+    if (const auto std = map.optional("moment_std"))
+      experiment_.noise.moment_std = std->number("moment_std", io::positive);
+    if (const auto std = map.optional("path_std"))
+      experiment_.noise.path_std = std->number("path_std", io::positive);
     map.finish();
   }
 
@@ -142,6 +150,7 @@ class Reader {
     trial.gravity = map.vector("gravity", trial.gravity);
     for (const YamlNode& item : map.list("masses")) trial.masses.push_back(read_mass(item));
     trial.effects = read_effects(map);
+    read_beginning(map, trial);
     const auto drive = map.required("drive");
     map.finish();
     if (trial.folder.empty()) return trial;
@@ -150,10 +159,53 @@ class Reader {
       folder->error("folder " + at.string() + " does not exist, expected the trial's tables in it");
       return trial;
     }
-    if (drive) read_drives(*drive, at, trial);
+    if (drive)
+      read_drives(
+          *drive, at, [&](const plant::CurvePlace& place) { check_curve(place); }, trial);
     read_tables(at, trial);
+    if (trial.is_static) check_static(node, trial, diagnostics_);
+    check_noise(node, trial);
+    check_window(at, trial);
     end_holds(trial);
     return trial;
+  }
+
+  // How the plant is at time 0, and whether there is a time at all.
+  static void read_beginning(YamlMap& map, Trial& trial) {
+    trial.is_static = map.boolean("static", false);
+    const bool moves = map.choice("begins", {"at_rest", "moving"}, "at_rest") == "moving";
+    const auto window = map.optional("window");
+    if (moves) trial.window = window ? window->number("window", io::positive) : usual_window;
+    if (window && !moves)
+      window->error("a window where the trial begins at rest, expected begins: moving beside it");
+    if (moves && trial.is_static)
+      map.error("begins: moving in a static series, expected one of the two");
+  }
+
+  void check_window(const std::filesystem::path& folder, const Trial& trial) const {
+    if (!trial.window || trial.markers.size() == 0) return;
+    const auto within = std::ranges::count_if(
+        trial.markers.time, [&](double t) { return t <= *trial.window + 1.0e-9; });
+    if (within < least_in_window)
+      diagnostics_.error({(folder / "markers.csv").string(), 0, 0},
+                         "has " + std::to_string(within) + " rows up to " +
+                             io::format_number(*trial.window) +
+                             " s, the window of a trial that begins in motion, expected " +
+                             std::to_string(least_in_window) + " or more");
+  }
+
+  // Nothing rests there from one row to the next, so that the noise cannot be read off the data.
+  void check_noise(const YamlNode& node, const Trial& trial) const {
+    if (!trial.is_static) return;
+    const StatedNoise& noise = experiment_.noise;
+    const auto need = [&](const std::optional<double>& std, const char* key) {
+      if (!std)
+        node.error("a static series where noise has no " + std::string(key) +
+                   ", expected one: rows at rest once each do not show their noise");
+    };
+    need(noise.position_std, "position_std");
+    if (trial.force.size() > 0 || trial.wrench.size() > 0) need(noise.force_std, "force_std");
+    if (trial.wrench.size() > 0) need(noise.moment_std, "moment_std");
   }
 
   // A path of one row is a place: it does not end.
@@ -173,66 +225,19 @@ class Reader {
     return mass;
   }
 
-  void read_drives(const YamlNode& list, const std::filesystem::path& folder, Trial& trial) {
-    bool none = false;
-    int count = 0;
-    for (const YamlNode& node : list.list("drive")) {
-      YamlMap map(node, "a drive");
-      ++count;
-      if (!map.required("kind")) continue;
-      const std::string kind = map.choice("kind", {"hold", "load", "base", "none"}, "none");
-      if (kind == "hold") trial.holds.push_back(read_hold(map, folder));
-      if (kind == "load") trial.loads.push_back(read_load(map));
-      if (kind == "base") {
-        if (trial.base) node.error("a second base, expected one at most");
-        trial.base = path(map, folder);
-      }
-      none = none || kind == "none";
-      map.finish();
-    }
-    if (none && count > 1) list.error("kind none beside another drive, expected it alone");
-  }
-
-  DrivenPath path(YamlMap& map, const std::filesystem::path& folder) {
-    const auto node = map.required("path");
-    if (!node) return {};
-    const std::string file = node->text("path");
-    if (file.empty()) return {};
-    DrivenPath path = read_path(folder / file, diagnostics_);
-    path.file = file;
-    return path;
-  }
-
-  Hold read_hold(YamlMap& map, const std::filesystem::path& folder) {
-    Hold hold;
-    hold.place = place(map);
-    hold.path = path(map, folder);
-    hold.release = map.number("release", io::positive, hold.release);
-    if (const auto stiffness = map.optional("stiffness"))
-      hold.stiffness = stiffness->number("stiffness", io::positive);
-    return hold;
-  }
-
-  TimedLoad read_load(YamlMap& map) {
-    TimedLoad load;
-    load.place = place(map);
-    load.force = map.vector("force");
-    load.from = map.number("from", io::any_number, load.from);
-    load.to = map.number("to", io::any_number, load.to);
-    if (!(load.from < load.to)) map.error("the load ends before it begins, expected from < to");
-    return load;
-  }
-
   void read_tables(const std::filesystem::path& folder, Trial& trial) {
-    trial.markers = read_markers(folder / "markers.csv", experiment_.markers, diagnostics_);
+    const Rows rows = trial.is_static ? Rows::rest : Rows::time;
+    trial.markers = read_markers(folder / "markers.csv", experiment_.markers, diagnostics_, rows);
     if (std::filesystem::exists(folder / "force.csv")) {
-      trial.force = read_force(folder / "force.csv", diagnostics_);
+      trial.force = read_force(folder / "force.csv", diagnostics_, rows);
       if (trial.holds.empty())
         diagnostics_.warning({(folder / "force.csv").string(), 1, 1},
                              "a force was measured where nothing is held, expected a hold");
     }
     if (std::filesystem::exists(folder / "events.csv"))
       trial.events = read_events(folder / "events.csv", experiment_.plant, diagnostics_);
+    if (!trial.wrench_file.empty())
+      trial.wrench = read_wrench(folder / trial.wrench_file, diagnostics_, rows);
   }
 
   const YamlNode& node_;

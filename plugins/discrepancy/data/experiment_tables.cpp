@@ -15,29 +15,46 @@ namespace {
 constexpr double smallest_quaternion = 1.0e-6;
 constexpr const char* axes[] = {"x", "y", "z"};
 
-std::string row_text(double time, const std::vector<double>& values) {
-  std::string text = io::exact_number(time);
-  for (const double value : values) text += "," + io::exact_number(value);
+std::string row_text(const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    text += (i > 0 ? "," : "") + io::exact_number(values[i]);
   return text + "\n";
 }
 
-std::string rows_text(const Samples& samples) {
-  std::string text;
+// An axis without a sample of a point that has others was not measured.
+std::vector<int> measured_columns(const Samples& samples) {
+  std::vector<int> columns;
+  for (int point = 0; point < samples.value.cols(); point += 3) {
+    const auto none = [&](int c) { return samples.value.col(c).array().isNaN().all(); };
+    const bool unseen = none(point) && none(point + 1) && none(point + 2);
+    for (int c = point; c < point + 3; ++c)
+      if (unseen || !none(c)) columns.push_back(c);
+  }
+  return columns;
+}
+
+std::string samples_text(const Samples& samples, const std::vector<std::string>& names, Rows rows) {
+  const std::vector<int> columns = measured_columns(samples);
+  std::string text = rows == Rows::time ? "time" : "";
+  for (const int c : columns) text += (text.empty() ? "" : ",") + names[c];
+  text += "\n";
   for (int r = 0; r < samples.size(); ++r) {
     std::vector<double> values;
-    for (int c = 0; c < samples.value.cols(); ++c) values.push_back(samples.value(r, c));
-    text += row_text(samples.time[r], values);
+    if (rows == Rows::time) values.push_back(samples.time[r]);
+    for (const int c : columns) values.push_back(samples.value(r, c));
+    text += row_text(values);
   }
   return text;
 }
 
 }  // namespace
 
-DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics) {
-  SampleTable source(file, false, diagnostics);
+DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics, Rows rows) {
+  SampleTable source(file, false, rows, diagnostics);
   if (!source.good()) return {};
   const io::CsvTable& table = source.table();
-  const bool turns = source.columns() > 4;
+  const bool turns = source.columns() > 3;
   std::vector<std::string> expected = {"x", "y", "z"};
   if (turns) expected.insert(expected.end(), {"qx", "qy", "qz", "qw"});
   const std::vector<int> at =
@@ -58,8 +75,8 @@ DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics
 }
 
 Samples read_markers(const std::filesystem::path& file, std::span<const Marker> markers,
-                     Diagnostics& diagnostics) {
-  SampleTable source(file, true, diagnostics);
+                     Diagnostics& diagnostics, Rows rows) {
+  SampleTable source(file, true, rows, diagnostics);
   if (!source.good()) return {};
   std::vector<std::string> expected;
   std::string all = "time and x, y, z of each marker:";
@@ -67,16 +84,26 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
     for (const char* axis : axes) expected.push_back(marker.name + "." + axis);
     all += " " + marker.name;
   }
-  const std::vector<int> columns = source.find(expected, io::Quantity::length, all);
+  const std::vector<int> columns = source.find(expected, io::Quantity::length, all, Axes::present);
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
 }
 
-Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics) {
-  SampleTable source(file, true, diagnostics);
+Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics, Rows rows) {
+  SampleTable source(file, true, rows, diagnostics);
   if (!source.good()) return {};
   const std::vector<int> columns =
-      source.find({"fx", "fy", "fz"}, io::Quantity::force, "time,fx,fy,fz");
+      source.find({"fx", "fy", "fz"}, io::Quantity::force, "time,fx,fy,fz", Axes::present);
+  if (source.good()) source.check_points(columns);
+  return source.samples(columns);
+}
+
+Samples read_wrench(const std::filesystem::path& file, Diagnostics& diagnostics, Rows rows) {
+  SampleTable source(file, true, rows, diagnostics);
+  if (!source.good()) return {};
+  const std::vector<int> columns =
+      source.find({"fx", "fy", "fz", "tx", "ty", "tz"}, io::Quantity::force,
+                  "time,fx,fy,fz,tx,ty,tz", Axes::any);
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
 }
@@ -135,26 +162,32 @@ std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
   return events;
 }
 
-std::string path_text(const DrivenPath& path) {
-  std::string text = path.rotation.empty() ? "time,x,y,z\n" : "time,x,y,z,qx,qy,qz,qw\n";
+std::string path_text(const DrivenPath& path, Rows rows) {
+  std::string text = rows == Rows::time ? "time,x,y,z" : "x,y,z";
+  text += path.rotation.empty() ? "\n" : ",qx,qy,qz,qw\n";
   for (std::size_t r = 0; r < path.time.size(); ++r) {
     std::vector<double> values(path.position[r].begin(), path.position[r].end());
     if (!path.rotation.empty())
       for (const double q : path.rotation[r].coeffs()) values.push_back(q);
-    text += row_text(path.time[r], values);
+    if (rows == Rows::time) values.insert(values.begin(), path.time[r]);
+    text += row_text(values);
   }
   return text;
 }
 
-std::string markers_text(const Samples& samples, std::span<const Marker> markers) {
-  std::string text = "time";
+std::string markers_text(const Samples& samples, std::span<const Marker> markers, Rows rows) {
+  std::vector<std::string> names;
   for (const Marker& marker : markers)
-    for (const char* axis : axes) text += "," + marker.name + "." + axis;
-  return text + "\n" + rows_text(samples);
+    for (const char* axis : axes) names.push_back(marker.name + "." + axis);
+  return samples_text(samples, names, rows);
 }
 
-std::string force_text(const Samples& samples) {
-  return "time,fx,fy,fz\n" + rows_text(samples);
+std::string force_text(const Samples& samples, Rows rows) {
+  return samples_text(samples, {"fx", "fy", "fz"}, rows);
+}
+
+std::string wrench_text(const Samples& samples, Rows rows) {
+  return samples_text(samples, {"fx", "fy", "fz", "tx", "ty", "tz"}, rows);
 }
 
 std::string events_text(const std::vector<MeasuredEvent>& events) {

@@ -35,6 +35,30 @@ std::string hold_file(std::size_t index) {
   return "hold" + (index == 0 ? std::string() : std::to_string(index + 1)) + ".csv";
 }
 
+// Along which axes a hold leads, and what of an orientation.
+std::string leads(const Hold& hold) {
+  std::string text, world;
+  for (const Vec3& axis : hold.axes)
+    for (int i = 0; i < 3; ++i)
+      if (axis == Vec3(Vec3::Unit(i)))
+        world += (world.empty() ? "" : ", ") + std::string(1, "xyz"[i]);
+  if (!world.empty())
+    text += ", axes: [" + world + "]";
+  else if (hold.slides())
+    text += ", axis: " + vector(hold.axes.front());
+  if (hold.one_sided) text += ", one_sided: true";
+  if (hold.direction) text += ", direction: true";
+  return text;
+}
+
+std::string base(const Trial& trial) {
+  if (!trial.base && trial.wrench.size() == 0) return {};
+  std::string text = "      - {kind: base";
+  if (trial.base) text += ", path: base.csv";
+  if (trial.wrench.size() > 0) text += ", wrench: base_wrench.csv";
+  return text + "}\n";
+}
+
 std::string drives(const Trial& trial) {
   std::string text;
   for (std::size_t i = 0; i < trial.holds.size(); ++i) {
@@ -42,7 +66,7 @@ std::string drives(const Trial& trial) {
     text += "      - {kind: hold, " + place(hold.place) + ", path: " + hold_file(i);
     if (hold.stiffness) text += ", stiffness: " + exact_number(*hold.stiffness);
     if (std::isfinite(hold.release)) text += ", release: " + exact_number(hold.release);
-    text += "}\n";
+    text += leads(hold) + "}\n";
   }
   for (const TimedLoad& load : trial.loads) {
     text += "      - {kind: load, " + place(load.place) + ", force: " + vector(load.force);
@@ -50,7 +74,7 @@ std::string drives(const Trial& trial) {
     if (std::isfinite(load.to)) text += ", to: " + exact_number(load.to);
     text += "}\n";
   }
-  if (trial.base) text += "      - {kind: base, path: base.csv}\n";
+  text += base(trial);
   if (text.empty()) text = "      - {kind: none}\n";
   return "    drive:\n" + text;
 }
@@ -61,6 +85,8 @@ std::string trial_text(const Trial& trial) {
   if (trial.use != Trial::Use::unset)
     text += std::string("    use: ") + (trial.use == Trial::Use::fit ? "fit" : "check") + "\n";
   if (trial.clock != 0.0) text += "    clock: " + exact_number(trial.clock) + "\n";
+  if (trial.window) text += "    begins: moving\n    window: " + exact_number(*trial.window) + "\n";
+  if (trial.is_static) text += "    static: true\n";
   text += "    gravity: " + vector(trial.gravity) + "\n";
   if (!trial.masses.empty()) text += "    masses:\n";
   for (const plant::PlantMass& mass : trial.masses)
@@ -75,9 +101,15 @@ std::string experiment_text(const Experiment& experiment) {
   for (const Marker& marker : experiment.markers)
     text += "  - {name: " + yaml_word(marker.name) + ", " + place(marker.place) + "}\n";
   const StatedNoise& noise = experiment.noise;
-  if (noise.position_std || noise.force_std) text += "noise:\n";
-  if (noise.position_std) text += "  position_std: " + exact_number(*noise.position_std) + "\n";
-  if (noise.force_std) text += "  force_std: " + exact_number(*noise.force_std) + "\n";
+  std::string stated;
+  const auto state = [&](const char* key, const std::optional<double>& std) {
+    if (std) stated += std::string("  ") + key + ": " + exact_number(*std) + "\n";
+  };
+  state("position_std", noise.position_std);
+  state("force_std", noise.force_std);
+  state("moment_std", noise.moment_std);
+  state("path_std", noise.path_std);
+  if (!stated.empty()) text += "noise:\n" + stated;
   text += effects(experiment.effects, "") + "trials:\n";
   for (const Trial& trial : experiment.trials) text += trial_text(trial);
   return text;
@@ -88,11 +120,13 @@ void write_tables(const std::filesystem::path& folder, const Trial& trial,
   const auto write = [&](const std::string& file, const std::string& text) {
     io::write_file_atomically(folder / file, text);
   };
-  write("markers.csv", markers_text(trial.markers, markers));
+  const Rows rows = trial.is_static ? Rows::rest : Rows::time;
+  write("markers.csv", markers_text(trial.markers, markers, rows));
   for (std::size_t i = 0; i < trial.holds.size(); ++i)
-    write(hold_file(i), path_text(trial.holds[i].path));
-  if (trial.base) write("base.csv", path_text(*trial.base));
-  if (trial.force.size() > 0) write("force.csv", force_text(trial.force));
+    write(hold_file(i), path_text(trial.holds[i].path, rows));
+  if (trial.base) write("base.csv", path_text(*trial.base, rows));
+  if (trial.force.size() > 0) write("force.csv", force_text(trial.force, rows));
+  if (trial.wrench.size() > 0) write("base_wrench.csv", wrench_text(trial.wrench, rows));
   if (!trial.events.empty()) write("events.csv", events_text(trial.events));
 }
 

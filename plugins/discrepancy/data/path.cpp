@@ -39,6 +39,7 @@ double Trial::duration() const {
   double last = 0.0;
   if (markers.size() > 0) last = std::max(last, markers.time.back());
   if (force.size() > 0) last = std::max(last, force.time.back());
+  if (wrench.size() > 0) last = std::max(last, wrench.time.back());
   return last;
 }
 

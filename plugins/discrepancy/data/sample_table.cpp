@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pedicel/io/unit_text.h"
 
@@ -35,8 +36,18 @@ int index_of_column(const std::vector<std::string>& expected, const std::string&
   return found;
 }
 
+bool is_moment(const std::string& name) {
+  return name.size() == 2 && name[0] == 't' && name[1] >= 'x' && name[1] <= 'z';
+}
+
 bool is_quaternion(const std::string& name) {
   return name.size() == 2 && name[0] == 'q' && name[1] >= 'w' && name[1] <= 'z';
+}
+
+// Of one column in a table of quantities: a quaternion's has no unit, and moments stand by forces.
+io::Quantity quantity_of(const std::string& name, io::Quantity table) {
+  if (is_quaternion(name)) return io::Quantity::none;
+  return table == io::Quantity::force && is_moment(name) ? io::Quantity::moment : table;
 }
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -49,24 +60,32 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 std::vector<std::string> missing_of(const std::vector<std::string>& expected,
-                                    const std::vector<int>& found) {
+                                    const std::vector<int>& found, Axes axes) {
+  // How many that belong together one of suffices for.
+  const std::size_t together = axes == Axes::all ? 1 : axes == Axes::present ? 3 : expected.size();
   std::vector<std::string> missing;
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    if (found[i] < 0) missing.push_back(expected[i]);
+  for (std::size_t i = 0; i < expected.size(); i += together) {
+    const auto begin = found.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = begin + static_cast<std::ptrdiff_t>(together);
+    if (std::any_of(begin, end, [](int column) { return column >= 0; })) continue;
+    missing.insert(missing.end(), expected.begin() + (begin - found.begin()),
+                   expected.begin() + (end - found.begin()));
+  }
   return missing;
 }
 
 }  // namespace
 
-SampleTable::SampleTable(const std::filesystem::path& file, bool gaps, Diagnostics& diagnostics)
-    : diagnostics_(diagnostics), before_(diagnostics.error_count()) {
+SampleTable::SampleTable(const std::filesystem::path& file, bool gaps, Rows rows,
+                         Diagnostics& diagnostics)
+    : rows_(rows), diagnostics_(diagnostics), before_(diagnostics.error_count()) {
   io::CsvRules rules;
   rules.empty_cells = gaps;
   rules.increasing_first = false;
   table_ = io::read_csv(file, rules, diagnostics);
   if (!good()) return;
   find_time();
-  if (good()) check_time();
+  if (good() && rows_ == Rows::time) check_time();
 }
 
 void SampleTable::error(int line, int column, const std::string& what) {
@@ -87,7 +106,11 @@ void SampleTable::find_time() {
         time_ = c;
         if (!io::to_si(table_, c, name, io::Quantity::time, diagnostics_)) return;
       }
-  if (time_ < 0)
+  if (time_ >= 0 && rows_ == Rows::rest)
+    diagnostics_.notice(io::cell_position(table_, table_.header_line, time_),
+                        "column " + in_quotes(table_.columns[time_]) +
+                            " is not read: the rows of a static series belong together");
+  if (time_ < 0 && rows_ == Rows::time)
     return error(table_.header_line, 0,
                  "the first column is " + in_quotes(table_.columns.front()) +
                      ", expected time, and no other column is it");
@@ -148,14 +171,14 @@ std::vector<int> SampleTable::match(const std::vector<std::string>& expected,
 }
 
 std::vector<int> SampleTable::find(const std::vector<std::string>& expected, io::Quantity quantity,
-                                   const std::string& all) {
+                                   const std::string& all, Axes axes) {
   std::vector<std::string> unknown;
   int first_unknown = 0;
   std::vector<int> found = match(expected, unknown, first_unknown);
   if (!good()) return found;
-  say_differences(unknown, first_unknown, missing_of(expected, found), all);
+  say_differences(unknown, first_unknown, missing_of(expected, found, axes), all);
   for (std::size_t i = 0; good() && i < expected.size(); ++i)
-    to_si(found[i], expected[i], is_quaternion(expected[i]) ? io::Quantity::none : quantity);
+    if (found[i] >= 0) to_si(found[i], expected[i], quantity_of(expected[i], quantity));
   return found;
 }
 
@@ -198,16 +221,19 @@ void SampleTable::say_differences(std::vector<std::string> unknown, int first_un
 void SampleTable::check_points(const std::vector<int>& columns) {
   for (std::size_t r = 0; r < table_.rows.size(); ++r)
     for (std::size_t c = 0; c + 2 < columns.size(); c += 3) {
-      int there = 0, missing = 0;
+      int measured = 0, there = 0, missing = 0;
       for (int axis = 0; axis < 3; ++axis) {
+        if (columns[c + axis] < 0) continue;
         const bool empty = std::isnan(table_.rows[r][columns[c + axis]]);
+        ++measured;
         there += empty ? 0 : 1;
         if (empty) missing = columns[c + axis];
       }
-      if (there != 0 && there != 3)
+      if (there != 0 && there != measured)
         row_error("half a point", r, missing,
                   table_.columns[missing] +
-                      " is empty where the other axes are not, expected all three or none");
+                      " is empty where the other axes are not, expected all " +
+                      (measured == 3 ? "three" : "two") + " or none");
     }
 }
 
@@ -218,7 +244,8 @@ Samples SampleTable::samples(const std::vector<int>& columns) const {
   for (std::size_t r = 0; r < table_.rows.size(); ++r) {
     samples.time.push_back(time(r));
     for (std::size_t c = 0; c < columns.size(); ++c)
-      samples.value(r, c) = table_.rows[r][columns[c]];
+      samples.value(r, c) =
+          columns[c] < 0 ? std::numeric_limits<double>::quiet_NaN() : table_.rows[r][columns[c]];
   }
   return samples;
 }

@@ -10,6 +10,17 @@
 
 namespace pedicel::discrepancy {
 
+/// What the rows of a table are: samples at times, or states of rest one after the other, whose
+/// "time" is the number of the row, from 0 on.
+enum class Rows { time, rest };
+
+/// Which of its columns a table must have.
+enum class Axes {
+  all,      ///< every one
+  present,  ///< at least one of each point's three
+  any,      ///< at least one
+};
+
 /// A table of samples: a time that increases and is not negative, and the columns that are
 /// expected, in any order and in the ways in which programs write their names. Everything comes in
 /// SI units, whatever unit the header says. Columns that count the rows are told and passed over.
@@ -17,23 +28,29 @@ namespace pedicel::discrepancy {
 class SampleTable {
  public:
   /// `gaps`: cells but those of the time may be missing.
-  SampleTable(const std::filesystem::path& file, bool gaps, Diagnostics& diagnostics);
+  SampleTable(const std::filesystem::path& file, bool gaps, Rows rows, Diagnostics& diagnostics);
 
   bool good() const { return diagnostics_.error_count() == before_; }
   const io::CsvTable& table() const { return table_; }
-  std::size_t columns() const { return table_.columns.size() - counters_.size(); }
-  double time(std::size_t row) const { return table_.rows[row][time_]; }
+  /// But those that count, and the time.
+  std::size_t columns() const {
+    return table_.columns.size() - counters_.size() - (time_ < 0 ? 0 : 1);
+  }
+  double time(std::size_t row) const {
+    return rows_ == Rows::rest ? static_cast<double>(row) : table_.rows[row][time_];
+  }
 
-  /// Each of `expected` once and nothing else: their indices. `all` says them in a sentence.
+  /// Each of `expected` once and nothing else: their indices, -1 where one may be missing and is.
+  /// `all` says them in a sentence.
   std::vector<int> find(const std::vector<std::string>& expected, io::Quantity quantity,
-                        const std::string& all);
+                        const std::string& all, Axes axes = Axes::all);
   struct Wanted {
     std::string name;
     io::Quantity quantity;
   };
   /// Some of `wanted`, at least one, and nothing else: their indices, -1 for what is not there.
   std::vector<int> find_some(const std::vector<Wanted>& wanted, const std::string& all);
-  /// The three cells of a point are all there or none is.
+  /// The cells of a point's axes that have columns are all there or none is.
   void check_points(const std::vector<int>& columns);
   Samples samples(const std::vector<int>& columns) const;
   /// The same in row after row is said once.
@@ -51,6 +68,7 @@ class SampleTable {
                        const std::vector<std::string>& missing, const std::string& all);
 
   io::CsvTable table_;
+  Rows rows_;
   int time_ = -1;
   std::vector<int> counters_;  ///< columns that count the rows
   Diagnostics& diagnostics_;

@@ -58,6 +58,7 @@ std::vector<TableClock> clocks_of(const Trial& trial) {
   };
   add("markers.csv", trial.markers.time);
   add("force.csv", trial.force.time);
+  add(trial.wrench_file, trial.wrench.time);
   for (const Hold& hold : trial.holds) add(hold.path.file, hold.path.time);
   if (trial.base) add(trial.base->file, trial.base->time);
   return clocks;

@@ -101,6 +101,7 @@ Eigen::VectorXd bounded(const Hypothesis& start) {
 void add(Prediction& to, double share, const Prediction& change) {
   to.markers += share * change.markers;
   if (to.force.size() > 0) to.force += share * change.force;
+  if (to.wrench.size() > 0) to.wrench += share * change.wrench;
 }
 
 void judge(FitSummary& fit) {

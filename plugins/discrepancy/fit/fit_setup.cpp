@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "pedicel/discrepancy/data/trial_split.h"
+#include "pedicel/discrepancy/simulate/start_directions.h"
 
 namespace pedicel::discrepancy {
 
@@ -17,9 +18,7 @@ FitSetup::FitSetup(const Experiment& experiment, int threads, const NoiseRule& r
       numerics_{2.0 * experiment.plant.distance, 2.0 * accuracy().usual_dt},
       threads_(threads),
       stop_(stop) {
-  std::vector<Series> position, force;
-  measured_series(experiment, position, force);
-  data_.choose_noise(position, force, rule_);
+  data_.choose_noise(measured_series(experiment), rule_);
   const TrialSplit split = split_trials(experiment);
   options_.settings = settings_;
   options_.iterations = settings.budget.iterations;
@@ -47,10 +46,11 @@ void FitSetup::renew() {
 
 void FitSetup::renew_noise(const Hypothesis& model) {
   const auto predicted = predictions(std::span(&model, 1)).front();
-  std::vector<Series> position, force;
+  AllSeries left;
   for (std::size_t t = 0; t < predicted.size(); ++t)
-    data_.raw_residuals(static_cast<int>(t), predicted[t], position, force);
-  data_.choose_noise(position, force, rule_);
+    data_.raw_residuals(static_cast<int>(t), predicted[t], left);
+  data_.choose_noise(left, rule_);
+  find_start_directions(*simulator_, model.variant(), data_);
 }
 
 NumericsCheck FitSetup::refine(FitSummary& model, const Watch& watch) {

@@ -40,7 +40,8 @@ class FitSetup {
   std::vector<std::vector<Prediction>> predictions(std::span<const Hypothesis> hypotheses);
   /// A fresh simulator, which has kept no motions.
   void renew();
-  /// The noise from what a model leaves of the data.
+  /// The noise from what a model leaves of the data, and how its trials answer to a beginning in
+  /// motion.
   void renew_noise(const Hypothesis& model);
 
   struct Watch {

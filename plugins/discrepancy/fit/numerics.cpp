@@ -31,6 +31,8 @@ void add(Correction& sum, double share, const Correction& more) {
                           force = share * more.rest[t].force;
     sum.rest[t].markers = first ? markers : Eigen::MatrixXd(sum.rest[t].markers + markers);
     sum.rest[t].force = first ? force : Eigen::MatrixXd(sum.rest[t].force + force);
+    const Eigen::MatrixXd wrench = share * more.rest[t].wrench;
+    sum.rest[t].wrench = first ? wrench : Eigen::MatrixXd(sum.rest[t].wrench + wrench);
   }
 }
 
@@ -116,6 +118,7 @@ class Comparison {
     for (std::size_t t = 0; t < with.size(); ++t) {
       with[t].markers += rest[t].markers;
       with[t].force += rest[t].force;
+      with[t].wrench += rest[t].wrench;
     }
     return shift_.change(with, shift_.now());
   }

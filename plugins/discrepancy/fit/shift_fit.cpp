@@ -11,6 +11,8 @@ void add_difference(Predictions& sum, double share, const Predictions& to,
     const Eigen::MatrixXd force = share * (to[t].force - from[t].force);
     sum[t].markers = first ? markers : Eigen::MatrixXd(sum[t].markers + markers);
     sum[t].force = first ? force : Eigen::MatrixXd(sum[t].force + force);
+    const Eigen::MatrixXd wrench = share * (to[t].wrench - from[t].wrench);
+    sum[t].wrench = first ? wrench : Eigen::MatrixXd(sum[t].wrench + wrench);
   }
 }
 

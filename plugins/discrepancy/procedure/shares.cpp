@@ -110,8 +110,11 @@ class VectorRms {
     const Eigen::Index columns = std::min({measured.cols(), a.cols(), b.cols()});
     for (Eigen::Index c = 0; c + 2 < columns; c += 3)
       for (Eigen::Index i = 0; i < measured.rows(); ++i) {
-        const double far = (a.block<1, 3>(i, c) - b.block<1, 3>(i, c)).squaredNorm();
-        if (!measured.block<1, 3>(i, c).allFinite() || !std::isfinite(far)) continue;
+        // Of the axes that were measured.
+        const auto seen = measured.block<1, 3>(i, c).array().isFinite();
+        const double far =
+            seen.select(a.block<1, 3>(i, c) - b.block<1, 3>(i, c), 0.0).squaredNorm();
+        if (!seen.any() || !std::isfinite(far)) continue;
         sum_ += far;
         ++count_;
       }
@@ -131,14 +134,18 @@ Change change_of(Evaluator& evaluator, const Explained& explained, FitOptions op
   for (int t = 0; t < static_cast<int>(options.trials.size()); ++t) options.trials[t] = t;
   const std::vector<Hypothesis> models{explained.with, explained.without};
   const auto predicted = evaluator.predictions(models, options);
-  VectorRms markers, force;
+  VectorRms markers, force, moment;
   for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
     const Trial& trial = experiment.trials[t];
     const Prediction &with = predicted[0][t], &without = predicted[1][t];
     markers.add(trial.markers.value, with.markers, without.markers);
     force.add(trial.force.value, with.force, without.force);
+    if (trial.wrench.size() == 0) continue;
+    force.add(trial.wrench.value.leftCols(3), with.wrench.leftCols(3), without.wrench.leftCols(3));
+    moment.add(trial.wrench.value.rightCols(3), with.wrench.rightCols(3),
+               without.wrench.rightCols(3));
   }
-  return {markers.value(), force.value()};
+  return {markers.value(), force.value(), moment.value()};
 }
 
 double most(const NamedCause& cause) {

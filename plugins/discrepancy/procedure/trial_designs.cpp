@@ -184,7 +184,8 @@ DesignScales design_scales(const Experiment& experiment) {
     scales.force = scales.force || trial.force.size() > 0;
     scales.last_clock = std::max(scales.last_clock, trial.clock + trial.duration());
     const Samples& m = trial.markers;
-    if (m.size() > 1) scales.sample_time = (m.time.back() - m.time.front()) / (m.size() - 1);
+    if (m.size() > 1 && !trial.is_static)
+      scales.sample_time = (m.time.back() - m.time.front()) / (m.size() - 1);
     for (const Hold& hold : trial.holds) {
       scales.grip = hold.place;
       scales.stiffness = hold.stiffness.value_or(0.0);

@@ -61,6 +61,7 @@ std::string change_text(const Change& change) {
   std::vector<std::string> parts;
   if (change.marker) parts.push_back(short_number(1e3 * *change.marker) + " mm");
   if (change.force) parts.push_back(short_number(*change.force) + " N");
+  if (change.moment) parts.push_back(short_number(*change.moment) + " N m");
   return joined(parts, ", ");
 }
 

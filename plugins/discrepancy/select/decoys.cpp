@@ -29,7 +29,6 @@ Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::
   for (const int t : trials) {
     const Trial& trial = data.experiment().trials[t];
     const Eigen::Index rows = trial.markers.size(), columns = trial.markers.value.cols();
-    const Eigen::Index forces = trial.force.size();
     for (Eigen::Index c = 0; c < columns; ++c) {
       // By whole markers, so that x stays x.
       const Eigen::Index at = first + c * rows, neighbour = first + (c + 3) % columns * rows;
@@ -38,8 +37,11 @@ Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::
       exchanged.segment(at, rows) = change.segment(neighbour, rows);
     }
     first += columns * rows;
-    for (Eigen::Index c = 0; c < trial.force.value.cols(); ++c, first += forces)
-      reversed.segment(first, forces) = change.segment(first, forces).reverse();
+    for (const Samples* table : {&trial.force, &trial.wrench}) {
+      const Eigen::Index size = table->size();
+      for (Eigen::Index c = 0; c < table->value.cols(); ++c, first += size)
+        reversed.segment(first, size) = change.segment(first, size).reverse();
+    }
   }
   return {gain_along(residual, change), decoy_gain(residual, change, reversed, too_alike),
           decoy_gain(residual, change, exchanged, too_alike)};

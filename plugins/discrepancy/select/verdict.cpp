@@ -58,6 +58,7 @@ Json to_json(const NamedCause& cause) {
   json["change"] = Json::object();
   if (cause.change.marker) json["change"]["marker"] = sized(*cause.change.marker, "m");
   if (cause.change.force) json["change"]["force"] = sized(*cause.change.force, "N");
+  if (cause.change.moment) json["change"]["moment"] = sized(*cause.change.moment, "N m");
   if (!cause.against.empty()) json["against"] = cause.against;
   return json;
 }

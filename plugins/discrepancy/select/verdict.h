@@ -27,8 +27,9 @@ struct Share {
 };
 /// RMS of what a cause changes, over all trials.
 struct Change {
-  std::optional<double> marker;  ///< m
-  std::optional<double> force;   ///< N
+  std::optional<double> marker;    ///< m
+  std::optional<double> force;     ///< N
+  std::optional<double> moment{};  ///< N m, at the root
 };
 
 struct NamedCause {

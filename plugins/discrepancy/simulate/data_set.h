@@ -4,9 +4,17 @@
 #include <vector>
 
 #include "pedicel/discrepancy/simulate/noise.h"
+#include "pedicel/discrepancy/simulate/path_noise.h"
 #include "pedicel/discrepancy/simulate/simulator.h"
 
 namespace pedicel::discrepancy {
+
+enum class ChannelKind { position, force, moment };
+
+/// Channels by the kind of sensor.
+struct AllSeries {
+  std::vector<Series> position, force, moment;  ///< m, N, N m
+};
 
 /// The measured channels of an experiment with their noise: turns predictions into residuals that
 /// are white and of unit variance where nothing but noise is left. Residual vectors have one entry
@@ -17,11 +25,16 @@ class DataSet {
 
   const Experiment& experiment() const { return *experiment_; }
   void set_noise(const Noise& position, const Noise& force);
-  /// Estimates it from series of positions (m) and forces (N), within what the experiment states.
-  void choose_noise(std::span<const Series> position, std::span<const Series> force,
-                    const NoiseRule& rule);
+  void set_moment_noise(const Noise& moment);
+  /// Estimates it from series of positions (m), forces (N) and moments (N m), within what the
+  /// experiment states.
+  void choose_noise(const AllSeries& series, const NoiseRule& rule);
+  /// How a trial that begins in motion answers to how it begins: changes of its prediction. What
+  /// they explain is left out of its residuals, as if its beginning were fitted with each model.
+  void set_start_directions(int trial, std::vector<Prediction> directions);
   const Noise& position_noise() const { return position_; }
   const Noise& force_noise() const { return force_; }
+  const Noise& moment_noise() const { return moment_; }
 
   /// Entries of a residual vector over these trials, and how many of them hold a sample up to the
   /// share `horizon` of each trial's duration.
@@ -32,11 +45,11 @@ class DataSet {
   void residual(int trial, const Prediction& prediction, double horizon,
                 Eigen::Ref<Eigen::VectorXd> out) const;
   /// The same without whitening, in units of the noise of a sample; NaN where nothing was measured.
-  /// Markers' columns first, then the force's.
+  /// Markers' columns first, then the force's and the wrench's.
   Eigen::MatrixXd scaled_residual(int trial, const Prediction& prediction) const;
-  /// Data minus prediction (m and N), one series a channel and trial, for estimate_noise().
-  void raw_residuals(int trial, const Prediction& prediction, std::vector<Series>& position,
-                     std::vector<Series>& force) const;
+  /// Data minus prediction (m, N and N m), one series a channel and trial, for choose_noise(). Rows
+  /// of a static series, each at rest by itself, tell nothing of it.
+  void raw_residuals(int trial, const Prediction& prediction, AllSeries& series) const;
 
   /// RMS over these trials of data minus prediction in units of the noise of a sample, 0 without a
   /// sample; one prediction a trial of the experiment.
@@ -45,12 +58,27 @@ class DataSet {
   double end_of(int trial, double horizon) const;
 
  private:
+  struct Channel;
+  /// How a trial may begin otherwise: changes, whitened or in noise units of a sample.
+  struct Freedom {
+    std::vector<Prediction> directions;
+    Eigen::MatrixXd white, white_basis, scaled_basis;
+  };
+  template <class Call>
+  void for_each_channel(int trial, const Call& call) const;
+  const Noise& noise_of(const Channel& channel) const;
+  Eigen::VectorXd weights(int trial, const Channel& channel) const;
+  Eigen::MatrixXd scaled(int trial, const Prediction& prediction) const;
+  void leave_out_start(int trial, double end, Eigen::Ref<Eigen::VectorXd> residual) const;
+  void renew_freedom(int trial);
+
   const Experiment* experiment_;
-  Noise position_ = white_noise(1.0), force_ = white_noise(1.0);
+  Noise position_ = white_noise(1.0), force_ = white_noise(1.0), moment_ = white_noise(1.0);
+  std::vector<PathNoise> path_noise_;  // by trial
+  std::vector<Freedom> freedom_;       // likewise
 };
 
 /// The data's own series, for a first estimate of the noise before anything was simulated.
-void measured_series(const Experiment& experiment, std::vector<Series>& position,
-                     std::vector<Series>& force);
+AllSeries measured_series(const Experiment& experiment);
 
 }  // namespace pedicel::discrepancy

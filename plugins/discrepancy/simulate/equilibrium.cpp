@@ -1,6 +1,7 @@
 #include "pedicel/discrepancy/simulate/equilibrium.h"
 
 #include "pedicel/cosserat/solver/direct_solver.h"
+#include "pedicel/cosserat/solver/settle_touching.h"
 
 namespace pedicel::discrepancy {
 
@@ -20,14 +21,15 @@ void stop(cosserat::RodState& state) {
 // Pseudo-transient continuation: a step that starts from rest goes down the potential, held back by
 // inertia less and less.
 void sink(const cosserat::RodModel& model, cosserat::RodState& state, const Vec3& gravity,
-          std::span<const cosserat::Load> loads) {
+          std::span<const cosserat::Load> loads,
+          std::span<cosserat::ContactSource* const> contacts) {
   cosserat::RodSettings settings;
   settings.integrator = cosserat::Integrator::backward_euler;
   settings.newton_iterations = iterations;
   cosserat::DirectSolver solver(settings, model);
   const double time = state.time;
   for (double dt = first_step; dt < last_step; dt *= growth) {
-    solver.step(model, state, {dt, gravity, loads, {}});
+    solver.step(model, state, {dt, gravity, loads, contacts});
     stop(state);
   }
   state.time = time;
@@ -36,13 +38,17 @@ void sink(const cosserat::RodModel& model, cosserat::RodState& state, const Vec3
 }  // namespace
 
 bool find_equilibrium(const cosserat::RodModel& model, cosserat::RodState& state,
-                      const Vec3& gravity, std::span<const cosserat::Load> loads) {
+                      const Vec3& gravity, std::span<const cosserat::Load> loads,
+                      std::span<cosserat::ContactSource* const> contacts) {
+  const auto settles = [&] {
+    return cosserat::settle_touching(model, state, gravity, loads, contacts, iterations).errors ==
+           cosserat::none;
+  };
   const cosserat::RodState start = state;
-  if (cosserat::settle(model, state, gravity, loads, iterations).errors == cosserat::none)
-    return true;
+  if (settles()) return true;
   state = start;
-  sink(model, state, gravity, loads);
-  return cosserat::settle(model, state, gravity, loads, iterations).errors == cosserat::none;
+  sink(model, state, gravity, loads, contacts);
+  return settles();
 }
 
 bool hang(cosserat::RodModel& model, const cosserat::RodModel& unladen, cosserat::RodState state,

@@ -1,5 +1,6 @@
 #include "pedicel/discrepancy/simulate/grip.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pedicel/effects/registry/effect_definition.h"
@@ -49,27 +50,67 @@ Grip::Grip(const PlantMaker& maker, const cosserat::RodModel& model, const Trial
   }
 }
 
+bool Grip::holds(const Held& held, double begin) const {
+  return begin < held.hold->release - rounding;
+}
+
+const plant::PlacedPoint& Grip::place(const Held& held, double begin) const {
+  return begin >= held.slip_time - rounding ? held.slipped : held.place;
+}
+
 cosserat::Support Grip::support(const Held& held, double begin, double t) const {
   const bool slipped = begin >= held.slip_time - rounding;
-  const plant::PlacedPoint& place = slipped ? held.slipped : held.place;
   cosserat::Support support;
-  support.element = place.element;
-  support.back = place.back;
+  support.element = place(held, begin).element;
+  support.back = place(held, begin).back;
   support.position = held.hold->path.position_at(t);
-  support.position_stiffness = held.stiffness;
+  if (!held.hold->slides()) support.position_stiffness = held.stiffness;
   if (held.hold->path.rotation.empty()) return support;
   support.rotation = held.hold->path.rotation_at(t) * held.drawn[slipped ? 1 : 0];
   support.rotation_stiffness = held.bend_stiffness;
+  if (held.hold->direction) support.rotation_stiffness.z() = 0.0;  // its twist is free
   return support;
+}
+
+void Grip::add_guides(const Held& held, double begin, double t, std::vector<Guide>& guides) const {
+  for (const Vec3& axis : held.hold->axes) {
+    Guide guide;
+    guide.element = place(held, begin).element;
+    guide.back = place(held, begin).back;
+    guide.axis = axis;
+    guide.one_sided = held.hold->one_sided;
+    guide.stiffness = held.stiffness;
+    guide.target = held.hold->path.position_at(t);
+    guide.before = held.hold->path.position_at(begin);
+    guides.push_back(guide);
+  }
 }
 
 void Grip::add_supports(double begin, double t, std::vector<cosserat::Support>& supports) const {
   for (const Held& held : held_)
-    if (begin < held.hold->release - rounding) supports.push_back(support(held, begin, t));
+    if (holds(held, begin) && (!held.hold->slides() || !held.hold->path.rotation.empty()))
+      supports.push_back(support(held, begin, t));
 }
 
-Vec3 Grip::force(const cosserat::RodState& state, double begin, double t) const {
-  if (held_.empty() || !(begin < held_.front().hold->release - rounding)) return Vec3::Zero();
+void Grip::add_guides(double begin, double t, std::vector<Guide>& guides) const {
+  for (const Held& held : held_)
+    if (holds(held, begin)) add_guides(held, begin, t, guides);
+}
+
+bool Grip::has_guides() const {
+  return std::ranges::any_of(held_, [](const Held& held) { return held.hold->slides(); });
+}
+
+Vec3 Grip::force(const cosserat::RodModel& model, const cosserat::RodState& state, double begin,
+                 double t) const {
+  if (held_.empty() || !holds(held_.front(), begin)) return Vec3::Zero();
+  if (held_.front().hold->slides()) {
+    std::vector<Guide> guides;
+    add_guides(held_.front(), begin, t, guides);
+    Vec3 sum = Vec3::Zero();
+    for (const Guide& guide : guides) sum += force_of(guide, model, state);
+    return sum;
+  }
   const cosserat::Support spring = support(held_.front(), begin, t);
   if (!state.alive[spring.element]) return Vec3::Zero();  // it holds a fruit that came off
   const Vec3 axis = state.orientation[spring.element] * Vec3::UnitZ();

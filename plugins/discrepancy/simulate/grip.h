@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/discrepancy/simulate/guides.h"
 #include "pedicel/discrepancy/simulate/variant_plant.h"
 
 namespace pedicel::discrepancy {
@@ -20,10 +21,14 @@ class Grip {
        std::span<const plant::Effect> effects);
 
   /// Adds a support for each hold that holds during a step after `begin` (s), where it is to be at
-  /// `t`.
+  /// `t`. Of one that slides that is what leads its orientation.
   void add_supports(double begin, double t, std::vector<cosserat::Support>& supports) const;
+  /// Adds what leads the points that slide.
+  void add_guides(double begin, double t, std::vector<Guide>& guides) const;
+  bool has_guides() const;
   /// The first hold's pull on the plant (N, W) at `t`, as in a step after `begin`.
-  Vec3 force(const cosserat::RodState& state, double begin, double t) const;
+  Vec3 force(const cosserat::RodModel& model, const cosserat::RodState& state, double begin,
+             double t) const;
 
  private:
   struct Held {
@@ -34,7 +39,10 @@ class Grip {
     Quat drawn[2] = {Quat::Identity(), Quat::Identity()};        // E to W, of both places
     Vec3 bend_stiffness = Vec3::Zero();                          // N m/rad, about E's axes
   };
+  bool holds(const Held& held, double begin) const;
+  const plant::PlacedPoint& place(const Held& held, double begin) const;
   cosserat::Support support(const Held& held, double begin, double t) const;
+  void add_guides(const Held& held, double begin, double t, std::vector<Guide>& guides) const;
 
   std::vector<Held> held_;
 };

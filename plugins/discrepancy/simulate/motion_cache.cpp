@@ -14,7 +14,7 @@ std::shared_ptr<const Motion> MotionCache::find(const std::string& key, double u
 
 void MotionCache::add(const std::string& key, std::shared_ptr<const Motion> motion) {
   const auto size = motion->position.size() + motion->velocity.size() + motion->turn.size() +
-                    motion->force.size();
+                    motion->force.size() + motion->wrench.size();
   const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(size);
   const std::lock_guard lock(mutex_);
   if (const auto place = place_.find(key); place != place_.end()) drop(place->second);

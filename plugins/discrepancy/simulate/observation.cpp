@@ -33,6 +33,14 @@ Point marker_at(const Motion& motion, const Interval& at, int marker) {
           6.0 * u * w / h * rise + w * (1.0 - 3.0 * u) * v0 - u * (2.0 - 3.0 * u) * v1};
 }
 
+// `before` time 0 (s), of what moved then, too.
+Vec3 marker_before(const Motion& motion, double before, int marker) {
+  const Vec3 p = triple(motion.position, 0, marker), v = triple(motion.velocity, 0, marker);
+  if (motion.time.size() < 2) return p - before * v;
+  const Vec3 a = (triple(motion.velocity, 1, marker) - v) / (motion.time[1] - motion.time[0]);
+  return p - before * v + 0.5 * before * before * a;
+}
+
 Quat turn_at(const Motion& motion, const Interval& at, int marker) {
   const auto row = [&](int r) { return Quat(motion.turn.row(r).segment<4>(4 * marker).data()); };
   if (at.length == 0.0) return row(at.row);
@@ -63,8 +71,9 @@ class Instrument {
   }
 
   double delay() const { return sensor_.delay; }
-  Vec3 marker(const Interval& at, int index) const {
-    Vec3 position = marker_at(motion_, at, index).position;
+  Vec3 marker(const Interval& at, double time, int index) const {
+    Vec3 position = time < 0.0 && motion_.began_moving ? marker_before(motion_, -time, index)
+                                                       : marker_at(motion_, at, index).position;
     const Vec3& offset = sensor_.offset[index];
     if (!offset.isZero(0.0)) position += turn_at(motion_, at, index) * offset;
     if (sensor_.marker_lag > 0.0) position -= marker_behind(at, index);
@@ -147,7 +156,7 @@ double latency_of(std::span<const plant::Effect> all) {
 
 Observed observe(const Motion& motion, std::span<const Marker> markers,
                  std::span<const plant::Effect> effects, std::span<const double> marker_time,
-                 std::span<const double> force_time) {
+                 std::span<const double> force_time, std::span<const double> wrench_time) {
   const Instrument instrument(motion, markers, effects);
   const int count = static_cast<int>(markers.size());
   Observed out;
@@ -156,10 +165,11 @@ Observed observe(const Motion& motion, std::span<const Marker> markers,
   out.force.setConstant(force_time.size(), 3, never);
   for (int s = 0; s < static_cast<int>(marker_time.size()); ++s) {
     const Interval now = find_interval(motion.time, marker_time[s]);
-    const Interval seen = find_interval(motion.time, marker_time[s] - instrument.delay());
+    const double then = marker_time[s] - instrument.delay();
+    const Interval seen = find_interval(motion.time, then);
     for (int m = 0; m < count; ++m) {
       if (seen.row >= 0)
-        out.markers.row(s).segment<3>(3 * m) = instrument.marker(seen, m).transpose();
+        out.markers.row(s).segment<3>(3 * m) = instrument.marker(seen, then, m).transpose();
       if (now.row >= 0)
         out.marker_velocity.row(s).segment<3>(3 * m) =
             marker_at(motion, now, m).velocity.transpose();
@@ -169,6 +179,15 @@ Observed observe(const Motion& motion, std::span<const Marker> markers,
     const Interval at = find_interval(motion.force_time, force_time[s]);
     if (at.row < 0) continue;
     out.force.row(s) = instrument.force(at).transpose();
+  }
+  out.wrench.setConstant(wrench_time.size(), 6, never);
+  for (int s = 0; s < static_cast<int>(wrench_time.size()) && motion.wrench.size() > 0; ++s) {
+    const Interval at = find_interval(motion.force_time, wrench_time[s]);
+    if (at.row < 0) continue;
+    out.wrench.row(s) = motion.wrench.row(at.row);
+    if (at.length > 0.0)
+      out.wrench.row(s) +=
+          at.share * (motion.wrench.row(at.row + 1) - motion.wrench.row(at.row)).matrix();
   }
   return out;
 }

@@ -20,8 +20,10 @@ struct Motion {
   /// s, of each row of `force`. A time stands twice where the force jumps; the second row holds
   /// from then on.
   std::vector<double> force_time;
-  Rows force;                         ///< rows x 3, N, W: the first hold's pull on the plant
+  Rows force;   ///< rows x 3, N, W: the first hold's pull on the plant
+  Rows wrench;  ///< likewise x 6, N and N m, W, at the root; empty where nobody wants it
   std::vector<MeasuredEvent> events;  ///< fruits that came off
+  bool began_moving = false;          ///< before time 0, too
   bool healthy = true;                ///< false: the simulation failed where the rows end
 };
 
@@ -30,17 +32,19 @@ struct Observed {
   Eigen::MatrixXd markers;          ///< samples x 3 markers, m, W
   Eigen::MatrixXd marker_velocity;  ///< samples x 3 markers, m/s, W: of the plant itself
   Eigen::MatrixXd force;            ///< samples x 3, N, W
+  Eigen::MatrixXd wrench;           ///< samples x 6, N and N m, W
 };
 
 /// Motion to what the instruments report at `marker_time` (s): marker offset (turning with its
 /// element, in the frame the plant was drawn in), latency, frame rotation and scale about the
 /// world's origin; the force through gain and offset at `force_time`. An instrument that lags is in
 /// its steady state at time 0, and follows exactly what lies between steps (a marker's offset that
-/// turns: as a straight line). Several effects of a kind add up in their order. Noise and outliers
-/// are not part of it. NaN beyond the end of the motion.
+/// turns: as a straight line). What began in motion went on before time 0 as it begins, with its
+/// acceleration. The wrench at the root at `wrench_time` is as it is. Several effects of a kind add
+/// up in their order. Noise and outliers are not part of it. NaN beyond the end of the motion.
 Observed observe(const Motion& motion, std::span<const Marker> markers,
                  std::span<const plant::Effect> effects, std::span<const double> marker_time,
-                 std::span<const double> force_time);
+                 std::span<const double> force_time, std::span<const double> wrench_time = {});
 
 /// Where a time lies between rows of a motion; of two rows of one time the second counts.
 struct Interval {

@@ -18,9 +18,9 @@ Scales scales_of(const Experiment& experiment) {
   scales.root_stiffness = root.bend_stiffness.head<2>().mean() * 0.5 * root.length / scales.length;
   double moved = 1.0e-3 * scales.length;
   for (const Trial& trial : experiment.trials) {
-    scales.duration = std::max(scales.duration, trial.duration());
     const Samples& markers = trial.markers;
-    if (markers.size() > 1)
+    if (!trial.is_static) scales.duration = std::max(scales.duration, trial.duration());
+    if (markers.size() > 1 && !trial.is_static)
       scales.sample_time = (markers.time.back() - markers.time.front()) / (markers.size() - 1);
     for (Eigen::Index c = 0; c < markers.value.cols(); ++c) {
       double low = 1e300, high = -1e300;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "pedicel/core/check.h"
 #include "pedicel/core/thread_pool.h"
+#include "pedicel/discrepancy/data/path_smoothing.h"
 #include "pedicel/discrepancy/simulate/motion_cache.h"
 #include "pedicel/discrepancy/simulate/trial_run.h"
+#include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy {
 
@@ -50,10 +53,13 @@ struct Wanted {
   std::shared_ptr<const Motion> known;
 };
 
-std::string key_of(const Simulator::Request& request, const Effects& effects) {
+std::string key_of(const Simulator::Request& request, const Effects& effects, bool begins_moving) {
   std::string key = std::to_string(request.trial);
+  // How a plant begins in motion is read from its markers, through whatever they are seen by.
   for (const plant::Effect& effect : effects)
-    if (!is_of_sensor(effect)) key += plant::effect_text(effect);
+    if (begins_moving || !is_of_sensor(effect)) key += plant::effect_text(effect);
+  if (begins_moving)
+    for (const double shift : request.variant->start_shift) key += " " + io::exact_number(shift);
   if (!request.variant->forces.empty())
     key += "@" + std::to_string(reinterpret_cast<std::uintptr_t>(request.variant));
   return key;
@@ -69,9 +75,12 @@ struct Group {
 
 struct Simulator::Impl {
   Impl(const Experiment& given, const Numerics& how, int threads, const std::atomic<bool>* caller)
-      : experiment(given),
+      : as_given(given),
+        smooth(with_smooth_paths(given)),
+        experiment(smooth ? *smooth : given),
         numerics(how),
         maker(given, how.distance, how.junction * how.distance),
+        starts(plan_starts(experiment, how.junction)),
         pool(threads),
         stop(caller ? *caller : never) {
     check_places();
@@ -91,7 +100,7 @@ struct Simulator::Impl {
     const Trial& trial = experiment.trials[request.trial];
     Wanted wanted;
     wanted.effects = effects_of(experiment, request);
-    wanted.key = key_of(request, wanted.effects);
+    wanted.key = key_of(request, wanted.effects, trial.window.has_value());
     // Markers that run ahead of the drive look beyond the trial's end.
     const double ahead = std::max(0.0, -latency_of(wanted.effects));
     wanted.until = std::min(request.until, trial.duration()) + ahead;
@@ -104,13 +113,25 @@ struct Simulator::Impl {
     job.trial = request.trial;
     job.member.effects = wanted.effects;
     job.member.forces = request.variant->forces;
+    job.member.start = &starts[request.trial];
+    job.member.start_shift = request.variant->start_shift;
     job.lasting = request.variant->forces.empty();
     return job;
   }
 
   StepPlan plan(int trial, const Effects& effects, double until) const {
     const Trial& one = experiment.trials[trial];
+    if (one.is_static) return make_step_plan({}, 1.0, one.duration(), one.duration());
     return make_step_plan(jumps_of(one, effects), numerics.dt, one.duration(), until);
+  }
+
+  // Up to the end of the window, of a trial that begins in motion. What comes off ends it before.
+  StepPlan rehearsal(int trial, const Effects& effects) const {
+    if (starts[trial].modes == 0) return {};
+    double end = starts[trial].window;
+    for (const MeasuredEvent& event : experiment.trials[trial].events)
+      if (event.is_detachment()) end = std::min(end, event.time);
+    return plan(trial, effects, end);
   }
 
   /// Requests of the same motion to one job, as long as the longest of them needs.
@@ -172,7 +193,8 @@ struct Simulator::Impl {
     for (const int j : group.jobs) members.push_back(jobs[j].member);
     const Job& first = jobs[group.jobs.front()];
     std::vector<RunResult> results =
-        run_trial(maker, experiment, experiment.trials[first.trial], first.plan, members, stop);
+        run_trial(maker, experiment, experiment.trials[first.trial], first.plan, members, stop,
+                  rehearsal(first.trial, first.member.effects));
     simulations += static_cast<long>(members.size());
     std::vector<std::shared_ptr<const Motion>> motions;
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -185,10 +207,10 @@ struct Simulator::Impl {
 
   Prediction predict(const Request& request, const Wanted& wanted, const Motion& motion) const {
     const Trial& trial = experiment.trials[request.trial];
-    Observed seen =
-        observe(motion, experiment.markers, wanted.effects, trial.markers.time, trial.force.time);
+    Observed seen = observe(motion, experiment.markers, wanted.effects, trial.markers.time,
+                            trial.force.time, trial.wrench.time);
     Prediction out{std::move(seen.markers), std::move(seen.force), std::move(seen.marker_velocity),
-                   motion.healthy, motion.events};
+                   motion.healthy,          motion.events,         std::move(seen.wrench)};
     const double last = request.until + 1.0e-9;
     const auto cut = [&](const std::vector<double>& time, Eigen::MatrixXd& rows) {
       const auto kept = std::upper_bound(time.begin(), time.end(), last) - time.begin();
@@ -197,6 +219,7 @@ struct Simulator::Impl {
     cut(trial.markers.time, out.markers);
     cut(trial.markers.time, out.marker_velocity);
     cut(trial.force.time, out.force);
+    cut(trial.wrench.time, out.wrench);
     return out;
   }
 
@@ -236,9 +259,12 @@ struct Simulator::Impl {
     const Trial& one = experiment.trials[trial];
     member.effects = effects_of(experiment, {&variant, trial});
     member.forces = variant.forces;
+    member.start = &starts[trial];
     const StepPlan steps = plan(trial, member.effects, one.duration());
     ++simulations;
-    return std::move(run_trial(maker, experiment, one, steps, {&member, 1}, stop).front());
+    return std::move(run_trial(maker, experiment, one, steps, {&member, 1}, stop,
+                               rehearsal(trial, member.effects))
+                         .front());
   }
 
   // Before any thread begins, where nothing may throw. False where effects that a plant can have
@@ -269,12 +295,16 @@ struct Simulator::Impl {
         Eigen::MatrixXd::Constant(trial.markers.value.rows(), trial.markers.value.cols(), nan);
     const Eigen::MatrixXd force =
         Eigen::MatrixXd::Constant(trial.force.value.rows(), trial.force.value.cols(), nan);
-    return {markers, force, markers, false, {}};
+    const Eigen::MatrixXd wrench = Eigen::MatrixXd::Constant(trial.wrench.size(), 6, nan);
+    return {markers, force, markers, false, {}, wrench};
   }
 
-  const Experiment& experiment;
+  const Experiment& as_given;
+  const std::optional<Experiment> smooth;
+  const Experiment& experiment;  // what is simulated
   const Numerics numerics;
   const PlantMaker maker;
+  const std::vector<StartPlan> starts;  // by trial
   ThreadPool pool;
   MotionCache cache{cache_bytes};
   const std::atomic<bool> never{false};
@@ -310,8 +340,12 @@ std::vector<StalkLoads> Simulator::stalk_loads(const Variant& variant, int trial
   return std::move(result.stalks);
 }
 
+int Simulator::start_amplitudes(int trial) const {
+  return impl_->starts[trial].amplitudes();
+}
+
 const Experiment& Simulator::experiment() const {
-  return impl_->experiment;
+  return impl_->as_given;
 }
 const Numerics& Simulator::numerics() const {
   return impl_->numerics;

@@ -38,6 +38,9 @@ struct PointForce {
 struct Variant {
   std::vector<plant::Effect> effects;
   std::vector<PointForce> forces;
+  /// Added to the amplitudes (MovingStart) with which trials begin that begin in motion; empty:
+  /// nothing is.
+  std::vector<double> start_shift{};
 };
 
 /// What the trial's instruments would have seen, at the trial's own sample times.
@@ -50,6 +53,7 @@ struct Prediction {
   /// Fruits that came off: when the experiment recorded it where it did so, else when a threshold
   /// was passed.
   std::vector<MeasuredEvent> events;
+  Eigen::MatrixXd wrench{};  ///< samples x 6, N and N m, W; empty where the trial has none
 };
 
 /// Simulates an experiment's trials with many variants of the model side by side: up to eight equal
@@ -82,6 +86,9 @@ class Simulator {
 
   /// What the stalks of the fruits carried in a trial, in the order of the plant file's fruits.
   std::vector<StalkLoads> stalk_loads(const Variant& variant, int trial);
+
+  /// Numbers that say how a trial begins (MovingStart): 0 for one that begins at rest.
+  int start_amplitudes(int trial) const;
 
   const Experiment& experiment() const;
   const Numerics& numerics() const;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "pedicel/discrepancy/simulate/moving_start.h"
 #include "pedicel/discrepancy/simulate/observation.h"
 #include "pedicel/discrepancy/simulate/simulator.h"
 #include "pedicel/discrepancy/simulate/step_plan.h"
@@ -17,6 +18,8 @@ struct RunMember {
   std::span<const PointForce> forces;
   double tracking_stiffness = 0.0;  ///< N/m, of springs from the markers to their measured paths
   bool records_stalks = false;
+  const StartPlan* start = nullptr;   ///< how it begins in motion; null: at rest
+  std::vector<double> start_shift{};  ///< m, Variant::start_shift
 };
 
 struct RunResult {
@@ -28,11 +31,14 @@ struct RunResult {
 /// Simulates one trial with several variants of the plant side by side, in the caller's thread.
 /// Fruits come off when the experiment recorded it, where it did: what was done to the plant after
 /// that is not another model's to choose. Else they do so by their thresholds.
+/// A trial that begins in motion is run up to the end of `rehearsal` first, again and again, until
+/// the plant begins as its first samples say. In a static series each step is a row.
 /// What a member gives depends on nothing but itself. Ends early, with motions that are not
 /// healthy, once `stop` is set.
 std::vector<RunResult> run_trial(const PlantMaker& maker, const Experiment& experiment,
                                  const Trial& trial, const StepPlan& plan,
-                                 std::span<const RunMember> members, const std::atomic<bool>& stop);
+                                 std::span<const RunMember> members, const std::atomic<bool>& stop,
+                                 const StepPlan& rehearsal = {});
 
 /// The springs' pulls at the samples (samples x 3 markers, N, W), zero where a marker was not seen.
 Eigen::MatrixXd tracking_at_samples(const RunResult& result, const Samples& markers);

@@ -15,7 +15,9 @@ constexpr double least_hold = 1.0;       // s, of a force whose drift is looked 
 bool usable(const SymptomContext& context, int t) {
   const Trial& trial = context.trial(t);
   const Eigen::MatrixXd& force = context.predictions[t].force;
-  return trial.force.size() > 0 && !trial.holds.empty() && context.usable(t) &&
+  // Where a point slides, its path is not its way.
+  return trial.force.size() > 0 && !trial.holds.empty() && !trial.holds.front().slides() &&
+         !trial.is_static && context.usable(t) &&
          force.rows() == trial.force.value.rows() && force.cols() == 3;
 }
 

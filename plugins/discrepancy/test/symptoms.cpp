@@ -115,7 +115,7 @@ std::string with_error(double value, double error, const std::string& unit) {
 
 bool SymptomContext::usable(int t) const {
   const Prediction& p = predictions[t];
-  return p.healthy && trial(t).markers.size() > 0 &&
+  return p.healthy && !trial(t).is_static && trial(t).markers.size() > 0 &&
          p.markers.rows() == trial(t).markers.value.rows() &&
          p.markers.cols() == trial(t).markers.value.cols() && p.markers.allFinite();
 }

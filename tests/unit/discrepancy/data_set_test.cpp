@@ -101,17 +101,17 @@ TEST(DataSet, EstimatesItsNoiseFromWhatAModelLeaves) {
   MadeData made;
   made.add_noise(4, 0.5);
   DataSet data(made.experiment);
-  std::vector<Series> position, force;
-  for (int t = 0; t < 3; ++t) data.raw_residuals(t, made.predictions[t], position, force);
-  EXPECT_EQ(position.size(), 3 * 18u);
-  EXPECT_EQ(force.size(), 3u);
-  data.choose_noise(position, force, {});
+  AllSeries series;
+  for (int t = 0; t < 3; ++t) data.raw_residuals(t, made.predictions[t], series);
+  EXPECT_EQ(series.position.size(), 3 * 18u);
+  EXPECT_EQ(series.force.size(), 3u);
+  data.choose_noise(series, {});
   EXPECT_NEAR(data.position_noise().std / MadeData::position_std, 1.0, 0.06);
   EXPECT_NEAR(data.position_noise().correlation(), 0.5, 0.06);
   // 1053 samples of one correlation: a sixth of the accuracy.
   EXPECT_NEAR(data.force_noise().std / MadeData::force_std, 1.0, 0.3);
   made.experiment.noise.position_std = 1e-4;
-  data.choose_noise(position, force, {});
+  data.choose_noise(series, {});
   EXPECT_DOUBLE_EQ(data.position_noise().std, 1e-4);
 }
 
