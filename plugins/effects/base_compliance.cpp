@@ -27,7 +27,8 @@ EffectDefinition define_base_compliance() {
       starts.push_back(Start("base_compliance").positive("stiffness", part * k, 1e-3 * k, 1e4 * k));
     return starts;
   };
-  d.speaks_for = {{"frequency", 4}, {"force_scale", 3}, {"base_rotation", 1}};
+  d.speaks_for = {
+      {"frequency", 4}, {"force_scale", 3}, {"base_rotation", 1}, {"dynamic_over_static", 3}};
   d.tells_apart = "put a marker on the collar at the root";
   return d;
 }

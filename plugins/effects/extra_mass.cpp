@@ -34,7 +34,7 @@ EffectDefinition define_extra_mass() {
                              .positive("mass", 0.1 * m, 1.0e-4 * m, 30.0 * m));
     return starts;
   };
-  d.speaks_for = {{"frequency", 3}, {"excess_curvature", 3}};
+  d.speaks_for = {{"frequency", 3}, {"excess_curvature", 3}, {"dynamic_over_static", 4}};
   d.tells_apart = "weigh the plant, or hang a known mass beside the suspected one";
   return d;
 }
