@@ -19,7 +19,7 @@ using Column = SampleTable::Wanted;
 /// Columns that a table may have. At least one; what is not among them is an error.
 Samples read_some(const std::filesystem::path& file, const std::vector<Column>& wanted,
                   const std::string& all, std::vector<int>* present, Diagnostics& diagnostics) {
-  SampleTable table(file, true, diagnostics);
+  SampleTable table(file, true, Rows::time, diagnostics);
   if (!table.good()) return {};
   const std::vector<int> at = table.find_some(wanted, all);
   if (!table.good()) return {};
