@@ -266,15 +266,19 @@ TEST(RootWrench, CarriesWhatHangsOnThePlant) {
     EXPECT_NEAR(found.wrench(s, 0), -0.01, 1e-5);
     EXPECT_NEAR(found.wrench(s, 1), 0.02, 1e-5);
     EXPECT_NEAR(found.wrench(s, 2), weight, 1e-5);
-    // About the root: minus r x F of the load, and of weights that the load leads aside.
-    const Vec3 load = tip.cross(Vec3(0.01, -0.02, 0));
-    EXPECT_NEAR(found.wrench(s, 3) / -load.x(), 1.0, 0.05);
-    EXPECT_NEAR(found.wrench(s, 4) / -load.y(), 1.0, 0.05);
-    EXPECT_NEAR(found.wrench(s, 5), -load.z(), 1e-6);
+    // About the root: minus r x F of the load and of what it leads aside, the mass that hangs at
+    // the middle marker and the stem, whose centre goes 3/8 of the tip's way.
+    const Vec3 down(0, 0, -9.81), middle = found.markers.row(0).head<3>().transpose();
+    const Vec3 sum = tip.cross(Vec3(0.01, -0.02, 0)) + middle.cross(0.004 * down) +
+                     (0.375 * tip).cross(beam.mass_per_length() * beam.length * down);
+    EXPECT_NEAR(found.wrench(s, 3) / -sum.x(), 1.0, 0.01);
+    EXPECT_NEAR(found.wrench(s, 4) / -sum.y(), 1.0, 0.01);
+    EXPECT_NEAR(found.wrench(s, 5), -sum.z(), 1e-6);
   }
 }
 
-// A root that is shaken slowly: mass times acceleration, with half the length for an arm.
+// A root that is shaken slowly (pi rad/s): mass times acceleration, with half the length for an
+// arm. What rings from the start, at w1 = 33 rad/s, is pi / w1 of that and dies out.
 TEST(RootWrench, CarriesTheInertiaOfThePlant) {
   const Beam beam;
   Experiment experiment = experiment_of(beam, 2.0, 0.05);
@@ -292,9 +296,9 @@ TEST(RootWrench, CarriesTheInertiaOfThePlant) {
   const double mass = beam.mass_per_length() * beam.length;
   for (int s = 10; s <= 30; ++s) {
     const double acceleration = 0.02 * M_PI * std::sin(M_PI * 0.05 * s);
-    EXPECT_NEAR(found.wrench(s, 0), mass * acceleration, 0.03 * mass * 0.02 * M_PI) << s;
+    EXPECT_NEAR(found.wrench(s, 0), mass * acceleration, 0.08 * mass * 0.02 * M_PI) << s;
     EXPECT_NEAR(found.wrench(s, 4), 0.5 * beam.length * mass * acceleration,
-                0.03 * 0.5 * beam.length * mass * 0.02 * M_PI)
+                0.08 * 0.5 * beam.length * mass * 0.02 * M_PI)
         << s;
   }
 }
@@ -398,7 +402,7 @@ TEST(PathNoise, SmoothsWithinItself) {
     rough_before += bend(path);
     rough_after += bend(smooth);
   }
-  EXPECT_LT(std::sqrt(after), 0.4 * std::sqrt(before));
+  EXPECT_LT(std::sqrt(after), 0.6 * std::sqrt(before));
   EXPECT_LT(rough_after, 1.0e-3 * rough_before);
 }
 

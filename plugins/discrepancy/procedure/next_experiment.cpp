@@ -6,6 +6,7 @@
 
 #include "pedicel/discrepancy/fit/causes.h"
 #include "pedicel/discrepancy/procedure/trial_designs.h"
+#include "pedicel/discrepancy/simulate/channel.h"
 #include "pedicel/discrepancy/simulate/variant_plant.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 #include "pedicel/effects/registry/effect_definition.h"
@@ -265,7 +266,6 @@ NextExperiment next_look(const Experiment& experiment, const DataSet& data,
                          const std::vector<Prediction>& predictions) {
   NextExperiment next;
   if (predictions.size() != experiment.trials.size()) return next;
-  const auto markers = static_cast<int>(3 * experiment.markers.size());
   double most = 0.0;
   int trial = -1, column = 0;
   Eigen::Index sample = 0;
@@ -287,13 +287,14 @@ NextExperiment next_look(const Experiment& experiment, const DataSet& data,
   }
   if (trial < 0) return next;
   const Trial& worst = experiment.trials[trial];
-  const bool force = column >= markers;
-  next.channel = channel_of(experiment, column);
-  const double time = (force ? worst.force : worst.markers).time[sample];
+  const ChannelPlace at = channel_at(experiment, trial, column);
+  next.channel = at.name;
+  const double time = at.samples->time[sample];
   next.sentence =
       "Repeat " + worst.name + " at half and at twice its amplitude" +
-      (force ? std::string()
-             : ", with one more marker beside " + experiment.markers[column / 3].name) +
+      (at.kind == ChannelKind::position
+           ? ", with one more marker beside " + experiment.markers[column / 3].name
+           : std::string()) +
       ": there the residual is largest (" + short_number(most) + " times the noise at " +
       next.channel + ", most after " + short_number(time) +
       " s). Whether it grows in proportion, faster or not at all tells what kind of force is "

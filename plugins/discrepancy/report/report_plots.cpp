@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pedicel/discrepancy/simulate/channel.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 #include "pedicel/io/svg_heat_map.h"
 #include "pedicel/io/svg_plot.h"
@@ -28,24 +29,22 @@ struct Shown {
 };
 
 Shown shown(const ReportData& report, const ReportChannel& channel) {
-  const Trial& trial = report.experiment.trials[channel.trial];
-  const auto columns = static_cast<int>(3 * report.experiment.markers.size());
-  const bool force = channel.column >= columns;
-  const Samples& samples = force ? trial.force : trial.markers;
-  const int c = force ? channel.column - columns : channel.column;
-  const double scale = force ? 1.0 : 1e3;
+  const ChannelPlace at = channel_at(report.experiment, channel.trial, channel.column);
+  const bool is_place = at.kind == ChannelKind::position;
+  const double scale = is_place ? 1e3 : 1.0;
   Shown result;
-  result.time = samples.time;
-  result.name = channel_name(report.experiment, channel.column);
-  result.unit = force ? "N" : "mm";
-  result.noise = scale * (force ? report.data.force_noise().std : report.data.position_noise().std);
-  for (Eigen::Index i = 0; i < samples.value.rows(); ++i)
-    result.measured.push_back(scale * samples.value(i, c));
+  result.time = at.samples->time;
+  result.name = at.name;
+  result.unit = is_place ? "mm" : at.unit;
+  result.noise = scale * noise_of(report.data, at.kind).std;
+  for (Eigen::Index i = 0; i < at.samples->value.rows(); ++i)
+    result.measured.push_back(scale * at.samples->value(i, at.column));
   for (int m = 0; m < model_count; ++m) {
     const Prediction& p = report.prediction(static_cast<Model>(m), channel.trial);
-    const Eigen::MatrixXd& value = force ? p.force : p.markers;
-    for (Eigen::Index i = 0; i < samples.value.rows(); ++i)
-      result.model[m].push_back(i < value.rows() && c < value.cols() ? scale * value(i, c) : nan);
+    const Eigen::MatrixXd& value = p.*at.part;
+    for (Eigen::Index i = 0; i < at.samples->value.rows(); ++i)
+      result.model[m].push_back(
+          i < value.rows() && at.column < value.cols() ? scale * value(i, at.column) : nan);
   }
   return result;
 }
@@ -75,12 +74,6 @@ ReportData::ReportData(const Diagnosis& d)
     return list.size() == experiment.trials.size() && !list.empty();
   });
   extended = predicted && d.best.hypothesis.effects.size() > d.base.hypothesis.effects.size();
-}
-
-std::string channel_name(const Experiment& experiment, int column) {
-  const auto markers = static_cast<int>(experiment.markers.size());
-  const std::string axis = std::string(".") + "xyz"[column % 3];
-  return (column < 3 * markers ? experiment.markers[column / 3].name : "force") + axis;
 }
 
 std::optional<ReportChannel> liveliest(const ReportData& report, int trial) {
@@ -119,7 +112,10 @@ std::string path_plot(const ReportData& report, const ReportChannel& channel) {
   io::LinePlot plot;
   plot.title = report.experiment.trials[channel.trial].name + ": " + s.name;
   plot.x.label = "time (s)";
-  plot.y.label = (s.unit == "N" ? "force (" : "position (") + s.unit + ")";
+  plot.y.label = (s.unit == "N"    ? "force ("
+                  : s.unit == "mm" ? "position ("
+                                   : "moment (") +
+                 s.unit + ")";
   plot.width = page_width;
   plot.height = 320;
   plot.bands = {band("twice the noise", s.time, s.measured, 2.0 * s.noise)};
@@ -156,7 +152,6 @@ std::string residual_plot(const ReportData& report, const ReportChannel& channel
 std::string residual_map(const ReportData& report, int trial, Model model) {
   const Trial& t = report.experiment.trials[trial];
   const Eigen::MatrixXd r = report.data.scaled_residual(trial, report.prediction(model, trial));
-  const auto markers = static_cast<Eigen::Index>(report.experiment.markers.size());
   const double end = std::max(t.duration(), 1e-9);
   // No finer than the coarser of both records, so that none has empty columns between its samples.
   const int samples =
@@ -170,9 +165,9 @@ std::string residual_map(const ReportData& report, int trial, Model model) {
   map.levels = {1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0};
   for (int c = 0; c <= columns; ++c) map.edges.push_back(end * c / columns);
   for (Eigen::Index row = 0; 3 * row < r.cols(); ++row) {
-    const bool force = row >= markers;
-    const Samples& record = force ? t.force : t.markers;
-    map.rows.push_back(force ? "force" : report.experiment.markers[row].name);
+    const ChannelPlace at = channel_at(report.experiment, trial, static_cast<int>(3 * row));
+    const Samples& record = *at.samples;
+    map.rows.push_back(at.name.substr(0, at.name.rfind('.')));
     std::vector<double> sum(columns, 0.0), count(columns, 0.0);
     for (Eigen::Index i = 0; i < record.size(); ++i)
       for (Eigen::Index k = 3 * row; k < std::min(3 * row + 3, r.cols()); ++k) {

@@ -23,14 +23,11 @@ struct ReportData {
   }
 };
 
-/// One channel: a marker's coordinate or the force's, by its column behind all markers' columns.
+/// One channel, by its column in DataSet::scaled_residual().
 struct ReportChannel {
   int trial = 0, column = 0;
   double size = 0.0;  ///< what it was chosen by
 };
-
-/// "m3.x", "force.z"
-std::string channel_name(const Experiment& experiment, int column);
 
 /// The channel of a trial that moves most (m), and the one with the largest residual of a model
 /// (noise units).

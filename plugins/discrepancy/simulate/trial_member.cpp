@@ -225,6 +225,7 @@ void TrialMember::drive(cosserat::RodSystem& rods, int plant, double begin, doub
     state.previous_dt = 0.0;
     record_force(state, begin, begin);
   }
+  restarted_ = jumps;
   if (trial_.base) state.root = base_pose(trial_, end, model_.root);
   place_supports(begin, end, rods.supports(plant));
   if (guides_) {

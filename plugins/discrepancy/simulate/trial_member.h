@@ -78,7 +78,9 @@ class TrialMember {
   std::vector<plant::PlacedPoint> markers_, load_places_, force_places_;
   std::vector<Quat> drawn_;  // W to E, of the markers' elements
   std::vector<Vec3> pulls_;
-  std::vector<Eigen::Matrix<double, 6, 1>> wrenches_;
+  std::vector<RootWrench::Wrench> wrenches_;
+  RootWrench root_wrench_;
+  bool restarted_ = false;                    // the step that is made is of first order
   std::vector<std::pair<double, int>> seen_;  // s, and the fruit that came off then
   RunResult result_;
 };

@@ -86,9 +86,16 @@ void TrialMember::record_stalk(const cosserat::RodState& state, double t, int fr
 }
 
 void TrialMember::record_force(const cosserat::RodState& state, double begin, double t) {
+  const bool first = result_.motion.force_time.empty();
   result_.motion.force_time.push_back(t);
   pulls_.push_back(grip_.force(model_, state, begin, t));
-  if (trial_.wrench.size() > 0) wrenches_.push_back(root_wrench(model_, state, root_motion(t)));
+  if (trial_.wrench.size() == 0) return;
+  if (first || trial_.is_static) {
+    const RootMotion root = root_motion(t);
+    wrenches_.push_back(root_wrench_.begin(model_, state, t, start_ ? &root : nullptr));
+  } else {
+    wrenches_.push_back(root_wrench_.after(model_, state, t, restarted_));
+  }
 }
 
 }  // namespace pedicel::discrepancy
