@@ -171,7 +171,7 @@ TEST_F(RecordKeys, AStaticSeries) {
 TEST_F(RecordKeys, AllOfItReadsBack) {
   Experiment experiment = testing::experiment_of({}, 0.3, 0.1);
   experiment.noise = {0.001, 0.01, 0.002, 0.0005};
-  Trial& moving = experiment.trials[0];
+  Trial moving = experiment.trials[0];
   moving.window = 0.22;
   moving.markers.value.col(1).setConstant(NAN);
   moving.markers.value.row(2).setConstant(NAN);
@@ -194,7 +194,7 @@ TEST_F(RecordKeys, AllOfItReadsBack) {
                   {{0.0, 1.0, 2.0}, {Vec3(0, 0, 0.4), Vec3(0.01, 0, 0.4), Vec3(0.02, 0, 0.4)}, {}},
                   INFINITY,
                   {}}};
-  experiment.trials.push_back(still);
+  experiment.trials = {moving, still};
   write_experiment(folder_ / "", experiment);
   const Experiment found = good();
   EXPECT_EQ(found.noise.moment_std, experiment.noise.moment_std);
