@@ -298,8 +298,8 @@ TEST(ReferenceEffects, LaggingSensors) {
     const Record record = run_trial(hinge({lag}), plan, tip, {1.0, 0.001});
     return of(record).col(1).tail(200).cwiseAbs().maxCoeff();
   };
-  const auto markers = [](const Record& r) -> const Eigen::MatrixXd& { return r.markers; };
-  const auto force = [](const Record& r) -> const Eigen::MatrixXd& { return r.force; };
+  const auto markers = [](const Record& of) -> const Eigen::MatrixXd& { return of.markers; };
+  const auto force = [](const Record& of) -> const Eigen::MatrixXd& { return of.force; };
   EXPECT_NEAR(largest("markers", markers) / largest("force", markers), kept, 0.01);
   EXPECT_NEAR(largest("force", force) / largest("markers", force), kept, 0.01);
 }
