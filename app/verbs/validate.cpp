@@ -10,6 +10,7 @@
 #include "pedicel/app/run/mesh_fields.h"
 #include "pedicel/app/run/simulation.h"
 #include "pedicel/app/session/document/document.h"
+#include "pedicel/app/steer/variation.h"
 #include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/app/verbs/validate_tables.h"
 #include "pedicel/discrepancy/admission/admission.h"
@@ -135,6 +136,11 @@ std::string check_commands(const std::filesystem::path& path, const Options&,
   return check_script(path, diagnostics);
 }
 
+std::string check_variation(const std::filesystem::path& path, const Options&, Diagnostics&) {
+  const std::size_t count = Variation::read(path).numbers().size();
+  return std::to_string(count) + (count == 1 ? " number varies" : " numbers vary");
+}
+
 template <TableKind kind>
 std::string check_table_of(const std::filesystem::path& path, const Options& options,
                            Diagnostics& diagnostics) {
@@ -152,6 +158,7 @@ constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
                               Kind{"pedicel-experiment", "", "experiment", check_experiment},
                               Kind{"pedicel-scene", "", "scene", check_scene},
                               Kind{"pedicel-leaf", "", "leaf template", check_leaf},
+                              Kind{"pedicel-variation", "", "variation", check_variation},
                               Kind{"", ".urdf", "robot", check_urdf},
                               Kind{"", ".mtg", "digitised plant", check_mtg},
                               Kind{"", ".stl", "mesh", check_mesh},

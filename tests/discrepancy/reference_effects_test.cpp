@@ -291,7 +291,9 @@ TEST(ReferenceEffects, RestShapeIsAnArc) {
 // show.
 TEST(ReferenceEffects, LaggingSensors) {
   const double T = 0.5, A = 0.05, tau = 0.06, kept = 1 / std::hypot(1.0, 2 * M_PI / T * tau);
-  const TrialPlan plan = turned(3.0, [&](double t) { return A * std::sin(2 * M_PI * t / T); });
+  TrialPlan plan = turned(3.0, [&](double t) { return A * std::sin(2 * M_PI * t / T); });
+  // Held rigidly it would be jerked at every row of the path.
+  plan.holds.front().stiffness = 50.0;
   const auto largest = [&](const char* what, const auto& of) {
     plant::Effect lag = effect("sensor_lag", {{"time", {tau}}});
     lag.words["what"] = what;

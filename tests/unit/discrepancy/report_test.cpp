@@ -53,6 +53,8 @@ TEST(Report, CardComesFirstAndSaysAllThatMatters) {
                                             "weak_segment",
                                             "runs to the end of its range (factor)",
                                             "explains none of it",
+                                            "not fitted to the end",
+                                            "fell far behind on its way",
                                             "What could still hide",
                                             "mass below 0.004 kg",
                                             "stiffness above 900 N/m",

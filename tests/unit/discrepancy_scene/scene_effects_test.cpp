@@ -158,8 +158,9 @@ TEST_F(SceneEffects, APushedStemPushesBackAsABeamDoes) {
 }
 
 TEST_F(SceneEffects, FrictionOfTheContactIsCoulombs) {
-  // The finger goes on a circle about its axis, and the stem along the finger's face.
-  for (const double mu : {0.03, 0.06}) {
+  // The finger goes on a circle about its axis, and the stem along the finger's face; a ratio of
+  // 0.016 would make it stick.
+  for (const double mu : {0.005, 0.01}) {
     const SceneReadings readings = readings_of(
         pushing(), {"{name: contact_friction, coefficient: " + std::to_string(mu) + "}"});
     double most = 0.0;
@@ -169,7 +170,7 @@ TEST_F(SceneEffects, FrictionOfTheContactIsCoulombs) {
       const double across = force.tail<2>().norm();
       if (across > 0.5) most = std::max(most, std::abs(force.x()) / across);
     }
-    EXPECT_NEAR(most, mu, 0.1 * mu + 0.01);
+    EXPECT_NEAR(most, mu, 0.003);  // by as much the normal leans
   }
 }
 
