@@ -287,23 +287,33 @@ TEST(ReferenceEffects, RestShapeIsAnArc) {
   EXPECT_NEAR(tip_of({0, k}).y(), side, 1e-3 * side);  // about z x y = -x: towards y
 }
 
-// Of a sine a lag leaves 1 / sqrt(1 + (w tau)^2), both of what markers and of what a force sensor
-// show.
-TEST(ReferenceEffects, LaggingSensors) {
+Subject lagging(const char* what, double time) {
+  plant::Effect lag = effect("sensor_lag", {{"time", {time}}});
+  lag.words["what"] = what;
+  return hinge({lag});
+}
+
+// Of a sine a lag leaves 1 / sqrt(1 + (w tau)^2).
+TEST(ReferenceEffects, LaggingMarkers) {
   const double T = 0.5, A = 0.05, tau = 0.06, kept = 1 / std::hypot(1.0, 2 * M_PI / T * tau);
-  TrialPlan plan = turned(3.0, [&](double t) { return A * std::sin(2 * M_PI * t / T); });
-  // Held rigidly it would be jerked at every row of the path.
-  plan.holds.front().stiffness = 50.0;
-  const auto largest = [&](const char* what, const auto& of) {
-    plant::Effect lag = effect("sensor_lag", {{"time", {tau}}});
-    lag.words["what"] = what;
-    const Record record = run_trial(hinge({lag}), plan, tip, {1.0, 0.001});
-    return of(record).col(1).tail(200).cwiseAbs().maxCoeff();
+  const TrialPlan plan = turned(3.0, [&](double t) { return A * std::sin(2 * M_PI * t / T); });
+  const auto largest = [&](const char* what) {
+    const Record record = run_trial(lagging(what, tau), plan, tip, {1.0, 0.001});
+    return record.markers.col(1).tail(200).cwiseAbs().maxCoeff();
   };
-  const auto markers = [](const Record& of) -> const Eigen::MatrixXd& { return of.markers; };
-  const auto force = [](const Record& of) -> const Eigen::MatrixXd& { return of.force; };
-  EXPECT_NEAR(largest("markers", markers) / largest("force", markers), kept, 0.01);
-  EXPECT_NEAR(largest("force", force) / largest("markers", force), kept, 0.01);
+  EXPECT_NEAR(largest("markers") / largest("force"), kept, 0.01);
+}
+
+// A force that is gone at once goes as exp(-t / tau).
+TEST(ReferenceEffects, ALaggingForceSensor) {
+  const double tau = 0.06;
+  TrialPlan plan = turned(1.0, [](double) { return 0.05; });
+  plan.holds.front().release = 0.5;
+  const Record record = run_trial(lagging("force", tau), plan, tip, {1.0, 0.001});
+  const double held = record.force(99, 1);
+  EXPECT_GT(std::abs(held), 0.01);
+  for (const int i : {100, 104, 110, 130})
+    EXPECT_NEAR(record.force(i, 1) / held, std::exp(-(record.time[i] - 0.5) / tau), 1e-3) << i;
 }
 
 double tip_shift(const std::vector<plant::Effect>& effects, const Vec3& force, double spacing,
