@@ -137,8 +137,16 @@ TEST(HiddenRecords, AMovingStartIsNeitherAForceNorBadData) {
   EXPECT_EQ(found.verdict.outcome, Outcome::adequate) << headline(found.verdict);
 }
 
+// Free swings alone do not part a soft root from a weak stretch just above it: both may be told,
+// the root first.
 TEST(HiddenRecords, ASoftRootInMidSwing) {
-  expect_named(diagnosed(mid_swings({soft_root(1.5)})), "base_compliance", "stiffness", 1.5, 0.1);
+  const Diagnosis found = diagnosed(mid_swings({soft_root(1.5)}));
+  ASSERT_TRUE(found.verdict.outcome == Outcome::named ||
+              found.verdict.outcome == Outcome::ambiguous)
+      << headline(found.verdict);
+  const NamedCause& cause = found.verdict.causes.at(0);
+  EXPECT_EQ(cause.name, "base_compliance") << headline(found.verdict);
+  EXPECT_NEAR(cause.parameters.at("stiffness").front().value / 1.5, 1.0, 0.15);
 }
 
 /// Pushed aside by a probe that comes from beside the stem, slides along it, and goes back.
@@ -159,6 +167,7 @@ Experiment pushes(const std::vector<plant::Effect>& hidden) {
     hold.path.file = "hold.csv";
     hold.axes = {axes[i]};
     hold.one_sided = true;
+    hold.stiffness = 200.0;  // a rigid one would jerk the stem at each row of its path
     trial.holds = {hold};
   }
   measure(experiment, hidden);
