@@ -157,20 +157,24 @@ TEST_F(SceneEffects, APushedStemPushesBackAsABeamDoes) {
   EXPECT_NEAR(-readings.wrenches[0](last, 1), stiffness * way, 0.15 * stiffness * way);
 }
 
+// What the stem exerts on the finger, less the finger's own weight: in the finger's frame.
+Vec3 push_of(const SceneReadings& readings, long row) {
+  return readings.wrenches[0].row(row).head<3>().transpose() + Vec3(0, 0, 0.05 * g);
+}
+
 TEST_F(SceneEffects, FrictionOfTheContactIsCoulombs) {
-  // The finger goes on a circle about its axis, and the stem along the finger's face; a ratio of
-  // 0.016 would make it stick.
-  for (const double mu : {0.005, 0.01}) {
-    const SceneReadings readings = readings_of(
+  // The finger's lower edge slides along the stem while it pushes. Without friction the force is
+  // along the normal.
+  const SceneReadings smooth = readings_of(pushing(), {"{name: contact_friction, coefficient: 0}"});
+  for (const double mu : {0.1, 0.4}) {
+    const SceneReadings rough = readings_of(
         pushing(), {"{name: contact_friction, coefficient: " + std::to_string(mu) + "}"});
-    double most = 0.0;
-    for (const auto& row : readings.wrenches[0].rowwise()) {
-      // Less its own weight; the edge's normal leans as the stem does.
-      const Vec3 force = row.head<3>().transpose() + Vec3(0, 0, 0.05 * g);
-      const double across = force.tail<2>().norm();
-      if (across > 0.5) most = std::max(most, std::abs(force.x()) / across);
+    for (long row = 60; row <= 85; row += 5) {
+      const Vec3 normal = push_of(smooth, row).normalized(), force = push_of(rough, row);
+      const double along = force.dot(normal);
+      EXPECT_GT(along, 0.5);
+      EXPECT_NEAR((force - along * normal).norm() / along, mu, 0.02 * mu) << row;
     }
-    EXPECT_NEAR(most, mu, 0.003);  // by as much the normal leans
   }
 }
 
