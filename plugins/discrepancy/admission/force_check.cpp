@@ -56,7 +56,8 @@ bool is_across(const Following& f, const Mat3& compliance) {
 
 std::optional<Fault> check_force(const TrialView& view) {
   const Trial& trial = view.trial;
-  if (!view.layout || trial.force.size() == 0 || trial.holds.empty() || trial.holds.front().slides())
+  if (!view.layout || trial.force.size() == 0 || trial.holds.empty() ||
+      trial.holds.front().slides())
     return std::nullopt;
   const std::vector<Drive> drives = drives_of(view);
   if (drives.empty() || drives.front().kind != Drive::Kind::hold) return std::nullopt;

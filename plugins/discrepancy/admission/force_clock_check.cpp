@@ -125,7 +125,8 @@ std::optional<Fault> late(const Led& led, const Drive& drive) {
 
 std::optional<Fault> check_force_clock(const TrialView& view) {
   const Trial& trial = view.trial;
-  if (!view.layout || trial.force.size() < least_rows || trial.holds.empty() || trial.holds.front().slides())
+  if (!view.layout || trial.force.size() < least_rows || trial.holds.empty() ||
+      trial.holds.front().slides())
     return std::nullopt;
   const std::vector<Drive> drives = drives_of(view);
   if (drives.empty() || drives.front().kind != Drive::Kind::hold) return std::nullopt;

@@ -17,8 +17,8 @@ bool usable(const SymptomContext& context, int t) {
   const Eigen::MatrixXd& force = context.predictions[t].force;
   // Where a point slides, its path is not its way.
   return trial.force.size() > 0 && !trial.holds.empty() && !trial.holds.front().slides() &&
-         !trial.is_static && context.usable(t) &&
-         force.rows() == trial.force.value.rows() && force.cols() == 3;
+         !trial.is_static && context.usable(t) && force.rows() == trial.force.value.rows() &&
+         force.cols() == 3;
 }
 
 /// The force samples of a trial while its first hold holds.

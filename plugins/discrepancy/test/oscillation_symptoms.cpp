@@ -123,8 +123,8 @@ void add_main_mode(const SymptomContext& context, const FreeSwing& swing, const 
   Symptom frequency = make_symptom("frequency", trial, 100.0 * f.value, 100.0 * f.error);
   frequency.unit = "%";
   frequency.least = 0.1;
-  frequency.sentence = "Left alone in " + trial + " the plant swings at " +
-                       hertz(pair.measured) + ", the model at " + hertz(pair.simulated) + " (" +
+  frequency.sentence = "Left alone in " + trial + " the plant swings at " + hertz(pair.measured) +
+                       ", the model at " + hertz(pair.simulated) + " (" +
                        with_error(frequency.value, frequency.standard_error, "%") + ").";
   frequency.plot = swing_plot(context, swing);
   out.push_back(std::move(frequency));
