@@ -107,6 +107,7 @@ std::vector<RunResult> run_trial(const PlantMaker& maker, const Experiment& expe
     simulate(members, trial, plan, false, stop);
   }
   std::vector<RunResult> results;
+  results.reserve(members.size());
   for (TrialMember& member : members) results.push_back(member.take());
   return results;
 }
