@@ -41,7 +41,8 @@ class SceneCost : public ceres::CostFunction {
                 double** jacobians) const override {
     const int n = model_.size();
     const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(parameters[0], n);
-    if (u.size() != last_.size() || u != last_) {
+    // A model without free numbers has one point only.
+    if (residual_.size() != rows_ || u != last_) {
       last_ = u;
       residual_ = column(u);
       has_jacobian_ = false;
