@@ -117,7 +117,7 @@ std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base
   // leads.
   const auto about_nominal = [&](std::size_t i) { return i >= 2 * cause.starts.size(); };
   if (keep > 1)
-    std::ranges::stable_partition(order.begin() + 1, order.end(), [&](std::size_t i) {
+    std::stable_partition(order.begin() + 1, order.end(), [&](std::size_t i) {
       return about_nominal(i) != about_nominal(order.front());
     });
   std::vector<Hypothesis> best;
