@@ -4,6 +4,7 @@
 
 #include "pedicel/app/run/mesh_fields.h"
 #include "pedicel/geometry/shapes.h"
+#include "pedicel/robot/shape_field.h"
 
 namespace pedicel::app {
 
@@ -12,20 +13,9 @@ namespace {
 using Field = std::shared_ptr<const geometry::SignedDistance>;
 
 Field field_of(const robot::Geometry& g, const MeshDistances& meshes) {
-  switch (g.kind) {
-    case robot::Geometry::Kind::box:
-      return std::make_shared<geometry::BoxDistance>(g.size);
-    case robot::Geometry::Kind::sphere:
-      return std::make_shared<geometry::SphereDistance>(g.radius);
-    case robot::Geometry::Kind::cylinder:
-      return std::make_shared<geometry::CylinderDistance>(g.radius, g.length);
-    case robot::Geometry::Kind::capsule:
-      return std::make_shared<geometry::CapsuleDistance>(g.radius, g.length);
-    case robot::Geometry::Kind::mesh:
-      break;
-  }
+  Field field = robot::shape_field(g);
   // By the mesh, not by the link: many links share one.
-  return meshes.at(g.mesh.get());
+  return field ? field : meshes.at(g.mesh.get());
 }
 
 Field field_of(const world::BodyPart& part) {

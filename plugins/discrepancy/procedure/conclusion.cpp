@@ -204,7 +204,11 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   // much.
   const bool much =
       left > levels.remainder_share && findings.excess(diagnosis.best) > levels.small_excess;
-  if (!much && missed <= levels.missed_share * gain) return;
+  if (!much && missed <= levels.missed_share * gain) {
+    // As little as noise alone leaves is nothing that is left.
+    if (left <= 0.0) verdict.remainder.clear();
+    return;
+  }
   verdict.outcome = Outcome::unknown;
   verdict.remainder = "known causes leave " + verdict.remainder;
 }

@@ -2,8 +2,8 @@
 
 #include "pedicel/cosserat/model/rotation.h"
 #include "pedicel/geometry/mesh_distance.h"
-#include "pedicel/geometry/shapes.h"
 #include "pedicel/robot/inertial_sum.h"
+#include "pedicel/robot/shape_field.h"
 
 namespace pedicel::discrepancy {
 
@@ -117,27 +117,14 @@ Eigen::Matrix<double, 6, 1> Arm::own_wrench(int link, const JointPath::Point& mo
 }
 
 LinkFields link_fields(const robot::RobotDescription& robot) {
-  const auto field =
-      [](const robot::Geometry& g) -> std::shared_ptr<const geometry::SignedDistance> {
-    switch (g.kind) {
-      case robot::Geometry::Kind::box:
-        return std::make_shared<geometry::BoxDistance>(g.size);
-      case robot::Geometry::Kind::sphere:
-        return std::make_shared<geometry::SphereDistance>(g.radius);
-      case robot::Geometry::Kind::cylinder:
-        return std::make_shared<geometry::CylinderDistance>(g.radius, g.length);
-      case robot::Geometry::Kind::capsule:
-        return std::make_shared<geometry::CapsuleDistance>(g.radius, g.length);
-      case robot::Geometry::Kind::mesh:
-        break;
-    }
-    return std::make_shared<geometry::MeshDistance>(*g.mesh);
-  };
   LinkFields fields;
   for (const robot::Link& link : robot.links) {
     fields.emplace_back();
-    for (const robot::Collision& collision : link.collisions)
-      fields.back().push_back(field(collision.geometry));
+    for (const robot::Collision& collision : link.collisions) {
+      auto field = robot::shape_field(collision.geometry);
+      if (!field) field = std::make_shared<geometry::MeshDistance>(*collision.geometry.mesh);
+      fields.back().push_back(std::move(field));
+    }
   }
   return fields;
 }

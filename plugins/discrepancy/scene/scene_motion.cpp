@@ -7,7 +7,6 @@
 #include "pedicel/cosserat/solver/rod_system.h"
 #include "pedicel/coupling/contact_report.h"
 #include "pedicel/discrepancy/scene/giving_source.h"
-#include "pedicel/discrepancy/scene/without_denormals.h"
 #include "pedicel/discrepancy/simulate/equilibrium.h"
 #include "pedicel/geometry/shapes.h"
 
@@ -443,7 +442,6 @@ std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, cons
                                          const LinkFields& fields, const SceneNumerics& numerics,
                                          double until, std::span<const SceneMember> members,
                                          const std::atomic<bool>& stop) {
-  const WithoutDenormals fast;
   const int steps = std::max(1, static_cast<int>(std::ceil(until / numerics.dt - 1.0e-9)));
   cosserat::RodSystem rods(solver_settings(numerics.tolerance));
   std::vector<std::unique_ptr<SceneRun>> variants;

@@ -321,8 +321,6 @@ class Refits {
       Evaluator& evaluator = coarse_.front();
       starts = promising(evaluator, from->fit, starts);
       if (starts.empty()) continue;
-      starts = by_cost(starts, scan(evaluator, starts, options_.fit));
-      // The scan has told which are worth a fit.
       starts.resize(std::min(static_cast<std::size_t>(budget_.special_starts), starts.size()));
       keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * budget_.whole_iterations),
                                     Look{budget_.extended_iterations, budget_.extended_starts},
@@ -332,19 +330,22 @@ class Refits {
 
   // Those whose change of the special case's prediction would gain more than chance gives, with
   // the size that fits best and the special case's own numbers refitted: to first order, which
-  // costs a simulation each in place of a fit.
+  // costs a simulation each in place of a fit. The closest to the data come first.
   std::vector<Hypothesis> promising(Evaluator& evaluator, const FitSummary& special,
                                     const std::vector<Hypothesis>& starts) const {
     const Eigen::MatrixXd residuals = evaluator.residuals(starts, options_.fit);
     std::vector<Hypothesis> found;
+    Scan scanned;
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      const Eigen::VectorXd change = projected_out(
-          special.jacobian, residuals.col(static_cast<Eigen::Index>(i)) - special.residual);
+      const auto residual = residuals.col(static_cast<Eigen::Index>(i));
+      const Eigen::VectorXd change = projected_out(special.jacobian, residual - special.residual);
       const double gain =
           0.5 * std::pow(change.dot(special.residual), 2) / std::max(change.squaredNorm(), 1e-12);
-      if (gain > options_.fit.settings->levels.clear_margin) found.push_back(starts[i]);
+      if (gain <= options_.fit.settings->levels.clear_margin) continue;
+      found.push_back(starts[i]);
+      scanned.cost.push_back(0.5 * residual.squaredNorm());
     }
-    return found;
+    return by_cost(found, scanned);
   }
 
   Candidate* whole_one(const std::string& cause) {

@@ -1,3 +1,4 @@
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -8,19 +9,7 @@ SceneEffectDefinition define_camera_focal() {
   d.plain_name = "a camera with another focal length";
   d.sentence = "the focal length of a camera differs from its calibration";
   d.is_only_seen = true;
-  d.parameters = {
-      {.name = "factor",
-       .unit = "1",
-       .bounds = io::positive,
-       .sentence = "on both focal lengths",
-       .vanishes = effects::Vanishes::at_one,
-       .first = {1.0}},
-      {.name = "camera",
-       .sentence = "which camera",
-       .size = 0,
-       .required = false,
-       .otherwise = "all"},
-  };
+  d.parameters = {factor_of("factor", "on both focal lengths"), which("camera", "camera")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_camera([&](Camera& camera) { camera.focal *= t.number("factor"); });
   };

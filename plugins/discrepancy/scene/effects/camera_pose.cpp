@@ -1,3 +1,4 @@
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -8,29 +9,9 @@ SceneEffectDefinition define_camera_pose() {
   d.plain_name = "a camera that stands elsewhere";
   d.sentence = "a camera stands or looks elsewhere than its calibration says";
   d.is_only_seen = true;
-  d.parameters = {
-      {.name = "offset",
-       .unit = "m",
-       .bounds = io::any_number,
-       .sentence = "in the world",
-       .size = 3,
-       .vanishes = effects::Vanishes::at_zero,
-       .first = {0.0, 0.0, 0.0}},
-      {.name = "rotation",
-       .unit = "rad",
-       .bounds = io::any_number,
-       .sentence = "rotation vector in the camera's own frame",
-       .size = 3,
-       .required = false,
-       .otherwise = "0",
-       .vanishes = effects::Vanishes::at_zero,
-       .first = {0.0, 0.0, 0.0}},
-      {.name = "camera",
-       .sentence = "which camera",
-       .size = 0,
-       .required = false,
-       .otherwise = "all"},
-  };
+  d.parameters = {vector_of("offset", "m", "in the world"),
+                  vector_of("rotation", "rad", "rotation vector in the camera's own frame", false),
+                  which("camera", "camera")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_camera([&](Camera& camera) {
       camera.X_WC.position += t.vector("offset");

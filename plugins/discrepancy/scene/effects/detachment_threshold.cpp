@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -9,19 +10,7 @@ SceneEffectDefinition define_detachment_threshold() {
   d.name = "detachment_threshold";
   d.plain_name = "stalks that hold more or less";
   d.sentence = "fruits come off at a multiple of the thresholds of the file";
-  d.parameters = {
-      {.name = "factor",
-       .unit = "1",
-       .bounds = io::positive,
-       .sentence = "on every threshold of the file",
-       .vanishes = effects::Vanishes::at_one,
-       .first = {1.0}},
-      {.name = "plant",
-       .sentence = "which plant",
-       .size = 0,
-       .required = false,
-       .otherwise = "all"},
-  };
+  d.parameters = {factor_of("factor", "on every threshold of the file"), which("plant", "plant")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_plant([&](SceneState::Plant& plant) { plant.threshold *= t.number("factor"); });
   };

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -9,19 +10,7 @@ SceneEffectDefinition define_fruit_mass() {
   d.name = "fruit_mass";
   d.plain_name = "fruits of another mass";
   d.sentence = "the fruits weigh a multiple of what the file says";
-  d.parameters = {
-      {.name = "factor",
-       .unit = "1",
-       .bounds = io::positive,
-       .sentence = "on the mass of every fruit",
-       .vanishes = effects::Vanishes::at_one,
-       .first = {1.0}},
-      {.name = "plant",
-       .sentence = "which plant",
-       .size = 0,
-       .required = false,
-       .otherwise = "all"},
-  };
+  d.parameters = {factor_of("factor", "on the mass of every fruit"), which("plant", "plant")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_plant([&](SceneState::Plant& plant) { plant.fruit_mass *= t.number("factor"); });
   };

@@ -1,3 +1,4 @@
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -15,11 +16,7 @@ SceneEffectDefinition define_lens_distortion() {
        .sentence = "added to the first radial coefficient",
        .vanishes = effects::Vanishes::at_zero,
        .first = {0.0}},
-      {.name = "camera",
-       .sentence = "which camera",
-       .size = 0,
-       .required = false,
-       .otherwise = "all"},
+      which("camera", "camera"),
   };
   d.apply = [](const SceneEffectTarget& t) {
     t.each_camera([&](Camera& camera) { camera.distortion[0] += t.number("k1"); });

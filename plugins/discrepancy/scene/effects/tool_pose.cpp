@@ -1,3 +1,4 @@
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -7,24 +8,8 @@ SceneEffectDefinition define_tool_pose() {
   d.name = "tool_pose";
   d.plain_name = "a tool that is mounted elsewhere";
   d.sentence = "the tool sits elsewhere in the link that carries it";
-  d.parameters = {
-      {.name = "offset",
-       .unit = "m",
-       .bounds = io::any_number,
-       .sentence = "in the axes of the carrying link",
-       .size = 3,
-       .vanishes = effects::Vanishes::at_zero,
-       .first = {0.0, 0.0, 0.0}},
-      {.name = "rotation",
-       .unit = "rad",
-       .bounds = io::any_number,
-       .sentence = "rotation vector in these axes",
-       .size = 3,
-       .required = false,
-       .otherwise = "0",
-       .vanishes = effects::Vanishes::at_zero,
-       .first = {0.0, 0.0, 0.0}},
-  };
+  d.parameters = {vector_of("offset", "m", "in the axes of the carrying link"),
+                  vector_of("rotation", "rad", "rotation vector in these axes", false)};
   d.apply = [](const SceneEffectTarget& t) {
     t.state.tool_offset += t.vector("offset");
     if (t.has("rotation")) t.state.tool_rotation += t.vector("rotation");

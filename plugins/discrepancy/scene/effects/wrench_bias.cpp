@@ -1,3 +1,4 @@
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -8,29 +9,9 @@ SceneEffectDefinition define_wrench_bias() {
   d.plain_name = "a wrench sensor whose zero is off";
   d.sentence = "a wrench sensor has a constant bias";
   d.is_only_seen = true;
-  d.parameters = {
-      {.name = "force",
-       .unit = "N",
-       .bounds = io::any_number,
-       .sentence = "in the sensor's frame",
-       .size = 3,
-       .vanishes = effects::Vanishes::at_zero,
-       .first = {0.0, 0.0, 0.0}},
-      {.name = "moment",
-       .unit = "N m",
-       .bounds = io::any_number,
-       .sentence = "in the sensor's frame",
-       .size = 3,
-       .required = false,
-       .otherwise = "0",
-       .vanishes = effects::Vanishes::at_zero,
-       .first = {0.0, 0.0, 0.0}},
-      {.name = "wrench",
-       .sentence = "which sensor",
-       .size = 0,
-       .required = false,
-       .otherwise = "all"},
-  };
+  d.parameters = {vector_of("force", "N", "in the sensor's frame"),
+                  vector_of("moment", "N m", "in the sensor's frame", false),
+                  which("wrench", "sensor")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_gauge([&](SceneState::Gauge& gauge) {
       gauge.force += t.vector("force");

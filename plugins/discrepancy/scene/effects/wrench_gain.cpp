@@ -1,3 +1,4 @@
+#include "pedicel/discrepancy/scene/effect_parameters.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -8,19 +9,7 @@ SceneEffectDefinition define_wrench_gain() {
   d.plain_name = "a wrench sensor with a wrong gain";
   d.sentence = "a wrench sensor reads a multiple of what acts";
   d.is_only_seen = true;
-  d.parameters = {
-      {.name = "gain",
-       .unit = "1",
-       .bounds = io::positive,
-       .sentence = "on force and moment",
-       .vanishes = effects::Vanishes::at_one,
-       .first = {1.0}},
-      {.name = "wrench",
-       .sentence = "which sensor",
-       .size = 0,
-       .required = false,
-       .otherwise = "all"},
-  };
+  d.parameters = {factor_of("gain", "on force and moment"), which("wrench", "sensor")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_gauge([&](SceneState::Gauge& gauge) { gauge.gain *= t.number("gain"); });
   };

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "pedicel/geometry/shapes.h"
+#include "pedicel/robot/description.h"
+
+namespace pedicel::robot {
+
+/// Signed distance (m) to a shape in its own frame; null for a mesh, whose field is built apart.
+std::shared_ptr<const geometry::SignedDistance> shape_field(const Geometry& shape);
+
+}  // namespace pedicel::robot
