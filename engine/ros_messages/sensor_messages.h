@@ -1,0 +1,135 @@
+#pragma once
+
+#include "pedicel/ros_messages/common_messages.h"
+
+/// sensor_msgs.
+namespace pedicel::ros {
+
+struct JointState {
+  static constexpr const char* name = "sensor_msgs/msg/JointState";
+  Header header;
+  std::vector<std::string> names;
+  std::vector<double> position, velocity, effort;  // rad or m, rad/s or m/s, N m or N
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("header", self.header);
+    visit("name", self.names);
+    visit("position", self.position);
+    visit("velocity", self.velocity);
+    visit("effort", self.effort);
+  }
+};
+
+struct Image {
+  static constexpr const char* name = "sensor_msgs/msg/Image";
+  Header header;
+  std::uint32_t height = 0, width = 0;  // px
+  std::string encoding;                 // "rgb8", "32FC1"
+  std::uint8_t is_bigendian = 0;
+  std::uint32_t step = 0;  // bytes a row
+  std::vector<std::uint8_t> data;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("header", self.header);
+    visit("height", self.height);
+    visit("width", self.width);
+    visit("encoding", self.encoding);
+    visit("is_bigendian", self.is_bigendian);
+    visit("step", self.step);
+    visit("data", self.data);
+  }
+};
+
+struct CompressedImage {
+  static constexpr const char* name = "sensor_msgs/msg/CompressedImage";
+  Header header;
+  std::string format;
+  std::vector<std::uint8_t> data;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("header", self.header);
+    visit("format", self.format);
+    visit("data", self.data);
+  }
+};
+
+struct RegionOfInterest {
+  static constexpr const char* name = "sensor_msgs/msg/RegionOfInterest";
+  std::uint32_t x_offset = 0, y_offset = 0, height = 0, width = 0;
+  bool do_rectify = false;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("x_offset", self.x_offset);
+    visit("y_offset", self.y_offset);
+    visit("height", self.height);
+    visit("width", self.width);
+    visit("do_rectify", self.do_rectify);
+  }
+};
+
+struct CameraInfo {
+  static constexpr const char* name = "sensor_msgs/msg/CameraInfo";
+  Header header;
+  std::uint32_t height = 0, width = 0;
+  std::string distortion_model;
+  std::vector<double> d;
+  std::array<double, 9> k{}, r{};
+  std::array<double, 12> p{};
+  std::uint32_t binning_x = 0, binning_y = 0;
+  RegionOfInterest roi;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("header", self.header);
+    visit("height", self.height);
+    visit("width", self.width);
+    visit("distortion_model", self.distortion_model);
+    visit("d", self.d);
+    visit("k", self.k);
+    visit("r", self.r);
+    visit("p", self.p);
+    visit("binning_x", self.binning_x);
+    visit("binning_y", self.binning_y);
+    visit("roi", self.roi);
+  }
+};
+
+struct PointField {
+  static constexpr const char* name = "sensor_msgs/msg/PointField";
+  static constexpr std::uint8_t float32 = 7;
+  std::string field;
+  std::uint32_t offset = 0;
+  std::uint8_t datatype = 0;
+  std::uint32_t count = 0;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("name", self.field);
+    visit("offset", self.offset);
+    visit("datatype", self.datatype);
+    visit("count", self.count);
+  }
+};
+
+struct PointCloud2 {
+  static constexpr const char* name = "sensor_msgs/msg/PointCloud2";
+  Header header;
+  std::uint32_t height = 0, width = 0;
+  std::vector<PointField> point_fields;
+  bool is_bigendian = false;
+  std::uint32_t point_step = 0, row_step = 0;
+  std::vector<std::uint8_t> data;
+  bool is_dense = false;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("header", self.header);
+    visit("height", self.height);
+    visit("width", self.width);
+    visit("fields", self.point_fields);
+    visit("is_bigendian", self.is_bigendian);
+    visit("point_step", self.point_step);
+    visit("row_step", self.row_step);
+    visit("data", self.data);
+    visit("is_dense", self.is_dense);
+  }
+};
+
+}  // namespace pedicel::ros

@@ -1,0 +1,135 @@
+// Fields, types and order of every message as its package publishes it (ROS 2 Jazzy).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pedicel/ros_messages/control_messages.h"
+#include "pedicel/ros_messages/marker_messages.h"
+
+namespace pedicel::ros {
+namespace {
+
+/// The message's own lines, as its .msg file has them without comments and constants.
+template <Message M>
+std::string lines() {
+  std::string text = std::string(M::name) + ":";
+  const std::vector<Definition> all = definitions_of<M>();
+  for (const FieldDefinition& field : all.front().fields) text += " " + field_text(field) + ";";
+  return text;
+}
+
+TEST(PublishedFields, OfCommonInterfaces) {
+  EXPECT_EQ(lines<Time>(), "builtin_interfaces/msg/Time: int32 sec; uint32 nanosec;");
+  EXPECT_EQ(lines<Duration>(), "builtin_interfaces/msg/Duration: int32 sec; uint32 nanosec;");
+  EXPECT_EQ(lines<Header>(),
+            "std_msgs/msg/Header: builtin_interfaces/Time stamp; string frame_id;");
+  EXPECT_EQ(lines<String>(), "std_msgs/msg/String: string data;");
+  EXPECT_EQ(lines<ColorRGBA>(),
+            "std_msgs/msg/ColorRGBA: float32 r; float32 g; float32 b; float32 a;");
+  EXPECT_EQ(lines<Clock>(), "rosgraph_msgs/msg/Clock: builtin_interfaces/Time clock;");
+}
+
+TEST(PublishedFields, OfGeometry) {
+  EXPECT_EQ(lines<Point>(), "geometry_msgs/msg/Point: float64 x; float64 y; float64 z;");
+  EXPECT_EQ(lines<Vector3>(), "geometry_msgs/msg/Vector3: float64 x; float64 y; float64 z;");
+  EXPECT_EQ(lines<Quaternion>(),
+            "geometry_msgs/msg/Quaternion: float64 x; float64 y; float64 z; float64 w;");
+  EXPECT_EQ(lines<PoseMessage>(),
+            "geometry_msgs/msg/Pose: geometry_msgs/Point position; geometry_msgs/Quaternion "
+            "orientation;");
+  EXPECT_EQ(lines<PoseStamped>(),
+            "geometry_msgs/msg/PoseStamped: std_msgs/Header header; geometry_msgs/Pose pose;");
+  EXPECT_EQ(lines<PoseArray>(),
+            "geometry_msgs/msg/PoseArray: std_msgs/Header header; geometry_msgs/Pose[] poses;");
+  EXPECT_EQ(lines<PointStamped>(),
+            "geometry_msgs/msg/PointStamped: std_msgs/Header header; geometry_msgs/Point point;");
+  EXPECT_EQ(lines<Transform>(),
+            "geometry_msgs/msg/Transform: geometry_msgs/Vector3 translation; "
+            "geometry_msgs/Quaternion rotation;");
+  EXPECT_EQ(lines<TransformStamped>(),
+            "geometry_msgs/msg/TransformStamped: std_msgs/Header header; string child_frame_id; "
+            "geometry_msgs/Transform transform;");
+  EXPECT_EQ(lines<TFMessage>(),
+            "tf2_msgs/msg/TFMessage: geometry_msgs/TransformStamped[] transforms;");
+  EXPECT_EQ(lines<Wrench>(),
+            "geometry_msgs/msg/Wrench: geometry_msgs/Vector3 force; geometry_msgs/Vector3 "
+            "torque;");
+  EXPECT_EQ(lines<WrenchStamped>(),
+            "geometry_msgs/msg/WrenchStamped: std_msgs/Header header; geometry_msgs/Wrench "
+            "wrench;");
+  EXPECT_EQ(lines<TwistMessage>(),
+            "geometry_msgs/msg/Twist: geometry_msgs/Vector3 linear; geometry_msgs/Vector3 "
+            "angular;");
+  EXPECT_EQ(lines<Accel>(),
+            "geometry_msgs/msg/Accel: geometry_msgs/Vector3 linear; geometry_msgs/Vector3 "
+            "angular;");
+}
+
+TEST(PublishedFields, OfSensors) {
+  EXPECT_EQ(lines<JointState>(),
+            "sensor_msgs/msg/JointState: std_msgs/Header header; string[] name; float64[] "
+            "position; float64[] velocity; float64[] effort;");
+  EXPECT_EQ(lines<Image>(),
+            "sensor_msgs/msg/Image: std_msgs/Header header; uint32 height; uint32 width; string "
+            "encoding; uint8 is_bigendian; uint32 step; uint8[] data;");
+  EXPECT_EQ(lines<CompressedImage>(),
+            "sensor_msgs/msg/CompressedImage: std_msgs/Header header; string format; uint8[] "
+            "data;");
+  EXPECT_EQ(lines<RegionOfInterest>(),
+            "sensor_msgs/msg/RegionOfInterest: uint32 x_offset; uint32 y_offset; uint32 height; "
+            "uint32 width; bool do_rectify;");
+  EXPECT_EQ(lines<CameraInfo>(),
+            "sensor_msgs/msg/CameraInfo: std_msgs/Header header; uint32 height; uint32 width; "
+            "string distortion_model; float64[] d; float64[9] k; float64[9] r; float64[12] p; "
+            "uint32 binning_x; uint32 binning_y; sensor_msgs/RegionOfInterest roi;");
+  EXPECT_EQ(lines<PointField>(),
+            "sensor_msgs/msg/PointField: string name; uint32 offset; uint8 datatype; uint32 "
+            "count;");
+  EXPECT_EQ(lines<PointCloud2>(),
+            "sensor_msgs/msg/PointCloud2: std_msgs/Header header; uint32 height; uint32 width; "
+            "sensor_msgs/PointField[] fields; bool is_bigendian; uint32 point_step; uint32 "
+            "row_step; uint8[] data; bool is_dense;");
+}
+
+TEST(PublishedFields, OfMarkers) {
+  EXPECT_EQ(lines<UVCoordinate>(), "visualization_msgs/msg/UVCoordinate: float32 u; float32 v;");
+  EXPECT_EQ(lines<MeshFile>(), "visualization_msgs/msg/MeshFile: string filename; uint8[] data;");
+  EXPECT_EQ(lines<Marker>(),
+            "visualization_msgs/msg/Marker: std_msgs/Header header; string ns; int32 id; int32 "
+            "type; int32 action; geometry_msgs/Pose pose; geometry_msgs/Vector3 scale; "
+            "std_msgs/ColorRGBA color; builtin_interfaces/Duration lifetime; bool frame_locked; "
+            "geometry_msgs/Point[] points; std_msgs/ColorRGBA[] colors; string texture_resource; "
+            "sensor_msgs/CompressedImage texture; visualization_msgs/UVCoordinate[] "
+            "uv_coordinates; string text; string mesh_resource; visualization_msgs/MeshFile "
+            "mesh_file; bool mesh_use_embedded_materials;");
+  EXPECT_EQ(lines<MarkerArray>(),
+            "visualization_msgs/msg/MarkerArray: visualization_msgs/Marker[] markers;");
+}
+
+TEST(PublishedFields, OfControl) {
+  EXPECT_EQ(lines<JointTrajectoryPoint>(),
+            "trajectory_msgs/msg/JointTrajectoryPoint: float64[] positions; float64[] "
+            "velocities; float64[] accelerations; float64[] effort; builtin_interfaces/Duration "
+            "time_from_start;");
+  EXPECT_EQ(lines<JointTrajectory>(),
+            "trajectory_msgs/msg/JointTrajectory: std_msgs/Header header; string[] joint_names; "
+            "trajectory_msgs/JointTrajectoryPoint[] points;");
+  EXPECT_EQ(lines<InterfaceValue>(),
+            "control_msgs/msg/InterfaceValue: string[] interface_names; float64[] values;");
+  EXPECT_EQ(lines<DynamicJointState>(),
+            "control_msgs/msg/DynamicJointState: std_msgs/Header header; string[] joint_names; "
+            "control_msgs/InterfaceValue[] interface_values;");
+}
+
+TEST(PublishedFields, ASchemaHoldsAllMessagesOnce) {
+  const std::string line(80, '=');
+  EXPECT_EQ(schema_text(definitions_of<WrenchStamped>()),
+            "std_msgs/Header header\ngeometry_msgs/Wrench wrench\n" + line +
+                "\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n" + line +
+                "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n" + line +
+                "\nMSG: geometry_msgs/Wrench\ngeometry_msgs/Vector3 force\ngeometry_msgs/Vector3 "
+                "torque\n" +
+                line + "\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n");
+}
+
+}  // namespace
+}  // namespace pedicel::ros
