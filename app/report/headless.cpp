@@ -93,10 +93,12 @@ class Run {
       pictures_ = std::make_unique<PictureTaker>();
       if (options.video) open_video();
     }
+    for (const MakeWatcher& make : options.watchers) watchers_.push_back(make(simulation_));
     say_start();
   }
 
   SceneResult go() {
+    for (const auto& watcher : watchers_) watcher->begin();
     picture_now();
     const long before = simulation_.world().steps();
     const long steps = options_.steps
@@ -137,6 +139,7 @@ class Run {
       picture_event();
     }
     picture_now();
+    for (const auto& watcher : watchers_) watcher->after_step();
     rough_.look(simulation_, report);
     if (report.errors & world::fatal_errors) {
       result_.exit_code = exit_unstable;
@@ -214,6 +217,7 @@ class Run {
     add_limits();
     simulation_.measurements().set_wall_seconds(result_.wall);
     picture_end();
+    for (const auto& watcher : watchers_) watcher->end();
     if (pictures_ && options_.video) result_.video = pictures_->finish_video();
     for (const world::Expectation& expectation : scene_.expectations) {
       if (expectation.over_sweep()) continue;
@@ -333,6 +337,7 @@ class Run {
   Simulation& simulation_;  // of started_
   std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
+  std::vector<std::unique_ptr<RunWatcher>> watchers_;
   RoughSpell rough_;
   SceneView view_;
   std::unique_ptr<PictureTaker> pictures_;

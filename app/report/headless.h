@@ -8,6 +8,7 @@
 
 #include "pedicel/app/report/compare.h"
 #include "pedicel/app/report/log_plots.h"
+#include "pedicel/app/report/run_watcher.h"
 #include "pedicel/app/run/simulation.h"
 #include "pedicel/io/output_folder.h"
 #include "pedicel/world/recorder.h"
@@ -29,6 +30,7 @@ struct RunOptions {
       save_state;  ///< written at the end, also of a run that is stopped; empty: not
   std::filesystem::path load_state;  ///< the run goes on from there; empty: from the beginning
   std::optional<ComparisonRequest> comparison_with;
+  std::vector<MakeWatcher> watchers;  ///< who looks at the run besides; of a sweep's main run only
   bool pictures = true;
   bool video = true;
   bool comparison = true;     ///< compare_solvers(), where the scene's sweep is one for it

@@ -38,6 +38,7 @@ std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& opt
     one.video = false;
     one.quiet = true;
     one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
+    one.watchers.clear();
     const std::string label = scene.sweep->key + "=" + text_of(value);
     if (output) one.out = output->file("sweep_" + label + "/");
     try {

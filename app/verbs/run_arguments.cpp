@@ -8,6 +8,7 @@
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/plant_import.h"
+#include "pedicel/app/topics/mcap_log.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/bounds.h"
@@ -40,7 +41,10 @@ void add_number(CLI::App& app, RunArguments& a, const std::string& option, const
 }
 
 void add_table_options(CLI::App& app, RunArguments& a) {
-  app.add_option("--log", a.log, "a copy of log.csv there, at the end of the run");
+  app.add_option(
+      "--log", a.log,
+      "a copy of log.csv there, at the end of the run; *.mcap: what ROS 2's topics would "
+      "say, while it runs");
   app.add_option("--events", a.events, "a copy of events.csv there, at the end of the run");
   app.add_option("--trajectory", a.trajectory,
                  "joint positions over time (CSV) that the robot follows, in place of the scene's "
@@ -242,7 +246,10 @@ RunOptions run_options(const RunArguments& a) {
   options.simulation.leaf_folders = asset_leaf_folders();
   options.out = a.out;
   if (options.out.empty()) options.out = std::filesystem::path("out") / io::name_of_file(a.scene);
-  options.log = a.log;
+  if (a.log.ends_with(".mcap"))
+    options.watchers.push_back(mcap_log(a.log));
+  else
+    options.log = a.log;
   options.events = a.events;
   options.steps = a.steps;
   options.save_state = a.save_state;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace pedicel::app {
+
+class Simulation;
+
+/// Looks at a run as it goes: a log of another kind, somebody who listens. It may throw
+/// io::WriteError, which ends the run.
+class RunWatcher {
+ public:
+  virtual ~RunWatcher() = default;
+  virtual void begin() = 0;  ///< before the first step
+  virtual void after_step() = 0;
+  virtual void end() = 0;  ///< after the last step, also of a run that is stopped
+};
+
+/// Makes one for a run; the simulation outlives it.
+using MakeWatcher = std::function<std::unique_ptr<RunWatcher>(Simulation&)>;
+
+}  // namespace pedicel::app

@@ -1,0 +1,195 @@
+#include "pedicel/app/topics/plant_topics.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "pedicel/app/draw/plant_drawing.h"
+
+namespace pedicel::app {
+
+namespace {
+
+ros::ColorRGBA colour_of(const render::Colour& colour) {
+  return {colour.r, colour.g, colour.b, 1.0F};
+}
+
+/// Whether there is anything to draw; where not, what was drawn before goes.
+void finish(ros::Marker& marker) {
+  if (marker.points.empty()) marker.action = ros::Marker::remove;
+}
+
+}  // namespace
+
+MarkerTopics::MarkerTopics(const Simulation& simulation, TopicSink& sink)
+    : simulation_(simulation),
+      plants_(sink, "/plant", Delivery::reliable),
+      bodies_(sink, "/bodies", Delivery::reliable) {}
+
+ros::Marker MarkerTopics::marker(const std::string& ns, int id, std::int32_t type) const {
+  ros::Marker one;
+  one.header = {ros::stamp_of(time_), world_frame};
+  one.ns = ns;
+  one.id = id;
+  one.type = type;
+  one.scale = {1.0, 1.0, 1.0};
+  return one;
+}
+
+// One list of lines an organ: a list has one width.
+void MarkerTopics::add_stems(int plant, ros::MarkerArray& all) const {
+  const cosserat::RodModel& model = simulation_.rods().model(plant);
+  const cosserat::RodState& state = simulation_.rods().state(plant);
+  const PlantLook look = PlantLook::of(simulation_.plants()[plant].look);
+  const std::size_t first = all.markers.size();
+  std::vector<double> length(model.organs.size(), 0.0), area(model.organs.size(), 0.0);
+  for (std::size_t o = 0; o < model.organs.size(); ++o) {
+    all.markers.push_back(
+        marker(model.name + "/stems", static_cast<int>(o), ros::Marker::line_list));
+    all.markers.back().color = colour_of(look.stem.colour);
+  }
+  for (int e = 0; e < model.size(); ++e) {
+    if (!state.alive[e]) continue;
+    const cosserat::Element& element = model.elements[e];
+    ros::Marker& lines = all.markers[first + static_cast<std::size_t>(element.organ)];
+    lines.points.push_back(point_of(start_of(model, state, e)));
+    lines.points.push_back(point_of(state.position[e]));
+    length[element.organ] += element.length;
+    area[element.organ] += element.length * (element.radius_near + element.radius_far);
+  }
+  for (std::size_t o = 0; o < model.organs.size(); ++o) {
+    ros::Marker& lines = all.markers[first + o];
+    if (length[o] > 0.0) lines.scale.x = area[o] / length[o];
+    finish(lines);
+  }
+}
+
+void MarkerTopics::add_leaves(int plant, ros::MarkerArray& all) const {
+  const PlantInfo& info = simulation_.plants()[plant];
+  if (info.blades.empty()) return;
+  const cosserat::RodModel& model = simulation_.rods().model(plant);
+  const cosserat::RodState& state = simulation_.rods().state(plant);
+  ros::Marker leaves = marker(model.name + "/leaves", 0, ros::Marker::triangle_list);
+  leaves.color = colour_of(PlantLook::of(info.look).blade.colour);
+  for (const Blade& blade : info.blades) {
+    if (!std::ranges::all_of(
+            blade, [&](const BladeCorner& corner) { return bool(state.alive[corner.element]); }))
+      continue;
+    for (const BladeCorner& corner : blade)
+      leaves.points.push_back(point_of(point_on(model, state, corner.element, corner.back)));
+  }
+  finish(leaves);
+  all.markers.push_back(std::move(leaves));
+}
+
+void MarkerTopics::add_fruits(int plant, ros::MarkerArray& all) const {
+  const cosserat::RodModel& model = simulation_.rods().model(plant);
+  const cosserat::RodState& state = simulation_.rods().state(plant);
+  const PlantLook look = PlantLook::of(simulation_.plants()[plant].look);
+  for (std::size_t f = 0; f < model.fruits.size(); ++f) {
+    const cosserat::Fruit& fruit = model.fruits[f];
+    ros::Marker ball = marker(model.name + "/fruits", static_cast<int>(f), ros::Marker::sphere);
+    ball.color = colour_of(look.fruit.skin.colour);
+    const double width = 2.0 * fruit.radius;
+    ball.scale = {width, width, width};
+    if (state.fruit_gone[f] || !state.alive[fruit.element])
+      ball.action = ros::Marker::remove;
+    else
+      ball.pose = pose_of(
+          {point_on(model, state, fruit.element, fruit.back), state.orientation[fruit.element]});
+    all.markers.push_back(std::move(ball));
+  }
+}
+
+ros::MarkerArray MarkerTopics::bodies(double) const {
+  ros::MarkerArray all;
+  const world::SimWorld& world = simulation_.world();
+  for (int b = 0; b < world.body_count(); ++b) {
+    const world::BodyDescription& body = world.body(b);
+    if (body.look == "hidden") continue;
+    for (std::size_t i = 0; i < body.parts.size(); ++i) {
+      const world::BodyPart& part = body.parts[i];
+      using Kind = world::BodyPart::Kind;
+      const std::int32_t type = part.kind == Kind::box      ? ros::Marker::cube
+                                : part.kind == Kind::sphere ? ros::Marker::sphere
+                                                            : ros::Marker::cylinder;
+      ros::Marker one = marker(body.name, static_cast<int>(i), type);
+      one.color = {0.6F, 0.62F, 0.65F, 1.0F};
+      one.pose = pose_of(world.body_pose(b) * part.pose);
+      const double width = 2.0 * part.radius;
+      if (part.kind == Kind::box)
+        one.scale = vector_of(2.0 * part.half_extents);
+      else
+        one.scale = {width, width, part.kind == Kind::sphere ? width : part.length};
+      all.markers.push_back(std::move(one));
+    }
+  }
+  return all;
+}
+
+void MarkerTopics::tell(double time) {
+  time_ = time;
+  ros::MarkerArray all;
+  for (int p = 0; p < simulation_.rods().size(); ++p) {
+    add_stems(p, all);
+    add_leaves(p, all);
+    add_fruits(p, all);
+  }
+  if (!all.markers.empty()) plants_.tell(time, all);
+  if (const ros::MarkerArray things = bodies(time); !things.markers.empty())
+    bodies_.tell(time, things);
+}
+
+OrganTopic::OrganTopic(const Simulation& simulation, TopicSink& sink)
+    : simulation_(simulation), forces_(sink, "/organ_forces", Delivery::sensor) {}
+
+void OrganTopic::tell(double time) {
+  ros::DynamicJointState all;
+  all.header = {ros::stamp_of(time), world_frame};
+  const auto add = [&](const std::string& name, const coupling::ContactSum& touch, double used) {
+    if (touch.contacts == 0 && std::isnan(used)) return;
+    all.joint_names.push_back(name);
+    ros::InterfaceValue value{
+        {"force.x", "force.y", "force.z", "normal", "tangential"},
+        {touch.force_W.x(), touch.force_W.y(), touch.force_W.z(), touch.normal, touch.tangential}};
+    if (!std::isnan(used)) {
+      value.interface_names.emplace_back("margin_used");
+      value.values.push_back(used);
+    }
+    all.interface_values.push_back(std::move(value));
+  };
+  for (int p = 0; p < simulation_.rods().size(); ++p) {
+    const cosserat::RodModel& model = simulation_.rods().model(p);
+    const cosserat::RodState& state = simulation_.rods().state(p);
+    const coupling::ContactReport& contacts = simulation_.plant_step().contacts();
+    for (std::size_t o = 0; o < model.organs.size(); ++o)
+      add(model.organs[o], contacts.organs(p)[o], std::numeric_limits<double>::quiet_NaN());
+    for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
+      if (!state.fruit_gone[f])
+        add(fruit_name(model, f), contacts.fruits(p)[static_cast<std::size_t>(f)],
+            cosserat::margin_used(model, state, f));
+  }
+  forces_.tell(time, all);
+}
+
+EventTopic::EventTopic(const Simulation& simulation, TopicSink& sink)
+    : simulation_(simulation), events_(sink, "/events", Delivery::reliable) {}
+
+void EventTopic::begin(double) {
+  told_ = simulation_.plant_step().detached().size();
+}
+
+void EventTopic::after_step(double time) {
+  const auto& all = simulation_.plant_step().detached();
+  for (; told_ < all.size(); ++told_) {
+    const Detached& one = all[told_];
+    const nlohmann::ordered_json event = {
+        {"time", one.event.time},     {"event", "detached"},
+        {"what", one.fruit},          {"by", ""},
+        {"cause", one.event.cause},   {"stretch", one.event.stretch},
+        {"bend_rad", one.event.bend}, {"force_N", one.event.force}};
+    events_.tell(time, {event.dump()});
+  }
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,72 @@
+#include "pedicel/app/topics/simulation_topics.h"
+
+#include <cmath>
+
+#include "pedicel/app/topics/frame_topics.h"
+#include "pedicel/app/topics/plant_topics.h"
+#include "pedicel/app/topics/robot_topics.h"
+#include "pedicel/app/topics/wrench_topic.h"
+
+namespace pedicel::app {
+
+namespace {
+
+/// /clock: simulated time, for nodes with use_sim_time.
+class ClockTopic : public TopicSource {
+ public:
+  explicit ClockTopic(TopicSink& sink) : clock_(sink, "/clock", Delivery::sensor) {}
+  void tell(double time) override { clock_.tell(time, {ros::stamp_of(time)}); }
+
+ private:
+  Teller<ros::Clock> clock_;
+};
+
+/// How many times something of this rate was due by a time. The small addition keeps a time such
+/// as 0.1 from falling short of its own multiple.
+long due_by(double time, double rate) {
+  return static_cast<long>(std::floor(time * rate + 1e-9));
+}
+
+}  // namespace
+
+SimulationTopics::SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates)
+    : simulation_(simulation), sink_(sink) {
+  const auto add = [&](std::unique_ptr<TopicSource> source, double rate) {
+    all_.push_back({std::move(source), rate, 0});
+  };
+  // First, so that what follows finds its time told.
+  add(std::make_unique<ClockTopic>(sink), rates.states);
+  if (RobotControl* robot = simulation.robot()) {
+    add(std::make_unique<DescriptionTopic>(*robot, sink), rates.states);
+    add(std::make_unique<JointTopics>(*robot, sink), rates.states);
+    if (wrist_link(*robot) >= 0) add(std::make_unique<WrenchTopic>(simulation, sink), rates.states);
+  }
+  add(std::make_unique<FrameTopics>(simulation, sink), rates.states);
+  add(std::make_unique<OrganTopic>(simulation, sink), rates.states);
+  add(std::make_unique<EventTopic>(simulation, sink), rates.states);
+  add(std::make_unique<MarkerTopics>(simulation, sink), rates.markers);
+}
+
+void SimulationTopics::begin() {
+  const double time = simulation_.world().time();
+  for (Due& one : all_) {
+    one.source->begin(time);
+    one.source->tell(time);
+    one.last = due_by(time, one.rate);
+  }
+  sink_.flush();
+}
+
+void SimulationTopics::after_step() {
+  const double time = simulation_.world().time();
+  for (Due& one : all_) {
+    one.source->after_step(time);
+    const long due = due_by(time, one.rate);
+    if (due == one.last) continue;
+    one.last = due;
+    one.source->tell(time);
+  }
+  sink_.flush();
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pedicel/app/topics/topic_source.h"
+
+namespace pedicel::app {
+
+struct TopicRates {
+  double states = 100.0;  ///< Hz, of simulated time: joints, frames, forces, the clock
+  double markers = 10.0;  ///< Hz, of what RViz draws
+};
+
+/// Everything that a simulation tells on topics, to one sink.
+class SimulationTopics {
+ public:
+  /// Both must outlive it.
+  SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates);
+
+  /// Before the first step: what stays as it is, and how all things stand.
+  void begin();
+  /// After every step: what is due.
+  void after_step();
+
+ private:
+  struct Due {
+    std::unique_ptr<TopicSource> source;
+    double rate = 0.0;  // Hz
+    long last = 0;
+  };
+  Simulation& simulation_;
+  TopicSink& sink_;
+  std::vector<Due> all_;
+};
+
+}  // namespace pedicel::app
