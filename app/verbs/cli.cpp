@@ -26,6 +26,7 @@
 #include "pedicel/app/verbs/parallel_worlds.h"
 #include "pedicel/app/verbs/param_sweep.h"
 #include "pedicel/app/verbs/pick.h"
+#include "pedicel/app/verbs/ros_arguments.h"
 #include "pedicel/app/verbs/run_arguments.h"
 #include "pedicel/app/verbs/transfer.h"
 #include "pedicel/app/verbs/validate.h"
@@ -372,6 +373,8 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   bool paused = false;
   add_window_options(app, window, paused);
   add_run_options(app, run);
+  RosArguments ros;
+  add_ros_options(app, ros);
   TellArguments told;
   add_tell_options(app, told);
 
@@ -429,7 +432,13 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (app.got_subcommand("pick")) return guarded(pick);
   if (app.got_subcommand("manual")) return guarded(manual);
   if (*observe) return guarded([&] { return observe_verb(observed); });
-  return guarded([&] { return window_verb(run, window, paused, open_desktop, make_films); });
+  return guarded([&] {
+    check_ros_arguments(ros);
+    if (!ros.ros) return window_verb(run, window, paused, open_desktop, make_films);
+    check_run_arguments(run);
+    set_verbosity(run);
+    return ros_verb(ros, run, paused);
+  });
 }
 
 }  // namespace pedicel::app

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 
+#include "pedicel/app/verbs/import_log.h"
 #include "pedicel/app/verbs/import_words.h"
 #include "pedicel/app/verbs/validate.h"
 #include "pedicel/core/check.h"
@@ -152,6 +153,9 @@ ImportRequest request_of(const ImportArguments& a, ImportNotes& notes) {
 }  // namespace
 
 int import_verb(const ImportArguments& a) {
+  if (are_logs(a)) return import_log_verb(a);
+  if (!a.scene.empty())
+    throw UsageError("--scene: is for logs (MCAP), expected --plant beside recordings of points");
   if (a.plant.empty())
     throw UsageError(
         "import: an experiment needs the plant as it is believed to be, expected "
@@ -176,10 +180,13 @@ std::function<int()> add_import_verb(CLI::App& app) {
   const auto a = std::make_shared<ImportArguments>();
   CLI::App* verb =
       app.add_subcommand("import", "make an experiment folder of a laboratory's files");
-  verb->add_option("files", a->files, "recordings of points, one a trial, named by the file")
+  verb->add_option(
+          "files", a->files,
+          "recordings of points, or logs of a robot (MCAP), one a trial, named by the file")
       ->required();
   verb->add_option("--out", a->out, "experiment folder to write")->required();
   verb->add_option("--plant", a->plant, "plant file of the nominal plant");
+  verb->add_option("--scene", a->scene, "scene file of the nominal scene, for logs of a robot");
   verb->add_option("--title", a->title, "title of the experiment");
   verb->add_option("--format", a->format, "of the recordings (default: told from the content)")
       ->check(CLI::IsMember({"motive", "qualisys", "vicon", "deeplabcut", "tracker", "c3d"}));

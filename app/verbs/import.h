@@ -14,11 +14,11 @@ namespace pedicel::app {
 /// What the command line says of `pedicel import`. Texts are as typed.
 struct ImportArguments {
   std::vector<std::string> files;  ///< recordings, one a trial
-  std::string out, plant, title, format;
+  std::string out, plant, scene, title, format;
   std::string units, up, axes, origin, origin_pixel, camera, plane;
   std::optional<double> rate, scale, stiffness;
   double likelihood = 0.6;
-  std::vector<std::string> places, names, holds;  ///< POINT=CURVE:AT, POINT=NAME, POINT=CURVE:AT
+  std::vector<std::string> places, names, holds;  ///< POINT=CURVE:AT, POINT=NAME (or the map of a log), POINT=CURVE:AT
   std::string lead;                               ///< CURVE:AT
   std::vector<std::string> begins, releases, forces, force_begins;  ///< [TRIAL=]VALUE
   std::string force_column, force_unit, force_direction, force_axes, time_unit, extension;

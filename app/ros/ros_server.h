@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "pedicel/app/ros/command_queue.h"
+#include "pedicel/app/ros/entities.h"
+#include "pedicel/app/ros/joint_follower.h"
+#include "pedicel/app/ros/ros_sink.h"
+#include "pedicel/app/run/scene_assets.h"
+#include "pedicel/app/topics/mcap_log.h"
+
+namespace pedicel::app {
+
+struct RosOptions {
+  NodeOptions node;
+  SimulationOptions simulation;
+  double pace = 1.0;               ///< simulated seconds a second; 0: as fast as it can
+  bool paused = false;             ///< waits for a step or for play
+  std::optional<double> duration;  ///< s, simulated; absent: until it is stopped
+  std::filesystem::path log;       ///< *.mcap; empty: none
+  bool quiet = false;
+};
+
+/// A simulation that is a node of ROS 2: it tells its topics, follows trajectories, and answers the
+/// services of simulation_interfaces.
+class RosServer {
+ public:
+  /// Throws InvalidFile for a scene that cannot be built, std::runtime_error where DDS refuses, and
+  /// io::WriteError.
+  RosServer(const world::Scene& scene, const RosOptions& options);
+  ~RosServer();
+
+  /// Until it is stopped, has run for its duration, or is unstable: the exit code.
+  int run();
+
+ private:
+  friend class RosServices;
+  enum class State { playing, paused, stopped };
+  void begin();
+  /// False where it cannot go on.
+  bool step();
+  void wait_for_pace();
+  bool is_over() const;
+  void follow(const ros::JointTrajectory& message);
+  void refuse(const std::string& what, const std::string& why);
+  void say_end() const;
+
+  RosOptions options_;
+  std::shared_ptr<const SceneAssets> assets_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<JointFollower> follower_;  // null: no robot
+  CommandQueue queue_;
+  std::unique_ptr<McapSink> log_;  // null: none
+  std::unique_ptr<SimulationTopics> told_, logged_;
+  State state_ = State::playing;
+  bool quits_ = false;
+  std::string failure_;
+  std::uint64_t malformed_ = 0;
+  double pace_wall_ = 0.0, pace_time_ = 0.0;  // s, where pacing counts from
+  // Last, so that nothing arrives any more once the rest goes.
+  std::unique_ptr<DdsNode> node_;
+  std::unique_ptr<RosSink> sink_;
+  std::unique_ptr<class RosServices> services_;
+};
+
+}  // namespace pedicel::app

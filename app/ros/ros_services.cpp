@@ -1,0 +1,137 @@
+#include "pedicel/app/ros/ros_services.h"
+
+#include <algorithm>
+
+#include "pedicel/core/stop.h"
+
+namespace pedicel::app {
+
+namespace {
+
+using Result = ros::SimulationResult;
+
+constexpr std::uint64_t most_steps = 10'000'000;
+
+}  // namespace
+
+template <class Service>
+void RosServices::serve(
+    const std::string& name,
+    std::function<typename Service::Response(const typename Service::Request&)> answer) {
+  // The number is known once the service is there, and a request may come before.
+  const auto number = std::make_shared<int>(-1);
+  *number = server_.node_->serve(
+      name, Service::service,
+      [this, name, number, answer = std::move(answer)](const RequestId& id, std::string bytes) {
+        server_.queue_.put([this, name, number, answer, id, bytes = std::move(bytes)] {
+          const auto request = ros::from_cdr<typename Service::Request>(bytes);
+          if (!request)
+            return server_.refuse(name, "no request of " + std::string(Service::service));
+          server_.node_->reply(*number, id, ros::to_cdr(answer(*request)));
+        });
+      });
+}
+
+RosServices::RosServices(RosServer& server) : server_(server) {
+  using namespace ros;
+  serve<GetSimulatorFeatures>("/get_simulator_features",
+                              [this](const auto&) { return features(); });
+  serve<ResetSimulation>("/reset_simulation", [this](const auto& request) {
+    return ResetSimulation::Response{reset(request.scope)};
+  });
+  serve<StepSimulation>("/step_simulation", [this](const auto& request) {
+    return StepSimulation::Response{step(request.steps)};
+  });
+  serve<GetSimulationState>("/get_simulation_state", [this](const auto&) {
+    GetSimulationState::Response response;
+    response.state.state = server_.state_ == RosServer::State::playing  ? SimulationState::playing
+                           : server_.state_ == RosServer::State::paused ? SimulationState::paused
+                                                                        : SimulationState::stopped;
+    return response;
+  });
+  serve<SetSimulationState>("/set_simulation_state", [this](const auto& request) {
+    return SetSimulationState::Response{set_state(request.state.state)};
+  });
+  serve<GetEntities>("/get_entities", [this](const auto& request) {
+    GetEntities::Response response;
+    if (const auto left =
+            filtered(entities_of(*server_.simulation_), request.filters, response.result))
+      for (const Entity& entity : *left) response.entities.push_back(entity.name);
+    return response;
+  });
+  serve<GetEntityState>("/get_entity_state",
+                        [this](const auto& request) { return state_of(request.entity); });
+  serve<GetEntitiesStates>("/get_entities_states", [this](const auto& request) {
+    GetEntitiesStates::Response response;
+    if (const auto left =
+            filtered(entities_of(*server_.simulation_), request.filters, response.result))
+      for (const Entity& entity : *left) {
+        response.entities.push_back(entity.name);
+        response.states.push_back(entity.state);
+      }
+    return response;
+  });
+}
+
+ros::GetSimulatorFeatures::Response RosServices::features() const {
+  using F = ros::SimulatorFeatures;
+  return {
+      {{F::entity_categories, F::entity_state_getting, F::simulation_reset,
+        F::simulation_reset_time, F::simulation_reset_state, F::simulation_state_getting,
+        F::simulation_state_setting, F::simulation_state_pause, F::step_single, F::step_multiple},
+       {},
+       "Pedicel: plants as Cosserat rods; entities are the robot, plants, fruits and bodies"}};
+}
+
+Result RosServices::reset(std::uint8_t scope) {
+  using Reset = ros::ResetSimulation;
+  const bool time = scope & Reset::scope_time, state = scope & Reset::scope_state;
+  // Time and state go back together: a run is the same from its beginning on.
+  if (scope != Reset::scope_default && time != state)
+    return {Result::unsupported,
+            "time and state are set back together: expected scope 0, 3 or 255"};
+  server_.begin();
+  return {};
+}
+
+Result RosServices::step(std::uint64_t steps) {
+  if (server_.state_ == RosServer::State::playing)
+    return {Result::incorrect_state, "the simulation plays, expected it paused"};
+  if (steps > most_steps)
+    return {Result::operation_failed,
+            "more than " + std::to_string(most_steps) + " steps, expected fewer at once"};
+  for (std::uint64_t i = 0; i < steps && !stop_requested; ++i)
+    if (!server_.step()) return {Result::operation_failed, server_.failure_};
+  server_.state_ = RosServer::State::paused;
+  return {};
+}
+
+Result RosServices::set_state(std::uint8_t state) {
+  using S = ros::SimulationState;
+  using Set = ros::SetSimulationState;
+  using State = RosServer::State;
+  if (state == S::quitting) {
+    server_.quits_ = true;
+    return {};
+  }
+  if (state != S::stopped && state != S::playing && state != S::paused)
+    return {Result::unsupported, "expected stopped (0), playing (1), paused (2) or quitting (3)"};
+  const State wanted = state == S::playing  ? State::playing
+                       : state == S::paused ? State::paused
+                                            : State::stopped;
+  if (wanted == server_.state_) return {Set::already_in_target_state, "it is in that state"};
+  if (wanted == State::paused && server_.state_ == State::stopped)
+    return {Set::incorrect_transition, "it is stopped, expected to be told to play first"};
+  if (wanted == State::stopped) server_.begin();
+  server_.state_ = wanted;
+  server_.pace_wall_ = 0.0;
+  return {};
+}
+
+ros::GetEntityState::Response RosServices::state_of(const std::string& entity) const {
+  for (const Entity& one : entities_of(*server_.simulation_))
+    if (one.name == entity) return {{}, one.state};
+  return {{Result::not_found, "no entity of that name (get_entities lists them)"}, {}};
+}
+
+}  // namespace pedicel::app

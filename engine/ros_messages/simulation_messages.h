@@ -1,0 +1,288 @@
+#pragma once
+
+#include "pedicel/ros_messages/common_messages.h"
+
+/// simulation_interfaces 2.1: the services by which simulators are steered.
+namespace pedicel::ros {
+
+/// A message or service part without fields has this one in its bytes.
+struct Nothing {
+  std::uint8_t structure_needs_at_least_one_member = 0;
+};
+
+struct SimulationResult {
+  static constexpr const char* name = "simulation_interfaces/msg/Result";
+  static constexpr std::uint8_t unsupported = 0, ok = 1, not_found = 2, incorrect_state = 3,
+                                operation_failed = 4;
+  std::uint8_t result = ok;
+  std::string error_message;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("result", self.result);
+    visit("error_message", self.error_message);
+  }
+};
+
+struct SimulationState {
+  static constexpr const char* name = "simulation_interfaces/msg/SimulationState";
+  static constexpr std::uint8_t stopped = 0, playing = 1, paused = 2, quitting = 3;
+  std::uint8_t state = stopped;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("state", self.state);
+  }
+};
+
+struct SimulatorFeatures {
+  static constexpr const char* name = "simulation_interfaces/msg/SimulatorFeatures";
+  static constexpr std::uint16_t entity_categories = 8, entity_state_getting = 10,
+                                 simulation_reset = 20, simulation_reset_time = 21,
+                                 simulation_reset_state = 22, simulation_state_getting = 24,
+                                 simulation_state_setting = 25, simulation_state_pause = 26,
+                                 step_single = 31, step_multiple = 32;
+  std::vector<std::uint16_t> features;
+  std::vector<std::string> spawn_formats;
+  std::string custom_info;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("features", self.features);
+    visit("spawn_formats", self.spawn_formats);
+    visit("custom_info", self.custom_info);
+  }
+};
+
+struct EntityCategory {
+  static constexpr const char* name = "simulation_interfaces/msg/EntityCategory";
+  static constexpr std::uint8_t object = 0, robot = 1, dynamic_object = 4, static_object = 5;
+  std::uint8_t category = object;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("category", self.category);
+  }
+};
+
+struct TagsFilter {
+  static constexpr const char* name = "simulation_interfaces/msg/TagsFilter";
+  std::vector<std::string> tags;
+  std::uint8_t filter_mode = 0;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("tags", self.tags);
+    visit("filter_mode", self.filter_mode);
+  }
+};
+
+struct Bounds {
+  static constexpr const char* name = "simulation_interfaces/msg/Bounds";
+  std::uint8_t type = 0;
+  std::vector<Vector3> points;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("type", self.type);
+    visit("points", self.points);
+  }
+};
+
+struct EntityFilters {
+  static constexpr const char* name = "simulation_interfaces/msg/EntityFilters";
+  std::string filter;
+  std::vector<EntityCategory> categories;
+  TagsFilter tags;
+  Bounds bounds;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("filter", self.filter);
+    visit("categories", self.categories);
+    visit("tags", self.tags);
+    visit("bounds", self.bounds);
+  }
+};
+
+struct EntityState {
+  static constexpr const char* name = "simulation_interfaces/msg/EntityState";
+  Header header;
+  PoseMessage pose;
+  TwistMessage twist;
+  Accel acceleration;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("header", self.header);
+    visit("pose", self.pose);
+    visit("twist", self.twist);
+    visit("acceleration", self.acceleration);
+  }
+};
+
+/// Each service: its name, its request and its response.
+struct GetSimulatorFeatures {
+  static constexpr const char* service = "simulation_interfaces/srv/GetSimulatorFeatures";
+  struct Request : Nothing {
+    static constexpr const char* name = "simulation_interfaces/srv/GetSimulatorFeatures_Request";
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("structure_needs_at_least_one_member", self.structure_needs_at_least_one_member);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/GetSimulatorFeatures_Response";
+    SimulatorFeatures features;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("features", self.features);
+    }
+  };
+};
+
+struct ResetSimulation {
+  static constexpr const char* service = "simulation_interfaces/srv/ResetSimulation";
+  static constexpr std::uint8_t scope_default = 0, scope_time = 1, scope_state = 2,
+                                scope_spawned = 4;
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/ResetSimulation_Request";
+    std::uint8_t scope = scope_default;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("scope", self.scope);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/ResetSimulation_Response";
+    SimulationResult result;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+    }
+  };
+};
+
+struct StepSimulation {
+  static constexpr const char* service = "simulation_interfaces/srv/StepSimulation";
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/StepSimulation_Request";
+    std::uint64_t steps = 1;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("steps", self.steps);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/StepSimulation_Response";
+    SimulationResult result;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+    }
+  };
+};
+
+struct GetSimulationState {
+  static constexpr const char* service = "simulation_interfaces/srv/GetSimulationState";
+  struct Request : Nothing {
+    static constexpr const char* name = "simulation_interfaces/srv/GetSimulationState_Request";
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("structure_needs_at_least_one_member", self.structure_needs_at_least_one_member);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/GetSimulationState_Response";
+    SimulationState state;
+    SimulationResult result;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("state", self.state);
+      visit("result", self.result);
+    }
+  };
+};
+
+struct SetSimulationState {
+  static constexpr const char* service = "simulation_interfaces/srv/SetSimulationState";
+  static constexpr std::uint8_t already_in_target_state = 101, incorrect_transition = 103;
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/SetSimulationState_Request";
+    SimulationState state;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("state", self.state);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/SetSimulationState_Response";
+    SimulationResult result;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+    }
+  };
+};
+
+struct GetEntities {
+  static constexpr const char* service = "simulation_interfaces/srv/GetEntities";
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/GetEntities_Request";
+    EntityFilters filters;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("filters", self.filters);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/GetEntities_Response";
+    SimulationResult result;
+    std::vector<std::string> entities;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+      visit("entities", self.entities);
+    }
+  };
+};
+
+struct GetEntityState {
+  static constexpr const char* service = "simulation_interfaces/srv/GetEntityState";
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/GetEntityState_Request";
+    std::string entity;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("entity", self.entity);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/GetEntityState_Response";
+    SimulationResult result;
+    EntityState state;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+      visit("state", self.state);
+    }
+  };
+};
+
+struct GetEntitiesStates {
+  static constexpr const char* service = "simulation_interfaces/srv/GetEntitiesStates";
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/GetEntitiesStates_Request";
+    EntityFilters filters;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("filters", self.filters);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/GetEntitiesStates_Response";
+    SimulationResult result;
+    std::vector<std::string> entities;
+    std::vector<EntityState> states;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+      visit("entities", self.entities);
+      visit("states", self.states);
+    }
+  };
+};
+
+}  // namespace pedicel::ros

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "pedicel/ros_messages/definition.h"
+
+namespace pedicel::ros {
+
+/// "RIHS01_" and 64 hexadecimal digits: what ROS 2 tells a message's definition by (REP 2016), of
+/// the first definition with all that it holds.
+std::string type_hash(const std::vector<Definition>& definitions);
+
+/// SHA-256 as hexadecimal digits.
+std::string sha256(const std::string& bytes);
+
+}  // namespace pedicel::ros

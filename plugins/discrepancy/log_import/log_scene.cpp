@@ -1,0 +1,102 @@
+#include "pedicel/discrepancy/log_import/log_scene.h"
+
+#include <algorithm>
+
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/plant/leaf_template.h"
+#include "pedicel/robot/kinematics.h"
+#include "pedicel/urdf/urdf_reader.h"
+#include "pedicel/world/scene_reader.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_file(std::vector<fs::path>& files, const fs::path& file) {
+  const fs::path plain = fs::weakly_canonical(file);
+  if (!plain.empty() && std::ranges::find(files, plain) == files.end()) files.push_back(plain);
+}
+
+void read_robot(LogScene& out, Diagnostics& diagnostics) {
+  const world::SceneRobot& robot = *out.scene.robot;
+  robot::PackagePaths paths = robot::PackagePaths::from_environment();
+  for (const auto& [name, path] : robot.packages) paths.add(name + "=" + path.string());
+  auto description = robot::read_urdf(robot.file, paths, diagnostics);
+  if (!description) return;
+  out.robot = std::move(*description);
+  out.joints = robot::KinematicModel(out.robot).joint_names();
+  add_file(out.files, robot.file);
+  for (const robot::Link& link : out.robot.links) {
+    for (const robot::Collision& shape : link.collisions)
+      if (!shape.geometry.mesh_file.empty()) add_file(out.files, shape.geometry.mesh_file);
+    for (const robot::Visual& shape : link.visuals)
+      if (!shape.geometry.mesh_file.empty()) add_file(out.files, shape.geometry.mesh_file);
+  }
+}
+
+void read_plant(LogScene& out, const world::ScenePlant& plant, Diagnostics& diagnostics) {
+  if (plant.source != world::ScenePlant::Source::file)
+    return diagnostics.error(plant.where, "plant " + in_quotes(plant.name) +
+                                              ", expected a plant file: an experiment needs one");
+  auto file = plant::read_plant_file(plant.file, diagnostics);
+  if (!file) return;
+  file->name = plant.name;
+  add_file(out.files, plant.file);
+  // What is shipped with the program is found without being carried along.
+  for (const plant::PlantLeaf& leaf : file->leaves)
+    if (const auto found =
+            plant::find_leaf_template(leaf.leaf_template, {fs::absolute(plant.file).parent_path()}))
+      add_file(out.files, *found);
+  out.plants.push_back(std::move(*file));
+}
+
+/// The folder that holds all of them.
+fs::path common_folder(const std::vector<fs::path>& files) {
+  fs::path folder = files.front().parent_path();
+  for (const fs::path& file : files) {
+    while (true) {
+      const fs::path beside = file.lexically_relative(folder);
+      if (!beside.empty() && *beside.begin() != "..") break;
+      folder = folder.parent_path();
+    }
+  }
+  return folder;
+}
+
+}  // namespace
+
+LogScene read_log_scene(const fs::path& file) {
+  Diagnostics diagnostics;
+  LogScene out;
+  if (auto scene = world::read_scene(file, diagnostics)) {
+    out.scene = std::move(*scene);
+    add_file(out.files, file);
+    if (out.scene.robot)
+      read_robot(out, diagnostics);
+    else
+      diagnostics.error({file.string()},
+                        "the scene has no robot, expected one whose joints were "
+                        "recorded");
+    for (const world::ScenePlant& plant : out.scene.plants) read_plant(out, plant, diagnostics);
+    if (out.scene.plants.empty())
+      diagnostics.error({file.string()}, "the scene has no plants, expected at least one");
+  }
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  return out;
+}
+
+fs::path copy_scene(const LogScene& scene, const fs::path& folder) {
+  const fs::path from = common_folder(scene.files);
+  for (const fs::path& file : scene.files) {
+    const fs::path to = folder / file.lexically_relative(from);
+    std::error_code fault;
+    fs::create_directories(to.parent_path(), fault);
+    if (!fault) fs::copy_file(file, to, fs::copy_options::overwrite_existing, fault);
+    if (fault) throw io::WriteError(to.string() + ": cannot be written: " + fault.message());
+  }
+  return scene.files.front().lexically_relative(from);
+}
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "pedicel/discrepancy/log_import/log_contents.h"
+#include "pedicel/discrepancy/log_import/log_map.h"
+#include "pedicel/discrepancy/log_import/log_scene.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
+
+namespace pedicel::discrepancy {
+
+/// A log as one trial's tables; times count from the trial's begin.
+struct LogTrial {
+  std::string name, use, text;
+  double clock = 0.0;  ///< s
+  std::vector<std::string> joint_names, command_names, torque_names;
+  Samples joints, commands, torques;  ///< rad or m; N m or N
+  Samples markers;                    ///< m, W, three columns a marker of the map
+  std::vector<Samples> wrenches;      ///< N and N m, one a wrench of the map
+  std::vector<SceneEvent> events;
+  std::vector<std::string> remarks;  ///< what was left out, a sentence each
+};
+
+/// Faults (a topic that is not there, joints that are not the robot's, nothing between `from` and
+/// `to`) go to the diagnostics, with their place in the map.
+LogTrial trial_of_log(const LogContents& log, const LogMap& map, const LogMap::Trial& trial,
+                      const LogScene& scene, Diagnostics& diagnostics);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,15 @@
+# Fast DDS, for app/ros. It is not built with a sanitizer, whose reports would be about it.
+if(PEDICEL_TSAN OR PEDICEL_FUZZ)
+  set(PEDICEL_ROS OFF)
+endif()
+if(NOT PEDICEL_ROS)
+  return()
+endif()
+
+find_package(fastrtps QUIET)
+if(fastrtps_FOUND)
+  set_property(GLOBAL APPEND_STRING PROPERTY pedicel_dependencies "find_package(fastrtps QUIET)\n")
+else()
+  message(STATUS "No ROS 2: it needs libfastrtps-dev")
+  set(PEDICEL_ROS OFF)
+endif()
