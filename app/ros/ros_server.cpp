@@ -31,6 +31,10 @@ RosServer::RosServer(const world::Scene& scene, const RosOptions& options)
       state_(options.paused ? State::paused : State::playing),
       node_(std::make_unique<DdsNode>(options.node)),
       sink_(std::make_unique<RosSink>(*node_)) {
+  if (assets_->robot)
+    actions_ = std::make_unique<ArmActions>(
+        *node_, queue_, scene.robot && !scene.robot->gripper.empty(),
+        [this](const std::string& what, const std::string& why) { refuse(what, why); });
   if (!options.log.empty()) log_ = std::make_unique<McapSink>(options.log);
   begin();
   for (const std::string& note : simulation_->notes()) say(Verbosity::warnings, "%s", note.c_str());
@@ -54,11 +58,14 @@ RosServer::~RosServer() {
 void RosServer::begin() {
   told_.reset();
   logged_.reset();
-  follower_.reset();
+  // What was led until now stays until nobody looks at it any more.
+  const auto before = std::move(simulation_);
+  const auto follower_before = std::move(follower_);
   simulation_ = std::make_unique<Simulation>(assets_);
   if (RobotControl* robot = simulation_->robot()) {
     follower_ = std::make_unique<JointFollower>(*robot);
     simulation_->world().add(*follower_);
+    actions_->lead(*simulation_, *robot, *follower_);
   }
   const TopicRates rates{.states = simulation_->scene().log_rate};
   told_ = std::make_unique<SimulationTopics>(*simulation_, *sink_, rates);
@@ -74,6 +81,7 @@ bool RosServer::step() {
   const world::WorldReport& report = simulation_->step();
   told_->after_step();
   if (logged_) logged_->after_step();
+  if (actions_) actions_->after_step();
   if (!(report.errors & world::fatal_errors)) return true;
   failure_ = "unstable at " + io::format_number(report.time, 6) + " s: " + report.culprit + ": " +
              report.cause;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "pedicel/app/ros/arm_actions.h"
 #include "pedicel/app/ros/command_queue.h"
 #include "pedicel/app/ros/entities.h"
 #include "pedicel/app/ros/joint_follower.h"
@@ -63,6 +64,7 @@ class RosServer {
   std::unique_ptr<DdsNode> node_;
   std::unique_ptr<RosSink> sink_;
   std::unique_ptr<class RosServices> services_;
+  std::unique_ptr<ArmActions> actions_;  // null: no robot
 };
 
 }  // namespace pedicel::app

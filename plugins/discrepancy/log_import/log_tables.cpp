@@ -168,6 +168,19 @@ class TrialMaker {
     return samples;
   }
 
+  /// The frame itself, or what carries it where it is fixed.
+  std::map<std::string, TimedList<FramePlace>>::const_iterator moving_frame(
+      std::string frame) const {
+    // No longer than there are fixed frames: a chain may bite its own tail.
+    for (std::size_t i = 0; i <= log_.fixed_frames.size(); ++i) {
+      if (const auto found = log_.frames.find(frame); found != log_.frames.end()) return found;
+      const auto fixed = log_.fixed_frames.find(frame);
+      if (fixed == log_.fixed_frames.end()) break;
+      frame = fixed->second.parent;
+    }
+    return log_.frames.end();
+  }
+
   /// Places of a marker in the scene's world, by the log's time.
   std::map<double, Vec3> places_of(const LogMap::Marker& marker) {
     std::map<double, Vec3> places;
@@ -177,7 +190,7 @@ class TrialMaker {
       places[trial_time(time)] = map_.X_WF * (pose * position);
     };
     if (marker.is_frame) {
-      const auto found = log_.frames.find(marker.source);
+      const auto found = moving_frame(marker.source);
       if (found == log_.frames.end())
         diagnostics_.error(marker.where, "frame " + in_quotes(marker.source) + " is not in " +
                                              log_.file.filename().string() + " as one that moves");

@@ -4,6 +4,8 @@
 
 #include "pedicel/ros_messages/control_messages.h"
 #include "pedicel/ros_messages/marker_messages.h"
+#include "pedicel/ros_messages/simulation_messages.h"
+#include "pedicel/ros_messages/type_hash.h"
 
 namespace pedicel::ros {
 namespace {
@@ -118,6 +120,58 @@ TEST(PublishedFields, OfControl) {
   EXPECT_EQ(lines<DynamicJointState>(),
             "control_msgs/msg/DynamicJointState: std_msgs/Header header; string[] joint_names; "
             "control_msgs/InterfaceValue[] interface_values;");
+}
+
+TEST(PublishedFields, OfSimulationInterfaces) {
+  EXPECT_EQ(lines<SimulationResult>(),
+            "simulation_interfaces/msg/Result: uint8 result; string error_message;");
+  EXPECT_EQ(lines<SimulationState>(), "simulation_interfaces/msg/SimulationState: uint8 state;");
+  EXPECT_EQ(lines<SimulatorFeatures>(),
+            "simulation_interfaces/msg/SimulatorFeatures: uint16[] features; string[] "
+            "spawn_formats; string custom_info;");
+  EXPECT_EQ(lines<EntityCategory>(), "simulation_interfaces/msg/EntityCategory: uint8 category;");
+  EXPECT_EQ(lines<TagsFilter>(),
+            "simulation_interfaces/msg/TagsFilter: string[] tags; uint8 filter_mode;");
+  EXPECT_EQ(lines<Bounds>(),
+            "simulation_interfaces/msg/Bounds: uint8 type; geometry_msgs/Vector3[] points;");
+  EXPECT_EQ(lines<EntityFilters>(),
+            "simulation_interfaces/msg/EntityFilters: string filter; "
+            "simulation_interfaces/EntityCategory[] categories; simulation_interfaces/TagsFilter "
+            "tags; simulation_interfaces/Bounds bounds;");
+  EXPECT_EQ(lines<EntityState>(),
+            "simulation_interfaces/msg/EntityState: std_msgs/Header header; geometry_msgs/Pose "
+            "pose; geometry_msgs/Twist twist; geometry_msgs/Accel acceleration;");
+  EXPECT_EQ(lines<GetSimulatorFeatures::Response>(),
+            "simulation_interfaces/srv/GetSimulatorFeatures_Response: "
+            "simulation_interfaces/SimulatorFeatures features;");
+  EXPECT_EQ(lines<ResetSimulation::Request>(),
+            "simulation_interfaces/srv/ResetSimulation_Request: uint8 scope;");
+  EXPECT_EQ(lines<StepSimulation::Request>(),
+            "simulation_interfaces/srv/StepSimulation_Request: uint64 steps;");
+  EXPECT_EQ(lines<GetSimulationState::Response>(),
+            "simulation_interfaces/srv/GetSimulationState_Response: "
+            "simulation_interfaces/SimulationState state; simulation_interfaces/Result result;");
+  EXPECT_EQ(lines<SetSimulationState::Request>(),
+            "simulation_interfaces/srv/SetSimulationState_Request: "
+            "simulation_interfaces/SimulationState state;");
+  EXPECT_EQ(lines<GetEntities::Response>(),
+            "simulation_interfaces/srv/GetEntities_Response: simulation_interfaces/Result result; "
+            "string[] entities;");
+  EXPECT_EQ(lines<GetEntityState::Response>(),
+            "simulation_interfaces/srv/GetEntityState_Response: simulation_interfaces/Result "
+            "result; simulation_interfaces/EntityState state;");
+  EXPECT_EQ(lines<GetEntitiesStates::Response>(),
+            "simulation_interfaces/srv/GetEntitiesStates_Response: simulation_interfaces/Result "
+            "result; string[] entities; simulation_interfaces/EntityState[] states;");
+}
+
+// The hash that rosidl gives std_msgs/msg/String, and the digest of FIPS 180-4's example.
+TEST(PublishedFields, HashesAreThoseOfRosidl) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256(std::string(1000, 'a')),
+            "41edece42d63e8d9bf515a9ba6932e1c20cbc9f5a5d134645adb5db1b9737ea3");
+  EXPECT_EQ(type_hash(definitions_of<String>()),
+            "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18");
 }
 
 TEST(PublishedFields, ASchemaHoldsAllMessagesOnce) {
