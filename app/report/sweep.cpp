@@ -34,13 +34,9 @@ std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& opt
                                 io::OutputFolder* output) {
   std::vector<SweepRun> runs;
   for (const double value : scene.sweep->values) {
-    RunOptions one = options;
-    one.video = false;
-    one.quiet = true;
-    one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
-    one.watchers.clear();
+    RunOptions one = options_of_value(options);
     const std::string label = scene.sweep->key + "=" + text_of(value);
-    if (output) one.out = output->file("sweep_" + label + "/");
+    if (output) one.out = output->file(folder_of_value(scene, value) + "/");
     try {
       runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
     } catch (const Stopped&) {
@@ -65,6 +61,19 @@ std::optional<SolverComparison> whole_comparison(const world::Scene& scene,
 }
 
 }  // namespace
+
+RunOptions options_of_value(const RunOptions& options) {
+  RunOptions one = options;
+  one.video = false;
+  one.quiet = true;
+  one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
+  one.watchers.clear();
+  return one;
+}
+
+std::string folder_of_value(const world::Scene& scene, double value) {
+  return "sweep_" + scene.sweep->key + "=" + text_of(value);
+}
 
 world::Scene scene_of_value(const world::Scene& scene, double value) {
   world::Scene one = scene;
@@ -101,6 +110,11 @@ SceneResult run_with_sweep(const world::Scene& scene, const RunOptions& options)
   std::vector<SweepRun> runs;
   if (scene.sweep && result.exit_code != 4 && !stop_requested)
     runs = run_sweep(scene, options, result.output.get());
+  return end_sweep(scene, options, std::move(result), runs);
+}
+
+SceneResult end_sweep(const world::Scene& scene, const RunOptions& options, SceneResult result,
+                      const std::vector<SweepRun>& runs) {
   for (const world::Expectation& expectation : scene.expectations) {
     if (!expectation.over_sweep()) continue;
     std::vector<double> values;

@@ -14,6 +14,17 @@ struct SweepRun {
 /// the rest, which the scene expects of its own value, is not asked.
 world::Scene scene_of_value(const world::Scene& scene, double value);
 
+/// How its run is done: alone, quietly, without video.
+RunOptions options_of_value(const RunOptions& options);
+/// Its folder, "sweep_detach.stretch=0.1".
+std::string folder_of_value(const world::Scene& scene, double value);
+
+/// What run_with_sweep() makes of the scene's own run and those of the values, wherever they were
+/// done: judges what is expected over the sweep, compares solvers, writes the report into the
+/// output of `result`. `result` comes back with the sweep's verdicts.
+SceneResult end_sweep(const world::Scene& scene, const RunOptions& options, SceneResult result,
+                      const std::vector<SweepRun>& runs);
+
 /// What a sweep is measured by: the quantity that the scene expects to change, else the first one;
 /// null where it expects nothing.
 const world::Expectation* measured_by(const world::Scene& scene);

@@ -14,6 +14,7 @@
 #include "pedicel/app/session/script.h"
 #include "pedicel/app/session/session_files.h"
 #include "pedicel/app/session/session_films.h"
+#include "pedicel/app/verbs/cluster.h"
 #include "pedicel/app/verbs/completion.h"
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
@@ -28,6 +29,7 @@
 #include "pedicel/app/verbs/pick.h"
 #include "pedicel/app/verbs/ros_arguments.h"
 #include "pedicel/app/verbs/run_arguments.h"
+#include "pedicel/app/verbs/sweep.h"
 #include "pedicel/app/verbs/transfer.h"
 #include "pedicel/app/verbs/validate.h"
 #include "pedicel/core/check.h"
@@ -69,22 +71,6 @@ int script_verb(const RunArguments& a, const MakeFilms& make_films) {
   return run_script(a.script, session, std::cout, std::cerr);
 }
 
-/// With the plant, where that is all there is.
-RunOptions options_of_run(const RunArguments& a) {
-  RunOptions options = run_options(a);
-  if (is_lone_plant(a.scene))
-    options.simulation.edited =
-        options_of(open_document(a.scene, unit_of_text(a.unit, "--unit")), {}).edited;
-  return options;
-}
-
-int end_of_run(const world::Scene& scene, const RunArguments& a, const RunOptions& options,
-               const SceneResult& result) {
-  if (a.json) std::cout << to_json(scene, result) << std::endl;
-  if (!a.quiet) say(Verbosity::lines, "written to %s", options.out.string().c_str());
-  return result.exit_code;
-}
-
 int run_verb(const RunArguments& a, const MakeFilms& make_films) {
   if (!a.script.empty()) return script_verb(a, make_films);
   if (a.scene.empty()) throw UsageError("no scene given, expected one (see pedicel --help)");
@@ -119,11 +105,6 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
       ->check(CLI::IsMember({"window", "offscreen", "null"}));
 }
 
-void set_verbosity(const RunArguments& a) {
-  if (a.quiet) set_verbosity(Verbosity::warnings);
-  if (a.verbosity) set_verbosity(static_cast<Verbosity>(*a.verbosity));
-}
-
 /// What a picture or a film of the window would leave undone.
 void check_picture_arguments(const RunArguments& a) {
   const std::pair<const char*, bool> of_runs[] = {
@@ -151,7 +132,7 @@ std::optional<double> duration_of(const RunArguments& a) {
 int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
                 const OpenDesktop& open_desktop, const MakeFilms& make_films) {
   check_run_arguments(a);
-  set_verbosity(a);
+  apply_verbosity(a);
   const bool picture = !window.screenshot.empty() || !window.record.empty();
   if (picture) check_picture_arguments(a);
   if (!window.record.empty() && a.scene.empty())
@@ -176,50 +157,6 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
   if (const std::optional<int> code = open_desktop(window)) return *code;
   if (!a.scene.empty()) return run_verb(a, make_films);
   throw std::runtime_error("there is no window to open; give a scene to run it off screen");
-}
-
-/// `pedicel sweep SCENE --set key=v1,v2,...`: the scene's own sweep is replaced by this one.
-int sweep_verb(RunArguments a) {
-  check_run_arguments(a);
-  set_verbosity(a);
-  if (!a.param_sweep.empty() || !a.load_state.empty())
-    throw UsageError("sweep: expected neither --param-sweep nor --load-state");
-  std::optional<world::SceneSweep> sweep;
-  std::vector<std::string> plain;
-  for (const std::string& assignment : a.set) {
-    const auto [key, values] = world::split_assignment(assignment);
-    if (values.find(',') == std::string::npos) {
-      plain.push_back(assignment);
-      continue;
-    }
-    if (sweep) throw UsageError("--set " + key + ": expected one key with several values");
-    sweep = world::SceneSweep{key, {}, {}};
-    for (std::size_t start = 0; start <= values.size();) {
-      const std::size_t end = std::min(values.find(',', start), values.size());
-      const auto value = world::to_number(values.substr(start, end - start));
-      if (!value) throw UsageError("--set " + assignment + ": expected numbers between the commas");
-      if (std::ranges::count(sweep->values, *value) > 0)
-        throw UsageError("--set " + assignment + ": a value comes twice, expected each once");
-      sweep->values.push_back(*value);
-      start = end + 1;
-    }
-  }
-  if (!sweep) throw UsageError("sweep: expected --set key=value,value,...");
-  a.set = plain;
-  const RunOptions options = options_of_run(a);
-  world::Scene scene = load_scene(a);
-  if (scene.sweep && scene.sweep->key != sweep->key)
-    std::erase_if(scene.expectations, [](const auto& e) { return e.over_sweep(); });
-  for (const double value : sweep->values) {
-    world::Scene one = scene;  // an impossible key or value is found before the first run
-    world::apply_override(one, sweep->key, io::exact_number(value), "--set ");
-  }
-  scene.sweep = sweep;
-  if (a.print_scene) {
-    std::cout << effective_scene(scene) << std::flush;
-    return exit_ok;
-  }
-  return end_of_run(scene, a, options, run_with_sweep(scene, options));
 }
 
 CLI::Range range_of(std::string_view key) {
@@ -378,10 +315,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   TellArguments told;
   add_tell_options(app, told);
 
-  RunArguments swept;
-  CLI::App* sweep = app.add_subcommand("sweep", "run a scene for several values of one setting");
-  sweep->add_option("scene", swept.scene, "scene file")->required();
-  add_run_options(*sweep, swept);
+  const std::function<int()> sweep = add_sweep_verb(app);
 
   std::vector<std::string> files, packages;
   CLI::App* validate = app.add_subcommand("validate", "load and check files without running them");
@@ -399,6 +333,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   CLI::App* bench =
       app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
   add_bench_options(*bench, benched);
+  const std::function<int()> cluster_runs = add_cluster_verb(app);
   const std::function<int()> diagnose = add_diagnose_verb(app);
   const std::function<int()> fit = add_fit_verb(app);
   const std::function<int()> import_files = add_import_verb(app);
@@ -419,11 +354,12 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
     return app.exit(error) == 0 ? exit_ok : exit_usage;
   }
   if (!told.shell.empty() || told.man_page) return tell_verb(app, told);
-  if (*sweep) return guarded([&] { return sweep_verb(swept); });
+  if (app.got_subcommand("sweep")) return guarded(sweep);
   if (*validate)
     return guarded(
         [&] { return validate_files(files, packages, std::cerr, unit_of_text(unit, "--unit")); });
   if (*bench) return guarded([&] { return bench_verb(benched); });
+  if (app.got_subcommand("cluster")) return guarded(cluster_runs);
   if (app.got_subcommand("diagnose")) return guarded(diagnose);
   if (app.got_subcommand("fit")) return guarded(fit);
   if (app.got_subcommand("import")) return guarded(import_files);

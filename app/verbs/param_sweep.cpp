@@ -11,12 +11,6 @@ namespace pedicel::app {
 
 namespace {
 
-/// "run_001"
-std::string folder_of(std::size_t row) {
-  const std::string number = std::to_string(row + 1);
-  return "run_" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
-}
-
 world::Scene scene_of_row(const world::Scene& scene, const io::CsvTable& table, std::size_t row) {
   world::Scene one = scene;
   one.sweep.reset();
@@ -60,11 +54,36 @@ io::CsvTable read_param_sweep(const std::filesystem::path& path) {
   return table;
 }
 
-SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
-                            const RunOptions& options) {
+std::string folder_of_row(std::size_t row) {
+  const std::string number = std::to_string(row + 1);
+  return "run_" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
+}
+
+std::vector<world::Scene> scenes_of_rows(const world::Scene& scene, const io::CsvTable& table) {
   std::vector<world::Scene> scenes;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     scenes.push_back(scene_of_row(scene, table, row));
+  return scenes;
+}
+
+RunOptions options_of_row(const RunOptions& options) {
+  RunOptions one = options;
+  one.video = false;
+  one.quiet = true;
+  one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
+  return one;
+}
+
+std::string param_sweep_csv(const world::Scene& scene, const io::CsvTable& table,
+                            const std::vector<std::pair<std::size_t, SceneResult>>& runs) {
+  std::string text = header_of(table, scene);
+  for (const auto& [row, run] : runs) text += line_of(table, row, run);
+  return text;
+}
+
+SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
+                            const RunOptions& options) {
+  const std::vector<world::Scene> scenes = scenes_of_rows(scene, table);
   SceneResult all;
   all.folder = options.out;
   stop_in_good_order();
@@ -73,15 +92,12 @@ SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table
     say(Verbosity::warnings, "%s", all.output->replaced().c_str());
   std::string text = header_of(table, scene);
   for (std::size_t row = 0; row < scenes.size() && !stop_requested; ++row) {
-    RunOptions one = options;
-    one.video = false;
-    one.quiet = true;
-    one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
-    one.out = all.output->file(folder_of(row) + "/");
+    RunOptions one = options_of_row(options);
+    one.out = all.output->file(folder_of_row(row) + "/");
     try {
       const SceneResult run = run_scene(scenes[row], one);
       text += line_of(table, row, run);
-      say(Verbosity::lines, "%s: exit code %d, %.2f x real time", folder_of(row).c_str(),
+      say(Verbosity::lines, "%s: exit code %d, %.2f x real time", folder_of_row(row).c_str(),
           code_of(run), run.real_time_factor());
       if (run.exit_code == exit_unstable) all.exit_code = exit_unstable;
     } catch (const Stopped&) {

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/plant_import.h"
 #include "pedicel/app/topics/mcap_log.h"
+#include "pedicel/app/verbs/cluster.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/bounds.h"
@@ -93,6 +95,7 @@ void add_run_options(CLI::App& app, RunArguments& a) {
   add_number(app, a, "--threads", "threads", "threads for the plants");
   add_number(app, a, "--log-rate", "log_rate", "rows a simulated second in log.csv, Hz");
   add_table_options(app, a);
+  add_instruction_set_option(app);
   app.add_option("--package", a.packages, "NAME=PATH: where package://NAME lies; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--unit", a.unit,
@@ -262,6 +265,26 @@ RunOptions run_options(const RunArguments& a) {
   options.size = parse_size(a.size);
   options.quiet = a.quiet;
   return options;
+}
+
+RunOptions options_of_run(const RunArguments& a) {
+  RunOptions options = run_options(a);
+  if (is_lone_plant(a.scene))
+    options.simulation.edited =
+        options_of(open_document(a.scene, unit_of_text(a.unit, "--unit")), {}).edited;
+  return options;
+}
+
+int end_of_run(const world::Scene& scene, const RunArguments& a, const RunOptions& options,
+               const SceneResult& result) {
+  if (a.json) std::cout << to_json(scene, result) << std::endl;
+  if (!a.quiet) say(Verbosity::lines, "written to %s", options.out.string().c_str());
+  return result.exit_code;
+}
+
+void apply_verbosity(const RunArguments& a) {
+  if (a.quiet) set_verbosity(Verbosity::warnings);
+  if (a.verbosity) set_verbosity(static_cast<Verbosity>(*a.verbosity));
 }
 
 }  // namespace pedicel::app

@@ -44,5 +44,15 @@ world::Scene load_scene(const RunArguments& a);
 
 /// Throws UsageError for a size that is none, and InvalidFile for measured data that are none.
 RunOptions run_options(const RunArguments& a);
+/// With the plant, where that is all there is.
+RunOptions options_of_run(const RunArguments& a);
+
+/// How much the program says from now on: --quiet, -v.
+void apply_verbosity(const RunArguments& a);
+
+/// Says where everything was written, and the result as JSON where that was asked for. Returns the
+/// exit code.
+int end_of_run(const world::Scene& scene, const RunArguments& a, const RunOptions& options,
+               const SceneResult& result);
 
 }  // namespace pedicel::app

@@ -1,5 +1,6 @@
 #include "pedicel/geometry/mesh.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -12,6 +13,7 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/core/diagnostics.h"
+#include "pedicel/core/files_read.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/geometry/mesh_file.h"
 
@@ -20,6 +22,15 @@ namespace pedicel::geometry {
 namespace {
 
 using Transform = Eigen::Affine3d;
+
+/// The library opens what a mesh file names, too: buffers of glTF, materials of OBJ.
+class NotedFiles : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    note_file_read(file);
+    return DefaultIOSystem::Open(file, mode);
+  }
+};
 
 Transform from_assimp(const aiMatrix4x4& m) {
   Transform transform;
@@ -111,6 +122,7 @@ TriangleMesh load_mesh(const std::filesystem::path& path, const Vec3& scale) {
   if (const auto fault = mesh_file_fault(path)) throw InvalidFile({path.string()}, *fault);
 
   Assimp::Importer importer;
+  importer.SetIOHandler(new NotedFiles);  // which it owns
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr)

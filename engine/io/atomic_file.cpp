@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pedicel/core/diagnostics.h"
+#include "pedicel/core/files_read.h"
 
 namespace pedicel::io {
 
@@ -81,6 +82,7 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
 }
 
 std::string read_file(const std::filesystem::path& path) {
+  note_file_read(path);
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw InvalidFile({path.string()}, "is a folder, expected a file");

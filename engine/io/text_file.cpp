@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "pedicel/core/diagnostics.h"
+#include "pedicel/core/files_read.h"
 #include "pedicel/io/file_magic.h"
 
 namespace pedicel::io {
@@ -25,6 +26,7 @@ using namespace std::string_view_literals;
 
 // A pipe has no size, so what comes is counted as well.
 std::string read_bytes(const std::filesystem::path& path, std::size_t longest) {
+  note_file_read(path);
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw InvalidFile({path.string()}, "is a folder, expected a file");

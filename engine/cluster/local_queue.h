@@ -1,0 +1,33 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "pedicel/cluster/cluster_options.h"
+#include "pedicel/cluster/job_list.h"
+#include "pedicel/cluster/process.h"
+#include "pedicel/cluster/queue.h"
+
+namespace pedicel::cluster {
+
+/// Processes of this machine, a block each, so many at a time.
+class LocalQueue : public Queue {
+ public:
+  LocalQueue(RunFolder folder, const TaskHead& head, const ClusterOptions& options);
+
+  void submit(const std::vector<int>& blocks) override;
+  State state() override;
+  void cancel() override;
+  std::string left() const override { return {}; }
+  double interval() const override { return 0.02; }
+
+ private:
+  RunFolder folder_;
+  const TaskHead& head_;
+  std::filesystem::path scratch_;
+  std::size_t jobs_ = 1;
+  std::deque<int> waiting_;
+  std::vector<std::unique_ptr<Process>> running_;
+};
+
+}  // namespace pedicel::cluster
