@@ -148,11 +148,11 @@ void add_at(DrawList& list, const DrawList& shape, const Pose& X_WS) {
     list.spheres.push_back(s);
   }
   for (const render::Box& b : shape.boxes)
-    list.boxes.push_back({X_WS * b.pose, b.half_extents, b.material});
+    list.boxes.push_back({X_WS * b.pose, b.half_extents, b.material, b.label});
   for (const render::MeshInstance& m : shape.meshes)
-    list.meshes.push_back({m.mesh, X_WS * m.pose, m.material});
+    list.meshes.push_back({m.mesh, X_WS * m.pose, m.material, m.label});
   for (const render::BladeFace& t : shape.blades)
-    list.blades.push_back({X_WS * t.a, X_WS * t.b, X_WS * t.c, t.material});
+    list.blades.push_back({X_WS * t.a, X_WS * t.b, X_WS * t.c, t.material, t.label});
   for (const render::Line& l : shape.lines)
     list.lines.push_back({X_WS * l.a, X_WS * l.b, l.colour, l.width});
 }

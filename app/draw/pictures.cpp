@@ -38,6 +38,7 @@ render::Camera camera_of(const world::SceneCamera& camera, const Vec3& anchor_W)
   render::Camera result;
   result.eye = camera.eye + offset;
   result.target = camera.target + offset;
+  result.up = camera.up;
   result.field_of_view = camera.field_of_view;
   const double distance = (result.eye - result.target).norm();
   result.near_plane = 0.02 * distance;
@@ -63,6 +64,19 @@ std::optional<render::Image> PictureTaker::take(const Frame& frame, const render
   render::Image image = renderer_->render(frame.list, camera, width, height);
   write_over(image, frame, camera);
   return image;
+}
+
+std::optional<render::Renderer::Labelled> PictureTaker::sense(const Frame& frame,
+                                                              const render::Camera& camera,
+                                                              int width, int height, bool colours) {
+  if (!renderer_) return {};
+  if (colours) return renderer_->render_labelled(frame.list, camera, width, height);
+  return render::Renderer::Labelled{{}, renderer_->label(frame.list, camera, width, height)};
+}
+
+void PictureTaker::set(const render::RenderSettings& settings) {
+  render::check(settings);
+  if (renderer_) renderer_->set(settings);
 }
 
 bool PictureTaker::save(const std::filesystem::path& path, const Frame& frame,

@@ -62,6 +62,12 @@ class PictureTaker {
   /// A picture with its texts; nothing where pictures cannot be taken.
   std::optional<render::Image> take(const Frame& frame, const render::Camera& camera, int width,
                                     int height);
+  /// A picture without texts, its labels and its depths; without `colours` the picture is empty.
+  /// Nothing where pictures cannot be taken.
+  std::optional<render::Renderer::Labelled> sense(const Frame& frame, const render::Camera& camera,
+                                                  int width, int height, bool colours = true);
+  /// For the pictures from now on. Throws UsageError.
+  void set(const render::RenderSettings& settings);
   /// Takes one and writes a PNG. False where pictures cannot be taken. Throws OutputError.
   bool save(const std::filesystem::path& path, const Frame& frame, const render::Camera& camera,
             int width, int height);

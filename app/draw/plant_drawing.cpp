@@ -95,11 +95,22 @@ PlantLook PlantLook::of(plant::Look look) {
 }
 
 PlantDrawing::PlantDrawing(const RodModel& model, std::vector<Blade> blades, const PlantLook& look)
-    : model_(model), blades_(std::move(blades)), is_leaf_(model.organs.size(), 0), look_(look) {
+    : model_(model),
+      blades_(std::move(blades)),
+      organ_labels_(model.organs.size(), 0),
+      fruit_labels_(model.fruits.size(), 0),
+      is_leaf_(model.organs.size(), 0),
+      look_(look) {
   for (const Blade& blade : blades_)
     for (const BladeCorner& corner : blade) is_leaf_[model.elements[corner.element].organ] = 1;
   for (std::size_t f = 0; f < model.fruits.size(); ++f)
     fruits_.push_back(fruit_shape(look.fruit, static_cast<int>(f), model.fruits[f].radius));
+}
+
+void PlantDrawing::set_labels(std::vector<render::Label> organs,
+                              std::vector<render::Label> fruits) {
+  organ_labels_ = std::move(organs);
+  fruit_labels_ = std::move(fruits);
 }
 
 void PlantDrawing::add_to(DrawList& list, const RodState& state,
@@ -142,11 +153,14 @@ void PlantDrawing::add_chains(DrawList& list, const RodState& state,
     const bool goes_on = parent >= 0 && next[parent] == e;
     if (!state.alive[e] || goes_on) continue;
     const render::Material& material = material_of(e);
+    const DrawList::Counts before = list.counts();
     if (bar_of(model_.elements[e])) {
       for (int k = e; k >= 0; k = next[k]) add_bar(list, model_, state, k, material, colours_of[k]);
-      continue;
+    } else {
+      list.add_tube(chain(model_, state, e, next, colours_of), material.roughness,
+                    material.specular);
     }
-    list.add_tube(chain(model_, state, e, next, colours_of), material.roughness, material.specular);
+    list.label_since(before, label_of(e));
   }
 }
 
@@ -154,12 +168,15 @@ void PlantDrawing::add_fruits(DrawList& list, const RodState& state) const {
   for (std::size_t f = 0; f < fruits_.size(); ++f) {
     const cosserat::Fruit& fruit = model_.fruits[f];
     if (state.fruit_gone[f] || !state.alive[fruit.element]) continue;
+    const DrawList::Counts before = list.counts();
     add_at(list, fruits_[f],
            {point_on(model_, state, fruit.element, fruit.back), state.orientation[fruit.element]});
+    list.label_since(before, fruit_labels_[f]);
     // The knuckle of the stalk, where it will break.
     const double radius = knuckle_size * model_.elements[fruit.element].radius_near;
     if (radius < knuckle_limit * fruit.radius)
-      list.spheres.push_back({start_of(model_, state, fruit.element), radius, look_.stem});
+      list.spheres.push_back(
+          {start_of(model_, state, fruit.element), radius, look_.stem, label_of(fruit.element)});
   }
 }
 
@@ -171,7 +188,10 @@ void PlantDrawing::add_blades(DrawList& list, const RodState& state) const {
       whole = whole && state.alive[blade[k].element];
       corner[k] = point_on(model_, state, blade[k].element, blade[k].back);
     }
-    if (whole) list.blades.push_back({corner[0], corner[1], corner[2], look_.blade});
+    // Its first corner may lie on what the leaf grows from.
+    if (whole)
+      list.blades.push_back(
+          {corner[0], corner[1], corner[2], look_.blade, label_of(blade[1].element)});
   }
 }
 

@@ -27,6 +27,9 @@ class PlantDrawing {
   PlantDrawing(const cosserat::RodModel& model, std::vector<Blade> blades = {},
                const PlantLook& look = PlantLook::tomato());
 
+  /// What organs and fruits are called in label maps; without it none has a name.
+  void set_labels(std::vector<render::Label> organs, std::vector<render::Label> fruits);
+
   /// Adds the plant as it stands: every organ as a smooth tube along its elements, leaf blades, and
   /// the fruits that are still on; what has come off is left out. With `strain_scale`, stems are
   /// coloured by surface_strain() on a scale from 0 to that value (> 0).
@@ -47,9 +50,13 @@ class PlantDrawing {
   std::vector<render::Colour> colours(const cosserat::RodState& state,
                                       std::optional<double> strain_scale) const;
   const render::Material& material_of(int element) const;
+  render::Label label_of(int element) const {
+    return organ_labels_[model_.elements[element].organ];
+  }
 
   const cosserat::RodModel& model_;
   std::vector<Blade> blades_;
+  std::vector<render::Label> organ_labels_, fruit_labels_;
   std::vector<char> is_leaf_;             ///< one entry an organ
   std::vector<render::DrawList> fruits_;  ///< in the frames of the elements that carry them
   PlantLook look_;

@@ -3,15 +3,29 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "pedicel/app/draw/tint.h"
+
 namespace pedicel::app {
 
-SceneView::SceneView(const Simulation& simulation) : simulation_(simulation) {
+SceneView::SceneView(const Simulation& simulation) : simulation_(simulation), things_(simulation) {
   plants_.reserve(simulation.plants().size());
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const PlantInfo& plant = simulation.plants()[p];
-    plants_.emplace_back(simulation.rods().model(p), plant.blades, PlantLook::of(plant.look));
+    plants_.emplace_back(simulation.rods().model(p), plant.blades,
+                         tinted(PlantLook::of(plant.look), simulation.scene().look));
+    label_plant(p);
   }
   if (simulation.robot()) links_ = robot_shapes(simulation.robot()->description());
+}
+
+void SceneView::label_plant(int plant) {
+  const cosserat::RodModel& model = simulation_.rods().model(plant);
+  std::vector<render::Label> organs, fruits;
+  for (int o = 0; o < static_cast<int>(model.organs.size()); ++o)
+    organs.push_back(things_.organ(plant, o));
+  for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
+    fruits.push_back(things_.fruit(plant, f));
+  plants_.back().set_labels(std::move(organs), std::move(fruits));
 }
 
 void SceneView::fill(Frame& frame, bool strain) {
@@ -21,12 +35,16 @@ void SceneView::fill(Frame& frame, bool strain) {
   for (std::size_t p = 0; p < plants_.size(); ++p)
     plants_[p].add_to(frame.list, simulation_.rods().state(static_cast<int>(p)),
                       strain ? std::optional(strain_scale_) : std::nullopt);
-  for (std::size_t l = 0; l < links_.size(); ++l)
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    const render::DrawList::Counts before = frame.list.counts();
     add_at(frame.list, links_[l], simulation_.robot()->link_pose(static_cast<int>(l)));
+    frame.list.label_since(before, things_.link(static_cast<int>(l)));
+  }
   frame.list.ground.reset();
   if (const auto& ground = simulation_.scene().ground) {
     frame.list.ground.emplace();
     frame.list.ground->height = ground->height;
+    frame.list.ground->label = things_.ground();
   }
   add_bodies(frame.list);
   add_texts(frame, strain);
@@ -36,15 +54,28 @@ void SceneView::add_bodies(render::DrawList& list) {
   const world::SimWorld& world = simulation_.world();
   for (int b = static_cast<int>(bodies_.size()); b < world.body_count(); ++b) {
     bodies_.push_back(body_shape(world.body(b)));
+    if (b < static_cast<int>(simulation_.scene().bodies.size()))
+      bodies_.back().label_since({}, things_.body(b));
     for (const Detached& fruit : simulation_.plant_step().detached()) {
       if (fruit.body != b) continue;
       const double radius = simulation_.rods().model(fruit.plant).fruits[fruit.event.fruit].radius;
-      bodies_.back() =
-          fruit_shape(FruitLook::of(simulation_.plants()[fruit.plant].look), fruit.event.fruit,
-                      radius, fruit.event.stub_length, fruit.event.stub_radius);
+      bodies_.back() = fruit_shape(
+          tinted(PlantLook::of(simulation_.plants()[fruit.plant].look), simulation_.scene().look)
+              .fruit,
+          fruit.event.fruit, radius, fruit.event.stub_length, fruit.event.stub_radius);
+      label_fruit(bodies_.back(), fruit);
     }
   }
   for (int b = 0; b < world.body_count(); ++b) add_at(list, bodies_[b], world.body_pose(b));
+}
+
+/// The stub that came off with it goes on being its stalk.
+void SceneView::label_fruit(render::DrawList& shape, const Detached& fruit) const {
+  shape.label_since({}, things_.fruit(fruit.plant, fruit.event.fruit));
+  const render::Label stub =
+      things_.stub(simulation_.rods().model(fruit.plant), fruit.plant, fruit.event.fruit);
+  for (render::Capsule& one : shape.capsules) one.label = stub;
+  for (render::TubeSegment& one : shape.tubes) one.label = stub;
 }
 
 void SceneView::add_texts(Frame& frame, bool strain) const {

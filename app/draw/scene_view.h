@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "pedicel/app/draw/named_things.h"
 #include "pedicel/app/draw/pictures.h"
 #include "pedicel/app/draw/plant_drawing.h"
 #include "pedicel/app/run/simulation.h"
@@ -18,6 +19,9 @@ class SceneView {
   /// Fills an empty frame. With `strain`, stems have the colour of their strain.
   void fill(Frame& frame, bool strain = false);
 
+  /// What the labels of a frame mean.
+  const NamedThings& things() const { return things_; }
+
   /// The scene's camera of that name (empty: the first), or one that shows everything where the
   /// scene has none.
   render::Camera camera(const std::string& name, const Frame& frame) const;
@@ -26,7 +30,11 @@ class SceneView {
   void add_bodies(render::DrawList& list);
   void add_texts(Frame& frame, bool strain) const;
 
+  void label_plant(int plant);
+  void label_fruit(render::DrawList& shape, const Detached& fruit) const;
+
   const Simulation& simulation_;
+  NamedThings things_;
   std::vector<PlantDrawing> plants_;
   std::vector<render::DrawList> links_, bodies_;
   double strain_scale_ = 0.1;  // 1

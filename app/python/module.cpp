@@ -8,10 +8,10 @@
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/document/document_parameters.h"
-#include "pedicel/app/steer/variation.h"
 #include "pedicel/io/asset_folder.h"
 #include "pedicel/robot/inverse_kinematics.h"
 #include "pedicel/world/recorder.h"
+#include "pedicel/world/variation.h"
 
 namespace pedicel::python {
 
@@ -57,7 +57,7 @@ void add_values(py::module_& module) {
 }
 
 void add_variation(py::module_& module) {
-  using app::Variation;
+  using world::Variation;
   py::class_<Variation>(
       module, "Variation",
       "Numbers of a scene that differ from run to run: a map from keys of `--set` "
@@ -79,7 +79,7 @@ void add_variation(py::module_& module) {
           "keys",
           [](const Variation& self) {
             std::vector<std::string> keys;
-            for (const app::VariedNumber& one : self.numbers()) keys.push_back(one.key);
+            for (const world::VariedNumber& one : self.numbers()) keys.push_back(one.key);
             return keys;
           },
           "What varies, in the order in which it is drawn.");
@@ -102,6 +102,7 @@ PYBIND11_MODULE(_core, module) {
   add_values(module);
   add_variation(module);
   add_plant_class(module);
+  add_camera_classes(module);
   add_run_class(module);
   add_simulation_class(module);
   add_worlds_class(module);

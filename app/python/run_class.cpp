@@ -313,6 +313,7 @@ void add_run_class(py::module_& module) {
   add_run_state(run);
   add_robot(run);
   add_forces(run);
+  add_cameras(run);
   add_rest(run);
 }
 

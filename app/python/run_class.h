@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "pedicel/app/draw/scene_view.h"
 #include "pedicel/app/python/arrays.h"
+#include "pedicel/app/sense/scene_sensors.h"
 #include "pedicel/app/steer/steered_run.h"
 
 namespace pedicel::python {
@@ -40,14 +40,22 @@ class Run {
   void act(app::Act act);
   pybind11::array_t<std::uint8_t> render(const std::string& camera, int width, int height,
                                          bool strain, bool text);
+  app::SensedPicture sense(const app::SenseRequest& wanted);
+  const app::NamedThings& things();
 
  private:
-  std::unique_ptr<app::SceneView> view_;  // of the simulation of that generation
+  /// Of the simulation as it is now. With the run's lock.
+  app::SceneSensors& sensors();
+
+  std::unique_ptr<app::SceneSensors> sensors_;  // of the simulation of that generation
   long generation_ = -1;
 };
 
 /// Class pedicel.Run with everything that a run can do.
 void add_run_class(pybind11::module_& module);
+/// What cameras see: classes CameraPicture, Keypoint and Thing, and what a Run has of them.
+void add_camera_classes(pybind11::module_& module);
+void add_cameras(pybind11::class_<Run>& run);
 void add_simulation_class(pybind11::module_& module);
 void add_worlds_class(pybind11::module_& module);
 

@@ -1,5 +1,6 @@
 #include <pybind11/numpy.h>
 
+#include "pedicel/app/draw/tint.h"
 #include "pedicel/app/python/errors.h"
 #include "pedicel/app/python/picture_thread.h"
 #include "pedicel/app/python/run_class.h"
@@ -20,6 +21,7 @@ void Run::step(long count) {
   bool good = !run().failed();
   for (long i = 0; i < count && good; ++i) {
     good = run().step();
+    if (sensors_ && generation_ == run().generation()) sensors_->remember();
     if (since.seconds() < heard) continue;
     since.restart();
     const py::gil_scoped_acquire acquire;
@@ -33,7 +35,11 @@ void Run::step(long count) {
 
 void Run::reset(const std::optional<long>& wanted_seed, const py::dict& settings) {
   if (wanted_seed) seed = *wanted_seed;
-  const app::SteeredScene::Settings texts = settings_of(settings);
+  app::SteeredScene::Settings texts = settings_of(settings);
+  // What the scene draws is drawn anew; without it a seed changes nothing, and costs nothing.
+  const world::Scene& scene = *run().scene().files.scene;
+  if (wanted_seed && (!scene.vary.empty() || !scene.wrenches.empty()))
+    texts.insert(texts.begin(), {"seed", std::to_string(std::abs(*wanted_seed % 1000000000))});
   alone([&](app::SteeredRun& one) {
     // Refused settings leave it at time 0, too.
     try {
@@ -64,19 +70,41 @@ void check_camera(const app::Simulation& simulation, const std::string& camera) 
 
 }  // namespace
 
+app::SceneSensors& Run::sensors() {
+  if (!sensors_ || generation_ != run().generation())
+    sensors_ = std::make_unique<app::SceneSensors>(run().simulation());
+  generation_ = run().generation();
+  return *sensors_;
+}
+
+app::SensedPicture Run::sense(const app::SenseRequest& wanted) {
+  std::optional<app::SensedPicture> picture;
+  alone([&](app::SteeredRun&) {
+    PictureThread::get().run([&](app::PictureTaker& taker) {
+      picture = sensors().take(taker, wanted, static_cast<std::uint64_t>(seed));
+    });
+  });
+  return std::move(*picture);
+}
+
+const app::NamedThings& Run::things() {
+  return *alone([&](app::SteeredRun&) { return &sensors().things(); });
+}
+
 py::array_t<std::uint8_t> Run::render(const std::string& camera, int width, int height, bool strain,
                                       bool text) {
   std::optional<render::Image> image;
   alone([&](app::SteeredRun& one) {
     check_camera(one.simulation(), camera);
-    if (generation_ != one.generation()) view_ = std::make_unique<app::SceneView>(one.simulation());
-    generation_ = one.generation();
+    app::SceneView& view = sensors().view();
     app::Frame frame;
-    view_->fill(frame, strain);
+    view.fill(frame, strain);
     if (!text) frame.caption.clear(), frame.note.clear(), frame.legend.reset();
-    const render::Camera from = view_->camera(camera, frame);
-    PictureThread::get().run(
-        [&](app::PictureTaker& taker) { image = taker.take(frame, from, width, height); });
+    const render::Camera from = view.camera(camera, frame);
+    PictureThread::get().run([&](app::PictureTaker& taker) {
+      taker.set(app::light_of(one.simulation().scene().look));
+      image = taker.take(frame, from, width, height);
+    });
   });
   py::array_t<std::uint8_t> pixels({height, width, 3});
   std::copy(image->rgb.begin(), image->rgb.end(), pixels.mutable_data());

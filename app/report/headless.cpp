@@ -10,6 +10,7 @@
 #include "pedicel/app/draw/scene_view.h"
 #include "pedicel/app/report/meta.h"
 #include "pedicel/app/report/run_state.h"
+#include "pedicel/app/report/sensor_recorder.h"
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/run/channels.h"
 #include "pedicel/app/run/rough_spell.h"
@@ -18,6 +19,7 @@
 #include "pedicel/core/stop.h"
 #include "pedicel/core/timer.h"
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::app {
 
@@ -94,12 +96,15 @@ class Run {
       if (options.video) open_video();
     }
     for (const MakeWatcher& make : options.watchers) watchers_.push_back(make(simulation_));
+    if (output_)
+      sensors_ = std::make_unique<SensorRecorder>(simulation_, *output_, pictures_.get());
     say_start();
   }
 
   SceneResult go() {
     for (const auto& watcher : watchers_) watcher->begin();
     picture_now();
+    if (sensors_) sensors_->record();
     const long before = simulation_.world().steps();
     const long steps = options_.steps
                            ? *options_.steps
@@ -140,6 +145,7 @@ class Run {
     }
     picture_now();
     for (const auto& watcher : watchers_) watcher->after_step();
+    if (sensors_) sensors_->record();
     rough_.look(simulation_, report);
     if (report.errors & world::fatal_errors) {
       result_.exit_code = exit_unstable;
@@ -214,6 +220,8 @@ class Run {
     result_.state_hash = simulation_.state_hash();
     result_.residual = worst_residual(simulation_.plants());
     result_.events = recorder_.events();
+    result_.gentleness = simulation_.gentleness().total();
+    result_.handled = handled_organs(simulation_);
     add_limits();
     simulation_.measurements().set_wall_seconds(result_.wall);
     picture_end();
@@ -235,6 +243,8 @@ class Run {
     if (result_.exit_code == 0 && pictures_ && !pictures_->available())
       result_.exit_code = exit_no_pictures;
     if (output_) write_meta(output_->file("log.meta.json"), simulation_, result_);
+    if (output_)
+      io::write_file_atomically(output_->file("gentleness.csv"), to_csv(result_.handled));
     copy_table("log.csv", options_.log);
     copy_table("events.csv", options_.events);
     if (!options_.save_state.empty() && result_.exit_code != exit_unstable)
@@ -341,6 +351,7 @@ class Run {
   RoughSpell rough_;
   SceneView view_;
   std::unique_ptr<PictureTaker> pictures_;
+  std::unique_ptr<SensorRecorder> sensors_;
   FrameHistory history_;
   Frame frame_;
   SceneResult result_;
@@ -355,14 +366,16 @@ class Run {
 }  // namespace
 
 const std::vector<std::string>& files_of_a_run() {
-  static const std::vector<std::string> names = {"log.csv",    "events.csv",  "log.meta.json",
-                                                 "run.mp4",    "report.html", "sweep.csv",
-                                                 "solvers.csv"};
+  static const std::vector<std::string> names = {"log.csv",       "events.csv",  "gentleness.csv",
+                                                 "log.meta.json", "run.mp4",     "report.html",
+                                                 "sweep.csv",     "solvers.csv", "polar.svg"};
   return names;
 }
 
 SceneResult run_scene(const world::Scene& scene, const RunOptions& options) {
-  return Run(scene, options).go();
+  if (scene.vary.empty()) return Run(scene, options).go();
+  const world::Scene drawn = world::drawn_scene(scene);
+  return Run(drawn, options).go();
 }
 
 namespace {
@@ -407,6 +420,7 @@ std::string to_json(const world::Scene& scene, const SceneResult& result) {
                               {"stretch", e.stretch},
                               {"bend_rad", e.bend},
                               {"force_N", e.force}});
+  json["gentleness"] = to_json(result.gentleness, result.handled);
   json["expectations"] = nlohmann::ordered_json::array();
   for (const world::ExpectationResult& v : result.verdicts)
     json["expectations"].push_back(

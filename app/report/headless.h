@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pedicel/app/report/compare.h"
+#include "pedicel/app/report/gentleness_table.h"
 #include "pedicel/app/report/log_plots.h"
 #include "pedicel/app/report/run_watcher.h"
 #include "pedicel/app/run/simulation.h"
@@ -52,6 +53,8 @@ struct SceneResult {
   std::vector<world::ExpectationResult> verdicts;
   std::optional<Comparison> comparison;  ///< with measured values
   std::vector<world::Event> events;
+  Gentleness::Total gentleness;
+  std::vector<HandledOrgan> handled;            ///< one by one
   std::vector<StalkLimits> limits;              ///< of every fruit, for the plots
   std::vector<std::filesystem::path> pictures;  ///< in the order taken
   std::optional<std::filesystem::path> video;

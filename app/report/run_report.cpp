@@ -61,6 +61,7 @@ void add_pairs(HtmlReport& page, const std::string& heading,
 void add_sweep(HtmlReport& page, const RunSummary& summary) {
   add_table(page, "Sweep", summary.sweep);
   if (summary.sweep_plot) page.plot(to_svg(*summary.sweep_plot));
+  if (summary.sweep_polar) page.plot(to_svg(*summary.sweep_polar));
   add_pictures(page, summary.sweep_pictures);
 }
 
@@ -79,6 +80,7 @@ void write_run_report(const RunSummary& summary, const std::filesystem::path& pa
   if (!summary.video.empty()) page.video(summary.video, "The whole run.");
   add_pictures(page, summary.pictures);
   add_table(page, "What came off", summary.events);
+  add_table(page, "How gently it was done", summary.gentleness);
   add_sweep(page, summary);
   add_solvers(page, summary);
   if (!summary.plots.empty()) page.heading("Over time");

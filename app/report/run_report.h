@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pedicel/io/svg_plot.h"
+#include "pedicel/io/svg_polar.h"
 
 namespace pedicel::app {
 
@@ -35,9 +36,11 @@ struct RunSummary {
   std::string video;  ///< relative to the page
   std::vector<ReportImage> pictures;
   ReportTable events;
+  ReportTable gentleness;  ///< how each organ was handled
   std::vector<io::LinePlot> plots;
   ReportTable sweep;
   std::optional<io::LinePlot> sweep_plot;
+  std::optional<io::PolarPlot> sweep_polar;  ///< a sweep over directions
   std::vector<ReportImage> sweep_pictures;
   ReportTable solvers, solver_speeds;  ///< both solvers over a sweep, and at equal error
   std::string solver_note;

@@ -46,6 +46,45 @@ ReportTable events_of(const SceneResult& result) {
   return table;
 }
 
+/// The sum of all, then what was touched or broke.
+ReportTable gentleness_of(const SceneResult& result) {
+  ReportTable table;
+  const Gentleness::Total& all = result.gentleness;
+  if (all.touched == 0 && all.broken == 0) return table;
+  table.header = {"organ",       "peak force (N)",     "impulse (N s)",
+                  "margin used", "strain energy (mJ)", "first touched (s)",
+                  "broken"};
+  table.rows.push_back({"all", number(all.peak_force), number(all.impulse), number(all.margin_used),
+                        number(1.0e3 * all.strain_energy), std::to_string(all.touched) + " touched",
+                        std::to_string(all.broken) + " fruits"});
+  for (const HandledOrgan& one : result.handled) {
+    const Gentleness::Record& r = one.record;
+    if (!r.touched() && !r.broken) continue;
+    table.rows.push_back({one.name, number(r.peak_force), number(r.impulse),
+                          one.fruit ? number(r.margin_used) : "",
+                          one.fruit ? "" : number(1.0e3 * r.strain_energy),
+                          r.touched() ? number(r.first_touch) : "", r.broken ? "broken" : ""});
+  }
+  return table;
+}
+
+/// What a sweep over pull directions found: the force in the stalk that broke first.
+std::optional<io::PolarPlot> polar_of(const world::Scene& scene,
+                                      const std::vector<SweepRun>& sweep) {
+  const std::string& key = scene.sweep->key;
+  if (key != "loads.angle" && key != "loads.azimuth") return {};
+  io::PolarPlot plot;
+  plot.title = "Force at detachment over the pull's direction";
+  plot.label = key == "loads.angle" ? "force in the stalk (N); 0\u00b0 pulls down"
+                                    : "force in the stalk (N); 0\u00b0 pulls along X";
+  for (const SweepRun& run : sweep) {
+    plot.angle.push_back(run.value);
+    plot.value.push_back(run.result.events.empty() ? std::nan("")
+                                                   : run.result.events.front().force);
+  }
+  return plot;
+}
+
 std::vector<io::LinePlot> plots_of(const SceneResult& result) {
   Diagnostics diagnostics;
   const io::CsvTable log = io::read_csv(result.folder / "log.csv", {true, true}, diagnostics);
@@ -87,6 +126,11 @@ void add_sweep(const world::Scene& scene, const std::vector<SweepRun>& sweep,
     csv += '\n';
     if (const auto picture = telling_picture(run.result))
       summary.sweep_pictures.push_back({*picture, scene.sweep->key + " = " + number(run.value, 6)});
+  }
+  summary.sweep_polar = polar_of(scene, sweep);
+  if (summary.sweep_polar) {
+    summary.files.emplace_back("polar.svg", "the force at detachment over the pull's direction");
+    io::write_file_atomically(output.file("polar.svg"), to_svg(*summary.sweep_polar));
   }
   if (by) summary.sweep_plot = sweep_plot(scene.sweep->key, values, measured, results);
   summary.files.emplace_back("sweep.csv", "the sweep's values and what was measured");
@@ -159,11 +203,13 @@ void write_scene_report(const world::Scene& scene, const SceneResult& result,
   for (const std::filesystem::path& picture : result.pictures)
     summary.pictures.push_back({picture, picture.stem().string()});
   summary.events = events_of(result);
+  summary.gentleness = gentleness_of(result);
   summary.plots = plots_of(result);
   summary.numbers = numbers_of(result);
   summary.settings = settings_of(scene);
   summary.files = {{"log.csv", "everything that was recorded, over time"},
                    {"events.csv", "the fruits that came off"},
+                   {"gentleness.csv", "how hard each organ was touched, and what broke"},
                    {"log.meta.json", "version, seed, settings and state hash of this run"}};
   add_sweep(scene, sweep, *result.output, summary);
   if (comparison) add_comparison(*comparison, *result.output, summary);

@@ -2,6 +2,7 @@
 
 #include "pedicel/app/run/rod_options.h"
 #include "pedicel/app/run/scene_plants.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::app {
 
@@ -15,7 +16,7 @@ void read_settings(SceneAssets& assets, Diagnostics& diagnostics) {
 }  // namespace
 
 SceneAssets::SceneAssets(const world::Scene& given, const SimulationOptions& options)
-    : scene(given) {
+    : scene(given.vary.empty() ? given : world::drawn_scene(given)) {
   Diagnostics diagnostics;
   read_settings(*this, diagnostics);
   for (ScenePlantModel& plant : build_plants(scene, options, diagnostics, notes)) {

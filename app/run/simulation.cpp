@@ -1,6 +1,7 @@
 #include "pedicel/app/run/simulation.h"
 
 #include "pedicel/app/run/scene_assets.h"
+#include "pedicel/app/run/wrench_sensor.h"
 #include "pedicel/core/check.h"
 #include "pedicel/world/scene_writer.h"
 
@@ -49,14 +50,26 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), diagnostics);
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
+  gentleness_ = std::make_unique<Gentleness>(*rods_, plant_step());
+  if (robot_ && !scene_.wrenches.empty()) {
+    wrenches_ = std::make_unique<WrenchSensors>(scene_, *robot_, plant_step(), diagnostics);
+    if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  }
   // Participants of one phase act in the order in which they join.
   world_.add(*loads_);
   contacts_->join();
   world_.add(*measurements_);
+  world_.add(*gentleness_);
+  if (wrenches_) world_.add(*wrenches_);
   for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
 }
 
 Simulation::~Simulation() = default;
+
+const std::vector<WrenchSensor>& Simulation::wrenches() const {
+  static const std::vector<WrenchSensor> none;
+  return wrenches_ ? wrenches_->all() : none;
+}
 
 void Simulation::add_plants() {
   for (const cosserat::RodModel& model : assets_->models) rods_->add_plant(model);

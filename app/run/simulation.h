@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "pedicel/app/run/gentleness.h"
 #include "pedicel/app/run/measurements.h"
 #include "pedicel/app/run/plant_info.h"
 #include "pedicel/app/run/scene_contacts.h"
@@ -20,6 +21,8 @@
 namespace pedicel::app {
 
 struct SceneAssets;
+class WrenchSensor;
+class WrenchSensors;
 
 struct SimulationOptions {
   std::vector<std::string> packages;  ///< "NAME=PATH" of `--package`
@@ -61,6 +64,10 @@ class Simulation {
   const coupling::ColliderSet& colliders() const { return contacts_->colliders(); }
   const Measurements& measurements() const { return *measurements_; }
   Measurements& measurements() { return *measurements_; }
+  /// How gently its plants were handled so far.
+  const Gentleness& gentleness() const { return *gentleness_; }
+  /// The force sensors of the scene, in its order.
+  const std::vector<WrenchSensor>& wrenches() const;
   /// Null where the scene has no robot.
   const RobotControl* robot() const { return robot_.get(); }
   RobotControl* robot() { return robot_.get(); }
@@ -87,6 +94,8 @@ class Simulation {
   std::unique_ptr<SceneLoads> loads_;
   std::unique_ptr<SceneContacts> contacts_;
   std::unique_ptr<Measurements> measurements_;
+  std::unique_ptr<Gentleness> gentleness_;
+  std::unique_ptr<WrenchSensors> wrenches_;  // null: the scene has none
   std::vector<std::string> notes_;
 };
 

@@ -16,6 +16,7 @@
 #include "pedicel/app/session/session_films.h"
 #include "pedicel/app/verbs/cluster.h"
 #include "pedicel/app/verbs/completion.h"
+#include "pedicel/app/verbs/dataset.h"
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/effective_scene.h"
 #include "pedicel/app/verbs/fit.h"
@@ -340,6 +341,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   const std::function<int()> lab = add_lab_verb(app);
   const std::function<int()> transfer = add_transfer_verb(app);
   const std::function<int()> pick = add_pick_verb(app);
+  const std::function<int()> dataset = add_dataset_verb(app);
   const std::function<int()> manual = add_manual_verb(app);
 
   ObserveArguments observed;
@@ -366,6 +368,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (app.got_subcommand("lab")) return guarded(lab);
   if (app.got_subcommand("transfer")) return guarded(transfer);
   if (app.got_subcommand("pick")) return guarded(pick);
+  if (app.got_subcommand("dataset")) return guarded(dataset);
   if (app.got_subcommand("manual")) return guarded(manual);
   if (*observe) return guarded([&] { return observe_verb(observed); });
   return guarded([&] {

@@ -11,6 +11,7 @@
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_numbers.h"
+#include "pedicel/plant/plant_shape.h"
 #include "pedicel/world/settings.h"
 
 namespace pedicel::app {
@@ -69,12 +70,13 @@ void add_effects(std::vector<ManualRow>& rows) {
 }
 
 // `settings` are those of a default-constructed section, so that values are defaults.
-void add_parameters(std::vector<ManualRow>& rows, const std::vector<Parameter>& settings) {
+void add_parameters(std::vector<ManualRow>& rows, const std::vector<Parameter>& settings,
+                    const char* page = "settings") {
   for (const Parameter& one : settings) {
     const bool flag = std::holds_alternative<bool*>(one.value);
     const bool whole = std::holds_alternative<int*>(one.value);
     const std::string bounds = number_text(one.minimum) + " to " + number_text(one.maximum);
-    rows.push_back({"settings",
+    rows.push_back({page,
                     1,
                     {code(one.name), one.unit, number_text(one.get()),
                      flag ? "0, 1" : (whole ? "whole, " : "") + bounds, phrase(one.sentence)}});
@@ -98,6 +100,20 @@ void add_settings(std::vector<ManualRow>& rows) {
                     1,
                     {code(std::string(one.key)), std::string(one.unit), "the plant's",
                      range_text(one.bounds), phrase(std::string(one.sentence))}});
+}
+
+void add_sensors(std::vector<ManualRow>& rows) {
+  for (const plant::ShapeFactor& one : plant::shape_factors())
+    rows.push_back({"settings",
+                    1,
+                    {code(std::string(one.key)), "1", "1", range_text(plant::shape_bounds),
+                     phrase(std::string(one.sentence))}});
+  world::SceneLook look;
+  add_parameters(rows, look.parameters());
+  world::CameraNoise camera;
+  add_parameters(rows, camera.parameters(), "cameras");
+  world::WrenchNoise wrench;
+  add_parameters(rows, wrench.parameters(), "cameras");
 }
 
 void add_diagnosis_settings(std::vector<ManualRow>& rows) {
@@ -126,6 +142,7 @@ std::vector<ManualRow> manual_rows() {
   std::vector<ManualRow> rows;
   add_effects(rows);
   add_settings(rows);
+  add_sensors(rows);
   add_diagnosis_settings(rows);
   add_commands(rows);
   for (const ExitCodeDescription& one : exit_codes())

@@ -10,7 +10,7 @@
 #include "pedicel/app/run/mesh_fields.h"
 #include "pedicel/app/run/simulation.h"
 #include "pedicel/app/session/document/document.h"
-#include "pedicel/app/steer/variation.h"
+#include "pedicel/world/variation.h"
 #include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/app/verbs/validate_tables.h"
 #include "pedicel/discrepancy/admission/admission.h"
@@ -137,7 +137,7 @@ std::string check_commands(const std::filesystem::path& path, const Options&,
 }
 
 std::string check_variation(const std::filesystem::path& path, const Options&, Diagnostics&) {
-  const std::size_t count = Variation::read(path).numbers().size();
+  const std::size_t count = world::Variation::read(path).numbers().size();
   return std::to_string(count) + (count == 1 ? " number varies" : " numbers vary");
 }
 

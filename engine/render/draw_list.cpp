@@ -88,6 +88,23 @@ void DrawList::clear() {
   ghost.reset();
 }
 
+DrawList::Counts DrawList::counts() const {
+  return {capsules.size(), tubes.size(),  spheres.size(),
+          boxes.size(),    meshes.size(), blades.size()};
+}
+
+void DrawList::label_since(const Counts& before, Label label) {
+  const auto name = [label](auto& items, std::size_t first) {
+    for (std::size_t i = first; i < items.size(); ++i) items[i].label = label;
+  };
+  name(capsules, before.capsules);
+  name(tubes, before.tubes);
+  name(spheres, before.spheres);
+  name(boxes, before.boxes);
+  name(meshes, before.meshes);
+  name(blades, before.blades);
+}
+
 Eigen::AlignedBox3d mesh_bounds(const geometry::TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Vec3& vertex : mesh.vertices) box.extend(vertex);

@@ -43,11 +43,16 @@ inline constexpr Material accent{Colour::hex(0xe8862d), 0.45f, 0.5f};
 inline constexpr Material steel{Colour::hex(0x9aa3ab), 0.3f, 0.8f};
 }  // namespace materials
 
+/// What a thing is called in a label map (label_map.h), so that a picture can tell one from
+/// another: 0 for what has no name. Below 2^24.
+using Label = std::uint32_t;
+
 /// Two spheres and the cone that touches both (the convex hull). World frame, m.
 struct Capsule {
   Vec3 p0, p1;
   double r0 = 0.0, r1 = 0.0;
   Material material;
+  Label label = 0;
 };
 
 /// One stretch of a smooth tube between two neighbouring points of a chain; made by
@@ -60,6 +65,7 @@ struct TubeSegment {
   Colour colour0, colour1;
   float roughness = 0.6f, specular = 0.35f;
   bool rounded = false;  ///< closed by half spheres: the first and the last stretch of a chain
+  Label label = 0;
 };
 
 /// A point of a stem's centreline, as DrawList::add_tube() takes it. World frame, m.
@@ -73,12 +79,14 @@ struct Sphere {
   Vec3 centre;  ///< W, m
   double radius = 0.0;
   Material material;
+  Label label = 0;
 };
 
 struct Box {
   Pose pose;          ///< box to world
   Vec3 half_extents;  ///< m
   Material material;
+  Label label = 0;
 };
 
 /// A mesh drawn at a pose. The renderer keeps its buffers as long as the same mesh object lives, so
@@ -87,12 +95,14 @@ struct MeshInstance {
   std::shared_ptr<const geometry::TriangleMesh> mesh;
   Pose pose;  ///< mesh to world
   Material material;
+  Label label = 0;
 };
 
 /// A flat triangle seen and lit from both sides, letting some light through: a leaf blade.
 struct BladeFace {
   Vec3 a, b, c;  ///< W, m
   Material material;
+  Label label = 0;
 };
 
 /// An unlit line of constant width on the screen. World frame.
@@ -108,6 +118,7 @@ struct Ground {
   double cell = 0.25;   ///< side of a checker field, m
   Colour light = Colour::hex(0xdcd9d2);
   Colour dark = Colour::hex(0xd0ccc3);
+  Label label = 0;
 };
 
 /// Everything that one picture shows; plain data without any OpenGL. Fill it anew for every frame
@@ -138,6 +149,14 @@ class DrawList {
 
   /// Empties the list and keeps its memory; the ground stays.
   void clear();
+
+  /// How many there are of each shape, to label what is added after.
+  struct Counts {
+    std::size_t capsules = 0, tubes = 0, spheres = 0, boxes = 0, meshes = 0, blades = 0;
+  };
+  Counts counts() const;
+  /// Gives what was added since a label; the ground and the ghost are left out.
+  void label_since(const Counts& before, Label label);
 
   /// Encloses everything but the ground and the ghost; empty where nothing is drawn. W, m.
   Eigen::AlignedBox3d bounds() const;

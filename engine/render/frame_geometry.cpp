@@ -21,9 +21,9 @@ void put(std::vector<float>& to, const Colour& colour) {
   const Colour linear = to_linear(colour);
   to.insert(to.end(), {linear.r, linear.g, linear.b});
 }
-void put(std::vector<float>& to, const Material& material) {
+void put(std::vector<float>& to, const Material& material, Label label) {
   put(to, material.colour);
-  to.insert(to.end(), {material.roughness, material.specular});
+  to.insert(to.end(), {material.roughness, material.specular, static_cast<float>(label)});
 }
 void put_segment(std::vector<float>& to, const TubeSegment& t) {
   put(to, t.p0, t.r0);
@@ -31,7 +31,7 @@ void put_segment(std::vector<float>& to, const TubeSegment& t) {
   for (const Vec3* v : {&t.tangent0, &t.tangent1, &t.side0, &t.side1}) put(to, *v);
   put(to, t.colour0);
   put(to, t.colour1);
-  to.insert(to.end(), {t.roughness, t.specular});
+  to.insert(to.end(), {t.roughness, t.specular, static_cast<float>(t.label)});
 }
 void put_pose(std::vector<float>& to, const Pose& pose, const Vec3& stretch) {
   const Mat3 matrix = pose.rotation.toRotationMatrix() * stretch.asDiagonal();
@@ -109,7 +109,7 @@ void FrameGeometry::prepare(const DrawList& list, const Detail& detail) {
   for (auto& batches : batches_) batches.clear();
   add_tubes(list, detail);
   add_capsules(list, detail);
-  for (const Sphere& s : list.spheres) add_sphere(s.centre, s.radius, s.material, detail);
+  for (const Sphere& s : list.spheres) add_sphere(s.centre, s.radius, s.material, s.label, detail);
   add_solids(list, detail);
   add_thin(list);
   upload();
@@ -134,7 +134,7 @@ void FrameGeometry::add_capsules(const DrawList& list, const Detail& detail) {
     const Vec3 axis = c.p1 - c.p0;
     const double length = axis.norm(), thick = std::max(c.r0, c.r1);
     if (length <= std::abs(c.r1 - c.r0) + 1e-9) {  // one sphere holds the other
-      add_sphere(c.r0 >= c.r1 ? c.p0 : c.p1, thick, c.material, detail);
+      add_sphere(c.r0 >= c.r1 ? c.p0 : c.p1, thick, c.material, c.label, detail);
       continue;
     }
     const int level = detail.level(0.5 * (c.p0 + c.p1), 0.5 * length + thick, thick);
@@ -143,17 +143,17 @@ void FrameGeometry::add_capsules(const DrawList& list, const Detail& detail) {
     const Vec3 side = along.unitOrthogonal();
     put_segment(batch(Kind::tube, shapes_.capsule(level, false)),
                 {c.p0, c.p1, along, along, side, side, c.r0, c.r1, c.material.colour,
-                 c.material.colour, c.material.roughness, c.material.specular, true});
+                 c.material.colour, c.material.roughness, c.material.specular, true, c.label});
   }
 }
 
 void FrameGeometry::add_sphere(const Vec3& centre, double radius, const Material& material,
-                               const Detail& detail) {
+                               Label label, const Detail& detail) {
   const int level = detail.level(centre, radius);
   if (level < 0) return;
   std::vector<float>& floats = batch(Kind::sphere, shapes_.sphere(level));
   put(floats, centre, radius);
-  put(floats, material);
+  put(floats, material, label);
 }
 
 void FrameGeometry::add_solids(const DrawList& list, const Detail& detail) {
@@ -161,7 +161,7 @@ void FrameGeometry::add_solids(const DrawList& list, const Detail& detail) {
     if (detail.level(b.pose.position, b.half_extents.norm()) < 0) continue;
     std::vector<float>& floats = batch(Kind::mesh, shapes_.cube());
     put_pose(floats, b.pose, b.half_extents);
-    put(floats, b.material);
+    put(floats, b.material, b.label);
   }
   for (const MeshInstance& m : list.meshes) {
     if (!m.mesh || m.mesh->triangles.empty()) continue;
@@ -169,7 +169,7 @@ void FrameGeometry::add_solids(const DrawList& list, const Detail& detail) {
     if (detail.level(m.pose * box.center(), 0.5 * box.diagonal().norm()) < 0) continue;
     std::vector<float>& floats = batch(Kind::mesh, cache_.get(m.mesh));
     put_pose(floats, m.pose, Vec3::Ones());
-    put(floats, m.material);
+    put(floats, m.material, m.label);
   }
 }
 
@@ -177,7 +177,7 @@ void FrameGeometry::add_thin(const DrawList& list) {
   for (const BladeFace& t : list.blades) {
     std::vector<float>& floats = batch(Kind::blade, shapes_.blade());
     for (const Vec3* corner : {&t.a, &t.b, &t.c}) put(floats, *corner);
-    put(floats, t.material);
+    put(floats, t.material, t.label);
   }
   for (const Line& l : list.lines) {
     std::vector<float>& floats = batch(Kind::line, shapes_.line());

@@ -28,7 +28,9 @@ void tie_sampler(const GlFunctions& gl, GLuint program, const char* name, int un
   if (location >= 0) gl.Uniform1i(location, unit);
 }
 
-GLuint link(const GlFunctions& gl, const std::string& vertex, const std::string& fragment) {
+}  // namespace
+
+GLuint link_program(const GlFunctions& gl, const std::string& vertex, const std::string& fragment) {
   const GLuint program = gl.CreateProgram();
   const GLuint stages[] = {compile(gl, GL_VERTEX_SHADER, vertex),
                            compile(gl, GL_FRAGMENT_SHADER, fragment)};
@@ -54,20 +56,32 @@ GLuint link(const GlFunctions& gl, const std::string& vertex, const std::string&
   return program;
 }
 
-}  // namespace
+std::string vertex_stage(Kind kind) {
+  switch (kind) {
+    case Kind::tube:
+      return shaders::tube_vertex();
+    case Kind::sphere:
+      return shaders::sphere_vertex();
+    case Kind::mesh:
+      return shaders::mesh_vertex();
+    case Kind::blade:
+      return shaders::blade_vertex();
+    case Kind::line:
+      break;
+  }
+  return shaders::line_vertex();
+}
 
 Programs::Programs(const GlFunctions& gl) : gl_(gl) {
-  const std::array<std::string, kind_count> vertex = {
-      shaders::tube_vertex(), shaders::sphere_vertex(), shaders::mesh_vertex(),
-      shaders::blade_vertex(), shaders::line_vertex()};
   for (int i = 0; i < kind_count; ++i) {
     const bool line = i == static_cast<int>(Kind::line);
-    lit_[i] = link(gl, vertex[i], line ? shaders::line_fragment() : shaders::lit_fragment());
-    if (!line) depth_[i] = link(gl, vertex[i], shaders::empty_fragment());
+    const std::string vertex = vertex_stage(static_cast<Kind>(i));
+    lit_[i] = link_program(gl, vertex, line ? shaders::line_fragment() : shaders::lit_fragment());
+    if (!line) depth_[i] = link_program(gl, vertex, shaders::empty_fragment());
   }
-  ground_ = link(gl, shaders::ground_vertex(), shaders::ground_fragment());
-  sky_ = link(gl, shaders::full_screen_vertex(), shaders::sky_fragment());
-  blur_ = link(gl, shaders::full_screen_vertex(), shaders::blur_fragment());
+  ground_ = link_program(gl, shaders::ground_vertex(), shaders::ground_fragment());
+  sky_ = link_program(gl, shaders::full_screen_vertex(), shaders::sky_fragment());
+  blur_ = link_program(gl, shaders::full_screen_vertex(), shaders::blur_fragment());
   gl.GenBuffers(1, &block_);
 }
 

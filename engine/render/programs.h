@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "pedicel/render/gl_functions.h"
 
@@ -21,6 +22,12 @@ struct FrameUniforms {
 /// The texture units that the samplers of the shaders are tied to.
 inline constexpr int shadow_unit = 0;
 inline constexpr int contact_unit = 1;
+
+/// A program of two stages, with the uniform block and the samplers tied to their places. Throws
+/// std::runtime_error with the compiler's log where a shader is refused.
+GLuint link_program(const GlFunctions& gl, const std::string& vertex, const std::string& fragment);
+/// The vertex stage of what is drawn with instances.
+std::string vertex_stage(Kind kind);
 
 /// Compiled shader programs and the uniform block they share.
 class Programs {

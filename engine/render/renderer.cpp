@@ -6,6 +6,7 @@
 #include "pedicel/render/colour_space.h"
 #include "pedicel/render/contact_map.h"
 #include "pedicel/render/frame_geometry.h"
+#include "pedicel/render/label_pass.h"
 #include "pedicel/render/programs.h"
 #include "pedicel/render/render_target.h"
 #include "pedicel/render/shadow_map.h"
@@ -88,6 +89,22 @@ class Renderer::Implementation {
     draw_picture(frame, list.ground.has_value());
     if (list.ghost) draw_ghost(list.ghost_opacity);
     return *target_;
+  }
+
+  /// Of the geometry that was prepared last: by draw() of the same list, or here.
+  LabelMap label(const DrawList& list, const Camera& camera, int width, int height, bool prepared) {
+    if (!prepared) {
+      cache_.drop_unused();
+      seen_.prepare(list, Detail(camera, width, height, settings_.detail));
+    }
+    if (!labels_) labels_ = std::make_unique<LabelPass>(gl_);
+    Eigen::AlignedBox3d casters = list.bounds();
+    if (casters.isEmpty()) casters.extend(camera.target);
+    FrameUniforms frame = light(list, casters);
+    look(frame, camera, casters, width, height);
+    if (list.ground) frame.view_forward[3] = static_cast<float>(list.ground->label);
+    programs_.set_frame(frame);
+    return labels_->draw(seen_, list.ground.has_value(), empty_array_, width, height);
   }
 
   void set(const RenderSettings& settings) {
@@ -223,6 +240,7 @@ class Renderer::Implementation {
   MeshCache cache_;
   FrameGeometry seen_, ghost_, casting_;
   std::unique_ptr<DepthMap> shadow_;
+  std::unique_ptr<LabelPass> labels_;  // once it is asked for
   ContactMap contact_;
   std::unique_ptr<RenderTarget> target_;
   GLuint empty_array_ = 0;
@@ -253,6 +271,20 @@ Image Renderer::render(const DrawList& list, const Camera& camera, int width, in
   check_size(width, height);
   check(camera);
   return implementation_->draw(list, camera, width, height).read();
+}
+
+LabelMap Renderer::label(const DrawList& list, const Camera& camera, int width, int height) {
+  check_size(width, height);
+  check(camera);
+  return implementation_->label(list, camera, width, height, false);
+}
+
+Renderer::Labelled Renderer::render_labelled(const DrawList& list, const Camera& camera, int width,
+                                             int height) {
+  Labelled both;
+  both.image = render(list, camera, width, height);
+  both.map = implementation_->label(list, camera, width, height, true);
+  return both;
 }
 
 void Renderer::draw(const DrawList& list, const Camera& camera, int width, int height,

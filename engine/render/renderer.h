@@ -6,6 +6,7 @@
 #include "pedicel/render/draw_list.h"
 #include "pedicel/render/gl_functions.h"
 #include "pedicel/render/image.h"
+#include "pedicel/render/label_map.h"
 
 namespace pedicel::render {
 
@@ -39,6 +40,15 @@ class Renderer {
   /// A picture in main memory, without text (overlay.h adds it). Throws UsageError for a size below
   /// 1 x 1 or above 8192, or a bad camera.
   Image render(const DrawList& list, const Camera& camera, int width, int height);
+
+  /// What each pixel of such a picture shows, and how far away it is (label_map.h).
+  LabelMap label(const DrawList& list, const Camera& camera, int width, int height);
+  /// Both of one list, which saves preparing it twice.
+  struct Labelled {
+    Image image;
+    LabelMap map;
+  };
+  Labelled render_labelled(const DrawList& list, const Camera& camera, int width, int height);
 
   /// The same into a framebuffer of the current context (0: the window), whose lower left corner
   /// gets the lower left corner of the picture.

@@ -13,7 +13,7 @@ layout(std140) uniform Frame {
   vec4 eye;              // W; w: far plane
   vec4 view_right;       // half width of the picture at distance 1
   vec4 view_up;          // half height
-  vec4 view_forward;
+  vec4 view_forward;     // w: label of the ground
   vec4 sun_direction;    // towards the sun; w: normal offset in the shadow map, m
   vec4 sun_colour;
   vec4 zenith;
@@ -31,11 +31,13 @@ out vec3 v_position;
 out vec3 v_normal;
 out vec3 v_colour;
 flat out vec3 v_surface;  // roughness, specular, share of light let through
-void put(vec3 position, vec3 normal, vec3 colour, vec3 surface) {
+flat out float v_label;
+void put(vec3 position, vec3 normal, vec3 colour, vec3 surface, float through) {
   v_position = position;
   v_normal = normal;
   v_colour = colour;
-  v_surface = surface;
+  v_surface = vec3(surface.xy, through);
+  v_label = surface.z;
   gl_Position = view_projection * vec4(position, 1.0);
 }
 )";
@@ -77,7 +79,7 @@ layout(location = 5) in vec3 side0;
 layout(location = 6) in vec3 side1;
 layout(location = 7) in vec3 colour0;
 layout(location = 8) in vec3 colour1;
-layout(location = 9) in vec2 surface;
+layout(location = 9) in vec3 surface;  // roughness, specular, label
 void main() {
   float s = base.x;
   float reach = distance(end0.xyz, end1.xyz);
@@ -96,7 +98,7 @@ void main() {
   vec3 around = base.z * side + base.w * cross(along, side);
   vec3 normal = cos(latitude) * around + sin(latitude) * along;
   put(centre + mix(end0.w, end1.w, s) * normal, normal, mix(colour0, colour1, s),
-      vec3(surface, 0.0));
+      surface, 0.0);
 }
 )";
 }
@@ -106,9 +108,9 @@ std::string sphere_vertex() {
 layout(location = 0) in vec3 direction;
 layout(location = 1) in vec4 ball;  // centre, radius
 layout(location = 2) in vec3 colour;
-layout(location = 3) in vec2 surface;
+layout(location = 3) in vec3 surface;  // roughness, specular, label
 void main() {
-  put(ball.xyz + ball.w * direction, direction, colour, vec3(surface, 0.0));
+  put(ball.xyz + ball.w * direction, direction, colour, surface, 0.0);
 }
 )";
 }
@@ -121,12 +123,12 @@ layout(location = 2) in vec4 row0;
 layout(location = 3) in vec4 row1;
 layout(location = 4) in vec4 row2;
 layout(location = 5) in vec3 colour;
-layout(location = 6) in vec2 surface;
+layout(location = 6) in vec3 surface;  // roughness, specular, label
 void main() {
   vec4 p = vec4(position, 1.0);
   // A stretched box keeps the directions of its face normals, so the same matrix serves both.
   vec3 n = normalize(vec3(dot(row0.xyz, normal), dot(row1.xyz, normal), dot(row2.xyz, normal)));
-  put(vec3(dot(row0, p), dot(row1, p), dot(row2, p)), n, colour, vec3(surface, 0.0));
+  put(vec3(dot(row0, p), dot(row1, p), dot(row2, p)), n, colour, surface, 0.0);
 }
 )";
 }
@@ -138,11 +140,11 @@ layout(location = 1) in vec3 a;
 layout(location = 2) in vec3 b;
 layout(location = 3) in vec3 c;
 layout(location = 4) in vec3 colour;
-layout(location = 5) in vec2 surface;
+layout(location = 5) in vec3 surface;  // roughness, specular, label
 void main() {
   vec3 n = cross(b - a, c - a);
   put(weights.x * a + weights.y * b + weights.z * c, n / max(length(n), 1e-20), colour,
-      vec3(surface, 0.6));
+      surface, 0.6);
 }
 )";
 }
@@ -288,6 +290,23 @@ void main() {
     }
   pixel = vec4(sum / weights, 0.0, 0.0, 1.0);
 }
+)";
+}
+
+/// The clip coordinate w is the distance along the view axis, since the projection's last row is
+/// (0, 0, -1, 0).
+std::string label_fragment() {
+  return header + R"(
+flat in float v_label;
+out vec2 pixel;
+void main() { pixel = vec2(v_label, 1.0 / gl_FragCoord.w); }
+)";
+}
+
+std::string ground_label_fragment() {
+  return header + R"(
+out vec2 pixel;
+void main() { pixel = vec2(view_forward.w, 1.0 / gl_FragCoord.w); }
 )";
 }
 

@@ -19,6 +19,8 @@ std::string line_fragment();
 std::string ground_fragment();
 std::string sky_fragment();
 std::string blur_fragment();
+std::string label_fragment();
+std::string ground_label_fragment();
 std::string empty_fragment();
 
 }  // namespace pedicel::render::shaders

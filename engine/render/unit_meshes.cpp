@@ -14,13 +14,13 @@ namespace {
 
 // Locations and meanings: the vertex stages in shaders.cpp.
 constexpr int tube_base[] = {4};
-constexpr int tube_instance[] = {4, 4, 3, 3, 3, 3, 3, 3, 2};
+constexpr int tube_instance[] = {4, 4, 3, 3, 3, 3, 3, 3, 3};
 constexpr int sphere_base[] = {3};
-constexpr int sphere_instance[] = {4, 3, 2};
+constexpr int sphere_instance[] = {4, 3, 3};
 constexpr int mesh_base[] = {3, 3};
-constexpr int mesh_instance[] = {4, 4, 4, 3, 2};
+constexpr int mesh_instance[] = {4, 4, 4, 3, 3};
 constexpr int blade_base[] = {3};
-constexpr int blade_instance[] = {3, 3, 3, 3, 2};
+constexpr int blade_instance[] = {3, 3, 3, 3, 3};
 constexpr int line_base[] = {2};
 constexpr int line_instance[] = {3, 3, 4};
 

@@ -12,6 +12,8 @@
 #include "pedicel/core/frames.h"
 #include "pedicel/world/bodies.h"
 #include "pedicel/world/expectation.h"
+#include "pedicel/world/sensors.h"
+#include "pedicel/world/variation.h"
 
 namespace pedicel::world {
 
@@ -101,8 +103,25 @@ struct SceneLoad {
 struct SceneCamera {
   std::string name;
   Vec3 eye = Vec3(1.5, -1.5, 1.0), target = Vec3::Zero();  ///< m, W; relative to `follow` if given
+  Vec3 up = Vec3::UnitZ();                                 ///< W, towards the upper edge
   double field_of_view = 0.7;                              ///< rad, vertical
   Anchor follow;
+  std::array<int, 2> size{640, 480};  ///< px, of what its sensors write
+  double rate = 10.0;                 ///< Hz, of its sensors
+  std::vector<Sensor> sensors;        ///< what a run writes of it; empty: nothing
+  CameraNoise noise;
+};
+
+/// A force sensor at a link of the robot, in the link's frame, about its origin.
+struct SceneWrench {
+  std::string name, link;
+  /// False: what the link and all beyond it exert on what carries it (a wrist), weight and inertia
+  /// included. True: only what the plants exert on the link (a fingertip).
+  bool touch = false;
+  bool tared = false;   ///< less its mean over the first 0.2 s
+  double rate = 100.0;  ///< Hz
+  WrenchNoise noise;
+  SourcePosition where;
 };
 
 struct ScenePicture {
@@ -142,6 +161,9 @@ struct Scene {
   std::optional<GroundPlane> ground;
   std::vector<SceneLoad> loads;
   std::vector<SceneCamera> cameras;
+  std::vector<SceneWrench> wrenches;
+  SceneLook look;
+  std::vector<VariedNumber> vary;  ///< drawn from the seed where a run begins (drawn_scene())
   std::vector<ScenePicture> pictures;
   SceneVideo video;
   std::optional<SceneSweep> sweep;

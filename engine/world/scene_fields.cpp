@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <string_view>
 
@@ -178,13 +179,86 @@ std::string load(const SceneLoad& load) {
   return map.text();
 }
 
+namespace {
+
+/// Those numbers that are not as they are without the key.
+template <class Described>
+void add_described(FlowMap& map, const char* key, Described now) {
+  Described otherwise;
+  FlowMap inner;
+  const std::vector<Parameter> plain_numbers = otherwise.parameters();
+  for (const Parameter& one : now.parameters())
+    inner.add_unless(one.name, one.get(), find_parameter(plain_numbers, one.name)->get());
+  if (!inner.empty()) map.add(key, inner.text());
+}
+
+/// With an upper edge that is not level a camera is written by the turn of its frame.
+void add_view(FlowMap& map, const SceneCamera& camera) {
+  if (camera.up == Vec3(Vec3::UnitZ())) {
+    map.add("eye", camera.eye).add_unless("target", camera.target, Vec3::Zero());
+    return;
+  }
+  const Vec3 forward = (camera.target - camera.eye).normalized();
+  const Vec3 right = forward.cross(camera.up).normalized();
+  Mat3 axes;
+  axes << right, forward.cross(right), forward;
+  const Quat q(axes);
+  map.add("position", camera.eye);
+  map.add("orientation", number_list({q.x(), q.y(), q.z(), q.w()}));
+}
+
+}  // namespace
+
 std::string camera(const SceneCamera& camera) {
+  const SceneCamera plain_camera;
   FlowMap map;
-  map.add("name", io::yaml_word(camera.name)).add("eye", camera.eye);
-  map.add_unless("target", camera.target, Vec3::Zero());
-  map.add_unless("fov", camera.field_of_view, SceneCamera{}.field_of_view);
+  map.add("name", io::yaml_word(camera.name));
+  add_view(map, camera);
+  map.add_unless("fov", camera.field_of_view, plain_camera.field_of_view);
   if (camera.follow.kind != Anchor::Kind::none) map.add("follow", anchor(camera.follow));
+  if (camera.size != plain_camera.size)
+    map.add("size", number_list({double(camera.size[0]), double(camera.size[1])}));
+  std::string sensors;
+  for (const Sensor sensor : camera.sensors)
+    sensors += (sensors.empty() ? "" : ", ") + std::string(name_of(sensor));
+  if (!sensors.empty()) map.add("sensors", "[" + sensors + "]");
+  map.add_unless("rate", camera.rate, plain_camera.rate);
+  add_described(map, "noise", camera.noise);
   return map.text();
+}
+
+std::string wrench(const SceneWrench& wrench) {
+  FlowMap map;
+  map.add("name", io::yaml_word(wrench.name)).add("link", io::yaml_word(wrench.link));
+  if (wrench.touch) map.add("touch", "true");
+  if (wrench.tared) map.add("tared", "true");
+  map.add_unless("rate", wrench.rate, SceneWrench{}.rate);
+  add_described(map, "noise", wrench.noise);
+  return map.text();
+}
+
+std::string look(const SceneLook& look) {
+  FlowMap map;
+  add_described(map, "look", look);
+  return map.empty() ? std::string() : map.text().substr(1, map.text().size() - 2) + "\n";
+}
+
+std::string varied(const VariedNumber& number) {
+  using Distribution = VariedNumber::Distribution;
+  const char* words[] = {"uniform", "normal", "lognormal", "choice"};
+  FlowMap map;
+  map.add("distribution", words[static_cast<int>(number.distribution)]);
+  if (number.distribution == Distribution::normal || number.distribution == Distribution::lognormal)
+    map.add("mean", number.mean).add("deviation", number.deviation);
+  if (number.distribution != Distribution::choice) {
+    if (std::isfinite(number.low)) map.add("low", number.low);
+    if (std::isfinite(number.high)) map.add("high", number.high);
+    return map.text();
+  }
+  std::string values;
+  for (const std::string& value : number.values)
+    values += (values.empty() ? "" : ", ") + plain(value);
+  return map.add("values", "[" + values + "]").text();
 }
 
 std::string picture(const ScenePicture& picture) {

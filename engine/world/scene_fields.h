@@ -40,6 +40,10 @@ std::string body(const BodyDescription& body);
 std::string waypoint(const SceneWaypoint& waypoint);
 std::string load(const SceneLoad& load);
 std::string camera(const SceneCamera& camera);
+std::string wrench(const SceneWrench& wrench);
+/// A line "look: {...}"; empty where everything looks as it does by itself.
+std::string look(const SceneLook& look);
+std::string varied(const VariedNumber& number);
 std::string picture(const ScenePicture& picture);
 std::string expectation(const Expectation& expectation);
 

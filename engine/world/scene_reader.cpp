@@ -1,7 +1,9 @@
 #include "pedicel/world/scene_reader.h"
 
+#include <algorithm>
 #include <set>
 
+#include "pedicel/core/check.h"
 #include "pedicel/world/scene_sections.h"
 #include "pedicel/world/settings.h"
 
@@ -68,6 +70,8 @@ void read_things(io::YamlMap& map, const std::filesystem::path& folder, Scene& s
 
 void read_views(io::YamlMap& map, Scene& scene) {
   read_named(map, "cameras", scene.cameras, sections::read_camera);
+  read_named(map, "wrenches", scene.wrenches, sections::read_wrench);
+  if (const auto look = map.optional("look")) scene.look = sections::read_look(*look);
   read_list(map, "pictures", scene.pictures, sections::read_picture);
   if (const auto video = map.optional("video")) scene.video = sections::read_video(*video);
 }
@@ -116,6 +120,15 @@ void check_expectation(const Scene& scene, const Expectation& e, Diagnostics& di
     diagnostics.error(e.where, "with_sweep: the scene has no sweep");
 }
 
+/// Keys that no scene has are found before a run; those of plants when its plants are built.
+void check_vary(const Scene& scene, Diagnostics& diagnostics) {
+  try {
+    drawn_scene(scene);
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+  }
+}
+
 void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnostics) {
   for (const SceneLoad& load : scene.loads)
     check_fruit(scene, load.target, load.where, diagnostics);
@@ -123,6 +136,9 @@ void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnos
     for (const SceneWaypoint& waypoint : scene.robot->waypoints)
       check_anchor(scene, waypoint.at, diagnostics);
   for (const SceneCamera& camera : scene.cameras) check_anchor(scene, camera.follow, diagnostics);
+  for (const SceneWrench& wrench : scene.wrenches)
+    if (!scene.robot) diagnostics.error(wrench.where, "a wrench: the scene has no robot");
+  check_vary(scene, diagnostics);
   for (const Expectation& e : scene.expectations) check_expectation(scene, e, diagnostics);
   std::vector<std::string> wanted = {scene.video.camera};
   for (const ScenePicture& picture : scene.pictures) wanted.push_back(picture.camera);
@@ -141,6 +157,7 @@ std::optional<Scene> read(const io::YamlNode& root, const std::filesystem::path&
   read_things(map, path.parent_path(), scene);
   read_views(map, scene);
   if (const auto sweep = map.optional("sweep")) scene.sweep = sections::read_sweep(*sweep);
+  if (const auto vary = map.optional("vary")) scene.vary = read_vary(*vary);
   read_list(map, "expect", scene.expectations, sections::read_expectation);
   map.finish();
   check_references(map, scene, diagnostics);

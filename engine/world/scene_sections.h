@@ -30,6 +30,8 @@ BodyDescription read_body(const io::YamlNode& node);
 GroundPlane read_ground(const io::YamlNode& node);
 SceneLoad read_load(const io::YamlNode& node);
 SceneCamera read_camera(const io::YamlNode& node);
+SceneWrench read_wrench(const io::YamlNode& node);
+SceneLook read_look(const io::YamlNode& node);
 ScenePicture read_picture(const io::YamlNode& node);
 SceneVideo read_video(const io::YamlNode& node);
 SceneSweep read_sweep(const io::YamlNode& node);

@@ -5,20 +5,6 @@
 
 namespace pedicel::world::sections {
 
-SceneCamera read_camera(const io::YamlNode& node) {
-  SceneCamera camera;
-  io::YamlMap map(node, "a camera");
-  camera.name = map.text("name");
-  camera.eye = map.vector("eye");
-  camera.target = map.vector("target", Vec3::Zero());
-  camera.field_of_view = map.number("fov", {0.01, 3.0}, camera.field_of_view);
-  if (const auto follow = map.optional("follow")) camera.follow = read_anchor(*follow, "follow");
-  if (!((camera.eye - camera.target).norm() > 1e-6))
-    node.error("a camera: expected eye and target to be apart");
-  map.finish();
-  return camera;
-}
-
 ScenePicture read_picture(const io::YamlNode& node) {
   ScenePicture picture;
   io::YamlMap map(node, "a picture");

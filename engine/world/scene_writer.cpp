@@ -99,12 +99,16 @@ std::string things(const Scene& scene, const std::filesystem::path& folder) {
   if (scene.ground) text += line("ground", ground(*scene.ground));
   text += list("loads", scene.loads, fields::load);
   text += list("cameras", scene.cameras, fields::camera);
+  text += list("wrenches", scene.wrenches, fields::wrench) + fields::look(scene.look);
   text += list("pictures", scene.pictures, fields::picture) + video(scene.video);
   if (scene.sweep)
     text += line("sweep", FlowMap()
                               .add("set", fields::plain(scene.sweep->key))
                               .add("values", fields::number_list(scene.sweep->values))
                               .text());
+  if (!scene.vary.empty()) text += "vary:\n";
+  for (const VariedNumber& one : scene.vary)
+    text += "  " + line(fields::plain(one.key), fields::varied(one));
   return text + list("expect", scene.expectations, fields::expectation);
 }
 

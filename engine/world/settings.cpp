@@ -6,6 +6,7 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/world/place_settings.h"
 
 namespace pedicel::world {
 
@@ -170,7 +171,9 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
 
 void apply_override(Scene& scene, const std::string& key, const std::string& value,
                     const std::string& asked) {
+  for (VariedNumber& varied : scene.vary) varied.held |= varied.key == key;
   if (set_scene_number(scene, key, value, asked)) return;
+  if (set_place(scene, key, value, asked)) return;
   if (key == "gravity") {
     scene.gravity = vector_of(key, value);
     return;
@@ -188,11 +191,25 @@ void apply_override(Scene& scene, const std::string& key, const std::string& val
     throw UsageError(
         setting.where.file +
         ": expected duration, dt, gravity, log_rate, seed, threads, rods.KEY, coupling.KEY, "
-        "robot.gripper_force, plants.NAME.KEY, or an override of every plant such as "
-        "detach.stretch");
+        "robot.gripper_force, plants.NAME.KEY, " +
+        place_keys() + ", or an override of every plant such as detach.stretch");
   } else {
     for (ScenePlant& plant : scene.plants) take(plant.set, setting);
   }
+}
+
+Scene drawn_scene(const Scene& scene) {
+  Scene drawn = scene;
+  Diagnostics diagnostics;
+  for (const auto& [key, text] : draw(scene.vary, static_cast<std::uint64_t>(scene.seed))) try {
+      apply_override(drawn, key, text);
+    } catch (const UsageError& fault) {
+      const auto number = std::ranges::find(scene.vary, key, &VariedNumber::key);
+      diagnostics.error(number->where, std::string("vary: ") + fault.what());
+    }
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+  drawn.vary.clear();
+  return drawn;
 }
 
 std::pair<std::string, std::string> split_assignment(const std::string& text) {

@@ -52,12 +52,17 @@ std::span<const SceneNumber> scene_numbers();
 io::Bounds scene_bounds(std::string_view key);
 
 /// Changes a scene as `--set key=value` does: dt, duration, gravity (x,y,z), seed, threads,
-/// log_rate, rods.KEY, coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant) and any other
-/// KEY that is an override of every plant (detach.stretch). Of equal keys the last one counts.
-/// `asked` comes before the key in the place that a fault names ("--set "). Throws UsageError where
-/// the key or the value is impossible.
+/// log_rate, rods.KEY, coupling.KEY, robot.gripper_force, plants.NAME.KEY (one plant), those of
+/// place_settings.h, and any other KEY that is an override of every plant (detach.stretch). Of
+/// equal keys the last one counts, and what is set varies no more. `asked` comes before the key in
+/// the place that a fault names ("--set "). Throws UsageError where the key or the value is
+/// impossible.
 void apply_override(Scene& scene, const std::string& key, const std::string& value,
                     const std::string& asked = "");
+
+/// With the numbers of its `vary` in place, drawn from its seed, and nothing more that varies.
+/// Throws InvalidFile where one is impossible.
+Scene drawn_scene(const Scene& scene);
 
 /// Splits "key=value". Throws UsageError where there is no "=" or no key.
 std::pair<std::string, std::string> split_assignment(const std::string& text);

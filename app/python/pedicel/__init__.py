@@ -8,7 +8,7 @@ explains it.
 import atexit
 
 from . import _core
-from ._core import Event, Parameter, Plant, Reach, Run, Simulation, Variation, World, Worlds
+from ._core import CameraPicture, Event, Keypoint, Parameter, Plant, Reach, Run, Simulation, Thing, Variation, World, Worlds
 from .errors import Diagnostic, Error, InvalidFile, NoPictures, Unstable, UsageError, WriteError
 from .experiments import (Cause, Estimate, Fit, FittedParameter, Validation, Verdict, diagnose, fit,
                           observe, validate)
@@ -20,8 +20,8 @@ __version__: str = _core.version
 atexit.register(_core.end_pictures)
 
 __all__ = [
-    "Cause", "Diagnostic", "Error", "Estimate", "Event", "Fit", "FittedParameter", "InvalidFile",
-    "NoPictures", "Parameter", "Plant", "Reach", "Run", "Simulation", "Unstable", "UsageError",
+    "CameraPicture", "Cause", "Diagnostic", "Error", "Estimate", "Event", "Fit", "FittedParameter", "InvalidFile",
+    "Keypoint", "NoPictures", "Parameter", "Plant", "Reach", "Run", "Simulation", "Thing", "Unstable", "UsageError",
     "Validation", "Variation", "Verdict", "World", "Worlds", "WriteError", "asset", "command", "diagnose", "fit", "observe",
     "validate",
 ]

@@ -109,7 +109,8 @@ class Task:
         return parts if len(parts) > 1 else next(iter(parts.values()))
 
     def all_info(self) -> Dict[str, Any]:
-        return {"reward_terms": dict(self.terms), "time": self.run.time, **self.info()}
+        return {"reward_terms": dict(self.terms), "time": self.run.time,
+                "gentleness": self.run.gentleness_total, **self.info()}
 
     # What tasks ask for.
     def robot_state(self) -> List[np.ndarray]:

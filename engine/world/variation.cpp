@@ -1,4 +1,4 @@
-#include "pedicel/app/steer/variation.h"
+#include "pedicel/world/variation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,13 @@
 #include "pedicel/io/csv.h"
 #include "pedicel/io/yaml.h"
 
-namespace pedicel::app {
+namespace pedicel::world {
 
 namespace {
 
 using Distribution = VariedNumber::Distribution;
+
+constexpr std::size_t most_varied = 1000;  // each is looked for in all of the others
 
 const std::vector<std::string>& distribution_words() {
   static const std::vector<std::string> words = {"uniform", "normal", "lognormal", "choice"};
@@ -56,18 +58,6 @@ VariedNumber read_number(const std::string& key, const io::YamlNode& node) {
   return one;
 }
 
-std::vector<VariedNumber> read_map(const io::YamlNode& node) {
-  std::vector<VariedNumber> all;
-  if (!node.is_map()) {
-    node.error("vary: expected a map of keys of --set");
-    return all;
-  }
-  for (const auto& entry : node.raw())
-    all.push_back(
-        read_number(entry.first.Scalar(), {entry.second, node.file(), node.diagnostics()}));
-  return all;
-}
-
 double draw_once(const VariedNumber& one, Random& random) {
   if (one.distribution == Distribution::uniform) return random.uniform(one.low, one.high);
   const double unit = random.normal();
@@ -90,12 +80,29 @@ std::string draw_text(const VariedNumber& one, Random& random) {
 
 }  // namespace
 
+std::vector<VariedNumber> read_vary(const io::YamlNode& node) {
+  std::vector<VariedNumber> all;
+  if (!node.is_map()) {
+    node.error("vary: expected a map of keys of --set");
+    return all;
+  }
+  if (node.raw().size() > most_varied) {
+    node.error("vary: has " + std::to_string(node.raw().size()) + " keys, expected at most " +
+               std::to_string(most_varied));
+    return all;
+  }
+  for (const auto& entry : node.raw())
+    all.push_back(
+        read_number(entry.first.Scalar(), {entry.second, node.file(), node.diagnostics()}));
+  return all;
+}
+
 Variation Variation::read(const std::filesystem::path& path) {
   Diagnostics diagnostics;
   Variation variation;
   io::YamlMap map(io::load_yaml(path, diagnostics), "a variation");
   if (io::check_format(map, "pedicel-variation", 1)) {
-    if (const auto vary = map.required("vary")) variation.numbers_ = read_map(*vary);
+    if (const auto vary = map.required("vary")) variation.numbers_ = read_vary(*vary);
     map.finish();
   }
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
@@ -105,16 +112,20 @@ Variation Variation::read(const std::filesystem::path& path) {
 Variation Variation::parse(const std::string& text, const std::string& name) {
   Diagnostics diagnostics;
   Variation variation;
-  variation.numbers_ = read_map(io::parse_yaml(text, name, diagnostics));
+  variation.numbers_ = read_vary(io::parse_yaml(text, name, diagnostics));
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   return variation;
 }
 
-std::vector<std::pair<std::string, std::string>> Variation::draw(std::uint64_t seed) const {
+std::vector<std::pair<std::string, std::string>> draw(const std::vector<VariedNumber>& numbers,
+                                                      std::uint64_t seed) {
   std::vector<std::pair<std::string, std::string>> drawn;
   Random random(seed);
-  for (const VariedNumber& one : numbers_) drawn.emplace_back(one.key, draw_text(one, random));
+  for (const VariedNumber& one : numbers) {
+    std::string text = draw_text(one, random);
+    if (!one.held) drawn.emplace_back(one.key, std::move(text));
+  }
   return drawn;
 }
 
-}  // namespace pedicel::app
+}  // namespace pedicel::world

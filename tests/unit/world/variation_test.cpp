@@ -1,4 +1,4 @@
-#include "pedicel/app/steer/variation.h"
+#include "pedicel/world/variation.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 
 #include "pedicel/world/settings.h"
 
-namespace pedicel::app {
+namespace pedicel::world {
 namespace {
 
 double number(const Variation& variation, std::uint64_t seed) {
-  return *world::to_number(variation.draw(seed).front().second);
+  return *to_number(variation.draw(seed).front().second);
 }
 
 TEST(Variation, ALognormalNumberHasTheMeanAndDeviationAskedFor) {
@@ -61,4 +61,4 @@ TEST(Variation, FaultsHaveTheirPlaces) {
 }
 
 }  // namespace
-}  // namespace pedicel::app
+}  // namespace pedicel::world

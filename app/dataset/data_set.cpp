@@ -1,0 +1,163 @@
+#include "pedicel/app/dataset/data_set.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "pedicel/app/dataset/annotations.h"
+#include "pedicel/app/dataset/data_set_files.h"
+#include "pedicel/app/dataset/split.h"
+#include "pedicel/app/run/verbosity.h"
+#include "pedicel/app/sense/scene_sensors.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/core/timer.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+/// What was drawn for a picture, for its labels.
+Json drawn_json(const world::Scene& scene) {
+  Json drawn = Json::object();
+  for (const auto& [key, text] : world::draw(scene.vary, static_cast<std::uint64_t>(scene.seed))) {
+    const std::optional<double> number = world::to_number(text);
+    drawn[key] = number ? Json(*number) : Json(text);
+  }
+  return drawn;
+}
+
+class Maker {
+ public:
+  explicit Maker(const DataSetOptions& options) : options_(options) {
+    if (!taker_.available()) throw UsageError(taker_.why());
+  }
+
+  /// False where its simulation became unstable.
+  bool make(long picture) {
+    world::Scene scene = options_.scene;
+    scene.seed = options_.seed + static_cast<int>(picture);
+    Simulation simulation(scene, options_.simulation);
+    if (!step_to(simulation, time_of(scene.seed))) {
+      write(picture, {{"left_out", "unstable"}, {"seed", scene.seed}});
+      return false;
+    }
+    SceneSensors sensors(simulation);
+    SenseRequest wanted{camera_of_picture(picture), options_.size, true, true};
+    const SensedPicture seen =
+        *sensors.take(taker_, wanted, static_cast<std::uint64_t>(scene.seed));
+    const PictureLabels labels = annotate(seen, sensors.things(), sensors.areas_alone(taker_),
+                                          detached_things(simulation, sensors.things()));
+    write_picture(picture, seen, sensors.things());
+    Json image = image_entry(picture, seen);
+    image["seed"] = scene.seed;
+    image["camera"] = wanted.camera;
+    image["hidden"] = labels.hidden;
+    image["drawn"] = drawn_json(scene);
+    if (picture == 0)
+      io::write_file_atomically(options_.out / "things.json",
+                                things_json(sensors.things()).dump(1) + "\n");
+    write(picture, {{"image", std::move(image)}, {"annotations", labels.annotations}});
+    return true;
+  }
+
+ private:
+  double time_of(int seed) const {
+    Random random(noise_seed(static_cast<std::uint64_t>(seed), "time", 0));
+    return random.uniform(options_.at[0], options_.at[1]);
+  }
+
+  bool step_to(Simulation& simulation, double time) const {
+    const long steps = std::lround(time / simulation.world().dt());
+    for (long s = 0; s < steps; ++s)
+      if (simulation.step().errors & world::fatal_errors) return false;
+    return true;
+  }
+
+  std::string camera_of_picture(long picture) const {
+    const auto& cameras = options_.scene.cameras;
+    if (!options_.camera.empty() || cameras.empty()) return options_.camera;
+    return cameras[static_cast<std::size_t>(picture) % cameras.size()].name;
+  }
+
+  std::filesystem::path place(const char* folder, long picture, const char* end) const {
+    return options_.out / folder / (picture_name(picture) + end);
+  }
+
+  void write_picture(long picture, const SensedPicture& seen, const NamedThings& things) const {
+    const render::LabelMap& map = seen.map;
+    render::write_png(place("images", picture, ".png"), seen.image);
+    render::write_png(place("depth", picture, ".png"),
+                      depth_millimetres(map.depth, map.width, map.height));
+    render::write_png(place("instances", picture, ".png"), instance_mask(map));
+    render::write_png(place("classes", picture, ".png"), class_mask(map, things), 8);
+    const Json camera = {{"time_s", seen.time},
+                         {"camera", camera_json(seen.camera)},
+                         {"keypoints", keypoints_json(seen, things)}};
+    io::write_file_atomically(place("cameras", picture, ".json"), camera.dump(1) + "\n");
+  }
+
+  Json image_entry(long picture, const SensedPicture& seen) const {
+    const std::string name = picture_name(picture);
+    return {{"id", picture + 1},
+            {"file_name", "images/" + name + ".png"},
+            {"width", seen.map.width},
+            {"height", seen.map.height},
+            {"depth_file", "depth/" + name + ".png"},
+            {"instances_file", "instances/" + name + ".png"},
+            {"classes_file", "classes/" + name + ".png"},
+            {"camera_file", "cameras/" + name + ".json"},
+            {"split", std::string(split_of(picture, static_cast<std::uint64_t>(options_.seed)))},
+            {"time_s", seen.time}};
+  }
+
+  /// Last of all: it says that the picture is whole.
+  void write(long picture, const Json& labels) const {
+    io::write_file_atomically(labels_file(options_.out, picture), labels.dump() + "\n");
+  }
+
+  const DataSetOptions& options_;
+  PictureTaker taker_;
+};
+
+void show_progress(const DataSetOptions& options, long done) {
+  if (options.quiet || verbosity() < Verbosity::lines || !isatty(2)) return;
+  std::fprintf(stderr, "\r%ld of %ld pictures%s", done, options.count,
+               done == options.count ? "\n" : "");
+}
+
+bool is_left_out(const std::filesystem::path& labels) {
+  return !Json::parse(io::read_file(labels)).contains("image");
+}
+
+}  // namespace
+
+DataSetResult make_data_set(const DataSetOptions& options) {
+  if (static_cast<double>(options.seed) + static_cast<double>(options.count) > 1.0e9)
+    throw UsageError("seed + count is above 1e9, expected seeds up to that");
+  const Timer timer;
+  Maker maker(options);
+  take_data_set_folder(options);
+  DataSetResult result;
+  for (long i = 0; i < options.count && !stop_requested; ++i) {
+    const std::filesystem::path labels = labels_file(options.out, i);
+    const bool there = std::filesystem::exists(labels);
+    const bool good = there ? !is_left_out(labels) : maker.make(i);
+    result.made += !there && good;
+    result.pictures += good;
+    result.left_out += !good;
+    if (!good && !there)
+      say(Verbosity::warnings, "picture %ld (seed %ld) is left out: its simulation is unstable", i,
+          options.seed + i);
+    show_progress(options, i + 1);
+  }
+  result.annotations = write_coco(options);
+  write_contact_sheet(options);
+  result.seconds = timer.seconds();
+  return result;
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "pedicel/app/run/simulation.h"
+
+namespace pedicel::app {
+
+/// A set of labelled pictures of a scene that varies.
+struct DataSetOptions {
+  world::Scene scene;  ///< with what varies (`vary`)
+  SimulationOptions simulation;
+  std::filesystem::path out;
+  long count = 100;                             ///< pictures
+  int seed = 0;                                 ///< picture i is drawn from seed + i
+  std::optional<std::array<int, 2>> size = {};  ///< px, in place of the cameras' own
+  std::string camera;                           ///< empty: the scene's cameras in turn
+  std::array<double, 2> at{0.0, 0.0};           ///< s, simulated time: drawn between the two
+  bool quiet = false;
+};
+
+struct DataSetResult {
+  long pictures = 0;     ///< that there are now
+  long made = 0;         ///< of them, by this run
+  long annotations = 0;  ///< of all of them
+  long left_out = 0;     ///< whose simulation became unstable
+  double seconds = 0.0;
+};
+
+/// Makes the pictures that are not there yet, and writes the annotations of all. Each picture has a
+/// simulation of its own, so it does not depend on the others: a run that was stopped goes on, and
+/// a larger count adds to what is there, to the same bits. Throws InvalidFile, UsageError (where
+/// pictures cannot be taken, too), io::WriteError where the folder holds something else. Ends
+/// early, with everything closed, where stop_requested.
+DataSetResult make_data_set(const DataSetOptions& options);
+
+}  // namespace pedicel::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pedicel/app/sense/scene_sensors.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/output_folder.h"
+
+namespace pedicel::app {
+
+/// Writes what the sensors of a scene say while it runs: for every camera with `sensors` the files
+/// sensors/CAMERA/000000.rgb.png and so on, sensors/things.json, and for every force sensor
+/// wrench_NAME.csv.
+class SensorRecorder {
+ public:
+  /// All must outlive it. `taker` may be null, or take no pictures: then there are none.
+  SensorRecorder(const Simulation& simulation, io::OutputFolder& output, PictureTaker* taker);
+  ~SensorRecorder();
+
+  /// What is due now: to be called at the start, and after every step.
+  void record();
+
+ private:
+  struct Camera {
+    const world::SceneCamera* scene = nullptr;
+    std::filesystem::path folder;
+    long taken = 0;
+  };
+  void open_cameras(io::OutputFolder& output);
+  void open_wrenches(io::OutputFolder& output);
+  void take(Camera& camera);
+
+  const Simulation& simulation_;
+  PictureTaker* taker_;
+  std::unique_ptr<SceneSensors> sensors_;
+  std::vector<Camera> cameras_;
+  std::vector<std::unique_ptr<io::CsvWriter>> tables_;
+  std::vector<long> written_;
+};
+
+}  // namespace pedicel::app

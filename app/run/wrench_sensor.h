@@ -1,0 +1,88 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/run/robot_control.h"
+#include "pedicel/core/random.h"
+#include "pedicel/world/scene.h"
+
+namespace pedicel::app {
+
+/// Force (N) and moment (N m).
+using Wrench = Eigen::Matrix<double, 6, 1>;
+
+/// The noise of a force sensor over a run.
+class WrenchNoiseSource {
+ public:
+  WrenchNoiseSource(const world::WrenchNoise& noise, std::uint64_t seed);
+  /// `dt` (s) after the sample before.
+  Wrench next(double dt);
+
+ private:
+  world::WrenchNoise noise_;
+  Random random_;
+  Wrench bias_, walk_;
+};
+
+/// A force sensor of the scene (SceneWrench). At a wrist it is what the link and all beyond it
+/// exert on what carries it: their weight, less what their motion takes, and what plants exert on
+/// them. At a fingertip it is what plants exert on the link. Rigid bodies that touch the robot are
+/// not felt.
+class WrenchSensor {
+ public:
+  /// Throws UsageError where the robot has no such link.
+  WrenchSensor(const world::SceneWrench& scene, const RobotControl& robot, const PlantStep& plants,
+               const Vec3& gravity, std::uint64_t seed);
+
+  const world::SceneWrench& scene() const { return scene_; }
+  /// Once a step, in its end.
+  void step(double time, double dt);
+  /// As it is, in the link's frame about its origin.
+  const Wrench& exact() const { return exact_; }
+  /// As the sensor says it, with noise, tare and latency: sampled at its rate, held in between.
+  const Wrench& reading() const { return reading_; }
+  double reading_time() const { return reading_time_; }  ///< s, of the last sample
+  long samples() const { return samples_; }
+
+ private:
+  void measure(double dt);
+  void sample(double time);
+  Wrench late(double time) const;
+
+  world::SceneWrench scene_;
+  const RobotControl& robot_;
+  const PlantStep& plants_;
+  Vec3 gravity_;
+  int link_ = -1;
+  std::vector<int> beyond_;                             // links: it and all that hangs on it
+  std::vector<Pose> before_;                            // of beyond_, W
+  Vec3 momentum_ = Vec3::Zero(), spin_ = Vec3::Zero();  // N s; N m s, about the world's origin
+  bool moved_ = false;                                  // momentum_ is known
+  std::deque<std::pair<double, Wrench>> past_;
+  WrenchNoiseSource noise_;
+  Wrench exact_ = Wrench::Zero(), reading_ = Wrench::Zero();
+  Wrench tare_ = Wrench::Zero();
+  int tared_samples_ = 0;
+  double reading_time_ = 0.0, last_sample_ = -1.0;
+  long samples_ = 0;
+};
+
+/// All of a scene's, as an observer of its steps.
+class WrenchSensors : public world::Observer {
+ public:
+  /// Faults go to `diagnostics`.
+  WrenchSensors(const world::Scene& scene, const RobotControl& robot, const PlantStep& plants,
+                Diagnostics& diagnostics);
+
+  void observe(const world::SimWorld& world, const world::WorldReport& report) override;
+  const std::vector<WrenchSensor>& all() const { return sensors_; }
+
+ private:
+  std::vector<WrenchSensor> sensors_;
+};
+
+}  // namespace pedicel::app

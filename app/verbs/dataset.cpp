@@ -1,0 +1,138 @@
+#include "pedicel/app/verbs/dataset.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "pedicel/app/dataset/data_set.h"
+#include "pedicel/app/run/verbosity.h"
+#include "pedicel/app/session/film.h"
+#include "pedicel/app/verbs/run_arguments.h"
+#include "pedicel/core/check.h"
+#include "pedicel/core/exit_code.h"
+#include "pedicel/core/stop.h"
+#include "pedicel/io/output_folder.h"
+#include "pedicel/render/offscreen.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+struct DatasetArguments {
+  RunArguments run;
+  std::string randomise, at;
+  long count = 100;
+  std::optional<int> seed;
+};
+
+void add_options(CLI::App& verb, DatasetArguments& a) {
+  verb.add_option("scene", a.run.scene, "scene file (*.scene.yaml)")->required();
+  verb.add_option("--count", a.count, "pictures (default: 100)")->check(CLI::Range(1l, 1000000l));
+  verb.add_option("--randomise", a.randomise,
+                  "what varies from picture to picture: a file with `vary` (pedicel-variation)");
+  verb.add_option("--out", a.run.out, "folder (default: out/NAME-dataset); a set there goes on");
+  verb.add_option("--seed", a.seed, "picture i is drawn from this plus i (default: the scene's)")
+      ->check(CLI::Range(0, 1000000000));
+  verb.add_option("--at", a.at,
+                  "simulated time of the pictures, s, or FROM:TO to draw it between (default: "
+                  "within the scene's duration)");
+  verb.add_option("--size", a.run.size, "WxH in pixels, in place of the cameras' own");
+  verb.add_option("--camera", a.run.camera, "of the scene (default: all in turn)");
+  verb.add_option("--set", a.run.set, "KEY=VALUE, as for a run; may be repeated")
+      ->allow_extra_args(false);
+  verb.add_option("--package", a.run.packages, "NAME=PATH: where package://NAME lies")
+      ->allow_extra_args(false);
+  verb.add_flag("--json", a.run.json, "print the result as JSON");
+  verb.add_flag("--quiet", a.run.quiet, "warnings and errors only");
+}
+
+/// What the file varies comes after what the scene varies, and in place of its equal keys.
+void add_variation(world::Scene& scene, const std::string& file) {
+  if (file.empty()) return;
+  const world::Variation variation = world::Variation::read(file);
+  for (const world::VariedNumber& one : variation.numbers()) {
+    std::erase_if(scene.vary,
+                  [&](const world::VariedNumber& known) { return known.key == one.key; });
+    scene.vary.push_back(one);
+  }
+  world::drawn_scene(scene);  // an impossible key is found before the first picture
+}
+
+std::array<double, 2> times_of(const std::string& text, double duration) {
+  if (text.empty()) return {0.0, duration};
+  const std::size_t colon = text.find(':');
+  const auto from = world::to_number(text.substr(0, colon));
+  const auto to = colon == std::string::npos ? from : world::to_number(text.substr(colon + 1));
+  if (!from || !to || !(*from >= 0.0 && *to >= *from && *to <= 1.0e6))
+    throw UsageError("--at " + text + ": expected a time in s, or FROM:TO with 0 <= FROM <= TO");
+  return {*from, *to};
+}
+
+void check_camera(const world::Scene& scene, const std::string& camera) {
+  if (camera.empty() ||
+      std::ranges::any_of(scene.cameras, [&](const auto& one) { return one.name == camera; }))
+    return;
+  std::string names;
+  for (const world::SceneCamera& one : scene.cameras)
+    names += (names.empty() ? "" : ", ") + one.name;
+  throw UsageError("--camera " + camera + ": expected one of: " + names);
+}
+
+DataSetOptions options_of(const DatasetArguments& a) {
+  DataSetOptions options;
+  RunArguments run = a.run;
+  run.camera.clear();  // that of a run is the video's
+  if (a.seed) run.numbers.emplace_back("seed", std::to_string(*a.seed));
+  const RunOptions of_run = run_options(run);
+  options.scene = load_scene(run);
+  options.simulation = of_run.simulation;
+  options.size = of_run.size;
+  options.out = a.run.out.empty()
+                    ? std::filesystem::path("out") / (io::name_of_file(a.run.scene) + "-dataset")
+                    : std::filesystem::path(a.run.out);
+  options.count = a.count;
+  options.seed = options.scene.seed;
+  check_camera(options.scene, a.run.camera);
+  options.camera = a.run.camera;
+  options.at = times_of(a.at, options.scene.duration);
+  options.quiet = a.run.quiet;
+  add_variation(options.scene, a.randomise);
+  return options;
+}
+
+std::string to_json(const DataSetOptions& options, const DataSetResult& result) {
+  const nlohmann::ordered_json json = {
+      {"pictures", result.pictures},       {"made", result.made},
+      {"annotations", result.annotations}, {"left_out", result.left_out},
+      {"seconds", result.seconds},         {"out", options.out.string()}};
+  return json.dump(2);
+}
+
+int run(const DatasetArguments& a) {
+  if (a.run.quiet) set_verbosity(Verbosity::warnings);
+  const DataSetOptions options = options_of(a);
+  std::string why;
+  if (!render::OffscreenContext::create(why)) throw NoPictures(why);
+  stop_in_good_order();
+  const DataSetResult result = make_data_set(options);
+  if (a.run.json) std::cout << to_json(options, result) << std::endl;
+  say(Verbosity::lines, "%ld pictures (%ld of them new, in %.1f s), %ld annotations, written to %s",
+      result.pictures, result.made, result.seconds, result.annotations,
+      options.out.string().c_str());
+  return exit_ok;
+}
+
+}  // namespace
+
+std::function<int()> add_dataset_verb(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("dataset", "make labelled pictures of a scene that varies");
+  const auto arguments = std::make_shared<DatasetArguments>();
+  add_options(*verb, *arguments);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace pedicel::app

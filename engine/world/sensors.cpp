@@ -1,0 +1,60 @@
+#include "pedicel/world/sensors.h"
+
+namespace pedicel::world {
+
+std::vector<Parameter> CameraNoise::parameters() {
+  return {
+      {"gain_std", "1", &gain_std, 0.0, 1.0,
+       "Standard deviation of a factor on all of a picture; 0.02 for an automatic exposure."},
+      {"rgb_std", "1", &rgb_std, 0.0, 1.0,
+       "Standard deviation of each colour of each pixel, of full scale; 0.01 indoors."},
+      {"depth_std", "m", &depth_std, 0.0, 1.0,
+       "Standard deviation of a depth of 1 m; it grows with the square of the distance. 0.002 for "
+       "a stereo camera."},
+      {"dropout", "1", &dropout, 0.0, 1.0, "Share of pixels at edges that have no depth."},
+      {"edge", "m", &edge, 0.0, 100.0,
+       "An edge is where the depth differs by more than this from a neighbour's."},
+      {"latency", "s", &latency, 0.0, 10.0, "How long after what it shows a picture comes."}};
+}
+
+std::vector<Parameter> WrenchNoise::parameters() {
+  return {
+      {"force_std", "N", &force_std, 0.0, 1.0e3, "Standard deviation of each sample's force."},
+      {"moment_std", "N m", &moment_std, 0.0, 1.0e3, "Standard deviation of each sample's moment."},
+      {"force_bias", "N", &force_bias, 0.0, 1.0e3,
+       "Standard deviation of a constant that is drawn once."},
+      {"moment_bias", "N m", &moment_bias, 0.0, 1.0e3,
+       "Standard deviation of a constant that is drawn once."},
+      {"force_walk", "N", &force_walk, 0.0, 1.0e3,
+       "Standard deviation of a random walk after 1 s."},
+      {"moment_walk", "N m", &moment_walk, 0.0, 1.0e3,
+       "Standard deviation of a random walk after 1 s."},
+      {"latency", "s", &latency, 0.0, 10.0, "How long after it was measured a sample comes."}};
+}
+
+std::string_view name_of(Sensor sensor) {
+  constexpr std::array<std::string_view, sensor_count> names = {"rgb",     "depth",     "instances",
+                                                                "classes", "keypoints", "points"};
+  return names[static_cast<std::size_t>(sensor)];
+}
+
+std::vector<Parameter> SceneLook::parameters() {
+  const auto hue = [](const char* name, double* value, const char* sentence) {
+    return Parameter{name, "rad", value, -3.2, 3.2, sentence};
+  };
+  const auto factor = [](const char* name, double* value, const char* sentence) {
+    return Parameter{name, "1", value, 0.0, 4.0, sentence};
+  };
+  return {factor("sun", &sun, "Strength of the sun."),
+          {"azimuth", "rad", &azimuth, -6.3, 6.3, "Where the sun stands: about Z, 0 is X."},
+          {"elevation", "rad", &elevation, 0.02, 1.58, "How high the sun stands."},
+          {"exposure", "1", &exposure, 0.01, 100.0, "Factor on all light."},
+          hue("stem_hue", &stem_hue, "Turns the hue of stems."),
+          hue("leaf_hue", &leaf_hue, "Turns the hue of leaves."),
+          hue("fruit_hue", &fruit_hue, "Turns the hue of fruits."),
+          factor("stem_value", &stem_value, "Factor on the brightness of stems."),
+          factor("leaf_value", &leaf_value, "Factor on the brightness of leaves."),
+          factor("fruit_value", &fruit_value, "Factor on the brightness of fruits.")};
+}
+
+}  // namespace pedicel::world
