@@ -13,7 +13,9 @@
 #include "pedicel/app/report/sensor_recorder.h"
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/run/channels.h"
+#include "pedicel/app/run/organ_contacts.h"
 #include "pedicel/app/run/rough_spell.h"
+#include "pedicel/app/run/scene_assets.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
@@ -81,6 +83,9 @@ class Run {
     result_.folder = options.out;
     result_.output = output_;
     if (output_) output_->file("log.csv"), output_->file("events.csv");
+    if (output_ && simulation_.assets()->coupling.plant_contact)
+      organ_contacts_ =
+          std::make_unique<OrganContactLog>(output_->file("organ_contacts.csv"), scene.log_rate);
     add_channels(recorder_, simulation_);
     begin_at(simulation_.world());
     recorder_.open();
@@ -126,6 +131,7 @@ class Run {
   void begin_at(const world::SimWorld& world) {
     if (world.steps() == 0) return;
     events_ = simulation_.plant_step().detached().size();
+    cuts_ = simulation_.cutting().events().size();
     next_frame_ = last_picture_time_ = world.time();
   }
 
@@ -135,12 +141,18 @@ class Run {
     const Timer timer;
     const world::WorldReport& report = simulation_.step();
     milliseconds_.push_back(1.0e3 * timer.seconds());
+    if (organ_contacts_) organ_contacts_->observe(simulation_.world().time(), simulation_.rods());
     result_.wall += timer.seconds();
     ++result_.steps;
     for (const auto& all = simulation_.plant_step().detached(); events_ < all.size(); ++events_) {
       recorder_.add_event(to_event(all[events_]));
       say(Verbosity::everything, "t = %.4f s: %s comes off (%s)", report.time,
           all[events_].fruit.c_str(), all[events_].event.cause.c_str());
+      picture_event();
+    }
+    for (const auto& all = simulation_.cutting().events(); cuts_ < all.size(); ++cuts_) {
+      recorder_.add_event(all[cuts_]);
+      say(Verbosity::everything, "t = %.4f s: %s is cut", report.time, all[cuts_].organ.c_str());
       picture_event();
     }
     picture_now();
@@ -358,7 +370,8 @@ class Run {
   Timer progress_;
   world::SceneVideo video_;
   std::vector<double> milliseconds_;
-  std::size_t events_ = 0;
+  std::unique_ptr<OrganContactLog> organ_contacts_;  // null where plants do not touch each other
+  std::size_t events_ = 0, cuts_ = 0;
   double next_frame_ = 0.0, last_picture_time_ = -1.0;  // s
   bool wants_history_ = false, strain_history_ = false;
 };
@@ -366,9 +379,9 @@ class Run {
 }  // namespace
 
 const std::vector<std::string>& files_of_a_run() {
-  static const std::vector<std::string> names = {"log.csv",       "events.csv",  "gentleness.csv",
-                                                 "log.meta.json", "run.mp4",     "report.html",
-                                                 "sweep.csv",     "solvers.csv", "polar.svg"};
+  static const std::vector<std::string> names = {
+      "log.csv", "events.csv",  "gentleness.csv", "organ_contacts.csv", "log.meta.json",
+      "run.mp4", "report.html", "sweep.csv",      "solvers.csv",        "polar.svg"};
   return names;
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "pedicel/app/run/organ_contacts.h"
+#include "pedicel/app/run/scene_assets.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -116,6 +119,16 @@ void add_plants(Channels& all, const Simulation& simulation) {
                                                    .stretch.norm());
                    return largest;
                  }});
+  for (const SceneTies::One& tie : simulation.ties().all())
+    all.push_back(
+        {tie.name + "_N", [&simulation, &tie] { return simulation.ties().tension(tie); }});
+  if (simulation.assets()->coupling.plant_contact)
+    all.push_back({"contact_between_plants_N", [&simulation] {
+                     double sum = 0.0;
+                     for (const OrganContact& one : organ_contacts(simulation.rods()))
+                       sum += one.normal;
+                     return sum;
+                   }});
   all.push_back({"contacts_1", [&simulation] {
                    return static_cast<double>(simulation.world().report().contacts);
                  }});

@@ -69,6 +69,7 @@ void PlantStep::act(world::SimWorld& world, world::WorldReport& report) {
   // After the forces were summed up: the step in which it broke counts.
   for (int p = 0; p < rods_.size(); ++p)
     for (const cosserat::DetachEvent& event : rods_.detached(p)) release(world, p, event);
+  if (released_) contacts_.add_colliders();
   // Last, since it moves the links and bodies against which the plants were solved.
   if (reaction_) reaction_(contacts_);
 }
@@ -131,6 +132,7 @@ void PlantStep::release(world::SimWorld& world, int plant, const cosserat::Detac
   body.angular_velocity = event.angular_velocity_W;
   record.body = world.add_body(body);
   detached_.push_back(std::move(record));
+  if (released_) released_(detached_.back());
 }
 
 }  // namespace pedicel::app

@@ -37,6 +37,11 @@ class PlantStep : public world::Participant {
     reaction_ = std::move(reaction);
   }
 
+  /// Hears of each fruit that came off, when it is a body of the world.
+  void set_released(std::function<void(const Detached&)> released) {
+    released_ = std::move(released);
+  }
+
   world::Phase phase() const override { return world::Phase::plants; }
   void act(world::SimWorld& world, world::WorldReport& report) override;
 
@@ -54,6 +59,7 @@ class PlantStep : public world::Participant {
   LinkPose link_pose_;
   std::function<Pose()> tool_;
   std::function<void(const coupling::ContactReport&)> reaction_;
+  std::function<void(const Detached&)> released_;
   coupling::ContactReport contacts_;
   std::vector<Pose> poses_;
   std::vector<Detached> detached_;

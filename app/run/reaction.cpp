@@ -7,8 +7,9 @@ namespace pedicel::app {
 using coupling::Collider;
 using coupling::ContactSum;
 
-Reaction::Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders)
-    : world_(world), robot_(robot), colliders_(colliders) {
+Reaction::Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders,
+                   int first_body)
+    : world_(world), robot_(robot), colliders_(colliders), first_body_(first_body) {
   pushes_.reserve(colliders.size());
   // Plants need to know how far things give way in the very first step, too.
   const std::vector<ContactSum> none(colliders.size());
@@ -39,7 +40,7 @@ void Reaction::push_bodies(const coupling::ContactReport& contacts) {
     const ContactSum& sum = contacts.colliders()[i];
     const int body = colliders_.collider(i).body;
     // The ground and the robot have numbers below 0.
-    if (body < 0 || sum.contacts == 0) continue;
+    if (body < first_body_ || sum.contacts == 0) continue;
     world_.push_back_body(body, sum.force_W, sum.place_W, sum.moment_W);
   }
 }
@@ -68,8 +69,8 @@ double Reaction::give_of(int i, const std::vector<ContactSum>& sums) const {
     const Collider& other = colliders_.collider(j);
     const int contacts = i == j ? 1 : sums[j].contacts;
     if (other.body != own.body || contacts == 0 || is_gripping(j)) continue;
-    if (own.body >= 0) mobility += contacts * world_.body_mobility(own.body, place);
-    if (own.body == robot_body)
+    if (own.body >= first_body_) mobility += contacts * world_.body_mobility(own.body, place);
+    if (own.body == robot_body && robot_)
       mobility +=
           contacts * robot_->robot().mobility(own.link, place, other.link, place_of(j, sums));
   }

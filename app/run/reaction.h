@@ -14,8 +14,10 @@ namespace pedicel::app {
 /// (plugins/coupling/README.md, "Two-way coupling").
 class Reaction {
  public:
-  /// `robot` may be null. All must outlive this object.
-  Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders);
+  /// `robot` may be null. All must outlive this object. Bodies of the
+  /// world before `first_body` do not feel plants.
+  Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders,
+           int first_body = 0);
 
   /// After the plants moved. Does not allocate once warm.
   void act(const coupling::ContactReport& contacts);
@@ -30,6 +32,7 @@ class Reaction {
   world::SimWorld& world_;
   RobotControl* robot_;
   coupling::ColliderSet& colliders_;
+  int first_body_;
   std::vector<robot::LinkPush> pushes_;
 };
 

@@ -3,6 +3,7 @@
 #include "pedicel/app/run/rod_options.h"
 #include "pedicel/app/run/scene_plants.h"
 #include "pedicel/world/settings.h"
+#include "pedicel/app/run/wind_field.h"
 
 namespace pedicel::app {
 
@@ -20,6 +21,7 @@ SceneAssets::SceneAssets(const world::Scene& given, const SimulationOptions& opt
   Diagnostics diagnostics;
   read_settings(*this, diagnostics);
   for (ScenePlantModel& plant : build_plants(scene, options, diagnostics, notes)) {
+    if (scene.wind) expose_to_wind(plant.model, plant.info.blades);
     models.push_back(std::move(plant.model));
     plants.push_back(std::move(plant.info));
   }

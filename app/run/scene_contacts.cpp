@@ -14,12 +14,20 @@ SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
   add_colliders(assets);
   add_grip(assets);
   for (int p = 0; p < rods_.size(); ++p) add_sources(assets, p, diagnostics);
+  touch_each_other_ = assets.coupling.plant_contact;
+  if (touch_each_other_) rods_.let_plants_touch(coupling::self_contact_settings(assets.coupling));
   plant_step_ = std::make_unique<PlantStep>(
       rods_, colliders_, [this](const coupling::Collider& c) { return link_pose(c); });
   if (robot_) plant_step_->set_tool([this] { return robot_->tool_pose(); });
-  // One way: plants feel the robot, and the robot moves as if they were not there.
-  if (!assets.coupling.two_way) return;
-  reaction_ = std::make_unique<Reaction>(world_, robot_, colliders_);
+  if (touch_each_other_)
+    plant_step_->set_released(
+        [this](const Detached& fruit) { add_fallen(fruit.plant, fruit.body); });
+  // One way: plants feel the robot, and the robot moves as if they were not there. What has come
+  // off them always feels them, or it would fall through their leaves.
+  if (!assets.coupling.two_way && !touch_each_other_) return;
+  const bool all = assets.coupling.two_way;
+  reaction_ = std::make_unique<Reaction>(world_, all ? robot_ : nullptr, colliders_,
+                                         all ? 0 : world_.body_count());
   if (grip_) grip_->pass_on(plant_step_->contacts());
   plant_step_->set_reaction(
       [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
@@ -27,7 +35,7 @@ SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
 
 void SceneContacts::add_colliders(const SceneAssets& assets) {
   if (scene_.ground) add_ground_collider(colliders_, *scene_.ground);
-  // Bodies that come later are fruits that came off; plants do not feel those.
+  // Bodies that come later are fruits that came off (add_fallen()).
   for (int b = 0; b < world_.body_count(); ++b)
     add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
   if (robot_)
@@ -53,7 +61,8 @@ void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& d
   sources_.push_back(source.get());
   if (grip_) grip_->add(*source);
   rods_.add_contact_source(p, std::move(source));
-  if (!assets.coupling.self_contact) return;
+  // Plants that touch each other touch themselves there, too.
+  if (!assets.coupling.self_contact || assets.coupling.plant_contact) return;
   auto own = std::make_unique<cosserat::SelfContact>(
       rods_.model(p), coupling::self_contact_settings(assets.coupling));
   self_contacts_.push_back(own.get());
@@ -70,6 +79,16 @@ void SceneContacts::change_settings(const coupling::CouplingSettings& settings) 
   for (coupling::ColliderSource* source : sources_) source->change_settings(settings);
   for (cosserat::SelfContact* own : self_contacts_)
     own->change_settings(coupling::self_contact_settings(settings));
+  if (touch_each_other_) rods_.let_plants_touch(coupling::self_contact_settings(settings));
+}
+
+// Where it hung it still overlaps what carried it, which lets it go.
+void SceneContacts::add_fallen(int plant, int body) {
+  if (!touch_each_other_) return;
+  const int first = colliders_.size();
+  add_body_colliders(colliders_, world_.body(body), body, world_.body_pose(body));
+  for (int c = first; c < colliders_.size(); ++c)
+    sources_[plant]->ignore_touching(rods_.model(plant), rods_.state(plant), c);
 }
 
 // Where the scene says what a collider belongs to.

@@ -30,6 +30,10 @@ class SceneContacts {
   /// Friction, stiffness and what else may change while it runs.
   void change_settings(const coupling::CouplingSettings& settings);
 
+  /// A body of the world that has come off a plant: from the next step on plants feel it, where
+  /// they touch each other.
+  void add_fallen(int plant, int body);
+
   const coupling::ColliderSet& colliders() const { return colliders_; }
   const PlantStep& plant_step() const { return *plant_step_; }
 
@@ -49,7 +53,8 @@ class SceneContacts {
   std::vector<cosserat::SelfContact*> self_contacts_;
   std::unique_ptr<GripperStep> grip_;  // null without a gripper that its motor moves
   std::unique_ptr<PlantStep> plant_step_;
-  std::unique_ptr<Reaction> reaction_;  // null where coupling is one-way
+  std::unique_ptr<Reaction> reaction_;  // null where nothing feels plants
+  bool touch_each_other_ = false;       // the plants
 };
 
 }  // namespace pedicel::app

@@ -16,7 +16,8 @@ world::WorldSettings world_settings(const world::Scene& scene) {
   return settings;
 }
 
-/// Robot with its program, bodies, ground and loads: what stands in a world beside its plants.
+/// Robot with its program, bodies, ground, loads, ties, cuts and wind: what stands in a world
+/// beside its plants.
 std::string things_of(world::Scene scene) {
   world::Scene things;
   // Compared as text, so that no field can be forgotten in a comparison.
@@ -26,6 +27,9 @@ std::string things_of(world::Scene scene) {
   things.bodies = std::move(scene.bodies);
   things.ground = scene.ground;
   things.loads = std::move(scene.loads);
+  things.ties = std::move(scene.ties);
+  things.cuts = std::move(scene.cuts);
+  things.wind = scene.wind;
   return world::scene_text_without_plants(things, {});
 }
 
@@ -42,13 +46,17 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   Diagnostics diagnostics;
   // Plants first: loads, waypoints and contacts name their fruits.
   rods_ = std::make_unique<cosserat::RodSystem>(assets_->rods, scene_.threads);
-  add_plants();
+  add_plants(diagnostics);
   add_bodies();
   loads_ = std::make_unique<SceneLoads>(scene_.loads, *rods_, diagnostics);
+  ties_ = std::make_unique<SceneTies>(scene_.ties, *rods_, diagnostics);
   add_robot(diagnostics);
+  cutting_ = std::make_unique<Cutting>(scene_.cuts, *rods_, world_, diagnostics);
+  if (robot_) cutting_->set_tool([this] { return robot_->tool_pose(); });
   // Contacts are set up where all things stand, so nothing may be missing by now.
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), diagnostics);
+  cutting_->set_released([this](int plant, int body) { contacts_->add_fallen(plant, body); });
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
   gentleness_ = std::make_unique<Gentleness>(*rods_, plant_step());
   if (robot_ && !scene_.wrenches.empty()) {
@@ -57,6 +65,11 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   }
   // Participants of one phase act in the order in which they join.
   world_.add(*loads_);
+  world_.add(*cutting_);
+  if (scene_.wind) {
+    wind_ = std::make_unique<WindField>(*scene_.wind, scene_.seed, *rods_);
+    world_.add(*wind_);
+  }
   contacts_->join();
   world_.add(*measurements_);
   world_.add(*gentleness_);
@@ -71,7 +84,15 @@ const std::vector<WrenchSensor>& Simulation::wrenches() const {
   return wrenches_ ? wrenches_->all() : none;
 }
 
-void Simulation::add_plants() {
+void Simulation::add_plants(Diagnostics& diagnostics) {
+  if (scene_.wind && assets_->rods.solver != cosserat::SolverKind::direct)
+    diagnostics.error({scene_.file.string(), 0, 0},
+                      "wind with the position-based solver: expected the direct solver, which "
+                      "alone has air");
+  if (assets_->coupling.plant_contact && assets_->rods.solver != cosserat::SolverKind::direct)
+    diagnostics.error({scene_.file.string(), 0, 0},
+                      "coupling.plant_contact is 1 with the position-based solver: expected the "
+                      "direct solver, which alone lets plants touch each other");
   for (const cosserat::RodModel& model : assets_->models) rods_->add_plant(model);
 }
 
@@ -97,7 +118,8 @@ bool Simulation::can_change_to(const SceneAssets& assets) const {
   const coupling::CouplingSettings &now = assets_->coupling, &then = assets.coupling;
   // These decide what is set up once, so they cannot change under way.
   const bool same_contacts = now.margin == then.margin && now.two_way == then.two_way &&
-                             now.self_contact == then.self_contact;
+                             now.self_contact == then.self_contact &&
+                             now.plant_contact == then.plant_contact;
   const bool same_world =
       scene_.dt == assets.scene.dt && scene_.gravity == assets.scene.gravity &&
       scene_.threads == assets.scene.threads && scene_.file == assets.scene.file &&

@@ -9,11 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "pedicel/app/run/cutting.h"
 #include "pedicel/app/run/gentleness.h"
 #include "pedicel/app/run/measurements.h"
 #include "pedicel/app/run/plant_info.h"
 #include "pedicel/app/run/scene_contacts.h"
 #include "pedicel/app/run/scene_loads.h"
+#include "pedicel/app/run/scene_ties.h"
+#include "pedicel/app/run/wind_field.h"
 #include "pedicel/plant/plant_file.h"
 #include "pedicel/world/scene.h"
 #include "pedicel/world/sim_world.h"
@@ -56,6 +59,9 @@ class Simulation {
   const world::Scene& scene() const { return scene_; }
   world::SimWorld& world() { return world_; }
   const world::SimWorld& world() const { return world_; }
+  const SceneTies& ties() const { return *ties_; }
+  const Cutting& cutting() const { return *cutting_; }
+  Cutting& cutting() { return *cutting_; }
   const cosserat::RodSystem& rods() const { return *rods_; }
   /// To act on the plants between two steps.
   cosserat::RodSystem& rods() { return *rods_; }
@@ -81,7 +87,7 @@ class Simulation {
   std::uint64_t state_hash() const;
 
  private:
-  void add_plants();
+  void add_plants(Diagnostics& diagnostics);
   void add_bodies();
   void add_robot(Diagnostics& diagnostics);
 
@@ -92,6 +98,9 @@ class Simulation {
   std::unique_ptr<cosserat::RodSystem> rods_;
   std::unique_ptr<RobotControl> robot_;
   std::unique_ptr<SceneLoads> loads_;
+  std::unique_ptr<SceneTies> ties_;
+  std::unique_ptr<Cutting> cutting_;
+  std::unique_ptr<WindField> wind_;  // null where there is none
   std::unique_ptr<SceneContacts> contacts_;
   std::unique_ptr<Measurements> measurements_;
   std::unique_ptr<Gentleness> gentleness_;

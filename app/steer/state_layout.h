@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "pedicel/app/run/organ_places.h"
 #include "pedicel/app/run/simulation.h"
 #include "pedicel/app/steer/state_fields.h"
 
@@ -26,18 +27,5 @@ struct StateLayout {
   std::vector<int> first_organ;     ///< likewise
   std::vector<int> touching_of;     ///< row of Rows::touching, by collider of the scene's start
 };
-
-/// A place on a plant.
-struct OrganPlace {
-  int plant = 0, element = 0;
-  double back = 0.0;  ///< m, from the element's far node
-};
-
-/// Of "PLANT/FRUIT" (its centre), or of "PLANT/STEM" at a fraction of its length from its foot.
-/// Throws UsageError with the names that there are.
-OrganPlace find_organ_place(const Simulation& simulation, const std::string& organ, double at);
-
-/// "one, two, three, ...": for sentences that say what was expected.
-std::string list_of(const std::vector<std::string>& names);
 
 }  // namespace pedicel::app

@@ -100,6 +100,37 @@ struct SceneLoad {
   SourcePosition where;
 };
 
+/// A string that ties a place of a plant to a fixed point: it pulls, and bears no pressure.
+struct SceneTie {
+  std::string organ;       ///< "PLANT/CURVE" or "PLANT/FRUIT"; each plant of a grid
+  double at = 1.0;         ///< fraction of the curve's length, from its foot
+  Vec3 to = Vec3::Zero();  ///< m, W; from the tied place as drawn where `is_offset`
+  bool is_offset = false;
+  std::optional<double> length;  ///< m, where it becomes taut; absent: as drawn
+  double stiffness = 1.0e4;      ///< N/m
+  SourcePosition where;
+};
+
+/// A cut through a stem: at a time, or by the tool as soon as it is near enough.
+struct SceneCut {
+  std::string organ;           ///< "PLANT/CURVE"
+  double at = 0.0;             ///< fraction of the curve's length, from its foot
+  std::optional<double> time;  ///< s; absent: by the tool
+  double reach = 0.01;         ///< m, from the tool's point to the stem's axis
+  SourcePosition where;
+};
+
+/// Wind over the whole scene.
+struct SceneWind {
+  Vec3 velocity = Vec3::Zero();  ///< m/s, W, the mean at `height`
+  double height = 2.0;           ///< m
+  double roughness = 0.0;  ///< m, of the ground: the mean grows with ln(z / roughness); 0: not
+  double intensity = 0.0;  ///< 1, rms of the gusts over the mean
+  double length = 3.0;     ///< m, of the gusts
+  double rise = 0.5;       ///< s, over which it sets in
+  bool shelter = true;     ///< plants take wind from those behind them
+};
+
 struct SceneCamera {
   std::string name;
   Vec3 eye = Vec3(1.5, -1.5, 1.0), target = Vec3::Zero();  ///< m, W; relative to `follow` if given
@@ -160,6 +191,9 @@ struct Scene {
   std::vector<BodyDescription> bodies;
   std::optional<GroundPlane> ground;
   std::vector<SceneLoad> loads;
+  std::vector<SceneTie> ties;
+  std::optional<SceneWind> wind;
+  std::vector<SceneCut> cuts;
   std::vector<SceneCamera> cameras;
   std::vector<SceneWrench> wrenches;
   SceneLook look;

@@ -208,6 +208,36 @@ void add_view(FlowMap& map, const SceneCamera& camera) {
 }
 
 }  // namespace
+std::string tie(const SceneTie& tie) {
+  FlowMap map;
+  map.add("organ", plain(tie.organ)).add_unless("at", tie.at, SceneTie{}.at);
+  map.add(tie.is_offset ? "offset" : "to", tie.to);
+  if (tie.length) map.add("length", *tie.length);
+  map.add_unless("stiffness", tie.stiffness, SceneTie{}.stiffness);
+  return map.text();
+}
+
+std::string wind(const SceneWind& wind) {
+  const SceneWind plain;
+  FlowMap map;
+  map.add("velocity", wind.velocity).add_unless("height", wind.height, plain.height);
+  map.add_unless("roughness", wind.roughness, plain.roughness);
+  map.add_unless("intensity", wind.intensity, plain.intensity);
+  map.add_unless("length", wind.length, plain.length).add_unless("rise", wind.rise, plain.rise);
+  if (wind.shelter != plain.shelter) map.add("shelter", wind.shelter ? "true" : "false");
+  return map.text();
+}
+
+std::string cut(const SceneCut& cut) {
+  FlowMap map;
+  map.add("organ", plain(cut.organ)).add_unless("at", cut.at, SceneCut{}.at);
+  if (cut.time)
+    map.add("time", *cut.time);
+  else
+    map.add("by_tool", "true");
+  map.add_unless("reach", cut.reach, SceneCut{}.reach);
+  return map.text();
+}
 
 std::string camera(const SceneCamera& camera) {
   const SceneCamera plain_camera;

@@ -39,6 +39,9 @@ std::string plant(const ScenePlant& plant, const std::filesystem::path& folder);
 std::string body(const BodyDescription& body);
 std::string waypoint(const SceneWaypoint& waypoint);
 std::string load(const SceneLoad& load);
+std::string tie(const SceneTie& tie);
+std::string wind(const SceneWind& wind);
+std::string cut(const SceneCut& cut);
 std::string camera(const SceneCamera& camera);
 std::string wrench(const SceneWrench& wrench);
 /// A line "look: {...}"; empty where everything looks as it does by itself.

@@ -1,9 +1,12 @@
 #include "pedicel/io/unit_text.h"
+#include "pedicel/io/yaml_words.h"
 #include "pedicel/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 
 namespace {
+
+constexpr double fastest_wind = 100.0;  // m/s
 
 void read_source(io::YamlMap& map, const std::filesystem::path& folder, ScenePlant& plant) {
   plant.optional = map.boolean("optional", false);
@@ -77,6 +80,58 @@ SceneLoad read_load(const io::YamlNode& node) {
   if (load.to <= load.from) node.error("a load: expected from < to");
   map.finish();
   return load;
+}
+
+SceneTie read_tie(const io::YamlNode& node) {
+  SceneTie tie;
+  io::YamlMap map(node, "a tie");
+  tie.where = node.position();
+  tie.organ = map.text("organ");
+  tie.at = map.number("at", io::fraction, 1.0);
+  const auto to = map.optional("to"), offset = map.optional("offset");
+  if (to.has_value() == offset.has_value())
+    map.error(
+        "a tie: expected exactly one of to (m, in the world) and offset (m, from the tied "
+        "place as drawn)");
+  tie.is_offset = offset.has_value();
+  if (to || offset) tie.to = map.vector(tie.is_offset ? "offset" : "to");
+  if (map.optional("length")) tie.length = map.number("length", io::not_negative);
+  tie.stiffness = map.number("stiffness", io::positive, tie.stiffness);
+  map.finish();
+  return tie;
+}
+
+SceneCut read_cut(const io::YamlNode& node) {
+  SceneCut cut;
+  io::YamlMap map(node, "a cut");
+  cut.where = node.position();
+  cut.organ = map.text("organ");
+  cut.at = map.number("at", io::fraction, cut.at);
+  const bool by_tool = map.boolean("by_tool", false);
+  if (map.has("time") == by_tool)
+    map.error("a cut: expected exactly one of time (s) and by_tool: true");
+  if (map.has("time")) cut.time = map.number("time", io::not_negative);
+  cut.reach = map.number("reach", io::positive, cut.reach);
+  map.finish();
+  return cut;
+}
+
+SceneWind read_wind(const io::YamlNode& node) {
+  SceneWind wind;
+  io::YamlMap map(node, "wind");
+  wind.velocity = map.vector("velocity");
+  if (wind.velocity.head<2>().isZero(0.0) || wind.velocity.norm() > fastest_wind)
+    node.error("wind: velocity " + in_quotes(io::yaml_number(wind.velocity.norm())) +
+               " m/s, expected one along the ground of at most " + io::yaml_number(fastest_wind));
+  wind.height = map.number("height", io::positive, wind.height);
+  wind.roughness = map.number("roughness", io::not_negative, wind.roughness);
+  if (wind.roughness >= wind.height) map.error("wind: expected a roughness below the height");
+  wind.intensity = map.number("intensity", io::fraction, wind.intensity);
+  wind.length = map.number("length", io::positive, wind.length);
+  wind.rise = map.number("rise", io::not_negative, wind.rise);
+  wind.shelter = map.boolean("shelter", wind.shelter);
+  map.finish();
+  return wind;
 }
 
 }  // namespace pedicel::world::sections

@@ -66,6 +66,9 @@ void read_things(io::YamlMap& map, const std::filesystem::path& folder, Scene& s
   read_named(map, "bodies", scene.bodies, sections::read_body);
   if (const auto ground = map.optional("ground")) scene.ground = sections::read_ground(*ground);
   read_list(map, "loads", scene.loads, sections::read_load);
+  if (const auto wind = map.optional("wind")) scene.wind = sections::read_wind(*wind);
+  read_list(map, "ties", scene.ties, sections::read_tie);
+  read_list(map, "cuts", scene.cuts, sections::read_cut);
 }
 
 void read_views(io::YamlMap& map, Scene& scene) {
@@ -97,6 +100,14 @@ void check_fruit(const Scene& scene, const std::string& fruit, const SourcePosit
   if (slash == std::string::npos || !is_plant(scene, fruit.substr(0, slash)))
     diagnostics.error(where,
                       "fruit \"" + fruit + "\": expected PLANT/FRUIT, a plant of this scene");
+}
+
+void check_organ(const Scene& scene, const std::string& organ, const SourcePosition& where,
+                 Diagnostics& diagnostics) {
+  const std::size_t slash = organ.find('/');
+  if (slash == std::string::npos || !is_plant(scene, organ.substr(0, slash)))
+    diagnostics.error(where,
+                      "organ \"" + organ + "\": expected PLANT/CURVE or PLANT/FRUIT of this scene");
 }
 
 void check_anchor(const Scene& scene, const Anchor& anchor, Diagnostics& diagnostics) {
@@ -132,6 +143,12 @@ void check_vary(const Scene& scene, Diagnostics& diagnostics) {
 void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnostics) {
   for (const SceneLoad& load : scene.loads)
     check_fruit(scene, load.target, load.where, diagnostics);
+  for (const SceneTie& tie : scene.ties) check_organ(scene, tie.organ, tie.where, diagnostics);
+  for (const SceneCut& cut : scene.cuts) {
+    check_organ(scene, cut.organ, cut.where, diagnostics);
+    if (!cut.time && !scene.robot)
+      diagnostics.error(cut.where, "by_tool: the scene has no robot, expected a time");
+  }
   if (scene.robot)
     for (const SceneWaypoint& waypoint : scene.robot->waypoints)
       check_anchor(scene, waypoint.at, diagnostics);

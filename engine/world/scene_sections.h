@@ -28,7 +28,10 @@ ScenePlant read_plant(const io::YamlNode& node, const std::filesystem::path& fol
 SceneRobot read_robot(const io::YamlNode& node, const std::filesystem::path& folder);
 BodyDescription read_body(const io::YamlNode& node);
 GroundPlane read_ground(const io::YamlNode& node);
+SceneWind read_wind(const io::YamlNode& node);
 SceneLoad read_load(const io::YamlNode& node);
+SceneTie read_tie(const io::YamlNode& node);
+SceneCut read_cut(const io::YamlNode& node);
 SceneCamera read_camera(const io::YamlNode& node);
 SceneWrench read_wrench(const io::YamlNode& node);
 SceneLook read_look(const io::YamlNode& node);

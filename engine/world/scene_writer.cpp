@@ -98,6 +98,9 @@ std::string things(const Scene& scene, const std::filesystem::path& folder) {
   text += list("bodies", scene.bodies, fields::body);
   if (scene.ground) text += line("ground", ground(*scene.ground));
   text += list("loads", scene.loads, fields::load);
+  if (scene.wind) text += line("wind", fields::wind(*scene.wind));
+  text += list("ties", scene.ties, fields::tie);
+  text += list("cuts", scene.cuts, fields::cut);
   text += list("cameras", scene.cameras, fields::camera);
   text += list("wrenches", scene.wrenches, fields::wrench) + fields::look(scene.look);
   text += list("pictures", scene.pictures, fields::picture) + video(scene.video);

@@ -14,6 +14,12 @@ using cosserat::ContactPoint;
 using cosserat::RodModel;
 using cosserat::RodState;
 
+namespace {
+
+constexpr int every_collider = -1;
+
+}  // namespace
+
 ColliderSource::ColliderSource(const ColliderSet& colliders, const CouplingSettings& settings)
     : colliders_(colliders), settings_(settings) {
   const std::string refusal = check(settings);
@@ -21,12 +27,18 @@ ColliderSource::ColliderSource(const ColliderSet& colliders, const CouplingSetti
 }
 
 std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state) {
+  return ignore_touching(model, state, every_collider);
+}
+
+std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state,
+                                                     int collider) {
   begin_step(model, state, 0.0);
   std::vector<ContactPoint> found;
   find(model, state, 0.0, found);
   std::map<std::pair<int, int>, Overlap> overlaps;
   for (const ContactPoint& point : found) {
     if (point.gap > settings_.margin) continue;
+    if (collider != every_collider && point.collider != collider) continue;
     Overlap& overlap =
         overlaps.try_emplace({point.shape, point.collider}, Overlap{0, 0, -point.gap})
             .first->second;

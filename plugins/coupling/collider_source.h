@@ -42,6 +42,9 @@ class ColliderSource : public cosserat::ContactSource {
   /// pairs, once each.
   std::vector<Overlap> ignore_touching(const cosserat::RodModel& model,
                                        const cosserat::RodState& state);
+  /// The same of one collider alone.
+  std::vector<Overlap> ignore_touching(const cosserat::RodModel& model,
+                                       const cosserat::RodState& state, int collider);
 
   /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
   void change_settings(const CouplingSettings& settings);

@@ -33,6 +33,8 @@ class ContactReport {
   void add(int plant, const cosserat::RodModel& model,
            std::span<const cosserat::ContactForce> forces);
   void end();
+  /// Room for colliders that were added to the set since begin(): nothing touches them.
+  void add_colliders() { by_collider_.resize(colliders_.size()); }
 
   /// One a collider. Colliders of one link are added up with sum_of_link().
   const std::vector<ContactSum>& colliders() const { return by_collider_; }

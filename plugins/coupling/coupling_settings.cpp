@@ -22,6 +22,10 @@ std::vector<Parameter> parameters_of(CouplingSettings& s) {
       {"two_way", "1", &s.two_way, 0, 1,
        "Whether the reaction acts on the robot's links. Needed for wood and stiff stems."},
       {"self_contact", "1", &s.self_contact, 0, 1, "Whether a plant touches itself."},
+      {"plant_contact", "1", &s.plant_contact, 0, 1,
+       "Whether plants touch each other, fruits that came off, and themselves. They are then "
+       "solved "
+       "as one, by the direct solver."},
   };
 }
 

@@ -19,6 +19,7 @@ struct CouplingSettings {
   int most_samples = 16;             ///< 1, along one capsule
   bool two_way = false;              ///< the reaction acts on the links
   bool self_contact = true;          ///< plants touch themselves
+  bool plant_contact = false;        ///< plants touch each other, and themselves
 };
 std::vector<Parameter> parameters_of(CouplingSettings& settings);
 
@@ -26,7 +27,7 @@ std::vector<Parameter> parameters_of(CouplingSettings& settings);
 /// empty where all are in.
 std::string check(const CouplingSettings& settings);
 
-/// What a plant's contact with itself takes over.
+/// What a plant's contact with itself and with other plants takes over.
 cosserat::SelfContactSettings self_contact_settings(const CouplingSettings& settings);
 
 }  // namespace pedicel::coupling

@@ -38,7 +38,8 @@ SessionParameter described(const std::string& group, const Parameter& now,
   one.flag = std::holds_alternative<bool*>(now.value);
   one.whole = std::holds_alternative<int*>(now.value);
   one.logarithmic = !one.flag && one.maximum > 1.0e3 * std::max(one.minimum, 1.0e-12);
-  one.restarts = now.name == "margin" || now.name == "two_way" || now.name == "self_contact";
+  one.restarts = now.name == "margin" || now.name == "two_way" || now.name == "self_contact" ||
+                 now.name == "plant_contact";
   return one;
 }
 

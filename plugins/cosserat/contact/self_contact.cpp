@@ -54,10 +54,11 @@ void take_tangent(ContactPoint& point) {
   point.margin = overlap > 0.0 ? point.gap + force / point.stiffness : 0.5 * margin;
 }
 
-SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings)
+SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings,
+                         std::span<const int> trees)
     : settings_(settings), motion_(model, limits_of(model, settings)) {
   check(settings);
-  collect_left_out(model);
+  collect_left_out(model, trees);
   collect_far();
   work_ = {};
 }

@@ -35,7 +35,8 @@ struct SelfContactSettings {
 
 /// Contact of a plant with itself: capsule-capsule, capsule-sphere and sphere-sphere, with the
 /// radius taken at the nearest places of the axes. Left out: shapes of elements that are at most
-/// two joints (or welds) apart, and pairs nearer than the margin in the drawn shape.
+/// two joints (or welds) apart, and pairs nearer than the margin in the drawn shape; of two trees,
+/// those that overlap there by more than the margin.
 ///
 /// Each pair gives two contacts, each against the virtual plane in the middle, which moves with the
 /// mean of both surfaces: half of the gap and twice the stiffness, so that both sides carry the
@@ -58,9 +59,11 @@ struct SelfContactSettings {
 /// the margin, and what is pressed harder meets a stiffer spring.
 class SelfContact : public ContactSource {
  public:
-  /// The model must be finished; it is only read here, not kept. Throws UsageError where a setting
-  /// is out of its bounds.
-  SelfContact(const RodModel& model, const SelfContactSettings& settings);
+  /// The model must be finished; it is only read here, not kept. Where it is of several trees
+  /// (JoinedModel), `trees` has the first element of each. Throws UsageError where a setting is out
+  /// of its bounds.
+  SelfContact(const RodModel& model, const SelfContactSettings& settings,
+              std::span<const int> trees = {});
 
   void use(ThreadPool* pool) override { loop_.pool = pool; }
   bool is_within_plant() const override { return true; }
@@ -82,7 +85,7 @@ class SelfContact : public ContactSource {
   const Work& work() const { return work_; }
 
  private:
-  void collect_left_out(const RodModel& model);
+  void collect_left_out(const RodModel& model, std::span<const int> trees);
   bool update_lists(const RodModel& model, const RodState& state);
   template <class Task>
   int for_all_shapes(const Task& task);

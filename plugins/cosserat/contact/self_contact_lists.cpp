@@ -29,20 +29,26 @@ static_assert(std::tuple_size_v<decltype(ShapeMotion::Deviating::shapes)> > most
 // What deviated once will do so again: a larger bound lasts longer.
 constexpr double deviating_bound = 2.0;  // 1, of others'
 
-// Elements at most two joints apart from each other, by element, each with itself.
-std::vector<std::vector<int>> neighbours(const RodModel& model) {
-  std::vector<std::vector<int>> children(model.elements.size() + 1);  // the first: at the clamp
-  std::vector<std::vector<int>> near(model.elements.size());
-  for (int e = 0; e < model.size(); ++e) children[model.elements[e].parent + 1].push_back(e);
+// Elements at most two joints apart from each other, by element, each with itself. `trees`: the
+// first element of each, none where there is one.
+std::vector<std::vector<int>> neighbours(const RodModel& model, std::span<const int> trees) {
+  std::vector<std::vector<int>> children(model.elements.size()), near(model.elements.size());
+  std::vector<std::vector<int>> clamped(trees.size() + 1);  // by tree: at its clamp
+  const auto siblings = [&](int e) -> std::vector<int>& {
+    const int parent = model.elements[e].parent;
+    return parent >= 0 ? children[parent]
+                       : clamped[std::ranges::upper_bound(trees, e) - trees.begin()];
+  };
+  for (int e = 0; e < model.size(); ++e) siblings(e).push_back(e);
   for (int e = 0; e < model.size(); ++e) {
     const int parent = model.elements[e].parent;
-    near[e] = children[parent + 1];  // itself and its siblings
+    near[e] = siblings(e);  // itself, too
     if (parent >= 0) near[e].push_back(parent);
     if (parent >= 0 && model.elements[parent].parent >= 0)
       near[e].push_back(model.elements[parent].parent);
-    for (const int child : children[e + 1]) {
+    for (const int child : children[e]) {
       near[e].push_back(child);
-      near[e].insert(near[e].end(), children[child + 1].begin(), children[child + 1].end());
+      near[e].insert(near[e].end(), children[child].begin(), children[child].end());
     }
   }
   return near;
@@ -248,12 +254,13 @@ void SelfContact::make_box(std::size_t shape, int steps_left) {
              near.cwiseMax(far).cwiseMax(last_near).cwiseMax(last_far) + wide);
 }
 
-// Shapes that are near in the tree, or across a weld, and those that nearly touch as drawn.
-void SelfContact::collect_left_out(const RodModel& model) {
+// Shapes that are near in the tree, or across a weld, and those that nearly touch as drawn or, of
+// two trees, overlap.
+void SelfContact::collect_left_out(const RodModel& model, std::span<const int> trees) {
   std::vector<std::vector<int>> shapes(model.elements.size());  // of an element
   for (std::size_t i = 0; i < motion_.size(); ++i)
     shapes[model.shapes[i].element].push_back(static_cast<int>(i));
-  const std::vector<std::vector<int>> near = neighbours(model);
+  const std::vector<std::vector<int>> near = neighbours(model, trees);
   Pairs pairs;
   const auto add = [&](int element, int other) {
     for (const int a : shapes[element])
@@ -275,10 +282,16 @@ void SelfContact::collect_left_out(const RodModel& model) {
   boxes_.resize(motion_.size());
   leave_out();
   collect_far();
+  const auto tree_of = [&](int shape) {
+    return std::ranges::upper_bound(trees, model.shapes[shape].element) - trees.begin();
+  };
   for (int part = 0; part < far_parts_; ++part)
-    for (std::size_t i = 0; i < far_[part].size(); ++i)
-      if (far_[part].gap[i] < settings_.margin)
-        pairs.emplace_back(far_[part].a[i], far_[part].b[i]);
+    for (std::size_t i = 0; i < far_[part].size(); ++i) {
+      const int a = far_[part].a[i], b = far_[part].b[i];
+      // What is drawn to lie on another tree does so; what is drawn through it cannot.
+      const double nearest = tree_of(a) == tree_of(b) ? settings_.margin : -settings_.margin;
+      if (far_[part].gap[i] < nearest) pairs.emplace_back(a, b);
+    }
   leave_out();
 }
 

@@ -1,5 +1,7 @@
 #include "pedicel/cosserat/solver/attachments.h"
 
+#include <algorithm>
+
 #include "pedicel/cosserat/model/rotation.h"
 
 namespace pedicel::cosserat {
@@ -29,9 +31,18 @@ Hinge hinge_of(const RodState& state, const Weld& weld) {
 
 }  // namespace
 
-void Attachments::prepare(const RodState& start, std::span<const Load> loads) {
+double tension(const RodState& state, const Tie& tie) {
+  if (!state.alive[tie.element]) return 0.0;
+  const Vec3 place =
+      state.position[tie.element] - tie.back * (state.orientation[tie.element] * Vec3::UnitZ());
+  return tie.stiffness * std::max(0.0, (tie.anchor_W - place).norm() - tie.length);
+}
+
+void Attachments::prepare(const RodState& start, std::span<const Load> loads,
+                          std::span<const Tie> ties) {
   start_ = &start;
   loads_ = loads;
+  ties_ = ties;
   refer_moments_to(start);
 }
 
@@ -55,6 +66,8 @@ double Attachments::sum(const RodModel& model, const RodState& state,
   double energy = 0.0;
   for (int i = 0; i < static_cast<int>(loads_.size()); ++i)
     if (state.alive[loads_[i].element]) energy += load(state, i, blocks);
+  for (const Tie& one : ties_)
+    if (state.alive[one.element]) energy += tie(state, one, blocks);
   for (const Support& one : model.supports)
     if (state.alive[one.element]) energy += support(state, one, blocks);
   for (const Weld& one : model.welds)
@@ -73,6 +86,25 @@ double Attachments::load(const RodState& state, int index, DiagonalBlocks* block
   const Vec3 turned = log_map(state.orientation[e] * moment_reference_[index].conjugate());
   return -load.force_W.dot(state.position[e] + arm - start_->position[e]) -
          load.moment_W.dot(turned);
+}
+
+// Along the string its stiffness, across it that of a taut string, tension over length: both are
+// positive, so that the Hessian is exact and positive semidefinite.
+double Attachments::tie(const RodState& state, const Tie& tie, DiagonalBlocks* blocks) const {
+  const int e = tie.element;
+  const Vec3 arm = -tie.back * (state.orientation[e] * Vec3::UnitZ());
+  const Vec3 way = tie.anchor_W - (state.position[e] + arm);
+  const double distance = way.norm(), stretch = distance - tie.length;
+  if (stretch <= 0.0) return 0.0;
+  if (blocks) {
+    const Vec3 along = way / distance;
+    const double pull = tie.stiffness * stretch;
+    const Mat3 projector = along * along.transpose();
+    add_point_spring(*blocks, e, arm,
+                     tie.stiffness * projector + pull / distance * (Mat3::Identity() - projector),
+                     pull * along);
+  }
+  return 0.5 * tie.stiffness * stretch * stretch;
 }
 
 double Attachments::support(const RodState& state, const Support& support,

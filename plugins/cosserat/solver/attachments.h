@@ -9,11 +9,23 @@
 
 namespace pedicel::cosserat {
 
-/// Loads, supports and welds of one plant as terms of the incremental potential of a step.
+/// A string from a place of a plant to a fixed point: it pulls where it is longer than `length`,
+/// and bears no pressure.
+struct Tie {
+  int element = 0;
+  double back = 0.0;             ///< m
+  Vec3 anchor_W = Vec3::Zero();  ///< m
+  double length = 0.0;           ///< m, where it becomes taut
+  double stiffness = 0.0;        ///< N/m
+};
+/// N, with which it pulls in a state.
+double tension(const RodState& state, const Tie& tie);
+
+/// Loads, ties, supports and welds of one plant as terms of the incremental potential of a step.
 class Attachments {
  public:
   /// The step starts at `start`: there loads have done no work.
-  void prepare(const RodState& start, std::span<const Load> loads);
+  void prepare(const RodState& start, std::span<const Load> loads, std::span<const Tie> ties);
 
   /// Adds gradient (negative, as right side) and Hessian at `state`, without what a weld couples;
   /// returns the potential (J). `state` becomes the one from which dead moments count their work.
@@ -26,11 +38,13 @@ class Attachments {
   void refer_moments_to(const RodState& state);
   double sum(const RodModel& model, const RodState& state, DiagonalBlocks* blocks) const;
   double load(const RodState& state, int index, DiagonalBlocks* blocks) const;
+  double tie(const RodState& state, const Tie& tie, DiagonalBlocks* blocks) const;
   double support(const RodState& state, const Support& support, DiagonalBlocks* blocks) const;
   double weld(const RodState& state, const Weld& weld, DiagonalBlocks* blocks) const;
 
   const RodState* start_ = nullptr;
   std::span<const Load> loads_;
+  std::span<const Tie> ties_;
   std::vector<Quat> moment_reference_;  // E to W, one a load: where its moment has done no work
 };
 

@@ -106,6 +106,48 @@ void take_off(RodModel& model, RodState& state, int fruit) {
     lighten(model, state, e);
 }
 
+CutOff cut(const RodModel& model, RodState& state, int element) {
+  CutOff off;
+  std::vector<char> carried(model.elements.size(), 0);
+  for (int e = element; e < model.size(); ++e) {
+    const int parent = model.elements[e].parent;
+    carried[e] = e == element || (parent >= 0 && carried[parent]);
+    if (carried[e] && state.alive[e]) off.elements.push_back(e);
+  }
+  const auto centre_of = [&](int e) {
+    return point_on(model, state, e, model.elements[e].com_back);
+  };
+  Vec3 momentum = Vec3::Zero();
+  for (const int e : off.elements) {
+    const double mass = model.elements[e].mass;
+    off.mass += mass;
+    off.centre_W += mass * centre_of(e);
+    momentum += mass * state.velocity[e];
+  }
+  off.centre_W /= off.mass;
+  off.velocity_W = momentum / off.mass;
+  Vec3 spin = Vec3::Zero();  // N m s, about the centre
+  Mat3 inertia = Mat3::Zero();
+  for (const int e : off.elements) {
+    const Element& one = model.elements[e];
+    const Mat3 r = state.orientation[e].toRotationMatrix();
+    const Vec3 arm = centre_of(e) - off.centre_W;
+    inertia += r * one.inertia.asDiagonal() * r.transpose() +
+               one.mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+    spin += r * one.inertia.cwiseProduct(state.angular_velocity[e]) +
+            one.mass * arm.cross(state.velocity[e]);
+  }
+  off.angular_velocity_W = inertia.ldlt().solve(spin);
+  for (const int e : off.elements) state.alive[e] = 0;
+  for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
+    if (state.fruit_gone[f] || !carried[model.fruits[f].element]) continue;
+    off.fruits.push_back(f);
+    state.fruit_gone[f] = true;
+  }
+  state.previous_dt = 0.0;  // as take_off()
+  return off;
+}
+
 void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events) {
   for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
     if (state.fruit_gone[f] || !state.alive[model.fruits[f].element]) continue;

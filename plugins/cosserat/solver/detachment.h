@@ -38,6 +38,19 @@ void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events);
 /// Takes a fruit off that is still on, whatever its joint carries.
 void take_off(RodModel& model, RodState& state, int fruit);
 
+/// A part of a plant that was cut off, as the rigid body that goes on.
+struct CutOff {
+  std::vector<int> elements;               ///< all of it, ascending; they are alive no more
+  std::vector<int> fruits;                 ///< that hung on it
+  double mass = 0.0;                       ///< kg
+  Vec3 centre_W = Vec3::Zero();            ///< m, of mass
+  Vec3 velocity_W = Vec3::Zero();          ///< m/s, there
+  Vec3 angular_velocity_W = Vec3::Zero();  ///< rad/s
+};
+/// Cuts a plant through at the near end of an element that is alive: it and all that it carries
+/// come off. Linear and angular momentum go along.
+CutOff cut(const RodModel& model, RodState& state, int element);
+
 /// How near a fruit is to coming off: the largest ratio of a strain or load to its threshold, or
 /// the sum of its law (1 breaks).
 double margin_used(const RodModel& model, const RodState& state, int fruit);

@@ -21,6 +21,14 @@ void follow(const RodState& state, RodState& iterate) {
   iterate.time = state.time;
 }
 
+// The k-th of so many equal parts of its way.
+Clamp part_of(const Clamp& whole, int k, int parts) {
+  const auto at = [&](int i) {
+    return i == parts ? whole.now : between(whole.before, whole.now, i / double(parts));
+  };
+  return {whole.first_element, at(k), at(k + 1)};
+}
+
 }  // namespace
 
 DirectSolver::Plant::Plant(const RodModel& model) : extras(model.size()) {
@@ -102,12 +110,14 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
                              !plant.has_history ||
                              !IterationControl::suits_second_order(dt, before);
-    rows_.states.set_scheme(p, dt, first_order ? 0.0 : before, step.state->root,
+    const Clamp root = own_clamp(*step.state);
+    rows_.states.set_scheme(p, dt, first_order ? 0.0 : before,
+                            step.clamps.empty() ? std::span(&root, 1) : step.clamps,
                             plant.control.continues_acceleration());
-    rows_.extensions.begin_step(p, *step.model, step.state->time, dt, settling_);
+    rows_.extensions.begin_step(p, *step.model, step.state->time, dt, settling_, step.air);
     begin_memory(p, *step.model, *step.state);
     // What touches a plant looks at its iterate as a state. All others are solved in rows alone.
-    plant.touched = !step.loads.empty() || !step.contacts.empty() ||
+    plant.touched = !step.loads.empty() || !step.contacts.empty() || !step.ties.empty() ||
                     !step.model->supports.empty() || plant.loops;
     plant.extra_energy = 0.0;
     plant.presses = false;
@@ -122,7 +132,7 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
       steps, pool, [&](int p) { return plants_[p].touched; },
       [&](int p) {
         follow(*steps[p].state, plants_[p].iterate);
-        plants_[p].attachments.prepare(*steps[p].state, steps[p].loads);
+        plants_[p].attachments.prepare(*steps[p].state, steps[p].loads, steps[p].ties);
         for (ContactSource* source : steps[p].contacts)
           source->begin_step(*steps[p].model, *steps[p].state, dt);
       });
@@ -188,12 +198,16 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
   constexpr int substeps = IterationControl::substeps;
   // What moves the plant, its clamp and what touches it, does an equal share in each substep.
   const Pose from = state.previous_root, to = state.root;
+  std::vector<Clamp> clamps(step.clamps.begin(), step.clamps.end());
   step.report = {};
   for (int k = 0; k < substeps; ++k) {
     for (ContactSource* source : step.contacts)
       source->cover(k / double(substeps), (k + 1) / double(substeps));
     state.root = k + 1 == substeps ? to : between(from, to, (k + 1) / double(substeps));
-    PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0, k == 0, {}};
+    for (std::size_t i = 0; i < clamps.size(); ++i)
+      clamps[i] = part_of(step.clamps[i], k, substeps);
+    PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0,
+                   k == 0,     {},         clamps,     step.ties,     step.air};
     solver.step({&part, 1}, dt / substeps, gravity);
     // The step is as good as its worst substep.
     part.report.errors |= step.report.errors;

@@ -39,6 +39,10 @@ class DirectSolver : public RodSolver {
     std::span<ContactSource* const> contacts;
     bool model_changed = true, state_changed = true;
     StepReport report;  ///< set by the step
+    /// Of each of its trees; empty: it is one tree, clamped at its state's root.
+    std::span<const Clamp> clamps = {};
+    std::span<const Tie> ties = {};
+    std::span<const Vec3> air = {};  ///< as RowExtensions::begin_step() takes it
   };
   /// Steps all the plants that it was made for, in that order.
   void step(std::span<PlantStep> plants, double dt, const Vec3& gravity, ThreadPool& pool);

@@ -62,6 +62,7 @@ int RodSystem::add_plant(RodModel model) {
   plant.model = std::move(model);
   plants_.push_back(std::move(plant));
   beds_.clear();
+  canopy_.reset();
   return size() - 1;
 }
 
@@ -72,7 +73,9 @@ void RodSystem::add_contact_source(int plant, std::unique_ptr<ContactSource> sou
 
 void RodSystem::step(double dt, const Vec3& gravity) {
   if (plants_.empty()) return;  // a world of robots and bodies alone
-  if (settings_.solver == SolverKind::direct) {
+  if (touching_) {
+    step_canopy(dt, gravity);
+  } else if (settings_.solver == SolverKind::direct) {
     if (beds_.empty()) make_beds();
     if (beds_.size() == 1)
       step_bed(beds_[0], dt, gravity, &pool_);
@@ -93,6 +96,29 @@ void RodSystem::step(double dt, const Vec3& gravity) {
     detach(plant.model, plant.state, plant.detached);
     plant.model_changed = plant.state_changed = !plant.detached.empty();
   }
+}
+
+void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
+  if (settings_.solver != SolverKind::direct)
+    throw UsageError("RodSystem::let_plants_touch: position-based solver, must be the direct one");
+  if (canopy_) canopy_->change_settings(settings);
+  touching_ = settings;
+  beds_.clear();
+}
+
+void RodSystem::step_canopy(double dt, const Vec3& gravity) {
+  steps_.clear();
+  for (Plant& plant : plants_)
+    steps_.push_back({&plant.model,
+                      &plant.state,
+                      plant.loads,
+                      plant.source_pointers,
+                      plant.model_changed,
+                      plant.state_changed,
+                      {}});
+  if (!canopy_) canopy_ = std::make_unique<Canopy>(settings_, *touching_, steps_, pool_.threads());
+  canopy_->step(steps_, dt, gravity, pool_);
+  for (int p = 0; p < size(); ++p) plants_[p].report = steps_[p].report;
 }
 
 void RodSystem::make_beds() {
@@ -164,6 +190,7 @@ FetchAhead* RodSystem::what_follows(const Bed& bed) {
 const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
   static const std::vector<ContactForce> none;
   if (plants_[plant].solver) return plants_[plant].solver->contact_forces();
+  if (canopy_) return canopy_->contact_forces(plant);
   if (beds_.empty()) return none;
   const Bed& bed = beds_[plants_[plant].bed];
   return bed.solver->contact_forces(plant - bed.first);
@@ -174,6 +201,7 @@ void RodSystem::set_state(int plant, const RodState& state) {
   plants_[plant].state.previous_dt = 0.0;
   plants_[plant].state.previous_root = state.root;
   if (plants_[plant].solver) plants_[plant].solver->reset();
+  if (canopy_) canopy_->reset();
   if (beds_.empty() || settings_.solver != SolverKind::direct) return;
   Bed& bed = beds_[plants_[plant].bed];
   bed.solver->reset(plant - bed.first);
@@ -206,6 +234,7 @@ void RodSystem::change_settings(const RodSettings& settings) {
   for (Plant& plant : plants_)
     if (plant.solver) plant.solver->change_settings(settings);
   for (Bed& bed : beds_) bed.solver->change_settings(settings);
+  if (canopy_) canopy_->change_settings(settings);
 }
 
 void RodSystem::add_to(StateHash& hash) const {

@@ -1,18 +1,20 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pedicel/core/state_hash.h"
 #include "pedicel/core/thread_pool.h"
+#include "pedicel/cosserat/solver/canopy.h"
 #include "pedicel/cosserat/solver/detachment.h"
 #include "pedicel/cosserat/solver/direct_solver.h"
 #include "pedicel/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 
-/// All the plants of a world, stepped side by side. Plants do not touch each other, so any number
-/// of threads gives the same bits.
+/// All the plants of a world, stepped side by side, or where they touch each other as one. Any
+/// number of threads gives the same bits.
 class RodSystem {
  public:
   explicit RodSystem(const RodSettings& settings, int threads = 1);
@@ -22,9 +24,16 @@ class RodSystem {
   /// What a plant may touch. The source must be this plant's own: plants are stepped at once.
   void add_contact_source(int plant, std::unique_ptr<ContactSource> source);
 
+  /// From the next step on plants touch each other and themselves (Canopy). Throws UsageError for a
+  /// solver that cannot do so.
+  void let_plants_touch(const SelfContactSettings& settings);
+  /// Whose shape a contact's collider is, one for which is_other_plant() holds.
+  JoinedModel::Shape touched(int collider) const { return canopy_->touched(collider); }
+
   /// Advances every plant by dt, then takes off the fruits whose joint passed a threshold.
   void step(double dt, const Vec3& gravity);
 
+  SolverKind solver() const { return settings_.solver; }
   int size() const { return static_cast<int>(plants_.size()); }
   const RodModel& model(int plant) const { return plants_[plant].model; }
   const RodState& state(int plant) const { return plants_[plant].state; }
@@ -51,6 +60,14 @@ class RodSystem {
   /// Loads that act until they are changed.
   std::vector<Load>& loads(int plant) { return plants_[plant].loads; }
 
+  /// Strings that hold it until they are changed (direct solver only).
+  std::vector<Tie>& ties(int plant) { return plants_[plant].ties; }
+  const std::vector<Tie>& ties(int plant) const { return plants_[plant].ties; }
+
+  /// m/s, W: the air about each element, in place of what its model says, until it is changed;
+  /// empty: as the model says (direct solver only).
+  std::vector<Vec3>& air(int plant) { return plants_[plant].air; }
+
   const StepReport& report(int plant) const { return plants_[plant].report; }
   const std::vector<ContactForce>& contact_forces(int plant) const;
   /// Fruits of a plant that came off in the last step.
@@ -71,6 +88,8 @@ class RodSystem {
     std::vector<std::unique_ptr<ContactSource>> sources;
     std::vector<ContactSource*> source_pointers;
     std::vector<Load> loads;
+    std::vector<Tie> ties;
+    std::vector<Vec3> air;
     StepReport report;
     std::vector<DetachEvent> detached;
   };
@@ -84,6 +103,7 @@ class RodSystem {
     std::vector<DirectSolver::PlantStep> steps;
   };
   void make_beds();
+  void step_canopy(double dt, const Vec3& gravity);
   void step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool);
   FetchAhead* what_follows(const Bed& bed);
 
@@ -91,6 +111,9 @@ class RodSystem {
   ThreadPool pool_;
   std::vector<Plant> plants_;
   std::vector<Bed> beds_;  // direct solver; made by the first step after add_plant()
+  std::optional<SelfContactSettings> touching_;
+  std::unique_ptr<Canopy> canopy_;              // where plants touch; made by the first step
+  std::vector<DirectSolver::PlantStep> steps_;  // of the canopy
   struct alignas(64) Ahead {
     FetchAhead next_bed;
   };

@@ -98,17 +98,23 @@ void RowExtensions::mark_packs(int plant, const RodModel& model) {
 }
 
 void RowExtensions::begin_step(int plant, const RodModel& model, double time, double dt,
-                               bool settled) {
+                               bool settled, std::span<const Vec3> air) {
   Extended& extended = plants_[plant];
   if (!extended.any && !extended.fresh) return;
   const double end = settled ? time : time + dt;
-  const double gust = settled ? 0.0 : std::sin(2.0 * pi * model.gust_frequency * end);
+  const double gust =
+      settled || !air.empty() ? 0.0 : std::sin(2.0 * pi * model.gust_frequency * end);
   const double modulus = stiffness_factor(model, end);
   for (const auto [p, begin, behind] : store_.layout.lanes_of_plant(plant)) {
     Pack& pack = store_.packs[p];
     std::fill(pack.modulus + begin, pack.modulus + behind, modulus);
     std::fill(pack.gust_now + begin, pack.gust_now + behind, gust);
   }
+  if (!model.air.empty())
+    for (std::size_t e = 0; e < air.size(); ++e) {
+      const auto [row, lane] = store_.layout.slot(plant, static_cast<int>(e));
+      put(store_.extension[row].velocity, lane, air[e]);
+    }
   if (!extended.fresh && extended.dt == dt && extended.settled == settled) return;
   extended.fresh = false;
   extended.dt = dt;

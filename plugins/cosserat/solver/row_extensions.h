@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "pedicel/cosserat/model/rod_model.h"
@@ -18,8 +19,10 @@ class RowExtensions {
   void read_model(int plant, const RodModel& model);
   /// What the plant's extensions are in a step that starts at `time` (s). `settled`: in the settled
   /// shape instead, without dashpots, friction sliders and gusts, and at `time` itself. Call it
-  /// after read_model() and set_scheme().
-  void begin_step(int plant, const RodModel& model, double time, double dt, bool settled);
+  /// after read_model() and set_scheme(). `air`: m/s, W, of each element, in place of the mean wind
+  /// and the gusts of the model; empty: those.
+  void begin_step(int plant, const RodModel& model, double time, double dt, bool settled,
+                  std::span<const Vec3> air = {});
   /// branch_count() of the plant.
   int branches(int plant) const { return plants_[plant].branches; }
   /// What the joint of an element remembers, from a state and to it.

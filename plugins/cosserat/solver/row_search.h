@@ -16,7 +16,7 @@ class RowSearch {
       : store_(store),
         states_(states),
         elimination_(elimination),
-        shares_(store.roots.size(), 0.0) {}
+        shares_(store.clamps.size(), 0.0) {}
 
   /// Sets energy_before() to what the step's start would have, with the clamps where they end, and
   /// energy() to what the first guess has. Writes the iterates as RowStates::write_iterate() does.

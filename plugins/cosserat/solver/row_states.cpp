@@ -34,9 +34,9 @@ void RowStates::read_model(int plant, const RodModel& model) {
 }
 
 // Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
-void RowStates::set_scheme(int plant, double dt, double previous_dt, const Pose& root,
+void RowStates::set_scheme(int plant, double dt, double previous_dt, std::span<const Clamp> clamps,
                            bool accelerate) {
-  store_.roots[plant] = root;
+  store_.clamps[plant].assign(clamps.begin(), clamps.end());
   const Scheme scheme{dt, previous_dt, accelerate};
   if (scheme == schemes_[plant]) return;  // mostly; see RowStore::set_active()
   schemes_[plant] = scheme;
@@ -95,14 +95,16 @@ void RowStates::read_states(int pack, std::span<const RodState* const> states) {
   const int begin = store_.packs[pack].begin;
   PoseRow& parents = store_.scratch->start[begin];
   for (int lane = 0; lane < lane_count; ++lane) {
-    const auto [plant, parent] = store_.anchors[pack][lane];
-    if (plant < 0)
+    const RowStore::Anchor& anchor = store_.anchors[pack][lane];
+    const auto& [plant, parent, first] = anchor;
+    if (plant < 0) {
       put(parents, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
-    else if (parent < 0)  // strains of the start are against the clamp of the start
-      put(parents, lane, states[plant]->previous_root.position,
-          states[plant]->previous_root.rotation);
-    else
+    } else if (parent < 0) {  // strains of the start are against the clamp of the start
+      const Pose& clamp = store_.clamp_of(anchor).before;
+      put(parents, lane, clamp.position, clamp.rotation);
+    } else {
       put(parents, lane, states[plant]->position[parent], states[plant]->orientation[parent]);
+    }
   }
   for (int row = begin + 1; row < store_.packs[pack].end; ++row) {
     if (store_.ahead) store_.ahead->some();

@@ -22,14 +22,14 @@ struct RodHistory {
 class RowStates {
  public:
   RowStates(RowStore& store, RowExtensions& extensions)
-      : store_(store), extensions_(extensions), schemes_(store.roots.size()) {}
+      : store_(store), extensions_(extensions), schemes_(store.clamps.size()) {}
 
   /// Reads the constants of a plant (again).
   void read_model(int plant, const RodModel& model);
   /// How a plant steps: backward Euler where `previous_dt` is 0, else BDF2 after a step of that
-  /// length (s). Its clamp stands at `root` at the end. Whether prepare() continues the
+  /// length (s). `clamps`: of each of its trees. Whether prepare() continues the
   /// acceleration of the last step, too.
-  void set_scheme(int plant, double dt, double previous_dt, const Pose& root,
+  void set_scheme(int plant, double dt, double previous_dt, std::span<const Clamp> clamps,
                   bool accelerate = false);
   /// Gives a plant a past, one step before its state.
   void set_history(int plant, const RodHistory& history);

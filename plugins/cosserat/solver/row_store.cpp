@@ -64,7 +64,7 @@ RowStore::RowStore(std::span<const RodModel* const> plants, int threads, bool ke
       first_branch(layout.rows(), -1),
       anchors(layout.packs()),
       carriers(layout.tasks()),
-      roots(plants.size()) {
+      clamps(plants.size(), std::vector<Clamp>(1)) {
   // The rows of one thread lie side by side, so that what its core fetches ahead is its own.
   std::vector<int> order;
   for (int thread = 0; thread < graph.threads(); ++thread)
@@ -102,7 +102,7 @@ void RowStore::make_packs() {
 void RowStore::join_chains() {
   for (int c = static_cast<int>(layout.chains().size()) - 1; c >= 0; --c) {
     const Chain& chain = layout.chains()[c];
-    anchors[chain.pack][chain.lane] = {chain.plant, chain.from};
+    anchors[chain.pack][chain.lane] = {chain.plant, chain.from, chain.elements.front()};
     if (chain.from < 0) continue;
     const Slot slot = layout.slot(chain.plant, chain.from);
     carriers[layout.task_of(layout.chains()[chain.parent].pack, slot.row)].push_back(
@@ -154,14 +154,21 @@ void RowStore::set_active(std::span<const char> plants) {
     if (packs[p].active != (active_[p] != 0)) packs[p].active = active_[p] != 0;
 }
 
+const Clamp& RowStore::clamp_of(const Anchor& anchor) const {
+  const std::vector<Clamp>& own = clamps[anchor.plant];
+  const auto behind = std::ranges::upper_bound(own, anchor.first, {}, &Clamp::first_element);
+  return *std::prev(behind);
+}
+
 void RowStore::place_anchors(int pack, std::span<PoseRow> poses) const {
   PoseRow& row = poses[packs[pack].begin];
   for (int lane = 0; lane < lane_count; ++lane) {
-    const auto [plant, parent] = anchors[pack][lane];
+    const auto& [plant, parent, first] = anchors[pack][lane];
     if (plant < 0) {
       put(row, lane, Vec3(0, 0, 0), Quat(1, 0, 0, 0));
     } else if (parent < 0) {
-      put(row, lane, roots[plant].position, roots[plant].rotation);
+      const Pose& clamp = clamp_of(anchors[pack][lane]).now;
+      put(row, lane, clamp.position, clamp.rotation);
     } else {
       const Slot slot = layout.slot(plant, parent);
       const PoseRow& from = poses[slot.row];

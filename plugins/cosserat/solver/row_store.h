@@ -9,10 +9,21 @@
 #include "pedicel/core/task_graph.h"
 #include "pedicel/core/thread_pool.h"
 #include "pedicel/cosserat/lanes/lane_layout.h"
-#include "pedicel/cosserat/model/rod_model.h"
+#include "pedicel/cosserat/model/rod_state.h"
 #include "pedicel/cosserat/solver/row_scratch.h"
 
 namespace pedicel::cosserat {
+
+/// Where a tree of a plant is clamped, at a step's start and end. A plant is one tree; plants that
+/// are solved as one (Canopy) have several.
+struct Clamp {
+  int first_element = 0;  ///< of the tree; the trees of a plant stand one after another
+  Pose before, now;       ///< X_W
+};
+/// That of a plant of one tree.
+inline Clamp own_clamp(const RodState& state) {
+  return {0, state.previous_root, state.root};
+}
 
 /// All rows of some plants (lanes.h), where each element stands, and which thread works on what.
 /// What the rows hold is the business of RowStates, RowExtensions, RowElimination and RowSearch,
@@ -21,6 +32,7 @@ struct RowStore {
   /// What stands in a lane of a pack's first row: an element of the same plant. -1: the clamp.
   struct Anchor {
     int plant = -1, element = -1;
+    int first = -1;  // of the lane's own elements
   };
   /// An element that a chain of another pack starts from, and the slot of that pack's first row.
   struct Carrier {
@@ -48,6 +60,8 @@ struct RowStore {
     });
   }
 
+  /// Where the tree that begins with a lane's first element is clamped.
+  const Clamp& clamp_of(const Anchor& anchor) const;
   /// The parents' poses into a pack's first row: theirs must have been moved already.
   void place_anchors(int pack, std::span<PoseRow> poses) const;
   /// The iterate's, where it has just been made, which does not wait for parents.
@@ -89,7 +103,7 @@ struct RowStore {
   std::vector<BlockSource> branches;
   std::vector<std::array<Anchor, lane_count>> anchors;  // by pack
   std::vector<std::vector<Carrier>> carriers;           // by task
-  std::vector<Pose> roots;                              // X_W of the clamps
+  std::vector<std::vector<Clamp>> clamps;               // by plant, of its trees in order
 
   Vec3 gravity = Vec3::Zero();  // m/s2, W
   /// 1, by how much of the way the axes that drag is linearised about go to the iterate's.

@@ -65,7 +65,7 @@ struct Part {
     iterate.position = guess.position;
     iterate.orientation = guess.orientation;
     iterate.root = start.root;
-    attachments.prepare(start, one.loads);
+    attachments.prepare(start, one.loads, {});
     attachments.linearise(one.model, iterate, extras);
     if (!one.model.welds.empty()) loops = std::make_unique<cosserat::BlockSystem>(one.model);
   }
@@ -110,7 +110,7 @@ Changes solve_in_lanes(const Garden& garden, std::vector<Part>& parts, int threa
     const Part& part = parts[i];
     const int p = static_cast<int>(i);
     rows.states.set_scheme(p, garden.dt, part.second_order(garden) ? garden.dt : 0.0,
-                           part.start.root);
+                           std::array{cosserat::own_clamp(part.start)});
     rows.extensions.begin_step(p, part.plant.model, part.start.time, garden.dt, false);
     rows.states.set_history(p, part.history);
   }

@@ -177,7 +177,7 @@ TEST(RodRows, SolvesAsTheBlockSystemDoes) {
 
       RodRows rows(std::array{&model}, threads);
       rows.store.gravity = gravity;
-      rows.states.set_scheme(0, dt, dt, state.root);
+      rows.states.set_scheme(0, dt, dt, std::array{own_clamp(state)});
       rows.extensions.begin_step(0, model, state.time, dt, false);
       rows.states.set_history(0, history);
       const std::array<const RodState*, 1> states{&state};
@@ -253,7 +253,7 @@ TEST(RodRows, AMoveNeedNotBeMeasured) {
     for (const bool measured : {true, false}) {
       RodRows rows(std::array{&model}, 1);
       rows.store.gravity = gravity;
-      rows.states.set_scheme(0, dt, dt, state.root);
+      rows.states.set_scheme(0, dt, dt, std::array{own_clamp(state)});
       rows.states.set_history(0, history);
       rows.states.prepare(pool, std::array{&state});
       rows.search.set_share(0, 1.0);

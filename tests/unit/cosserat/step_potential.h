@@ -20,11 +20,12 @@ class StepPotential {
   void prepare(const RodState& start, const StepInput& input, const RodHistory* history,
                const RodModel* extended = nullptr) {
     rows_.store.gravity = input.gravity;
-    rows_.states.set_scheme(0, input.dt, history == nullptr ? 0.0 : input.dt, start.root);
+    rows_.states.set_scheme(0, input.dt, history == nullptr ? 0.0 : input.dt,
+                            std::array{own_clamp(start)});
     if (extended) rows_.extensions.begin_step(0, *extended, start.time, input.dt, false);
     if (history) rows_.states.set_history(0, *history);
     rows_.states.prepare(alone_, std::array{&start});
-    attachments_.prepare(start, input.loads);
+    attachments_.prepare(start, input.loads, {});
   }
 
   /// Gradient and Hessian into `system`; returns the potential, J.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/world/scene.h"
+
+namespace pedicel::app {
+
+/// The scene's ties, as strings of the plants.
+class SceneTies {
+ public:
+  struct One {
+    std::string name;      ///< "tie_1", or of a plant of a grid "tie_1_3"
+    int plant = 0;         ///< index into the RodSystem
+    std::size_t slot = 0;  ///< in RodSystem::ties()
+  };
+
+  /// Gives them to the plants, where they stand as drawn. A tie on an organ that no plant has is an
+  /// error.
+  SceneTies(const std::vector<world::SceneTie>& ties, cosserat::RodSystem& rods,
+            Diagnostics& diagnostics);
+
+  const std::vector<One>& all() const { return all_; }
+  /// N, of one of them now.
+  double tension(const One& one) const;
+
+ private:
+  void add(const world::SceneTie& tie, const std::string& organ, const std::string& name);
+
+  cosserat::RodSystem& rods_;
+  std::vector<One> all_;
+};
+
+}  // namespace pedicel::app

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/cosserat/model/joined_model.h"
+#include "pedicel/cosserat/solver/direct_solver.h"
+
+namespace pedicel::cosserat {
+
+/// In ContactPoint::collider, shapes of other plants have this number and higher ones.
+constexpr int other_plant_base = 1 << 28;
+constexpr bool is_other_plant(int collider) {
+  return collider >= other_plant_base;
+}
+
+/// Plants that touch each other and themselves, solved as one plant of several trees (JoinedModel).
+/// So both sides of a contact get the same force in the same step, friction and line search see all
+/// plants, and the result depends neither on the order of contacts nor on threads. What they touch
+/// beside each other is found plant by plant, as it is without a canopy.
+///
+/// The price: all plants take as many iterations as the one that needs most.
+class Canopy {
+ public:
+  using PlantStep = DirectSolver::PlantStep;
+
+  /// For these plants, in this order; what it keeps of them is read again in each step. Throws
+  /// UsageError where JoinedModel does.
+  Canopy(const RodSettings& settings, const SelfContactSettings& contact,
+         std::span<const PlantStep> plants, int threads);
+  ~Canopy();
+
+  /// Steps all of them. Sources of a plant that find its contact with itself are left out. A report
+  /// names the step's errors at the plant whose element changed most, or at all of them.
+  void step(std::span<PlantStep> plants, double dt, const Vec3& gravity, ThreadPool& pool);
+
+  /// Of the last step, as RodSolver::contact_forces(): shapes are the plant's own; see touched().
+  const std::vector<ContactForce>& contact_forces(int plant) const { return forces_[plant]; }
+  /// Whose shape a collider is, one for which is_other_plant() holds.
+  JoinedModel::Shape touched(int collider) const;
+
+  void change_settings(const RodSettings& settings);
+  void change_settings(const SelfContactSettings& settings) { contact_->change_settings(settings); }
+  /// Forgets history, after a state was set from outside.
+  void reset() { solver_->reset(); }
+
+ private:
+  class Sources;
+
+  void read(std::span<const PlantStep> plants);
+  void gather(std::span<const PlantStep> plants);
+  void share_out(std::span<PlantStep> plants, const StepReport& report);
+
+  std::unique_ptr<JoinedModel> joined_;
+  std::unique_ptr<DirectSolver> solver_;
+  std::unique_ptr<SelfContact> contact_;
+  std::unique_ptr<Sources> sources_;
+  std::vector<const RodModel*> models_;
+  RodState state_;  // of all
+  std::vector<Clamp> clamps_;
+  std::vector<Load> loads_;
+  std::vector<Tie> ties_;
+  std::vector<Vec3> air_;
+  std::vector<std::vector<ContactForce>> forces_;  // by plant
+  bool fresh_ = true;                              // no step has been made
+};
+
+}  // namespace pedicel::cosserat

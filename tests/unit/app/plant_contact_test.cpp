@@ -1,0 +1,120 @@
+// Plants that touch each other in a scene, what came off them, and strings.
+#include <gmock/gmock.h>
+
+#include "pedicel/app/run/organ_contacts.h"
+#include "pedicel/app/run/scene_ties.h"
+#include "unit/app/contact_cases.h"
+
+namespace pedicel::app {
+namespace {
+
+using testing::HasSubstr;
+
+const char* two_stems =
+    "plants:\n  - {name: upper, file: upper.plant.yaml}\n  - {name: lower, file: "
+    "lower.plant.yaml}\n";
+
+// A heavy stem that lies across a light one.
+void write_crossed(const SceneCase& files) {
+  files.write("upper.plant.yaml", stem_file("[-0.3, 0, 0.512]", "[0.05, 0, 0.512]", 0.006, 2.0e7));
+  files.write("lower.plant.yaml", stem_file("[0, -0.3, 0.5]", "[0, 0.1, 0.5]", 0.006, 2.0e9));
+}
+
+TEST(PlantContact, AStemLiesOnAnotherOne) {
+  SceneCase files;
+  write_crossed(files);
+  const auto apart = files.simulation(two_stems);
+  const auto touching = files.simulation(std::string("coupling: {plant_contact: 1}\n") + two_stems);
+  for (int i = 0; i < 480; ++i) {
+    apart->step();
+    touching->step();
+  }
+  EXPECT_TRUE(organ_contacts(apart->rods()).empty());
+  const std::vector<OrganContact> pairs = organ_contacts(touching->rods());
+  // As drawn the upper one carries itself: it only rests against the lower one.
+  for (const OrganContact& pair : pairs) {
+    EXPECT_EQ(pair.organ, "upper/stem");
+    EXPECT_EQ(pair.other, "lower/stem");
+    EXPECT_GE(pair.force_W.z(), 0.0);
+  }
+}
+
+// It falls from a stalk that breaks at once, and comes to rest on the stem of another plant below,
+// which bends under its weight: in one-way coupling, too.
+TEST(PlantContact, AFruitThatCameOffLandsOnAnotherPlant) {
+  SceneCase files;
+  files.write("upper.plant.yaml",
+              stem_file("[-0.2, 0, 0.8]", "[0, 0, 0.8]", 0.004, 1.0e9,
+                        "fruits:\n  - {name: fruit, curve: stem, at: 1, radius: 0.015, density: "
+                        "900, detach: {force: 0.01}}\n"));
+  // A fork of two stems, so that it has somewhere to lie.
+  files.write("lower.plant.yaml",
+              stem_file("[-0.011, -0.2, 0.6]", "[-0.011, 0.3, 0.6]", 0.006, 5.0e9));
+  files.write("other.plant.yaml",
+              stem_file("[0.011, -0.2, 0.6]", "[0.011, 0.3, 0.6]", 0.006, 5.0e9));
+  const std::string plants = std::string(two_stems) + "  - {name: other, file: other.plant.yaml}\n";
+  const auto height = [&](const std::string& coupling, double& force) {
+    const auto sim = files.simulation(coupling + plants);
+    for (int i = 0; i < 480; ++i) sim->step();
+    const int body = sim->world().body_index("upper/fruit");
+    EXPECT_GE(body, 0);
+    force = 0.0;
+    for (const int p : {1, 2})
+      for (const cosserat::ContactForce& contact : sim->rods().contact_forces(p))
+        force -= contact.normal * contact.point.normal_W.z() + contact.tangential_W.z();
+    return sim->world().body_pose(body).position.z();
+  };
+  double force = 0.0;
+  EXPECT_LT(height("", force), 0.0);  // through them, and on
+  EXPECT_NEAR(height("coupling: {plant_contact: 1}\n", force), 0.62, 0.03);
+  const double weight = 4.0 / 3.0 * 3.14159265 * 0.015 * 0.015 * 0.015 * 900.0 * 9.81;
+  EXPECT_NEAR(force, weight, 0.25 * weight);
+}
+
+TEST(PlantContact, NeedsTheDirectSolver) {
+  SceneCase files;
+  write_crossed(files);
+  try {
+    files.simulation(std::string("rods: {solver: position_based}\ncoupling: {plant_contact: 1}\n") +
+                     two_stems);
+    FAIL();
+  } catch (const InvalidFile& error) {
+    EXPECT_THAT(error.what(), HasSubstr("expected the direct solver"));
+  }
+}
+
+TEST(SceneTies, HoldEachPlantOfAGrid) {
+  SceneCase files;
+  files.write("stem.plant.yaml", stem_file("[0, 0, 0]", "[0, 0, 0.5]", 0.004, 1.0e9));
+  const auto sim = files.simulation(
+      "plants:\n  - {name: row, file: stem.plant.yaml, repeat: {count: [3, 1], spacing: [1, 1]}}\n"
+      "ties:\n  - {organ: row/stem, at: 0.5, offset: [0.3, 0, 0], length: 0.29, stiffness: 50}\n");
+  ASSERT_EQ(sim->ties().all().size(), 3u);
+  EXPECT_EQ(sim->ties().all()[2].name, "tie_1_2");
+  for (int i = 0; i < 480; ++i) sim->step();
+  for (const SceneTies::One& tie : sim->ties().all()) {
+    EXPECT_GT(sim->ties().tension(tie), 0.1);
+    EXPECT_GT(sim->rods().state(tie.plant).position.back().x(),
+              tie.plant + 1e-3);  // pulled towards the post
+  }
+}
+
+TEST(SceneTies, AnOrganThatIsNotThereIsAnError) {
+  SceneCase files;
+  files.write("stem.plant.yaml", stem_file("[0, 0, 0]", "[0, 0, 0.5]", 0.004, 1.0e9));
+  const std::string plant = "plants:\n  - {name: stem, file: stem.plant.yaml}\n";
+  const auto fault_of = [&](const std::string& tie) -> std::string {
+    try {
+      files.simulation(plant + "ties:\n  - " + tie + "\n");
+    } catch (const InvalidFile& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(fault_of("{organ: stem/branch, to: [0, 0, 1]}"), HasSubstr("stem/branch"));
+  EXPECT_THAT(fault_of("{organ: tree/stem, to: [0, 0, 1]}"), HasSubstr("expected PLANT/CURVE"));
+  EXPECT_THAT(fault_of("{organ: stem/stem}"), HasSubstr("exactly one of to"));
+}
+
+}  // namespace
+}  // namespace pedicel::app
