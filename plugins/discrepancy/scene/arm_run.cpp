@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pedicel/discrepancy/scene/giving_joints.h"
 #include "pedicel/robot/robot.h"
 #include "pedicel/robot/trajectory.h"
 #include "pedicel/world/sim_world.h"
@@ -11,15 +12,13 @@ namespace pedicel::discrepancy {
 namespace {
 
 robot::RobotDescription with_friction(const Arm& arm, const SceneState& state) {
-  robot::RobotDescription robot = arm.description();
+  robot::RobotDescription robot = laden(arm);
   for (int dof = 0; dof < arm.model().dofs(); ++dof) {
     robot::Joint& joint = robot.joints[static_cast<std::size_t>(
         robot.joint(arm.model().joint_names()[static_cast<std::size_t>(dof)]))];
     joint.friction += state.coulomb[dof];
     joint.damping += state.viscous[dof];
   }
-  for (std::size_t l = 0; l < robot.links.size(); ++l)
-    robot.links[l].inertial = arm.inertial(static_cast<int>(l));
   return robot;
 }
 

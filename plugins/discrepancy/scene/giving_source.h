@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "pedicel/coupling/collider_source.h"
@@ -11,16 +12,18 @@ namespace pedicel::discrepancy {
 /// Where the links of an arm are that gives way between encoders and links, and how far that is.
 struct GivingArm {
   const Arm* arm = nullptr;
-  double compliance = 0.0;                ///< rad/(N m), of every joint; 0: it does not give way
-  std::vector<Pose> links;                ///< X_WL, with what the plants did up to the step before
-  std::vector<Pose> given, given_before;  ///< by link: from where it would be to where it is, W
+  bool gives = false;
+  Eigen::MatrixXd compliance;  ///< rad/(N m), of the joints within a step
+  std::vector<Pose> links;  ///< X_WL, under what the plants exerted at the end of the step before
 };
 
 /// Contacts of a plant with an arm that gives way, within the step: the collider stands where the
-/// forces of the step before have pushed it, and goes on from there by its compliance times what
-/// the force changes. Found contacts are told as if it stood where the encoders have it and gave
-/// way from there (cosserat::ContactPoint::give). Without that, force and place of a light plant
-/// and a soft joint throw each other to and fro.
+/// forces of the step before push it, and goes on from there by its compliance times what the force
+/// changes. The solver knows one compliance for all directions
+/// (cosserat::ContactPoint::give), so gap and motion of a contact are told such that at the force
+/// of the step before they are what they are. Place and force then agree in all directions as soon
+/// as the force rests. Without that, force and place of a light plant and a soft joint throw each
+/// other to and fro.
 class GivingSource : public cosserat::ContactSource {
  public:
   /// Keeps references to all; the settings' margin only says from which gap on contacts are looked
@@ -31,13 +34,18 @@ class GivingSource : public cosserat::ContactSource {
   void ignore_touching(const cosserat::RodModel& model, const cosserat::RodState& state) {
     inner_.ignore_touching(model, state);
   }
-  void cover(double from, double to) override { inner_.cover(from, to); }
+  void cover(double from, double to) override {
+    share_ = to - from;
+    inner_.cover(from, to);
+  }
   void begin_step(const cosserat::RodModel& model, const cosserat::RodState& start,
                   double dt) override {
     inner_.begin_step(model, start, dt);
   }
   void find(const cosserat::RodModel& model, const cosserat::RodState& state, double dt,
             std::vector<cosserat::ContactPoint>& found) override;
+  /// What the plant's contacts carried at the end of a step.
+  void remember(std::span<const cosserat::ContactForce> forces);
 
  private:
   void give_way(const cosserat::RodModel& model, const cosserat::RodState& state,
@@ -48,6 +56,8 @@ class GivingSource : public cosserat::ContactSource {
   double margin_;
   int body_;
   const GivingArm& arm_;
+  double share_ = 1.0;                        // of the step that is being solved
+  std::vector<Vec3> pushed_, pushed_before_;  // N, on each collider, W: at the last two steps' ends
   mutable robot::Jacobian jacobian_;
 };
 

@@ -54,6 +54,23 @@ double scatter(const Eigen::VectorXd& x) {
   return std::sqrt(parts[parts.size() / 4]);
 }
 
+/// s, to either side: a contact that breaks loose does so sooner or later.
+constexpr double uncertain = 0.04;
+
+// The mean of what is near in time.
+Eigen::VectorXd around(const std::vector<double>& time, const Eigen::VectorXd& x) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(x.size() + 1), out(x.size());
+  for (long i = 0; i < x.size(); ++i) sum[i + 1] = sum[i] + x[i];
+  long first = 0, last = 0;
+  for (long i = 0; i < x.size(); ++i) {
+    const double t = time[static_cast<std::size_t>(i)];
+    while (time[static_cast<std::size_t>(first)] < t - uncertain) ++first;
+    while (last < x.size() && time[static_cast<std::size_t>(last)] <= t + uncertain) ++last;
+    out[i] = (sum[last] - sum[first]) / static_cast<double>(last - first);
+  }
+  return out;
+}
+
 }  // namespace
 
 const char* channel_name(SceneChannel kind) {
@@ -120,6 +137,7 @@ void SceneDataSet::residual(int trial, const SceneReadings& readings, double unt
           if (samples.time[static_cast<std::size_t>(i)] <= until && std::isfinite(measured)) {
             r = (measured - (*predicted)(i, c)) / deviation(kind);
             if (!std::isfinite(r)) r = failed;
+            r *= weight(trial, place);
           }
           out[place++] = r;
         }
@@ -129,20 +147,51 @@ void SceneDataSet::residual(int trial, const SceneReadings& readings, double unt
 std::array<SceneDataSet::Sum, scene_channels> SceneDataSet::sums(
     int trial, const SceneReadings& readings) const {
   std::array<Sum, scene_channels> sums;
+  long place = 0;
   for_each_channel(
       experiment_->trials[static_cast<std::size_t>(trial)], &readings,
       [&](const Samples& samples, const Eigen::MatrixXd* predicted, long c, SceneChannel kind) {
         Sum& sum = sums[static_cast<std::size_t>(kind)];
-        for (int i = 0; i < samples.size(); ++i) {
+        for (int i = 0; i < samples.size(); ++i, ++place) {
           const double measured = samples.value(i, c);
           if (!std::isfinite(measured)) continue;
           double r = (measured - (*predicted)(i, c)) / deviation(kind);
           if (!std::isfinite(r)) r = failed;
+          r *= weight(trial, place);
           sum.square += r * r;
           ++sum.count;
         }
       });
   return sums;
+}
+
+void SceneDataSet::widen(int trial, const SceneReadings& reference,
+                         std::span<const SceneReadings> others) {
+  const long rows = size(trial);
+  Eigen::VectorXd own(rows), square = Eigen::VectorXd::Zero(rows), other(rows);
+  weight_.resize(experiment_->trials.size());
+  weight_[static_cast<std::size_t>(trial)].resize(0);
+  const double always = std::numeric_limits<double>::infinity();
+  residual(trial, reference, always, own);
+  int count = 0;
+  for (const SceneReadings& one : others) {
+    if (!one.healthy) continue;
+    residual(trial, one, always, other);
+    square += (other - own).cwiseAbs2();
+    ++count;
+  }
+  if (count == 0) return;
+  square /= count;
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(rows);
+  long first = 0;
+  for_each_channel(experiment_->trials[static_cast<std::size_t>(trial)], nullptr,
+                   [&](const Samples& samples, const Eigen::MatrixXd*, long, SceneChannel) {
+                     const long n = samples.size();
+                     weight.segment(first, n) =
+                         (1.0 + around(samples.time, square.segment(first, n)).array()).rsqrt();
+                     first += n;
+                   });
+  weight_[static_cast<std::size_t>(trial)] = weight;
 }
 
 double SceneDataSet::beyond_noise(const Sum& sum) {

@@ -14,13 +14,18 @@ enum class SceneChannel { position, pixel, force, moment, torque, joint };
 inline constexpr int scene_channels = 6;
 const char* channel_name(SceneChannel kind);
 
-/// Measured less predicted of a scene's trials, in units of the noise.
+/// Measured less predicted of a scene's trials, in units of the noise (of the instruments, and of
+/// the predictions where widen() was called).
 class SceneDataSet {
  public:
   /// Deviations as stated; what is not is estimated from how neighbouring samples differ (half the
   /// mean square of second differences at rest: the smallest of ten parts of each column). Keeps a
   /// reference.
   explicit SceneDataSet(const SceneExperiment& experiment);
+
+  /// Counts samples less where predictions are unsure of themselves: `others` are predictions as
+  /// good as `reference`, and how far they are from it adds to the noise of the samples around.
+  void widen(int trial, const SceneReadings& reference, std::span<const SceneReadings> others);
 
   double deviation(SceneChannel kind) const { return deviation_[static_cast<std::size_t>(kind)]; }
   /// Entries of residual() of a trial; those without a measurement are 0.
@@ -46,8 +51,14 @@ class SceneDataSet {
   static double beyond_noise(const Sum& sum);
 
  private:
+  double weight(int trial, long place) const {
+    const auto t = static_cast<std::size_t>(trial);
+    return t < weight_.size() && place < weight_[t].size() ? weight_[t][place] : 1.0;
+  }
+
   const SceneExperiment* experiment_;
   std::array<double, scene_channels> deviation_{};
+  std::vector<Eigen::VectorXd> weight_;  // 1, by trial, in the order of residual(); or empty
 };
 
 }  // namespace pedicel::discrepancy

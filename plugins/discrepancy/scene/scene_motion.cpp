@@ -6,6 +6,7 @@
 #include "pedicel/cosserat/model/rotation.h"
 #include "pedicel/cosserat/solver/rod_system.h"
 #include "pedicel/coupling/contact_report.h"
+#include "pedicel/discrepancy/scene/giving_joints.h"
 #include "pedicel/discrepancy/scene/giving_source.h"
 #include "pedicel/discrepancy/simulate/equilibrium.h"
 #include "pedicel/geometry/shapes.h"
@@ -40,16 +41,13 @@ class SceneRun {
         makers_(makers),
         member_(member),
         margin_(numerics.margin),
-        report_(colliders_) {
+        report_(colliders_),
+        joints_(*member.arm, *member.state, numerics.dt) {
     settings_ = member.state->coupling;
     // An arm that gives way may come back to a plant that leaves it.
-    arm_.compliance =
-        member.state->joint_stiffness > 0.0 ? 1.0 / member.state->joint_stiffness : 0.0;
-    settings_.margin =
-        arm_.compliance > 0.0 ? std::max(numerics.margin, reach_back) : numerics.margin;
+    arm_.gives = joints_.give();
+    settings_.margin = arm_.gives ? std::max(numerics.margin, reach_back) : numerics.margin;
     arm_.arm = member.arm;
-    arm_.given.resize(member.arm->description().links.size());
-    arm_.given_before = arm_.given;
     member.arm->model().link_poses(arm_at(member, 0.0).q, arm_.links);
     add_colliders(fields);
     make_plants();
@@ -59,6 +57,7 @@ class SceneRun {
     motion_.turn.setZero(steps + 1, 4 * markers);
     motion_.contact.setZero(steps + 1, 6 * static_cast<long>(experiment.wrenches.size()));
     motion_.effort.setZero(steps + 1, member.arm->model().dofs());
+    if (arm_.gives) motion_.given.setZero(steps + 1, 3 * motion_.effort.cols());
   }
 
   /// Adds its plants at rest.
@@ -77,6 +76,7 @@ class SceneRun {
       auto source =
           std::make_unique<GivingSource>(colliders_, settings_, margin_, body_of_robot, arm_);
       source->ignore_touching(models_[p], state);
+      sources_.push_back(source.get());
       rods.add_contact_source(plant, std::move(source));
     }
     record(rods, 0, 0.0);
@@ -235,17 +235,10 @@ class SceneRun {
   }
 
   void place_links(double t) {
-    const robot::KinematicModel& model = member_.arm->model();
     Eigen::VectorXd q = arm_at(member_, t).q;
-    model.link_poses(q, arm_.links);
-    if (arm_.compliance == 0.0) return;
-    const std::vector<Pose> rigid = arm_.links;
-    const long row = static_cast<long>(motion_.time.size()) - 1;
-    q += arm_.compliance * motion_.effort.row(row).transpose();
-    model.link_poses(q, arm_.links);
-    std::swap(arm_.given, arm_.given_before);
-    for (std::size_t l = 0; l < rigid.size(); ++l)
-      arm_.given[l] = arm_.links[l] * rigid[l].inverse();
+    joints_.begin_step(q);
+    arm_.compliance = joints_.compliance();
+    member_.arm->model().link_poses(q + joints_.deflection(), arm_.links);
   }
 
   void add_colliders(const LinkFields& fields) {
@@ -376,6 +369,7 @@ class SceneRun {
     for (std::size_t p = 0; p < models_.size(); ++p) {
       const int plant = first_ + static_cast<int>(p);
       report_.add(static_cast<int>(p), rods.model(plant), rods.contact_forces(plant));
+      if (arm_.gives) sources_[p]->remember(rods.contact_forces(plant));
     }
     report_.end();
     for (int c = 0; c < colliders_.size(); ++c) {
@@ -384,6 +378,9 @@ class SceneRun {
       add_contact(colliders_.collider(c).link, sum, row);
     }
     record_held(rods, row);
+    if (!arm_.gives) return;
+    joints_.end_step(motion_.effort.row(row).transpose());
+    motion_.given.row(row) = joints_.row();
   }
 
   void add_contact(int link, const coupling::ContactSum& sum, int row) {
@@ -415,7 +412,9 @@ class SceneRun {
   coupling::ColliderSet colliders_;
   coupling::ContactReport report_;
   std::vector<cosserat::RodModel> models_;
+  std::vector<GivingSource*> sources_;      // one a plant; the system owns them
   std::vector<plant::PlacedPoint> places_;  // of the markers
+  GivingJoints joints_;
   GivingArm arm_;
   std::vector<Held> held_;
   std::size_t next_event_ = 0;

@@ -31,6 +31,9 @@ struct SceneMotion {
   Rows turn;                 ///< steps x 4 markers, x y z w: since it was drawn, W
   Rows contact;              ///< steps x 6 sensors, N and N m: of plants on links, link's frame
   Rows effort;               ///< steps x dofs, N m or N: J^T of what plants exert on links
+  /// steps x 3 dofs, rad, rad/s, rad/s2: how far joints gave way, how fast, and its change. Empty
+  /// where they do not.
+  Rows given;
   std::vector<SceneEvent> events;  ///< fruits that came off
   bool healthy = true;             ///< false: the simulation failed where the rows end
 };

@@ -12,13 +12,13 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
-/// rad/s or m/s: below it a joint's friction grows linearly, so that rest bears none.
-constexpr double creeping = 1.0e-3;
+/// rad/s or m/s: a joint's friction grows with tanh(speed / creeping), so that rest bears none.
+constexpr double creeping = 1.0e-2;
 
-using Rows = SceneMotion::Rows;
+using MotionRows = SceneMotion::Rows;
 
 /// The mean of a table of steps over [from, to], which is linear between them.
-Eigen::RowVectorXd mean_over(const std::vector<double>& time, const Rows& rows, long first,
+Eigen::RowVectorXd mean_over(const std::vector<double>& time, const MotionRows& rows, long first,
                              long count, double from, double to) {
   from = std::clamp(from, time.front(), time.back());
   to = std::clamp(to, time.front(), time.back());
@@ -73,7 +73,7 @@ class Observer {
       Vec3 place;
       if (marker.plant < 0) {
         if (!posed) {
-          member_.arm->model().link_poses(joints(t).q, links_);
+          member_.arm->model().link_poses(joints(t, 0.0).q, links_);
           posed = true;
         }
         const Pose& link = links_[static_cast<std::size_t>(marker.link)];
@@ -121,7 +121,7 @@ class Observer {
         out.row(s).setConstant(unseen);
         continue;
       }
-      const JointPath::Point q = joints(t);
+      const JointPath::Point q = joints(t, half);
       out.row(s) = member_.arm->own_wrench(sensor.link, q, experiment_.scene.gravity).transpose() +
                    mean_over(motion_.time, motion_.contact, 6 * static_cast<long>(index), 6,
                              t - half, t + half);
@@ -148,8 +148,7 @@ class Observer {
       const JointPath::Point at = arm_at(member_, t);
       Eigen::VectorXd effort = dynamics.inverse(at.q, at.qd, at.qdd, experiment_.scene.gravity);
       for (int d = 0; d < model.dofs(); ++d) effort[d] += resistance(d, at.qd[d]);
-      effort -=
-          mean_over(motion_.time, motion_.effort, 0, model.dofs(), t - half, t + half).transpose();
+      effort -= load(t, half);
       for (std::size_t c = 0; c < trial.torque_columns.size(); ++c)
         out(s, static_cast<long>(c)) = effort[trial.torque_columns[c]];
     }
@@ -169,18 +168,32 @@ class Observer {
   }
 
  private:
-  // Of the links: what the plants exert turns them beyond the encoders, where they give way.
-  JointPath::Point joints(double t) const {
+  // Of the links, which give way beyond the encoders; means over `half` to either side.
+  JointPath::Point joints(double t, double half) const {
     JointPath::Point point = arm_at(member_, t);
-    if (member_.state->joint_stiffness > 0.0)
-      point.q +=
-          mean_over(motion_.time, motion_.effort, 0, motion_.effort.cols(), t, t).transpose() /
-          member_.state->joint_stiffness;
+    if (motion_.given.size() == 0) return point;
+    const Eigen::RowVectorXd given =
+        mean_over(motion_.time, motion_.given, 0, motion_.given.cols(), t - half, t + half);
+    const long dofs = point.q.size();
+    point.q += given.segment(0, dofs).transpose();
+    point.qd += given.segment(dofs, dofs).transpose();
+    point.qdd += given.segment(2 * dofs, dofs).transpose();
     return point;
   }
 
+  // N m, of plants on the motors: through the springs, where there are any.
+  Eigen::VectorXd load(double t, double half) const {
+    const long dofs = motion_.effort.cols();
+    if (motion_.given.size() == 0)
+      return mean_over(motion_.time, motion_.effort, 0, dofs, t - half, t + half).transpose();
+    const Eigen::VectorXd given =
+        mean_over(motion_.time, motion_.given, 0, 2 * dofs, t - half, t + half).transpose();
+    return member_.state->joint_stiffness *
+           (given.head(dofs) + member_.state->joint_damping_time * given.tail(dofs));
+  }
+
   Vec3 plant_marker(const Interval& at, long marker) const {
-    const auto triple = [&](const Rows& rows, int row) -> Vec3 {
+    const auto triple = [&](const MotionRows& rows, int row) -> Vec3 {
       return rows.row(row).segment<3>(3 * marker).transpose();
     };
     const Vec3 p0 = triple(motion_.position, at.row);
@@ -197,7 +210,7 @@ class Observer {
     const robot::Joint& joint =
         robot
             .joints[robot.joint(member_.arm->model().joint_names()[static_cast<std::size_t>(dof)])];
-    const double sign = std::clamp(speed / creeping, -1.0, 1.0);
+    const double sign = std::tanh(speed / creeping);
     return (joint.damping + member_.state->viscous[dof]) * speed +
            (joint.friction + member_.state->coulomb[dof]) * sign;
   }

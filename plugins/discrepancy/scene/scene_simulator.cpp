@@ -3,6 +3,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <random>
 
 #include "pedicel/core/thread_pool.h"
 #include "pedicel/discrepancy/scene/arm_run.h"
@@ -35,8 +36,10 @@ Makers makers_of(const SceneExperiment& experiment, const SceneTrial& trial,
 
 // What the motion depends on: requests with the same share one simulation. `moves`: what acts on
 // the arm moves it, too, because it follows commands.
-std::string key_of(int trial, bool moves, double until, const std::vector<plant::Effect>& effects) {
-  std::string key = std::to_string(trial) + "@" + std::to_string(until);
+std::string key_of(int trial, int draw, bool moves, double until,
+                   const std::vector<plant::Effect>& effects) {
+  std::string key =
+      std::to_string(trial) + "/" + std::to_string(draw) + "@" + std::to_string(until);
   for (const plant::Effect& effect : effects)
     if (moves || !is_only_seen(effect)) key += plant::effect_text(effect);
   return key;
@@ -55,14 +58,23 @@ struct Prepared {
 
 }  // namespace
 
-JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial) {
+JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, int draw) {
   const robot::KinematicModel model(experiment.robot);
   Eigen::VectorXd start = model.neutral();
   for (const auto& [joint, value] : experiment.scene.robot->joints)
     if (const int dof = model.joint_index(joint); dof >= 0) start[dof] = value;
   if (trial.follows_commands) return {};
-  return smooth_readings(trial.joints, experiment.noise.joint_std.value_or(0.0))
-      .spread(trial.joint_columns, start);
+  const double deviation = experiment.noise.joint_std.value_or(0.0);
+  if (draw == 0) return smooth_readings(trial.joints, deviation).spread(trial.joint_columns, start);
+  Samples other = trial.joints;
+  const Eigen::VectorXd scatter = smooth_readings(trial.joints, deviation).scatter();
+  std::mt19937_64 random(static_cast<std::uint64_t>(draw));
+  std::normal_distribution<double> normal;
+  for (long c = 0; c < other.value.cols(); ++c)
+    for (long r = 0; r < other.value.rows(); ++r)
+      other.value(r, c) += (deviation > 0.0 ? deviation : scatter[c]) * normal(random);
+  // As if their noise were no larger, or they would be smoothed by more than the readings are.
+  return smooth_readings(other, deviation).spread(trial.joint_columns, start);
 }
 
 struct SceneSimulator::Impl {
@@ -94,10 +106,20 @@ struct SceneSimulator::Impl {
         (is_of_experiment(effect) ? out.sensors : out.member.effects).push_back(effect);
       }
     out.arm = std::make_unique<Arm>(experiment, out.state);
-    out.key = key_of(request.trial, trial.follows_commands,
+    out.key = key_of(request.trial, request.variant->draw, trial.follows_commands,
                      std::min(request.until, trial.duration()), all);
-    out.path = &paths[static_cast<std::size_t>(request.trial)];
+    out.path = &path(request.trial, request.variant->draw);
     return out;
+  }
+
+  const JointPath& path(int trial, int draw) const {
+    if (draw == 0) return paths[static_cast<std::size_t>(trial)];
+    const auto known = drawn.find({trial, draw});
+    if (known != drawn.end()) return known->second;
+    return drawn
+        .emplace(std::pair(trial, draw),
+                 path_of(experiment, experiment.trials[static_cast<std::size_t>(trial)], draw))
+        .first->second;
   }
 
   // Arms that follow commands go their way first: they do not feel the plants.
@@ -197,8 +219,9 @@ struct SceneSimulator::Impl {
   SceneNumerics numerics;
   LinkFields fields;
   SceneState nominal;
-  std::vector<JointPath> paths;  // by trial
-  std::vector<Makers> makers;    // by trial
+  std::vector<JointPath> paths;                            // by trial
+  mutable std::map<std::pair<int, int>, JointPath> drawn;  // by trial and draw
+  std::vector<Makers> makers;                              // by trial
   ThreadPool pool;
   std::atomic<bool> never{false};
   const std::atomic<bool>& stop;

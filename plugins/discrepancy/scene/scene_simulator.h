@@ -14,6 +14,9 @@ namespace pedicel::discrepancy {
 /// of the scene as a whole.
 struct SceneVariant {
   std::vector<plant::Effect> effects;
+  /// Not 0: the arm goes as readings with other noise of the same size would say, one such draw a
+  /// number.
+  int draw = 0;
 };
 
 /// Simulates the trials of a measured scene with many variants of its model.
@@ -44,6 +47,7 @@ class SceneSimulator {
 };
 
 /// The arm's joints in a trial, smoothed within their noise, in the order of the robot's model.
-JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial);
+/// `draw`: as SceneVariant's.
+JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, int draw = 0);
 
 }  // namespace pedicel::discrepancy

@@ -27,6 +27,7 @@ struct SceneState {
   Eigen::VectorXd joint_offset;        ///< rad or m: link = reading + offset
   double robot_delay = 0.0;            ///< s, of joints, commands and torques behind the others
   double joint_stiffness = 0.0;        ///< N m/rad between encoder and link; 0: rigid
+  double joint_damping_time = 0.01;    ///< s, damping of that spring over its stiffness
   Eigen::VectorXd coulomb, viscous;    ///< N m, N m s/rad, beside the URDF's
   double payload = 0.0;                ///< kg, at the tool
   Vec3 payload_centre = Vec3::Zero();  ///< m, in the tool's link
