@@ -98,6 +98,19 @@ void RodSystem::step(double dt, const Vec3& gravity) {
   }
 }
 
+DirectSolver::PlantStep RodSystem::step_of(Plant& plant) {
+  DirectSolver::PlantStep step;
+  step.model = &plant.model;
+  step.state = &plant.state;
+  step.loads = plant.loads;
+  step.contacts = plant.source_pointers;
+  step.model_changed = plant.model_changed;
+  step.state_changed = plant.state_changed;
+  step.ties = plant.ties;
+  step.air = plant.air;
+  return step;
+}
+
 void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
   if (settings_.solver != SolverKind::direct)
     throw UsageError("RodSystem::let_plants_touch: position-based solver, must be the direct one");
@@ -108,14 +121,7 @@ void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
 
 void RodSystem::step_canopy(double dt, const Vec3& gravity) {
   steps_.clear();
-  for (Plant& plant : plants_)
-    steps_.push_back({&plant.model,
-                      &plant.state,
-                      plant.loads,
-                      plant.source_pointers,
-                      plant.model_changed,
-                      plant.state_changed,
-                      {}});
+  for (Plant& plant : plants_) steps_.push_back(step_of(plant));
   if (!canopy_) canopy_ = std::make_unique<Canopy>(settings_, *touching_, steps_, pool_.threads());
   canopy_->step(steps_, dt, gravity, pool_);
   for (int p = 0; p < size(); ++p) plants_[p].report = steps_[p].report;
@@ -153,8 +159,7 @@ void RodSystem::make_beds() {
 void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool) {
   for (std::size_t i = 0; i < bed.steps.size(); ++i) {
     Plant& plant = plants_[bed.first + i];
-    bed.steps[i] = {&plant.model,        &plant.state,        plant.loads, plant.source_pointers,
-                    plant.model_changed, plant.state_changed, {}};
+    bed.steps[i] = step_of(plant);
   }
   if (pool)
     bed.solver->step(bed.steps, dt, gravity, *pool);

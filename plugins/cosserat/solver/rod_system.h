@@ -102,6 +102,7 @@ class RodSystem {
     int thread = 0;  // that steps it, where there are several beds
     std::vector<DirectSolver::PlantStep> steps;
   };
+  static DirectSolver::PlantStep step_of(Plant& plant);
   void make_beds();
   void step_canopy(double dt, const Vec3& gravity);
   void step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool);

@@ -47,19 +47,22 @@ TEST(PlantContact, AFruitThatCameOffLandsOnAnotherPlant) {
               stem_file("[-0.2, 0, 0.8]", "[0, 0, 0.8]", 0.004, 1.0e9,
                         "fruits:\n  - {name: fruit, curve: stem, at: 1, radius: 0.015, density: "
                         "900, detach: {force: 0.01}}\n"));
-  // A fork of two stems, so that it has somewhere to lie.
-  files.write("lower.plant.yaml",
-              stem_file("[-0.011, -0.2, 0.6]", "[-0.011, 0.3, 0.6]", 0.006, 5.0e9));
-  files.write("other.plant.yaml",
-              stem_file("[0.011, -0.2, 0.6]", "[0.011, 0.3, 0.6]", 0.006, 5.0e9));
-  const std::string plants = std::string(two_stems) + "  - {name: other, file: other.plant.yaml}\n";
+  // A nest: two stems, and two across them.
+  files.write("along.plant.yaml", stem_file("[0, -0.2, 0.6]", "[0, 0.2, 0.6]", 0.006, 5.0e9));
+  files.write("across.plant.yaml", stem_file("[-0.2, 0, 0.606]", "[0.2, 0, 0.606]", 0.006, 5.0e9));
+  const std::string plants =
+      "plants:\n  - {name: upper, file: upper.plant.yaml}\n"
+      "  - {name: right, file: along.plant.yaml, position: [0.012, 0, 0]}\n"
+      "  - {name: left, file: along.plant.yaml, position: [-0.012, 0, 0]}\n"
+      "  - {name: back, file: across.plant.yaml, position: [0, 0.018, 0]}\n"
+      "  - {name: front, file: across.plant.yaml, position: [0, -0.018, 0]}\n";
   const auto height = [&](const std::string& coupling, double& force) {
     const auto sim = files.simulation(coupling + plants);
     for (int i = 0; i < 480; ++i) sim->step();
     const int body = sim->world().body_index("upper/fruit");
     EXPECT_GE(body, 0);
     force = 0.0;
-    for (const int p : {1, 2})
+    for (int p = 1; p < sim->rods().size(); ++p)
       for (const cosserat::ContactForce& contact : sim->rods().contact_forces(p))
         force -= contact.normal * contact.point.normal_W.z() + contact.tangential_W.z();
     return sim->world().body_pose(body).position.z();
