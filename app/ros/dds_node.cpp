@@ -2,6 +2,7 @@
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -28,7 +29,8 @@ namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
 constexpr int newest_kept = 10, reliable_kept = 100, services_kept = 100;
-constexpr std::uint32_t neighbours = 10;  // participants of this machine that are looked for
+constexpr std::uint32_t neighbours = 10;         // participants of this machine that are looked for
+constexpr int first_own = 30, own_numbers = 70;  // numbers of our own participants
 
 /// "typehash=...;", which ROS 2 looks for from Iron on.
 template <class Qos>
@@ -63,13 +65,22 @@ dds::DomainParticipantQos participant_qos(const NodeOptions& options) {
   udp->interfaceWhiteList = {address};
   udp->maxInitialPeersRange = neighbours;
   qos.transport().user_transports.push_back(udp);
+  // As ROS 2 does with ROS_LOCALHOST_ONLY: memory that programs of one machine share.
+  if (options.interface.empty())
+    qos.transport().user_transports.push_back(
+        std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>());
   // Who listens on another interface of this machine hears no multicast of the loopback one, so
   // each place where a participant of this machine may be is told of us, too.
   rtps::Locator_t multicast, own;
   rtps::IPLocator::setIPv4(multicast, "239.255.0.1");
+  multicast.port =
+      qos.wire_protocol().port.getMulticastPort(static_cast<std::uint32_t>(options.domain));
   rtps::IPLocator::setIPv4(own, address);
   qos.wire_protocol().builtin.initialPeersList.push_back(multicast);
   qos.wire_protocol().builtin.initialPeersList.push_back(own);
+  // The low numbers are those of participants that count theirs from 0: on one port the kernel
+  // would hand what is theirs to us, whose address is the narrower one.
+  qos.wire_protocol().participant_id = first_own + static_cast<int>(::getpid()) % own_numbers;
   return qos;
 }
 

@@ -1,0 +1,348 @@
+// A client of the services and actions of `pedicel SCENE --ros`, as ROS 2's middleware for Fast DDS
+// calls them: topics rq/... and rr/..., and a request names the reader that waits for its reply.
+// Bytes are made and read by Fast CDR. Usage: fast_client DOMAIN; ends with 0 where all is as it
+// should be.
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace fdds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastcdr::Cdr;
+using eprosima::fastcdr::FastBuffer;
+
+namespace {
+
+class Raw : public fdds::TopicDataType {
+ public:
+  explicit Raw(const std::string& name) {
+    setName(name.c_str());
+    m_typeSize = 65536;
+  }
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const auto& bytes = *static_cast<std::string*>(data);
+    std::memcpy(payload->data, bytes.data(), bytes.size());
+    payload->length = static_cast<std::uint32_t>(bytes.size());
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+    static_cast<std::string*>(data)->assign(reinterpret_cast<char*>(payload->data),
+                                            payload->length);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [data] { return static_cast<std::uint32_t>(static_cast<std::string*>(data)->size()); };
+  }
+  void* createData() override { return new std::string; }
+  void deleteData(void* data) override { delete static_cast<std::string*>(data); }
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+std::string bytes_of(const std::function<void(Cdr&)>& fill) {
+  FastBuffer buffer;
+  Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
+  cdr.serialize_encapsulation();
+  fill(cdr);
+  return {cdr.getBufferPointer(), cdr.getSerializedDataLength()};
+}
+
+void read(std::string& bytes, const std::function<void(Cdr&)>& take) {
+  FastBuffer buffer(bytes.data(), bytes.size());
+  Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
+  cdr.read_encapsulation();
+  take(cdr);
+}
+
+int failures = 0;
+void expect(bool holds, const std::string& what) {
+  std::printf("%s: %s\n", holds ? "ok" : "FAILED", what.c_str());
+  failures += !holds;
+}
+
+class Client {
+ public:
+  explicit Client(int domain) {
+    participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
+        static_cast<std::uint32_t>(domain), fdds::PARTICIPANT_QOS_DEFAULT);
+    publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
+    subscriber_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT);
+  }
+
+  fdds::DataReader* reader(const std::string& topic, const std::string& type) {
+    fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
+    qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+    qos.history().depth = 100;
+    return subscriber_->create_datareader(topic_of(topic, type), qos);
+  }
+
+  /// Empty where no reply comes in time.
+  std::string call(const std::string& service, const std::string& type, std::string request,
+                   double patience = 5.0) {
+    fdds::DataReader* replies = reader("rr" + service + "Reply", type + "_Response_");
+    fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
+    qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
+    fdds::DataWriter* requests = publisher_->create_datawriter(
+        topic_of("rq" + service + "Request", type + "_Request_"), qos);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+    const auto wait = [&](const std::function<bool()>& over) {
+      while (!over() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    };
+    wait([&] {
+      fdds::PublicationMatchedStatus there;
+      fdds::SubscriptionMatchedStatus here;
+      requests->get_publication_matched_status(there);
+      replies->get_subscription_matched_status(here);
+      return there.current_count > 0 && here.current_count > 0;
+    });
+    rtps::WriteParams params;
+    params.related_sample_identity().writer_guid() = replies->guid();
+    requests->write(&request, params);
+    const auto number = params.sample_identity().sequence_number();
+    std::string reply;
+    wait([&] {
+      std::string bytes;
+      fdds::SampleInfo info;
+      while (replies->take_next_sample(&bytes, &info) ==
+             eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
+        if (info.valid_data && info.related_sample_identity.writer_guid() == replies->guid() &&
+            info.related_sample_identity.sequence_number() == number)
+          reply = bytes;
+      return !reply.empty();
+    });
+    publisher_->delete_datawriter(requests);
+    subscriber_->delete_datareader(replies);
+    return reply;
+  }
+
+ private:
+  fdds::Topic* topic_of(const std::string& name, const std::string& type) {
+    if (auto* known = dynamic_cast<fdds::Topic*>(participant_->lookup_topicdescription(name)))
+      return known;
+    participant_->register_type(fdds::TypeSupport(new Raw(type)));
+    return participant_->create_topic(name, type, fdds::TOPIC_QOS_DEFAULT);
+  }
+  fdds::DomainParticipant* participant_;
+  fdds::Publisher* publisher_;
+  fdds::Subscriber* subscriber_;
+};
+
+const std::string services = "simulation_interfaces::srv::dds_::";
+const std::string actions = "control_msgs::action::dds_::";
+
+std::string nothing() {
+  return bytes_of([](Cdr& cdr) { cdr << std::uint8_t{0}; });
+}
+std::string one_byte(std::uint8_t value) {
+  return bytes_of([&](Cdr& cdr) { cdr << value; });
+}
+/// Of a response that begins with a Result; 255 where none came.
+int result_of(std::string reply, std::string* why = nullptr) {
+  if (reply.empty()) return 255;
+  std::uint8_t result = 255;
+  std::string text;
+  read(reply, [&](Cdr& cdr) { cdr >> result >> text; });
+  if (why) *why = text;
+  return result;
+}
+int state_of(std::string reply) {
+  std::uint8_t state = 255;
+  if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> state; });
+  return state;
+}
+
+void check_services(Client& client) {
+  std::string reply =
+      client.call("/get_simulator_features", services + "GetSimulatorFeatures", nothing(), 15);
+  std::vector<std::uint16_t> features;
+  if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> features; });
+  expect(features.size() >= 10, "features are told");
+  const auto state = [&] {
+    return state_of(
+        client.call("/get_simulation_state", services + "GetSimulationState", nothing()));
+  };
+  const auto set = [&](int wanted) {
+    return result_of(client.call("/set_simulation_state", services + "SetSimulationState",
+                                 one_byte(static_cast<std::uint8_t>(wanted))));
+  };
+  const auto step = [&](std::uint64_t steps) {
+    return result_of(client.call("/step_simulation", services + "StepSimulation",
+                                 bytes_of([&](Cdr& cdr) { cdr << steps; })));
+  };
+  expect(state() == 1, "it plays");
+  expect(step(1) == 3, "no step while it plays");
+  expect(set(2) == 1 && state() == 2, "it is paused");
+  expect(set(2) == 101, "it is paused already");
+  expect(step(20) == 1, "twenty steps");
+  expect(set(77) == 0, "no such state");
+  expect(
+      result_of(client.call("/reset_simulation", services + "ResetSimulation", one_byte(0))) == 1,
+      "reset");
+  expect(
+      result_of(client.call("/reset_simulation", services + "ResetSimulation", one_byte(1))) == 0,
+      "no reset of the time alone");
+
+  const auto filter = [](const std::string& expression) {
+    return bytes_of([&](Cdr& cdr) {
+      cdr << expression << std::uint32_t{0} << std::uint32_t{0} << std::uint8_t{0}
+          << std::uint8_t{0} << std::uint32_t{0};
+    });
+  };
+  reply = client.call("/get_entities", services + "GetEntities", filter("truss/fruit_.*"));
+  std::uint8_t result = 0;
+  std::string text;
+  std::vector<std::string> names;
+  if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> result >> text >> names; });
+  expect(result == 1 && names.size() == 5 && names[0] == "truss/fruit_1", "five fruits");
+  expect(
+      result_of(client.call("/get_entities", services + "GetEntities", filter("(((")), &text) == 4,
+      "a filter that is none: " + text);
+  const auto entity = [](const std::string& name) {
+    return bytes_of([&](Cdr& cdr) { cdr << name; });
+  };
+  reply = client.call("/get_entity_state", services + "GetEntityState", entity("truss/fruit_1"));
+  std::int32_t sec = -1;
+  std::uint32_t nanosec = 1;
+  double p[3] = {0, 0, 0};
+  if (!reply.empty())
+    read(reply, [&](Cdr& cdr) {
+      cdr >> result >> text >> sec >> nanosec >> text >> p[0] >> p[1] >> p[2];
+    });
+  expect(sec == 0 && nanosec == 0 && text == "world" && std::abs(p[2] - 0.43) < 1e-6,
+         "a fruit's place at time 0");
+  expect(result_of(
+             client.call("/get_entity_state", services + "GetEntityState", entity("nobody"))) == 2,
+         "nobody is not found");
+  expect(client.call("/step_simulation", services + "StepSimulation", "garbage", 1.0).empty(),
+         "garbage has no answer");
+  expect(set(1) == 1, "it plays again");
+}
+
+void put_goal(Cdr& cdr, std::uint8_t id, const std::string& joint, double position,
+              std::int32_t seconds, std::uint32_t nanoseconds) {
+  const std::vector<double> none, positions = {position};
+  for (int i = 0; i < 16; ++i) cdr << id;
+  cdr << std::int32_t{0} << std::uint32_t{0} << std::string() << std::vector<std::string>{joint};
+  cdr << std::uint32_t{1} << positions << none << none << none << seconds << nanoseconds;
+  // No trajectory of several degrees of freedom, no tolerances.
+  cdr << std::int32_t{0} << std::uint32_t{0} << std::string() << std::uint32_t{0}
+      << std::uint32_t{0};
+  for (int i = 0; i < 4; ++i) cdr << std::uint32_t{0};
+  cdr << std::int32_t{0} << std::uint32_t{0};
+}
+
+std::string id_bytes(std::uint8_t id) {
+  return bytes_of([&](Cdr& cdr) {
+    for (int i = 0; i < 16; ++i) cdr << id;
+  });
+}
+
+void check_actions(Client& client) {
+  const std::string follow = "/arm_controller/follow_joint_trajectory/_action/";
+  fdds::DataReader* feedback =
+      client.reader("rt" + follow + "feedback", actions + "FollowJointTrajectory_FeedbackMessage_");
+  const auto send = [&](std::uint8_t id, const std::string& joint, double position,
+                        std::int32_t seconds, std::uint32_t nanoseconds) {
+    std::string reply = client.call(
+        follow + "send_goal", actions + "FollowJointTrajectory_SendGoal",
+        bytes_of([&](Cdr& cdr) { put_goal(cdr, id, joint, position, seconds, nanoseconds); }));
+    bool accepted = false;
+    if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> accepted; });
+    return accepted;
+  };
+  const auto wait_for = [&](std::uint8_t id, std::int32_t& error) {
+    std::string reply = client.call(follow + "get_result",
+                                    actions + "FollowJointTrajectory_GetResult", id_bytes(id), 10);
+    std::int8_t status = -1;
+    if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> status >> error; });
+    return int{status};
+  };
+  std::int32_t error = 99;
+  expect(!send(1, "no_such_joint", 0, 1, 0), "a joint that is not there is refused");
+  expect(!send(1, "joint1", std::nan(""), 1, 0), "a place that is no number is refused");
+  expect(send(2, "joint1", 0.2, 1, 0), "a goal is accepted");
+  expect(wait_for(2, error) == 4 && error == 0, "and reached");
+  int told = 0;
+  std::string bytes;
+  fdds::SampleInfo info;
+  double actual = 0.0;
+  while (feedback->take_next_sample(&bytes, &info) ==
+         eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+    ++told;
+    read(bytes, [&](Cdr& cdr) {
+      std::uint8_t byte = 0;
+      std::int32_t sec = 0;
+      std::uint32_t nanosec = 0;
+      std::string frame;
+      std::vector<std::string> joints;
+      std::vector<double> desired[4], is;
+      for (int i = 0; i < 16; ++i) cdr >> byte;
+      cdr >> sec >> nanosec >> frame >> joints;
+      for (auto& one : desired) cdr >> one;
+      cdr >> sec >> nanosec >> is;
+      actual = is.empty() ? 0.0 : is[0];
+    });
+  }
+  expect(told >= 5 && std::abs(actual - 0.2) < 0.05,
+         "on the way it is told of: " + std::to_string(told));
+  expect(wait_for(3, error) == 0, "an unknown goal has no status");
+  expect(send(4, "joint1", -0.5, 30, 0), "a long goal");
+  std::string reply = client.call(follow + "cancel_goal", "action_msgs::srv::dds_::CancelGoal",
+                                  bytes_of([](Cdr& cdr) {
+                                    for (int i = 0; i < 16; ++i) cdr << std::uint8_t{4};
+                                    cdr << std::int32_t{0} << std::uint32_t{0};
+                                  }));
+  std::int8_t code = 9;
+  std::uint32_t canceling = 0;
+  if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> code >> canceling; });
+  expect(code == 0 && canceling == 1 && wait_for(4, error) == 5, "is given up");
+  expect(send(5, "joint1", 0.0, 30, 0) && send(6, "joint1", 0.1, 0, 500000000),
+         "a goal in place of another");
+  expect(wait_for(5, error) == 6 && wait_for(6, error) == 4, "ends that one");
+
+  const std::string grip = "/gripper_controller/gripper_cmd/_action/";
+  reply =
+      client.call(grip + "send_goal", actions + "GripperCommand_SendGoal", bytes_of([](Cdr& cdr) {
+                    for (int i = 0; i < 16; ++i) cdr << std::uint8_t{7};
+                    cdr << 0.015 << 5.0;
+                  }));
+  bool accepted = false;
+  if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> accepted; });
+  expect(accepted, "the gripper takes a command");
+  reply = client.call(grip + "get_result", actions + "GripperCommand_GetResult", id_bytes(7), 10);
+  std::int8_t status = -1;
+  double position = 0, effort = 0;
+  bool stalled = true, reached = false;
+  if (!reply.empty())
+    read(reply, [&](Cdr& cdr) { cdr >> status >> position >> effort >> stalled >> reached; });
+  expect(status == 4 && reached && !stalled && std::abs(position - 0.015) < 2e-3,
+         "and opens to 15 mm");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  if (argc != 2) return 2;
+  Client client(std::atoi(argv[1]));
+  check_services(client);
+  check_actions(client);
+  return failures ? 1 : 0;
+}
