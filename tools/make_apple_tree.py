@@ -6,10 +6,10 @@ A slender spindle as orchards grow them: one trunk, branches about it by the gol
 and flatter below, short twigs on them that bear. Nothing is measured; the sizes are those a grower
 would expect in the third year. Lengths in metres. Run from anywhere: tools/make_apple_tree.py [FOLDER]
 """
+import argparse
 import math
 import pathlib
 import random
-import sys
 
 TRUNK = 2.2          # m
 BRANCHES = 16
@@ -179,7 +179,11 @@ def mtg_text(trunk):
 
 def main():
     here = pathlib.Path(__file__).resolve().parent.parent / "plants"
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else here
+    parser = argparse.ArgumentParser(description="Draws the apple tree, as a plant file and an MTG.")
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, default=here,
+                        help="where they are written (default: plants)")
+    folder = parser.parse_args().folder
+    folder.mkdir(parents=True, exist_ok=True)
     rng = random.Random(5)
     trunk = grow(rng)
     (folder / "apple_tree.plant.yaml").write_text(plant_text(trunk, rng))

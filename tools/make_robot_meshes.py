@@ -4,9 +4,9 @@
 Closed solids of revolution and rounded boxes in each link's own frame, one file a colour. Lengths
 in metres. Run from anywhere: tools/make_robot_meshes.py [FOLDER]
 """
+import argparse
 import math
 import pathlib
-import sys
 
 SIDES = 28  # of a solid of revolution
 ARC = 3     # steps of a rounded edge
@@ -170,7 +170,10 @@ def meshes():
 
 def main():
     default = pathlib.Path(__file__).resolve().parent.parent / "assets/robots/stalk6/meshes"
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
+    parser = argparse.ArgumentParser(description="Draws the visual meshes of our robots as OBJ.")
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, default=default,
+                        help="where they are written (default: assets/robots/stalk6/meshes)")
+    folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
     for name, mesh in meshes():
         mesh.write(folder / f"{name}.obj")

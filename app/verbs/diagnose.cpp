@@ -7,8 +7,10 @@
 #include <memory>
 
 #include "pedicel/app/verbs/experiment_run.h"
+#include "pedicel/app/verbs/part_arguments.h"
 #include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/core/check.h"
+#include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/data/more_trials.h"
 #include "pedicel/discrepancy/procedure/diagnosis.h"
@@ -27,6 +29,7 @@ struct DiagnoseArguments : ExperimentArguments {
   std::vector<std::string> settings;                            // NAME=VALUE
   double time_limit = std::numeric_limits<double>::infinity();  // s
   bool verbose = false;
+  PartArguments tasks;
 };
 
 }  // namespace
@@ -68,29 +71,29 @@ std::string what_is_seen(const discrepancy::Verdict& verdict) {
   return accepted ? "" : symptoms_text(verdict, most);
 }
 
-int run(const DiagnoseArguments& a) {
+int run(DiagnoseArguments& a, const CLI::App& verb) {
   if (discrepancy::is_scene_experiment(a.experiment)) {
+    if (a.tasks.cluster.wanted() || a.tasks.is_task())
+      throw UsageError(a.experiment + ": its model is a scene, expected no --cluster");
     if (!a.with.empty() || !a.settings.empty())
       throw UsageError(a.experiment + ": its model is a scene, expected no --with and no --set");
     return diagnose_scene_verb(a);
   }
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
+  const SearchParts parts(a.tasks, a, a.folder("diagnosis_"), verb);
+  options.parts = parts.parts();
   const discrepancy::Experiment experiment = load_all(a);
-  ProgressLine progress;
-  options.threads = a.thread_count();
   options.seed = static_cast<std::uint64_t>(a.seed);
-  options.stop = &stop_requested;
   options.time_limit = a.time_limit;
   // From now on a signal ends the search, and what is known is written.
   stop_in_good_order();
   bool stopped = false;
   options.cut_short = [&stopped] { stopped = stop_requested.exchange(false); };
-  options.progress = progress.callback(a.quiet);
-  if (a.verbose)
-    options.note = [&progress](const std::string& sentence) { progress.note(sentence); };
-  discrepancy::Diagnosis diagnosis = discrepancy::diagnose(experiment, options);
-  progress.end(diagnosis.stopped);
+  discrepancy::Diagnosis diagnosis = with_progress(a, options, [&](ProgressLine& line) {
+    if (a.verbose) options.note = [&line](const std::string& sentence) { line.note(sentence); };
+    return discrepancy::diagnose(experiment, options);
+  });
   const std::filesystem::path folder = a.folder("diagnosis_", experiment);
   a.write(folder,
           [&](const std::filesystem::path& in) { write_diagnosis(in, experiment, diagnosis); });
@@ -109,6 +112,7 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand(
       "diagnose", "show what the simulation of a measured experiment gets wrong, and why");
   add_experiment(*verb, *a);
+  add_part_options(*verb, a->tasks);
   add_experiment_options(
       *verb, *a,
       {"folder for report.html, verdict.json, extended.plant.yaml, next/", "of the bootstrap",
@@ -125,7 +129,13 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
                    "s after which the search ends, and what is known is written")
       ->check(CLI::PositiveNumber);
   verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
-  return [a] { return run(*a); };
+  return [a, verb] {
+    try {
+      return run(*a, *verb);
+    } catch (const PartDone&) {
+      return static_cast<int>(exit_ok);
+    }
+  };
 }
 
 }  // namespace pedicel::app

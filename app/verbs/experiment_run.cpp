@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "pedicel/app/verbs/cluster.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/scene/scene_experiment.h"
@@ -32,6 +33,14 @@ std::filesystem::path ExperimentArguments::folder(const std::string& prefix,
   return std::filesystem::path("out") / (prefix + measured.folder.filename().string());
 }
 
+std::filesystem::path ExperimentArguments::folder(const std::string& prefix) const {
+  if (!out.empty()) return out;
+  std::filesystem::path measured = std::filesystem::absolute(experiment).lexically_normal();
+  if (!measured.has_filename() || measured.extension() == ".yaml")
+    measured = measured.parent_path();
+  return std::filesystem::path("out") / (prefix + measured.filename().string());
+}
+
 void ExperimentArguments::write(
     const std::filesystem::path& folder,
     const std::function<void(const std::filesystem::path&)>& write) const {
@@ -52,6 +61,7 @@ void add_experiment_options(CLI::App& verb, ExperimentArguments& a, const Experi
   verb.add_option("--seed", a.seed, help.seed)->check(CLI::NonNegativeNumber);
   verb.add_flag("--json", a.json, help.json);
   verb.add_flag("--quiet", a.quiet, "no progress");
+  add_instruction_set_option(verb);
 }
 
 discrepancy::Experiment load_experiment(const ExperimentArguments& a) {

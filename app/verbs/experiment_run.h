@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/data/experiment.h"
 
 namespace CLI {
@@ -25,6 +26,8 @@ struct ExperimentArguments {
   /// `out`, or out/<prefix><name of the experiment's folder>.
   std::filesystem::path folder(const std::string& prefix,
                                const discrepancy::Experiment& measured) const;
+  /// The same before the experiment is read.
+  std::filesystem::path folder(const std::string& prefix) const;
   /// io::write_folder(), and says what was replaced.
   void write(const std::filesystem::path& folder,
              const std::function<void(const std::filesystem::path&)>& write) const;
@@ -65,5 +68,19 @@ class ProgressLine {
   Clock::time_point start_ = Clock::now();
   std::string last_;
 };
+
+/// Calls search(line) with the options that all searches have: threads, stop signals, and progress
+/// on a line that is taken away at its end.
+template <class Options, class Search>
+auto with_progress(const ExperimentArguments& a, Options& options, const Search& search) {
+  ProgressLine line;
+  options.threads = a.thread_count();
+  options.stop = &stop_requested;
+  options.progress = line.callback(a.quiet);
+  auto found = search(line);
+  options.progress = {};  // it may not outlive the line
+  line.end(found.stopped);
+  return found;
+}
 
 }  // namespace pedicel::app

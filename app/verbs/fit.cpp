@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "pedicel/app/verbs/experiment_run.h"
+#include "pedicel/app/verbs/part_arguments.h"
+#include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/fit/parameter_fit.h"
 #include "pedicel/discrepancy/fit/parameter_request.h"
@@ -18,19 +20,18 @@ namespace {
 
 struct FitArguments : ExperimentArguments {
   std::vector<std::string> parameters;
+  PartArguments tasks;
 };
 
-int run(const FitArguments& a) {
+int run(FitArguments& a, const CLI::App& verb) {
+  const SearchParts parts(a.tasks, a, a.folder("fit_"), verb);
   const discrepancy::Experiment experiment = load_experiment(a);
   const auto starts = discrepancy::requested_starts(experiment, a.parameters);
-  ProgressLine progress;
   discrepancy::ParameterFitOptions options;
-  options.threads = a.thread_count();
   options.seed = static_cast<std::uint64_t>(a.seed);
-  options.stop = &stop_requested;
-  options.progress = progress.callback(a.quiet);
-  const discrepancy::ParameterFit fit = fit_parameters(experiment, starts, options);
-  progress.end(fit.stopped);
+  options.parts = parts.parts();
+  const discrepancy::ParameterFit fit = with_progress(
+      a, options, [&](ProgressLine&) { return fit_parameters(experiment, starts, options); });
   if (fit.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("fit_", experiment);
   a.write(folder, [&](const std::filesystem::path& in) {
@@ -56,11 +57,18 @@ std::function<int()> add_fit_verb(CLI::App& app) {
                    "youngs_modulus, density, damping_time, EFFECT.PARAMETER[@CURVE:AT] (free) or "
                    "EFFECT.PARAMETER=VALUE[@CURVE:AT] (given)")
       ->required();
+  add_part_options(*verb, a->tasks);
   add_experiment_options(
       *verb, *a,
       {"folder for fit.json and fitted.plant.yaml", "of the starts that are drawn",
        "fit.json, and nothing else, on standard output"});
-  return [a] { return run(*a); };
+  return [a, verb] {
+    try {
+      return run(*a, *verb);
+    } catch (const PartDone&) {
+      return static_cast<int>(exit_ok);
+    }
+  };
 }
 
 }  // namespace pedicel::app

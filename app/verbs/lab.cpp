@@ -46,14 +46,10 @@ int run(const LabArguments& a) {
   bool stopped = false;
   const auto play = [&](const std::filesystem::path& in) {
     for (int round = 0; round <= a.rounds; ++round) {
-      ProgressLine progress;
       discrepancy::DiagnosisOptions options;
-      options.threads = a.thread_count();
       options.seed = static_cast<std::uint64_t>(a.seed);
-      options.stop = &stop_requested;
-      options.progress = progress.callback(a.quiet);
-      discrepancy::Diagnosis found = discrepancy::diagnose(experiment, options);
-      progress.end(found.stopped);
+      discrepancy::Diagnosis found = with_progress(
+          a, options, [&](ProgressLine&) { return discrepancy::diagnose(experiment, options); });
       stopped = found.stopped;
       if (stopped) break;  // the rounds before stay
       const std::string name = "round_" + std::to_string(round);

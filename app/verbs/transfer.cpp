@@ -39,13 +39,9 @@ std::string row(const char* trials, const discrepancy::Errors& errors) {
 int run(const TransferArguments& a) {
   const plant::PlantFile extended = load_plant(a.extended);
   const discrepancy::Experiment experiment = load_experiment(a);
-  ProgressLine progress;
   discrepancy::TransferOptions options;
-  options.threads = a.thread_count();
-  options.stop = &stop_requested;
-  options.progress = progress.callback(a.quiet);
-  const discrepancy::Transfer found = discrepancy::transfer(extended, experiment, options);
-  progress.end(found.stopped);
+  const discrepancy::Transfer found = with_progress(
+      a, options, [&](ProgressLine&) { return transfer(extended, experiment, options); });
   if (found.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("transfer_", experiment);
   a.write(folder, [&](const std::filesystem::path& in) {

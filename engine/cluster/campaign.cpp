@@ -134,18 +134,25 @@ std::string Campaign::words(const Queue::State& state) const {
 }
 
 // True: the queue is empty. False: it was stopped.
-bool Campaign::wait(Queue& queue, const Progress& progress) {
+bool Campaign::wait(Queue& queue, const Progress& progress, const Say& say) {
   Clock::time_point looked{};
   double between = 0.0;  // s
+  std::optional<Clock::time_point> silent;
   while (!stop_requested) {
     const Queue::State state = queue.state();
     if (state.empty()) return true;
+    if (state.known) silent.reset();
+    if (!state.known && !silent) {
+      silent = Clock::now();
+      say("the queue does not answer; waiting on");
+    }
     if (seconds_since(looked) >= between) {
       const Clock::time_point begin = Clock::now();
       survey_ = surveyor_->look(false);
       // Looking is to cost little beside what is looked at.
       between = std::max(1.0, 20.0 * seconds_since(begin));
       looked = Clock::now();
+      if (survey_.missing.empty()) return true;
       if (progress)
         progress(words(state),
                  static_cast<double>(survey_.done()) /
@@ -184,7 +191,7 @@ void Campaign::run(const Progress& progress, const Say& say) {
             "` waits for them and merges the results");
         return;
       }
-      if (!wait(*queue, progress)) {
+      if (!wait(*queue, progress, say)) {
         interrupted(*queue, say);
         break;
       }

@@ -44,7 +44,7 @@ class Campaign {
  private:
   void measure_case(const ClusterOptions& options, const ProgramAbout& about, const Progress& say);
   void submit(Queue& queue);
-  bool wait(Queue& queue, const Progress& progress);
+  bool wait(Queue& queue, const Progress& progress, const Say& say);
   void interrupted(Queue& queue, const Say& say) const;
   std::string words(const Queue::State& state) const;
 

@@ -1,5 +1,7 @@
 #include "pedicel/cluster/cluster_options.h"
 
+#include <wordexp.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -29,10 +31,22 @@ void add_words(const CLI::Option& option, std::vector<std::string>& words) {
   }
 }
 
+/// $TMPDIR and the like, as a shell has them: on a node its own does that.
+std::filesystem::path expanded(const std::filesystem::path& folder) {
+  wordexp_t words{};
+  const std::string quoted = "\"" + folder.string() + "\"";
+  if (::wordexp(quoted.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) != 0 || words.we_wordc != 1)
+    throw UsageError("--scratch " + folder.string() +
+                     ": expected a folder, or a variable that is set");
+  std::filesystem::path path = words.we_wordv[0];
+  ::wordfree(&words);
+  return path;
+}
+
 template <class Wanted>
 std::vector<std::string> collected(const CLI::App& verb, const Wanted& wanted) {
   std::vector<std::string> words;
-  if (!verb.get_name().empty()) words.push_back(verb.get_name());
+  if (verb.get_parent()) words.push_back(verb.get_name());
   // Words that stand alone come last: an option before them cannot take one of them.
   for (const bool alone : {false, true})
     for (const CLI::Option* option : verb.get_options())
@@ -99,6 +113,7 @@ ClusterOptions with_profile(ClusterOptions o) {
     throw UsageError("--cluster-profile: says nothing of the mode, expected --cluster, too");
   if (o.collect_only && o.no_wait)
     throw UsageError("--collect-only and --no-wait: expected one of them");
+  if (o.mode == "local" && !o.scratch.empty()) o.scratch = expanded(o.scratch);
   if (o.block_seconds == 0.0) o.block_seconds = 30.0;
   if (o.on_interrupt.empty()) o.on_interrupt = "leave";
   return o;

@@ -105,16 +105,32 @@ void SlurmQueue::submit(const std::vector<int>& blocks) {
 Queue::State SlurmQueue::state() {
   State state;
   if (jobs_.jobs.empty()) return state;
-  Process squeue({"squeue", "--noheader", "--array", "--format=%T", "--jobs=" + joined(jobs_.jobs)},
-                 {});
+  Process squeue(
+      {"squeue", "--noheader", "--array", "--Format=JobArrayID:60,State:30,RestartCnt:20,Reason:60",
+       "--jobs=" + joined(jobs_.jobs)},
+      {});
   if (squeue.wait() != 0) {
     // Jobs that ended some minutes ago are forgotten, and are no jobs then.
     state.known = squeue.errors().find("Invalid job id") != std::string::npos;
     return state;
   }
   std::istringstream lines(squeue.output());
-  for (std::string word; lines >> word;) ++(word == "PENDING" ? state.waiting : state.running);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string task, word, reason;
+    int restarts = 0;
+    if (!(words >> task >> word >> restarts >> reason)) continue;
+    ++(word == "PENDING" ? state.waiting : state.running);
+    if (word == "PENDING" && restarts > 0 && reason == "BeginTime") hurry(task);
+  }
   return state;
+}
+
+// Slurm holds what it took back from a node that died for two minutes, in case the node was at
+// fault for no reason. A case may be done twice, so there is nothing to wait for.
+void SlurmQueue::hurry(const std::string& task) {
+  if (!hurried_.insert(task).second) return;
+  Process({"scontrol", "update", "JobId=" + task, "StartTime=now"}, {}).wait();
 }
 
 void SlurmQueue::cancel() {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "pedicel/cluster/cluster_options.h"
 #include "pedicel/cluster/job_list.h"
 #include "pedicel/cluster/queue.h"
@@ -20,12 +24,14 @@ class SlurmQueue : public Queue {
 
  private:
   void write_script() const;
+  void hurry(const std::string& task);
   std::vector<std::string> command(const std::vector<int>& indices, int offset) const;
 
   RunFolder folder_;
   const TaskHead& head_;
   ClusterOptions options_;
   JobList jobs_;
+  std::set<std::string> hurried_;  // tasks
 };
 
 }  // namespace pedicel::cluster

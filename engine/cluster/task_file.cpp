@@ -82,7 +82,7 @@ Json case_json(const Case& one) {
 class Line {
  public:
   Line(std::string_view text, const std::string& file, int number, Diagnostics& diagnostics)
-      : where_{file, number, 0},
+      : where_{file, number, number > 0 ? 1 : 0},
         diagnostics_(diagnostics),
         json_(Json::parse(text.begin(), text.end(), nullptr, false)) {
     if (!json_.is_object()) fault("is no JSON object, expected one a line");

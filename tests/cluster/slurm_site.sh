@@ -64,7 +64,7 @@ ReturnToService=2
 SlurmdTimeout=10
 KillWait=5
 SlurmdParameters=config_overrides
-SchedulerParameters=sched_interval=5,bf_interval=5
+${site_scheduler:+SchedulerParameters=$site_scheduler}
 NodeName=n1 NodeHostname=$host NodeAddr=127.0.0.1 Port=${ports[1]} CPUs=1 RealMemory=1000
 NodeName=n2 NodeHostname=$host NodeAddr=127.0.0.1 Port=${ports[2]} CPUs=1 RealMemory=1000
 PartitionName=test Nodes=n1,n2 Default=YES MaxTime=1:00:00 State=UP
@@ -96,15 +96,19 @@ children_of() {
   done
 }
 
-# A slurmd's tasks are no children of it: their launchers (slurmstepd) name the node.
+# A slurmd's tasks are no children of it: their launchers (slurmstepd) write to the node's log.
+launchers_of() {
+  local launcher
+  for launcher in $(pgrep -u "$(id -u)" slurmstepd); do
+    readlink "/proc/$launcher"/fd/* 2>/dev/null | grep -q "^$site/log/slurmd_$1\$" && echo "$launcher"
+  done
+  return 0
+}
+
 kill_node() {
-  local launcher processes
-  for launcher in $(pgrep slurmstepd); do
-    if tr '\0' '\n' <"/proc/$launcher/environ" | grep -q "spool_$1\|SLURMD_NODENAME=$1" ||
-      ls -l "/proc/$launcher/fd" 2>/dev/null | grep -q "spool_$1/"; then
-      processes="$launcher $(children_of "$launcher")"
-      kill -9 $processes 2>/dev/null
-    fi
+  local launcher
+  for launcher in $(launchers_of "$1"); do
+    kill -9 "$launcher" $(children_of "$launcher") 2>/dev/null
   done
   kill -9 "$(<"$site/slurmd_$1.pid")"
 }

@@ -1,7 +1,8 @@
 // hidden_effects [--seed S] [--count N] [--first N] [--case N...] [--kind K] [--size X] [--seen]
-//                [--threads T] [--out DIR]
+//                [--threads T] [--out DIR] [--cluster local|slurm ...]
 // Makes hidden cases, diagnoses them and scores the verdicts, several cases side by side, one
-// thread each. Cases whose score stands in DIR/results.jsonl are not done again.
+// thread each, or as tasks of a cluster. Cases whose score stands in DIR/results.jsonl are not done
+// again.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -14,8 +15,11 @@
 #include "discrepancy/case_run.h"
 #include "discrepancy/score_report.h"
 #include "discrepancy/score_table.h"
+#include "pedicel/cluster/campaign.h"
+#include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/core/thread_pool.h"
+#include "pedicel/cosserat/lanes/instruction_set.h"
 #include "pedicel/io/atomic_file.h"
 
 namespace {
@@ -31,8 +35,9 @@ struct Arguments {
   double size = 0.0;  // times the smallest identifiable; 0: the list's
   bool seen = false;  // that size counts from where an effect is seen
   std::string kind;   // these alone, where it is not empty
-  std::string out = "out/hidden_effects";
+  std::string out = "out/hidden_effects", instruction_set;
   bool keep = false;
+  cluster::ClusterOptions cluster;
 };
 
 std::string joined(const std::vector<std::string>& names) {
@@ -44,6 +49,10 @@ std::string joined(const std::vector<std::string>& names) {
 /// Runs the cases that are still to be done and keeps files and screen up to date.
 class Bench {
  public:
+  static cluster::ProgramAbout about() {
+    return {PEDICEL_VERSION, "", cosserat::checked_instruction_set};
+  }
+
   explicit Bench(const Arguments& a) : a_(a), out_(a.out), results_(out_ / "results.jsonl") {
     scores_ = read_scores(results_, a.seed);
     // Lines of another size may stand in the same file.
@@ -62,24 +71,76 @@ class Bench {
         todo_.push_back(number);
   }
 
-  int run() {
+  /// `app`: the command line, for tasks.
+  int run(const CLI::App& app) {
     fs::create_directories(out_);
     std::printf("%zu cases to do, %zu done before\n", todo_.size(), scores_.size());
     std::fflush(stdout);
+    std::string missing;
+    if (a_.cluster.wanted())
+      missing = as_tasks(app);
+    else
+      side_by_side();
+    if (!fault_.empty()) throw io::WriteError(fault_);
+    if (!scores_.empty()) write_score_report(out_, scores_, a_.seed);
+    std::printf("%s\n%s\nwritten to %s\n", markdown(score_table(scores_)).c_str(),
+                markdown(confusion(scores_)).c_str(), out_.c_str());
+    if (!missing.empty()) std::fprintf(stderr, "error: %s\n", missing.c_str());
+    if (stop_requested) return stop_exit_code();
+    return missing.empty() ? exit_ok : exit_failure;
+  }
+
+ private:
+  void side_by_side() {
     ThreadPool pool(a_.threads > 0
                         ? a_.threads
                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
     pool.for_each(static_cast<int>(todo_.size()), [this](int i) {
       if (!stop_requested && fault_.empty()) one(todo_[i]);
     });
-    if (!fault_.empty()) throw io::WriteError(fault_);
-    if (!scores_.empty()) write_score_report(out_, scores_, a_.seed);
-    std::printf("%s\n%s\nwritten to %s\n", markdown(score_table(scores_)).c_str(),
-                markdown(confusion(scores_)).c_str(), out_.c_str());
-    return stop_requested ? stop_exit_code() : 0;
   }
 
- private:
+  cluster::Plan plan(const CLI::App& app) const {
+    cluster::Plan plan;
+    plan.verb = "hidden_effects";
+    plan.common = cluster::words_of(
+        app, {"--out", "--threads", "--case", "--count", "--first", "--kind", "--instruction-set"});
+    plan.common.insert(plan.common.end(), {"--threads=1", "--out={out}"});
+    plan.again = cluster::words_of_same_call(app);
+    plan.instruction_set = a_.instruction_set;
+    for (const int number : todo_)
+      plan.cases.push_back(
+          {"case " + std::to_string(number), {"--case=" + std::to_string(number)}});
+    return plan;
+  }
+
+  /// What is missing afterwards.
+  std::string as_tasks(const CLI::App& app) {
+    if (todo_.empty()) return {};
+    cluster::Campaign campaign(out_ / "cluster", plan(app), a_.cluster, about());
+    const auto say = [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
+    campaign.run([&](const std::string& what, double) { say(what); }, say);
+    // While jobs go on their cases stay to be done, so that another call is about the same ones.
+    const bool ended = !a_.cluster.no_wait && !a_.cluster.collect_only && !stop_requested;
+    for (std::size_t i = 0; i < todo_.size(); ++i)
+      if (const auto from = campaign.output(static_cast<int>(i))) take(*from, ended);
+    return ended || a_.cluster.collect_only ? campaign.missing_text() : "";
+  }
+
+  /// The score and the notes of a task's case; a case that is left out has none.
+  void take(const fs::path& from, bool ended) {
+    for (const Score& score : read_scores(from / "results.jsonl", a_.seed)) {
+      if (ended) append_score(results_, score);
+      scores_.push_back(score);
+    }
+    std::ranges::sort(scores_, {}, &Score::number);
+    std::error_code error;
+    if (!fs::exists(from / "notes", error)) return;
+    for (const auto& note : fs::directory_iterator(from / "notes"))
+      io::write_file_atomically(out_ / "notes" / note.path().filename(),
+                                io::read_file(note.path()));
+  }
+
   CaseOrder order(int number) const {
     CaseOrder order = case_orders()[number];
     if (a_.size > 0.0 && order.size > 0.0) order.size = a_.size;
@@ -138,6 +199,7 @@ class Bench {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const auto code = cluster::run_as_task(argc, argv, Bench::about())) return *code;
   CLI::App app{"Diagnoses experiments with a hidden effect and scores the verdicts."};
   Arguments a;
   const int most = static_cast<int>(case_orders().size());
@@ -161,13 +223,20 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--out", a.out, "folder of the results")->capture_default_str();
   app.add_flag("--keep", a.keep, "keep the experiment folders");
+  app.add_option("--instruction-set", a.instruction_set, "that rods are solved with");
+  cluster::add_cluster_options(app, a.cluster);
   CLI11_PARSE(app, argc, argv);
   hear_stop_signals();
   stop_in_good_order();
   try {
-    return Bench(a).run();
+    a.cluster = cluster::with_profile(a.cluster);
+    cosserat::choose_instruction_set(a.instruction_set);
+    return Bench(a).run(app);
   } catch (const io::WriteError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
-    return 6;
+    return exit_unwritable;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return exit_failure;
   }
 }

@@ -72,7 +72,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpedicel-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "pedicel (= ${PROJECT_VERSION}), pkg-config, libeigen3-dev, libbullet-dev, liburdfdom-dev, libtinyxml-dev, \
-libconsole-bridge-dev, libassimp-dev, libhwy-dev, libyaml-cpp-dev, nlohmann-json3-dev, libcli11-dev, libceres-dev, \
-libpng-dev, zlib1g-dev, libzstd-dev")
+libconsole-bridge-dev, libassimp-dev, libhwy-dev, libyaml-cpp-dev, nlohmann-json3-dev, libcli11-dev, libmd-dev, \
+libceres-dev, libpng-dev, zlib1g-dev, libzstd-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libimgui-dev, libglfw3-dev")
 include(CPack)

@@ -7,6 +7,7 @@
 
 #include "pedicel/discrepancy/admission/following.h"
 #include "pedicel/discrepancy/data/labels.h"
+#include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/simulate/trial_run.h"
 
 namespace pedicel::discrepancy {
@@ -193,7 +194,8 @@ Admission admit(const Experiment& experiment) {
     const int before = count_finite(trial.markers.value);
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     if (leave_out_after_break(trial))
-      admission.remarks.push_back("Trial " + trial.name + " is compared until a fruit comes off");
+      admission.remarks.push_back("Trial " + in_quotes(trial.name) +
+                                  " is compared until a fruit comes off");
     if (trial.is_static) {
       admission.samples += count_finite(trial.markers.value) + count_finite(trial.force.value) +
                            count_finite(trial.wrench.value);
@@ -220,7 +222,7 @@ Admission admit(const Experiment& experiment) {
     if (count_finite(trial.markers.value) + count_finite(trial.force.value) +
             count_finite(trial.wrench.value) ==
         0)
-      admission.refusal = "trial " + trial.name + " holds no usable sample";
+      admission.refusal = named_trial(trial.name) + " holds no usable sample";
   }
   const auto remark = [&](int count, const std::string& what) {
     if (count > 0) admission.remarks.push_back(std::to_string(count) + " " + what);

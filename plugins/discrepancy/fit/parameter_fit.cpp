@@ -129,8 +129,9 @@ class Run {
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](int i) { return looked.cost[i]; });
     order.resize(std::min<std::size_t>(order.size(), carried_on));
-    std::vector<FitSummary> fits;
-    for (const int i : order) fits.push_back(fit(with, starts_[i], first));
+    std::vector<FitSummary> fits =
+        fits_by(options_.parts, "starts", static_cast<int>(order.size()),
+                [&](int i) { return fit(with, starts_[order[i]], first); });
     std::ranges::stable_sort(fits, {}, &FitSummary::cost);
     keep_what_is_seen(fits.front().hypothesis);
     result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
@@ -197,12 +198,14 @@ class Run {
   // True: a better fit turned up on the way, and the intervals must be done again.
   bool profile_all() {
     result_.parameters.clear();
+    std::vector<Profile> profiles;
+    if (options_.parts)
+      profiles =
+          profiles_by(*options_.parts, "profiles", asked_, [this](int p) { return profiled(p); });
     for (int p = 0; p < asked_ && !stopped(); ++p) {
       say("profiling " + described(result_.summary.hypothesis.free[p]).name,
           0.4 + 0.55 * p / asked_);
-      Evaluator with = setup_.evaluator();
-      Profile found = profile(with, result_.summary, p, setup_.options(),
-                              deviance95 * result_.spread * result_.spread);
+      const Profile found = profiles.empty() ? profiled(p) : profiles[p];
       result_.refits += found.low.refits + found.high.refits;
       if (found.better) {
         result_.summary.hypothesis = found.better->hypothesis;
@@ -217,6 +220,12 @@ class Run {
       result_.parameters.push_back(parameter);
     }
     return false;
+  }
+
+  Profile profiled(int p) {
+    Evaluator with = setup_.evaluator();
+    return profile(with, result_.summary, p, setup_.options(),
+                   deviance95 * result_.spread * result_.spread);
   }
 
   FittedParameter described(const FreeParameter& free) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/discrepancy/fit/fit_parts.h"
 #include "pedicel/discrepancy/fit/numerics.h"
 #include "pedicel/discrepancy/fit/profile.h"
 
@@ -17,6 +18,7 @@ struct ParameterFitOptions {
   /// What is being done, and the share of the whole that is done (an estimate).
   std::function<void(const std::string&, double)> progress;
   const std::atomic<bool>* stop = nullptr;
+  FitParts* parts = nullptr;  ///< does starts and profiles; null: they are done here
 };
 
 /// A number that was asked for, with its 95 % interval by profile likelihood.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/fit/baseline_start.h"
 
 namespace pedicel::discrepancy {
@@ -92,7 +93,7 @@ void Baseline::judge_drive() {
       continue;
     state_.result.verdict.outcome = Outcome::bad_data;
     state_.result.verdict.remainder =
-        "the drive of trial " + trial.name + " cannot be right: the model needs " +
+        "the drive of " + named_trial(trial.name) + " cannot be right: the model needs " +
         text("%.3g N at the hold where %.3g N were measured (RMS), ", needs, was) +
         text("and %.3g N when it is refitted; ", force_rms(fitted, measured)) +
         "check the path's place, unit and frame, and the unit of the force";

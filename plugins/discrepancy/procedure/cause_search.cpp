@@ -39,7 +39,11 @@ bool has_a_size(const FitSummary& model, int first) {
 }  // namespace
 
 RefitOptions CauseSearch::refit_options(double from, double to, const std::string& what) {
-  RefitOptions refit{state_.fit_options(), state_.result.check_trials, {}, state_.options.stop};
+  RefitOptions refit{state_.fit_options(),
+                     state_.result.check_trials,
+                     {},
+                     state_.options.stop,
+                     state_.options.parts};
   refit.progress = [this, from, to, what](double share) {
     state_.log.say(what, from + share * (to - from));
   };

@@ -31,6 +31,7 @@ struct DiagnosisOptions {
   /// complete.
   std::function<void()> cut_short;
   DiagnosisSettings settings = {};
+  FitParts* parts = nullptr;  ///< does the first fits of candidates; null: they are done here
 };
 
 /// The three models that a diagnosis compares.

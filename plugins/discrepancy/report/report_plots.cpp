@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/simulate/channel.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 #include "pedicel/io/svg_heat_map.h"
@@ -132,8 +133,8 @@ std::string path_plot(const ReportData& report, const ReportChannel& channel) {
 std::string residual_plot(const ReportData& report, const ReportChannel& channel, int width) {
   const Shown s = shown(report, channel);
   io::LinePlot plot;
-  plot.title =
-      "Measured less simulated, " + s.name + " in " + report.experiment.trials[channel.trial].name;
+  plot.title = "Measured less simulated, " + s.name + " in " +
+               named_trial(report.experiment.trials[channel.trial].name);
   plot.x.label = "time (s)";
   plot.y.label = "residual (" + s.unit + ")";
   plot.width = width;

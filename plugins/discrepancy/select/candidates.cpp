@@ -220,15 +220,15 @@ class Refits {
     std::vector<int> all(causes_.size());
     std::iota(all.begin(), all.end(), 0);
     longest_first(all);
-    share_out(coarse_, static_cast<int>(all.size()), options_, 0.0, first_parts,
-              [&](Evaluator& evaluator, int c) {
-                const int i = all[c];
-                candidates_[i].fit =
-                    fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
-                candidates_[i].gain = early_cost - candidates_[i].fit.cost;
-              });
+    share_causes("first_parts", all, 0.0, first_parts, [&](Evaluator& evaluator, int i) {
+      candidates_[i].fit = fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
+    });
     std::vector<double> gain;
-    for (const Candidate& candidate : candidates_) gain.push_back(candidate.gain);
+    for (Candidate& candidate : candidates_) {
+      // Stopped before it was its turn: no gain.
+      if (candidate.fit.why != "not run") candidate.gain = early_cost - candidate.fit.cost;
+      gain.push_back(candidate.gain);
+    }
     choose_whole(gain);
   }
 
@@ -260,8 +260,25 @@ class Refits {
   }
 
   void fit_whole(const std::vector<int>& chosen, const Limits& limits, double from, double to) {
-    share_out(coarse_, static_cast<int>(chosen.size()), options_, done(from), done(to),
-              [&](Evaluator& evaluator, int c) { fit_whole(evaluator, chosen[c], limits); });
+    share_causes("whole", chosen, done(from), done(to),
+                 [&](Evaluator& evaluator, int i) { fit_whole(evaluator, i, limits); });
+  }
+
+  // Calls task(evaluator, i) for the chosen causes, which sets the candidate's fit and nothing
+  // else: on the workers, or elsewhere.
+  template <class Task>
+  void share_causes(const char* stage, const std::vector<int>& chosen, double from, double to,
+                    const Task& task) {
+    const int count = static_cast<int>(chosen.size());
+    if (!options_.parts)
+      return share_out(coarse_, count, options_, from, to,
+                       [&](Evaluator& evaluator, int c) { task(evaluator, chosen[c]); });
+    if (options_.progress) options_.progress(from);
+    std::vector<FitSummary> fits = fits_by(options_.parts, stage, count, [&](int c) {
+      task(coarse_.front(), chosen[c]);
+      return candidates_[chosen[c]].fit;
+    });
+    for (int c = 0; c < count; ++c) candidates_[chosen[c]].fit = std::move(fits[c]);
   }
 
   FitOptions rough(int iterations) const {

@@ -7,6 +7,7 @@
 
 #include "pedicel/discrepancy/fit/causes.h"
 #include "pedicel/discrepancy/fit/fit.h"
+#include "pedicel/discrepancy/fit/fit_parts.h"
 #include "pedicel/discrepancy/test/held_out.h"
 #include "pedicel/discrepancy/test/statistics.h"
 
@@ -37,6 +38,7 @@ struct RefitOptions {
   /// Called now and then, from any thread, with the share that is done.
   std::function<void(double)> progress;
   const std::atomic<bool>* stop = nullptr;
+  FitParts* parts = nullptr;  ///< does the first fits of the causes; null: they are done here
 };
 
 /// One evaluator for each thread, of either kind; the coarse ones agree with the others at the base

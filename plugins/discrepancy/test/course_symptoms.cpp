@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
@@ -287,7 +288,7 @@ void add_force_history(const SymptomContext& context, int t, std::vector<Symptom
     Symptom symptom = make_symptom("force_lag", trial, 1e3 * lag.value, 1e3 * lag.error);
     symptom.unit = "ms";
     symptom.least = 0.5;
-    symptom.sentence = "The force in " + trial + " runs " +
+    symptom.sentence = "The force in " + named_trial(trial) + " runs " +
                        with_error(std::abs(symptom.value), symptom.standard_error, "ms") +
                        (symptom.value < 0.0 ? " ahead of" : " behind") + " the model's.";
     out.push_back(std::move(symptom));
@@ -297,7 +298,7 @@ void add_force_history(const SymptomContext& context, int t, std::vector<Symptom
         make_symptom("drive_history", trial, 100.0 * memory.value, 100.0 * memory.error);
     symptom.unit = "%";
     symptom.least = 0.5;
-    symptom.sentence = "Of the force in " + trial + " " +
+    symptom.sentence = "Of the force in " + named_trial(trial) + " " +
                        with_error(symptom.value, symptom.standard_error, "%") +
                        " goes by where the drive was in the " + short_number(force->memory) +
                        " s before, beyond the model.";

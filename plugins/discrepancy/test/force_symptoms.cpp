@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 
+#include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
@@ -63,7 +64,7 @@ Eigen::MatrixXd work_weights(const Eigen::MatrixXd& path) {
 }
 
 SymptomPlot loop_plot(const Push& push, const std::string& trial) {
-  SymptomPlot plot{"Force against displacement in " + trial,
+  SymptomPlot plot{"Force against displacement in " + named_trial(trial),
                    "displacement of the held point (mm)",
                    "force along it (N)",
                    {{"measured", {}, {}}, {"simulated", {}, {}}}};
@@ -99,8 +100,9 @@ void add_loop(const SymptomContext& context, int t, const Push& push, std::vecto
   Symptom symptom =
       make_symptom("loop_area", trial.name, 1e3 * difference.value, 1e3 * difference.error);
   symptom.unit = "mJ";
-  symptom.sentence = "One push in " + trial.name + " (" + short_number(1e3 * push.travel) +
-                     " mm out, " + short_number(1e3 * rate) + " mm/s on average) costs " +
+  symptom.sentence = "One push in " + named_trial(trial.name) + " (" +
+                     short_number(1e3 * push.travel) + " mm out, " + short_number(1e3 * rate) +
+                     " mm/s on average) costs " +
                      with_error(1e3 * measured, symptom.standard_error, "mJ") + ", in the model " +
                      short_number(1e3 * simulated) + " mJ.";
   symptom.plot = loop_plot(push, trial.name);
@@ -125,7 +127,7 @@ void add_scale(const SymptomContext& context, int t, const Push& push, std::vect
   Symptom symptom = make_symptom("force_scale", trial, 100.0 * scale.value, 100.0 * scale.error);
   symptom.unit = "%";
   symptom.least = 0.2;
-  symptom.sentence = "The push in " + trial + " needs " +
+  symptom.sentence = "The push in " + named_trial(trial) + " needs " +
                      with_error(std::abs(symptom.value), symptom.standard_error, "%") +
                      (symptom.value < 0.0 ? " less" : " more") + " force than the model.";
   symptom.plot = loop_plot(push, trial);
@@ -164,7 +166,7 @@ void add_drift(const SymptomContext& context, int t, const Push& push, std::vect
   const Vec3 mean = push.predicted.middleRows(rest.from, n).colwise().mean().transpose();
   if (!(mean.norm() > 0.0)) return;
   Eigen::MatrixXd x(n, 2);
-  SymptomPlot plot{"Force while the point is held still in " + context.trial(t).name,
+  SymptomPlot plot{"Force while the point is held still in " + named_trial(context.trial(t).name),
                    "time (s)",
                    "force (N)",
                    {{"measured", {}, {}, false}, {"simulated", {}, {}}}};
@@ -184,9 +186,10 @@ void add_drift(const SymptomContext& context, int t, const Push& push, std::vect
   const std::string& trial = context.trial(t).name;
   Symptom symptom = make_symptom("force_drift", trial, drift.value, drift.error);
   symptom.unit = "N";
-  symptom.sentence = "While the point is held still in " + trial + " (" + short_number(length) +
-                     " s) the force changes by " + with_error(drift.value, drift.error, "N") +
-                     " more than in the model, of " + short_number(mean.norm()) + " N.";
+  symptom.sentence = "While the point is held still in " + named_trial(trial) + " (" +
+                     short_number(length) + " s) the force changes by " +
+                     with_error(drift.value, drift.error, "N") + " more than in the model, of " +
+                     short_number(mean.norm()) + " N.";
   symptom.plot = std::move(plot);
   out.push_back(std::move(symptom));
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
@@ -173,7 +174,7 @@ void add_out_of_plane(const SymptomContext& context, int t, std::vector<Symptom>
                                  excess / std::pow(plane.motion, 2), error);
   symptom.unit = "1";
   symptom.least = 4.0e-4;  // 2 % of the amplitude
-  symptom.sentence = "In " + context.trial(t).name +
+  symptom.sentence = "In " + named_trial(context.trial(t).name) +
                      " the plant moves across the plane of the "
                      "push by " +
                      short_number(100.0 * std::sqrt(symptom.value)) +

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/test/oscillation.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 
@@ -104,10 +105,11 @@ std::string hertz(const OscillationFit& fit) {
 
 SymptomPlot swing_plot(const SymptomContext& context, const FreeSwing& swing) {
   const std::string& marker = context.experiment.markers[swing.column / 3].name;
-  SymptomPlot plot{"Free swing of " + marker + " in " + context.trial(swing.trial).name,
-                   "time since the plant is free (s)",
-                   std::string("position ") + "xyz"[swing.column % 3] + " (mm)",
-                   {{"measured", {}, {}, false}, {"simulated", {}, {}}}};
+  SymptomPlot plot{
+      "Free swing of " + marker + " in " + named_trial(context.trial(swing.trial).name),
+      "time since the plant is free (s)",
+      std::string("position ") + "xyz"[swing.column % 3] + " (mm)",
+      {{"measured", {}, {}, false}, {"simulated", {}, {}}}};
   for (Eigen::Index i = 0; i < swing.measured.size(); ++i) {
     for (SymptomSeries& series : plot.series) series.x.push_back(swing.dt * i);
     plot.series[0].y.push_back(1e3 * swing.measured[i]);
@@ -123,15 +125,15 @@ void add_main_mode(const SymptomContext& context, const FreeSwing& swing, const 
   Symptom frequency = make_symptom("frequency", trial, 100.0 * f.value, 100.0 * f.error);
   frequency.unit = "%";
   frequency.least = 0.1;
-  frequency.sentence = "Left alone in " + trial + " the plant swings at " + hertz(pair.measured) +
-                       ", the model at " + hertz(pair.simulated) + " (" +
+  frequency.sentence = "Left alone in " + named_trial(trial) + " the plant swings at " +
+                       hertz(pair.measured) + ", the model at " + hertz(pair.simulated) + " (" +
                        with_error(frequency.value, frequency.standard_error, "%") + ").";
   frequency.plot = swing_plot(context, swing);
   out.push_back(std::move(frequency));
   Symptom damping = make_symptom("damping", trial, z.value, z.error);
   damping.unit = "1";
   damping.least = 1e-3;
-  damping.sentence = "In " + trial + " the swing dies out with a damping ratio of " +
+  damping.sentence = "In " + named_trial(trial) + " the swing dies out with a damping ratio of " +
                      short_number(pair.measured.modes[0].damping_ratio()) + ", the model's with " +
                      short_number(pair.simulated.modes[0].damping_ratio()) + " (difference " +
                      with_error(z.value, z.error, "1") + ").";
@@ -173,22 +175,23 @@ void add_by_amplitude(const SymptomContext& context, const FreeSwing& swing, con
                          frequency_change(*small), 100.0);
   f.unit = "%";
   f.least = 0.2;
-  f.sentence = "In " + trial + " the plant's frequency changes from wide to narrow swings by " +
-               with_error(f.value, f.standard_error, "%") +
-               " more than the model's (wide less narrow).";
-  f.plot = amplitude_plot("Frequency against amplitude in " + trial, "frequency (Hz)", *large,
-                          *small, [](const Oscillation& o) { return o.frequency(); });
+  f.sentence =
+      "In " + named_trial(trial) + " the plant's frequency changes from wide to narrow swings by " +
+      with_error(f.value, f.standard_error, "%") + " more than the model's (wide less narrow).";
+  f.plot = amplitude_plot("Frequency against amplitude in " + named_trial(trial), "frequency (Hz)",
+                          *large, *small, [](const Oscillation& o) { return o.frequency(); });
   out.push_back(std::move(f));
   Symptom z =
       difference("damping_by_amplitude", damping_change(*large), damping_change(*small), 1.0);
   z.unit = "1";
   z.least = 2e-3;
-  z.sentence = "In " + trial + " wide swings are damped more than narrow ones by a damping ratio " +
+  z.sentence = "In " + named_trial(trial) +
+               " wide swings are damped more than narrow ones by a damping ratio " +
                with_error(z.value, z.standard_error, "1") +
                " beyond what the model does; it grows with amplitude in drag of leaves, and falls "
                "with it in friction.";
-  z.plot = amplitude_plot("Damping against amplitude in " + trial, "damping ratio (1)", *large,
-                          *small, [](const Oscillation& o) { return o.damping_ratio(); });
+  z.plot = amplitude_plot("Damping against amplitude in " + named_trial(trial), "damping ratio (1)",
+                          *large, *small, [](const Oscillation& o) { return o.damping_ratio(); });
   out.push_back(std::move(z));
 }
 
@@ -217,7 +220,7 @@ void add_second_mode(const SymptomContext& context, const FreeSwing& swing, cons
   Symptom symptom = make_symptom("damping_by_mode", trial, r - model, error);
   symptom.unit = "1";
   symptom.least = 0.1;
-  symptom.sentence = "In " + trial + " the second mode (" +
+  symptom.sentence = "In " + named_trial(trial) + " the second mode (" +
                      short_number(both->measured.modes[1].frequency()) + " Hz) is damped " +
                      with_error(r, error, "1") + " times as much as the first, in the model " +
                      short_number(model) +

@@ -45,7 +45,7 @@ TEST(Drive, ThatTakesFarMoreThanTheMeasuredForceIsBadData) {
   for (Vec3& p : e.trials.front().holds.front().path.position) p.z() += 0.008;
   const Verdict verdict = diagnose(e, {}).verdict;
   EXPECT_EQ(verdict.outcome, Outcome::bad_data) << headline(verdict);
-  EXPECT_THAT(verdict.remainder, HasSubstr("the drive of trial bent cannot be right"));
+  EXPECT_THAT(verdict.remainder, HasSubstr("the drive of trial \"bent\" cannot be right"));
 }
 
 TEST(Drive, OfAStemFarStifferThanItsFileIsPossible) {

@@ -299,6 +299,12 @@ TEST(Symptoms, ForceThatIsTooLarge) {
   made.add_noise(13);
   made.experiment.trials[push].force.value *= 1.15;
   expect_value(made.symptoms(), "force_scale", 15.0);
+  // A trial's name may be a word of the sentence, so it is quoted.
+  const std::string words = "in trial \"" + made.experiment.trials[push].name + "\" needs";
+  for (const Symptom& symptom : made.symptoms())
+    if (symptom.name == "force_scale") {
+      EXPECT_NE(symptom.sentence.find(words), std::string::npos) << symptom.sentence;
+    }
 }
 
 TEST(Symptoms, MotionAcrossThePlane) {
