@@ -130,7 +130,7 @@ void show_progress(const DataSetOptions& options, long done) {
 }
 
 bool is_left_out(const std::filesystem::path& labels) {
-  return !Json::parse(io::read_file(labels)).contains("image");
+  return !read_labels(labels).contains("image");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "pedicel/app/dataset/contact_sheet.h"
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/sense/noise.h"
+#include "pedicel/core/diagnostics.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/world/scene_writer.h"
 
@@ -42,11 +43,21 @@ Json about(const DataSetOptions& options) {
            "camera frames have x right, y down, z forward; depth is along z, in mm, 0: none"}};
 }
 
-Json read_labels(const fs::path& file) {
-  return Json::parse(io::read_file(file));
-}
-
 }  // namespace
+
+Json read_labels(const fs::path& file) {
+  Json labels = Json::parse(io::read_file(file), nullptr, false);
+  if (labels.is_object() && labels.contains("left_out")) return labels;
+  const bool good = labels.is_object() && labels.contains("annotations") &&
+                    labels["annotations"].is_array() && labels.contains("image") &&
+                    labels["image"].is_object() && labels["image"].value("split", "") != "" &&
+                    labels["image"].contains("id");
+  if (!good)
+    throw InvalidFile({file.string()},
+                      "is no picture's labels, expected those of this data set; without the file "
+                      "its picture is made anew");
+  return labels;
+}
 
 std::string identity_of(const DataSetOptions& options) {
   std::string all = world::scene_text(options.scene, options.scene.file.parent_path());
@@ -138,7 +149,7 @@ void write_contact_sheet(const DataSetOptions& options) {
     const Json image = read_labels(labels_file(options.out, i))["image"];
     char text[96];
     std::snprintf(text, sizeof text, "%ld  %s  t = %.2f s", i,
-                  image["split"].get<std::string>().c_str(), image["time_s"].get<double>());
+                  image["split"].get<std::string>().c_str(), image.value("time_s", 0.0));
     cells.push_back({render::read_png(options.out / "images" / name),
                      render::read_gray_png(options.out / "instances" / name), text});
   }

@@ -21,6 +21,9 @@ std::string picture_name(long picture);
 /// its annotations.
 std::filesystem::path labels_file(const std::filesystem::path& folder, long picture);
 
+/// Reads one. Throws InvalidFile where it is none.
+Json read_labels(const std::filesystem::path& file);
+
 /// Annotations of all pictures from 0 on, as COCO has them: all.json and one file a split. Returns
 /// how many annotations there are.
 long write_coco(const DataSetOptions& options);

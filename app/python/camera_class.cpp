@@ -90,8 +90,8 @@ py::array_t<double> matrix_of(const Matrix& matrix) {
 }
 
 CameraPicture take(Run& self, const std::string& camera, const std::optional<int>& width,
-                   const std::optional<int>& height, bool rgb, bool noise) {
-  app::SenseRequest wanted{camera, {}, rgb, noise};
+                   const std::optional<int>& height, bool rgb, bool noise, bool fast) {
+  app::SenseRequest wanted{camera, {}, rgb, noise, fast};
   if (width.has_value() != height.has_value())
     throw UsageError("camera(): expected width and height, or none of them");
   if (width) wanted.size = {*width, *height};
@@ -248,11 +248,12 @@ void add_cameras(py::class_<Run>& run) {
       "Force sensors of the scene: a dict of names to (6,) arrays, force (N) and moment (N m) in "
       "the link's frame, as they were last sampled, with their noise.");
   run.def("camera", &take, "camera"_a = "", "width"_a = py::none(), "height"_a = py::none(),
-          "rgb"_a = true, "noise"_a = true,
+          "rgb"_a = true, "noise"_a = true, "fast"_a = false,
           "What a camera of the scene sees (empty: the first, or one that shows everything): a "
           "CameraPicture with colours, depths, masks and keypoints, in the camera's own size where "
-          "none is given. Without `rgb` it is quicker. `noise`: the camera's own, its latency "
-          "included; drawn from `seed`. Raises NoPictures where there is no OpenGL.");
+          "none is given. Without `rgb` it is quicker; with `fast`, too: hard edges, no shadows, "
+          "fewer facets. `noise`: the camera's own, its latency included; drawn from `seed`. "
+          "Raises NoPictures where there is no OpenGL.");
   run.def_property_readonly(
       "things", [](Run& self) { return things_of(self.things()); },
       "Everything that pictures tell apart, by its id in instance masks.");

@@ -67,7 +67,7 @@ class WrenchSensor {
   Wrench exact_ = Wrench::Zero(), reading_ = Wrench::Zero();
   Wrench tare_ = Wrench::Zero();
   int tared_samples_ = 0;
-  double reading_time_ = 0.0, last_sample_ = -1.0;
+  double reading_time_ = 0.0, last_sample_ = 0.0;
   long samples_ = 0;
 };
 

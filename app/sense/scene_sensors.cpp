@@ -8,6 +8,20 @@
 
 namespace pedicel::app {
 
+namespace {
+
+/// Hard edges, no shadows and few triangles: enough for small pictures to learn from.
+render::RenderSettings fast(render::RenderSettings settings) {
+  settings.samples = 1;
+  settings.shadows = false;
+  settings.shadow_size = 256;
+  settings.detail = 0.5;
+  settings.contact = false;
+  return settings;
+}
+
+}  // namespace
+
 SceneSensors::SceneSensors(const Simulation& simulation)
     : simulation_(simulation), view_(simulation) {
   for (const world::SceneCamera& one : simulation.scene().cameras)
@@ -76,7 +90,8 @@ std::optional<SensedPicture> SceneSensors::take(PictureTaker& taker, const Sense
       index < 0 ? view_.camera("", shown->frame) : shown->cameras[static_cast<std::size_t>(index)];
   const std::array<int, 2> size = wanted.size.value_or(own.size);
   shown_ = shown, camera_ = camera, size_ = size;
-  taker.set(light_of(simulation_.scene().look));
+  taker.set(wanted.fast ? fast(light_of(simulation_.scene().look))
+                        : light_of(simulation_.scene().look));
   auto seen = taker.sense(shown->frame, camera, size[0], size[1], wanted.colours);
   if (!seen) return {};
   SensedPicture picture;

@@ -13,6 +13,7 @@ struct SenseRequest {
   std::optional<std::array<int, 2>> size = {};  ///< px; else the camera's own
   bool colours = true;
   bool noise = true;  ///< the camera's own, its latency included
+  bool fast = false;  ///< hard edges and no shadows; labels and depths of coarser shapes
 };
 
 /// The cameras of a simulation, which must outlive it.

@@ -83,7 +83,9 @@ class Renderer::Implementation {
     FrameUniforms frame = light(list, casters);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_LESS);
-    if (list.ground) draw_contact(frame, casters, list.ground->height);
+    if (list.ground && settings_.contact) draw_contact(frame, casters, list.ground->height);
+    // Everywhere beyond the map, where its border says that nothing is close.
+    if (!settings_.contact) frame.contact_matrix[12] = frame.contact_matrix[13] = 2.0f;
     draw_shadow(frame, sun);
     look(frame, camera, casters, width, height);
     draw_picture(frame, list.ground.has_value());

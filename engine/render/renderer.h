@@ -15,6 +15,7 @@ struct RenderSettings {
   int samples = 4;         ///< samples a pixel for smooth edges: 1, 2 or 4
   int shadow_size = 2048;  ///< side of the shadow map, px, 256 .. 8192
   bool shadows = true;
+  bool contact = true;  ///< the ground is darker close to what stands on it
   /// 1, > 0: below 1 round things get fewer triangles, which is what software rendering costs by.
   double detail = 1.0;
   Vec3 to_sun{0.45, -0.55, 0.85};  ///< W, any length; z > 0

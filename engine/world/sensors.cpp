@@ -14,7 +14,7 @@ std::vector<Parameter> CameraNoise::parameters() {
       {"dropout", "1", &dropout, 0.0, 1.0, "Share of pixels at edges that have no depth."},
       {"edge", "m", &edge, 0.0, 100.0,
        "An edge is where the depth differs by more than this from a neighbour's."},
-      {"latency", "s", &latency, 0.0, 10.0, "How long after what it shows a picture comes."}};
+      {"latency", "s", &latency, 0.0, 10.0, "Delay of what the sensor says."}};
 }
 
 std::vector<Parameter> WrenchNoise::parameters() {
@@ -29,7 +29,7 @@ std::vector<Parameter> WrenchNoise::parameters() {
        "Standard deviation of a random walk after 1 s."},
       {"moment_walk", "N m", &moment_walk, 0.0, 1.0e3,
        "Standard deviation of a random walk after 1 s."},
-      {"latency", "s", &latency, 0.0, 10.0, "How long after it was measured a sample comes."}};
+      {"latency", "s", &latency, 0.0, 10.0, "Delay of what the sensor says."}};
 }
 
 std::string_view name_of(Sensor sensor) {

@@ -66,7 +66,7 @@ class SensorsTest(Case):
         self.assertEqual(list(tip[0]), ["time", "fx", "fy", "fz", "tx", "ty", "tz"])
         sim, largest, felt = pedicel.Simulation(scene), 0.0, 0.0
         for row in tip:
-            while sim.time < float(row["time"]) - 1e-9:
+            while sim.time < float(row["time"]) - 1e-6:
                 sim.step(1)
             force = np.array([float(row[k]) for k in ("fx", "fy", "fz")])
             exact = sim.link_forces[links.index(finger)]

@@ -4,7 +4,7 @@ import re
 import subprocess
 import tempfile
 
-VERBS = ["sweep", "validate", "bench", "diagnose", "fit", "import", "transfer", "lab", "pick", "observe", "manual"]
+VERBS = ["sweep", "validate", "bench", "diagnose", "fit", "import", "transfer", "lab", "pick", "dataset", "observe", "manual"]
 
 
 class Program:

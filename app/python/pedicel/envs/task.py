@@ -105,7 +105,7 @@ class Task:
         if self.observation != "picture":
             parts["state"] = self.flat_state()
         if self.observation != "state":
-            parts["picture"] = self.picture(*self.picture_size)
+            parts["picture"] = self.run.camera(self.camera, *self.picture_size, fast=True).rgb
         return parts if len(parts) > 1 else next(iter(parts.values()))
 
     def all_info(self) -> Dict[str, Any]:
