@@ -72,7 +72,7 @@ int run(const DiagnoseArguments& a) {
   if (discrepancy::is_scene_experiment(a.experiment)) {
     if (!a.with.empty() || !a.settings.empty())
       throw UsageError(a.experiment + ": its model is a scene, expected no --with and no --set");
-    return diagnose_scene_verb(a);
+    return diagnose_scene_verb(a, a.time_limit);
   }
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
