@@ -77,7 +77,7 @@ int run(DiagnoseArguments& a, const CLI::App& verb) {
       throw UsageError(a.experiment + ": its model is a scene, expected no --cluster");
     if (!a.with.empty() || !a.settings.empty())
       throw UsageError(a.experiment + ": its model is a scene, expected no --with and no --set");
-    return diagnose_scene_verb(a);
+    return diagnose_scene_verb(a, a.time_limit);
   }
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);

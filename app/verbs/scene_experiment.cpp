@@ -1,15 +1,17 @@
 #include "pedicel/app/verbs/scene_experiment.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 
 #include "pedicel/app/verbs/parallel_worlds.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/report/scene_report.h"
 #include "pedicel/discrepancy/scene/scene_data.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
-#include "pedicel/discrepancy/scene_procedure/scene_verdict.h"
+#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
+#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/output_folder.h"
 #include "pedicel/io/yaml.h"
@@ -47,22 +49,6 @@ std::filesystem::path scene_of(const std::filesystem::path& model) {
   }
   return model;
 }
-
-// The predictions of contact that sticks at the edge of slipping are not yet so good that what is
-// left of the data could be judged: the fits are told, and no cause is named.
-void withhold(discrepancy::Verdict& verdict) {
-  verdict.outcome = discrepancy::Outcome::numerical;
-  verdict.nearest.insert(verdict.nearest.begin(), verdict.causes.begin(), verdict.causes.end());
-  verdict.causes.clear();
-  verdict.next_experiment.clear();
-  verdict.remainder =
-      "experiments of scenes are simulated and fitted, but not judged yet: findings.txt has what "
-      "is left with each candidate cause";
-}
-
-constexpr const char* no_verdict =
-    "No verdict: experiments of scenes are simulated and fitted, but not judged yet. What is left "
-    "with each candidate cause:";
 
 }  // namespace
 
@@ -114,46 +100,60 @@ int observe_scene_verb(const ObserveArguments& a) {
   return 0;
 }
 
-int diagnose_scene_verb(const ExperimentArguments& a) {
+namespace {
+
+void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExperiment& experiment,
+                           discrepancy::SceneDiagnosis& diagnosis) {
+  using discrepancy::Outcome;
+  discrepancy::Verdict& verdict = diagnosis.verdict;
+  const bool is_found = verdict.outcome == Outcome::adequate || verdict.outcome == Outcome::named ||
+                        verdict.outcome == Outcome::ambiguous;
+  if (is_found && !diagnosis.model.empty()) {
+    const int trial = diagnosis.fit_trials.empty() ? -1 : diagnosis.fit_trials.front();
+    const discrepancy::ExtendedScene extended =
+        discrepancy::write_extended_scene(folder, experiment, diagnosis.model, trial);
+    verdict.extended_scene = extended.file;
+    if (std::filesystem::exists(folder / "extended.plant.yaml"))
+      verdict.extended_plant = "extended.plant.yaml";
+    for (const std::string& left : extended.left)
+      diagnosis.text += "  extended.scene.yaml has no words for " + left + "\n";
+  }
+  io::write_file_atomically(folder / "findings.txt", diagnosis.text);
+  io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
+  discrepancy::write_scene_report(folder, experiment, diagnosis);
+}
+
+}  // namespace
+
+int diagnose_scene_verb(const ExperimentArguments& a, double time_limit) {
   const SceneExperiment experiment = read_whole(a.experiment, {});
-  const discrepancy::SceneDataSet data(experiment);
-  discrepancy::SceneSimulator simulator(experiment, {}, a.thread_count(), &stop_requested);
-  discrepancy::SceneEvaluator evaluator(simulator, data);
-  discrepancy::SceneSearchOptions options;
-  options.stop = &stop_requested;
-  for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
-    if (experiment.trials[static_cast<std::size_t>(t)].use != discrepancy::Trial::Use::check)
-      options.trials.push_back(t);
-  if (options.trials.empty())
+  if (std::ranges::all_of(experiment.trials, [](const discrepancy::SceneTrial& trial) {
+        return trial.use == discrepancy::Trial::Use::check;
+      }))
     throw UsageError(a.experiment + ": every trial has use: check, expected one to be fitted");
+  discrepancy::SceneDiagnosisOptions options;
+  options.threads = a.thread_count();
+  options.time_limit = time_limit;
+  options.stop = &stop_requested;
   ProgressLine progress;
   options.progress = progress.callback(a.quiet);
-  const auto start = std::chrono::steady_clock::now();
-  const discrepancy::SceneFindings findings = discrepancy::search_scene(evaluator, options);
-  progress.end(findings.partial);
+  discrepancy::SceneDiagnosis diagnosis = discrepancy::diagnose_scene(experiment, options);
+  progress.end(stop_requested);
   throw_if_stopped();
-  const discrepancy::Verdict verdict = [&] {
-    discrepancy::Verdict told = discrepancy::verdict_of(findings, experiment);
-    withhold(told);
-    told.simulations = simulator.simulations();
-    told.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return told;
-  }();
   const std::filesystem::path folder =
       a.out.empty()
           ? std::filesystem::path("out") /
                 ("diagnosis_" + std::filesystem::absolute(experiment.folder).filename().string())
           : std::filesystem::path(a.out);
-  const std::string text = discrepancy::findings_text(findings, experiment);
   a.write(folder, [&](const std::filesystem::path& in) {
-    io::write_file_atomically(in / "findings.txt", std::string(no_verdict) + "\n" + text);
-    io::write_file_atomically(in / "verdict.json", to_json(verdict) + "\n");
+    write_scene_diagnosis(in, experiment, diagnosis);
   });
   if (a.json)
-    std::printf("%s\n", to_json(verdict).c_str());
+    std::printf("%s\n", to_json(diagnosis.verdict).c_str());
   else
-    std::printf("%s\n%swritten to %s\n", no_verdict, text.c_str(), folder.string().c_str());
-  return exit_code(verdict.outcome);
+    std::printf("%swritten to %s\n", discrepancy::scene_card_text(diagnosis).c_str(),
+                folder.string().c_str());
+  return exit_code(diagnosis.verdict.outcome);
 }
 
 }  // namespace pedicel::app

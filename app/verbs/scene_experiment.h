@@ -19,8 +19,9 @@ std::string check_scene_experiment(const std::filesystem::path& path, Diagnostic
 /// a scene, or an experiment of one. Throws InvalidFile, UsageError, UnstableWorld, io::WriteError.
 int observe_scene_verb(const ObserveArguments& arguments);
 
-/// `pedicel diagnose` of such an experiment: fits, candidates and verdict go to `out`. Returns the
+/// `pedicel diagnose` of such an experiment: verdict, report and extended scene go to `out`.
+/// `time_limit`: s, after which the search ends and what is known is told. Returns the
 /// exit code. Throws InvalidFile, UsageError, io::WriteError.
-int diagnose_scene_verb(const ExperimentArguments& arguments);
+int diagnose_scene_verb(const ExperimentArguments& arguments, double time_limit);
 
 }  // namespace pedicel::app

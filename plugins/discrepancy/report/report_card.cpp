@@ -5,8 +5,8 @@
 
 #include "pedicel/discrepancy/report/plant_sketch.h"
 #include "pedicel/discrepancy/report/report_words.h"
+#include "pedicel/discrepancy/report/verdict_tables.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 
@@ -91,58 +91,6 @@ void add_symptom(io::HtmlReport& page, const ReportData& report,
   page.plots(plots);
 }
 
-std::string listed(const std::vector<std::string>& words, const char* between = "; ") {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
-// Whatever was accepted: what the data show, and which causes would make it.
-void add_symptom_numbers(io::HtmlReport& page, const Verdict& v) {
-  constexpr std::size_t most = 8;
-  std::vector<std::vector<std::string>> rows;
-  for (const SymptomNumber& one : v.symptoms) {
-    if (!one.shows || rows.size() == most) break;
-    rows.push_back({symptom_title(one.name), one.of.empty() ? "all trials" : one.of,
-                    with_error(one.value, one.error, one.unit), listed(one.speaks_for, ", ")});
-  }
-  if (rows.empty()) return;
-  page.subheading("What shows, in numbers");
-  page.table({"symptom", "of", "measured less refitted model", "speaks for"}, rows);
-}
-
-void add_cause_table(io::HtmlReport& page, const std::vector<NamedCause>& causes) {
-  std::vector<std::vector<std::string>> rows;
-  for (const NamedCause& cause : causes) {
-    std::string numbers;
-    for (const auto& [name, estimates] : cause.parameters)
-      numbers += (numbers.empty() ? "" : "; ") + name + " " + estimate_text(estimates);
-    const std::string place = place_text(cause);
-    rows.push_back({effects::plain_name(cause.name) + " (" + cause.name + ")",
-                    place.empty() ? "the whole" : place, numbers, share_text(cause.share),
-                    change_text(cause.change), short_number(cause.evidence)});
-  }
-  page.table(
-      {"cause", "where", "size", "share of the misfit", "changes by (RMS)", "evidence (nats)"},
-      rows);
-}
-
-void add_causes(io::HtmlReport& page, const Verdict& v) {
-  if (!v.causes.empty()) {
-    page.subheading(v.outcome == Outcome::ambiguous ? "What it could be, and how large"
-                                                    : "What it is, where, and how large");
-    add_cause_table(page, v.causes);
-  }
-  if (!v.details.empty()) {
-    page.subheading("Details: real, and too small to matter");
-    add_cause_table(page, v.details);
-  }
-  if (!v.nearest.empty()) {
-    page.subheading("What came closest, and was not accepted");
-    add_cause_table(page, v.nearest);
-  }
-}
-
 void add_rivals(io::HtmlReport& page, const Diagnosis& d) {
   if (d.ranking.size() < 2) return;
   page.subheading("What else it could have been");
@@ -158,19 +106,6 @@ void add_rivals(io::HtmlReport& page, const Diagnosis& d) {
                     left ? left_early : why_it_lost(candidate, d)});
   }
   if (!rows.empty()) page.table({"competing model", "behind (nats)", "why it lost"}, rows);
-}
-
-void add_hiding(io::HtmlReport& page, const Verdict& v) {
-  const auto [small, never] = detectable_limit_texts(v);
-  if (small.empty() && never.empty()) return;
-  page.subheading("What could still hide in these data");
-  const std::string first =
-      v.outcome == Outcome::unknown
-          ? "Behind what is missing anything may hide. Were that known, there "
-            "could still be "
-          : "";
-  if (!small.empty()) page.paragraph(first + listed(small) + ".");
-  if (!never.empty()) page.paragraph("These data cannot see at any size: " + listed(never) + ".");
 }
 
 void add_next(io::HtmlReport& page, const Diagnosis& d) {

@@ -62,6 +62,7 @@ std::string change_text(const Change& change) {
   if (change.marker) parts.push_back(short_number(1e3 * *change.marker) + " mm");
   if (change.force) parts.push_back(short_number(*change.force) + " N");
   if (change.moment) parts.push_back(short_number(*change.moment) + " N m");
+  if (change.pixel) parts.push_back(short_number(*change.pixel) + " px");
   return joined(parts, ", ");
 }
 
@@ -71,6 +72,10 @@ std::string place_text(const NamedCause& cause) {
   if (const auto marker = cause.words.find("marker"); marker != cause.words.end())
     return "marker " + marker->second;
   std::string text;
+  for (const char* key : {"plant", "link", "joint", "camera", "wrench"})
+    if (const auto word = cause.words.find(key); word != cause.words.end())
+      text += (text.empty() ? "" : ", ") + std::string(key) + " " + word->second;
+  if (!text.empty()) return text;
   if (cause.where)
     text = "at " + short_number(cause.where->at) + " of the length of " + cause.where->curve;
   if (const auto trial = cause.words.find("trial"); trial != cause.words.end())
@@ -235,7 +240,16 @@ std::string symptom_title(const std::string& name) {
       {"drive_history", "force by the drive's past"},
       {"bad_channel", "one deviating marker"},
       {"constant_offset", "constant offset of a marker"},
-      {"length_scale", "lengths between markers"}};
+      {"length_scale", "lengths between markers"},
+      {"touch_onset", "when the tool begins to touch"},
+      {"touch_end", "when the tool lets go"},
+      {"slip", "when the contact begins to slip"},
+      {"friction_ratio", "tangential over normal force"},
+      {"robot_lag", "delay of the arm's log"},
+      {"image_motion", "turn of the camera's image"},
+      {"wrench_at_rest", "force at rest, untouched"},
+      {"moment_at_rest", "moment at rest, untouched"},
+      {"plant_shift", "place of the plant at rest"}};
   const auto found = titles.find(name);
   return found == titles.end() ? name : found->second;
 }

@@ -116,6 +116,22 @@ class SceneRun {
     }
   }
 
+  /// What acts from outside at a time.
+  void push(cosserat::RodSystem& rods, double t) const {
+    for (std::size_t p = 0; p < models_.size() && !member_.forces.empty(); ++p)
+      rods.loads(first_ + static_cast<int>(p)).clear();
+    for (std::size_t f = 0; f < member_.forces.size(); ++f) {
+      const SceneForce& force = member_.forces[f];
+      const double share =
+          force.rise > 0.0 ? std::clamp((t - force.from) / force.rise, 0.0, 1.0) : 1.0;
+      if (t < force.from || t > force.until) continue;
+      const plant::PlacedPoint& at = force_places_[f];
+      const int plant = first_ + force.plant;
+      if (rods.state(plant).alive[at.element])
+        rods.loads(plant).push_back({at.element, at.back, share * force.force, Vec3::Zero()});
+    }
+  }
+
   void record(const cosserat::RodSystem& rods, int row, double t) {
     motion_.time.push_back(t);
     for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
@@ -325,6 +341,8 @@ class SceneRun {
       move_supports(model, state);
       models_.push_back(std::move(model));
     }
+    for (const SceneForce& force : member_.forces)
+      force_places_.push_back(makers_[static_cast<std::size_t>(force.plant)]->locate(force.place));
     places_.resize(experiment_.markers.size());
     for (std::size_t m = 0; m < places_.size(); ++m) {
       const SceneMarker& marker = experiment_.markers[m];
@@ -414,6 +432,7 @@ class SceneRun {
   std::vector<cosserat::RodModel> models_;
   std::vector<GivingSource*> sources_;      // one a plant; the system owns them
   std::vector<plant::PlacedPoint> places_;  // of the markers
+  std::vector<plant::PlacedPoint> force_places_;
   GivingJoints joints_;
   GivingArm arm_;
   std::vector<Held> held_;
@@ -455,6 +474,7 @@ std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, cons
       // Within reach of the pose in which it was grasped.
       variant->grasp(rods, t - numerics.dt);
       variant->move(t);
+      variant->push(rods, t);
     }
     rods.step(numerics.dt, experiment.scene.gravity);
     bool any = false;

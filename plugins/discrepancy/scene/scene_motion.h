@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,6 +39,16 @@ struct SceneMotion {
   bool healthy = true;             ///< false: the simulation failed where the rows end
 };
 
+/// A force from outside on a place of a plant.
+struct SceneForce {
+  int plant = 0;
+  plant::CurvePlace place;
+  Vec3 force = Vec3::Zero();                               ///< N, W
+  double from = 0.0;                                       ///< s
+  double until = std::numeric_limits<double>::infinity();  ///< s
+  double rise = 0.1;                                       ///< s, evenly, from `from` on
+};
+
 /// One variant of a trial to be simulated.
 struct SceneMember {
   const SceneState* state = nullptr;
@@ -45,6 +56,7 @@ struct SceneMember {
   const JointPath* path = nullptr;  ///< of the arm's readings, in the order of its model
   bool is_run = false;  ///< the path is that of the links themselves (commands), not of readings
   std::vector<plant::Effect> effects;  ///< of the plants' models
+  std::span<const SceneForce> forces;
 };
 
 /// Simulates variants of one trial side by side: one-way coupling, the arm as `path` says.

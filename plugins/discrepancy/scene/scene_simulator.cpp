@@ -1,5 +1,6 @@
 #include "pedicel/discrepancy/scene/scene_simulator.h"
 
+#include <cstdio>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -42,6 +43,20 @@ std::string key_of(int trial, int draw, bool moves, double until,
       std::to_string(trial) + "/" + std::to_string(draw) + "@" + std::to_string(until);
   for (const plant::Effect& effect : effects)
     if (moves || !is_only_seen(effect)) key += plant::effect_text(effect);
+  return key;
+}
+
+std::string key_of(const std::vector<SceneForce>& forces) {
+  std::string key;
+  for (const SceneForce& force : forces) {
+    key += "|" + std::to_string(force.plant) + force.place.curve;
+    for (const double number : {force.place.at, force.force.x(), force.force.y(), force.force.z(),
+                                force.from, force.until, force.rise}) {
+      char text[32];
+      std::snprintf(text, sizeof text, ",%.17g", number);
+      key += text;
+    }
+  }
   return key;
 }
 
@@ -107,7 +122,9 @@ struct SceneSimulator::Impl {
       }
     out.arm = std::make_unique<Arm>(experiment, out.state);
     out.key = key_of(request.trial, request.variant->draw, trial.follows_commands,
-                     std::min(request.until, trial.duration()), all);
+                     std::min(request.until, trial.duration()), all) +
+              key_of(request.variant->forces);
+    out.member.forces = request.variant->forces;
     out.path = &path(request.trial, request.variant->draw);
     return out;
   }

@@ -17,6 +17,7 @@ struct SceneVariant {
   /// Not 0: the arm goes as readings with other noise of the same size would say, one such draw a
   /// number.
   int draw = 0;
+  std::vector<SceneForce> forces{};
 };
 
 /// Simulates the trials of a measured scene with many variants of its model.

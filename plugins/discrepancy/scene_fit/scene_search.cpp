@@ -2,41 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "pedicel/discrepancy/scene_fit/scene_screen.h"
 #include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 
-/// Of a material's number, beside its standard error: what a file's own number is known to.
-constexpr double known_to = 0.03, clear = 3.0;
-
-/// A model to be looked at, and what it may come to.
-struct Screened {
-  Hypothesis model;
-  std::string name;
-  double promised = 0.0;  // nats, that a linear fit would have
-};
+/// Of a material's number, beside its standard error: what a file's own number is known to, and
+/// what two solvers make of it.
+constexpr double known_to = 0.02, clear = 3.0;
+/// Of the mean square beyond the noise: a number more must take so much of it.
+constexpr double price_of_number = 0.003;
+constexpr int baseline_iterations = 6, first_iterations = 4, last_iterations = 4;
+/// A leader whose linear promise is worse than so many times what the best has reached is left out.
+constexpr double behind = 4.0;
 
 double cost_of(const SceneFitResult& fit) {
   return 0.5 * fit.sum.square +
          0.5 * fit.model.size() * std::log(std::max(2.0, static_cast<double>(fit.sum.count)));
 }
 
-// Least squares with the priors of the free numbers.
-double linear_cost(const Eigen::VectorXd& residual, const Eigen::MatrixXd& jacobian,
-                   const Hypothesis& model) {
-  const long n = jacobian.cols();
-  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
-  const Eigen::VectorXd right = jacobian.transpose() * residual;
-  for (long p = 0; p < n; ++p) {
-    // A step goes no farther than the number's own scale, or the linear promises anything.
-    const double width = model.free[static_cast<std::size_t>(p)].width();
-    normal(p, p) += 1.0 / (width * width) + 1.0e-9;
-  }
-  const Eigen::VectorXd step = normal.ldlt().solve(right);
-  return 0.5 * (residual.squaredNorm() - right.dot(step));
+double square(double x) {
+  return x * x;
 }
 
 class Search {
@@ -45,14 +35,16 @@ class Search {
       : evaluator_(evaluator), options_(options), experiment_(evaluator.simulator().experiment()) {}
 
   SceneFindings run() {
-    const Hypothesis plain;
     tell("simulating the scene as the files say", 0.0);
+    const Hypothesis plain;
     const SceneFitResult nominal = look_at(evaluator_, plain, options_.trials);
     found_.nominal_excess = SceneDataSet::beyond_noise(nominal.sum);
+    found_.nominal_check = held_out(plain);
     tell("fitting modulus, density and damping", 0.05);
-    found_.baseline = fit(scene_baseline(experiment_));
+    found_.baseline = fit(scene_baseline(experiment_), baseline_iterations, options_.trials);
     found_.baseline_excess = SceneDataSet::beyond_noise(found_.baseline.sum);
-    if (found_.baseline_excess > options_.floor && !stopped()) look_for_causes();
+    found_.baseline_check = held_out(found_.baseline.model);
+    look_for_causes();
     conclude();
     found_.partial = stopped();
     return std::move(found_);
@@ -60,50 +52,121 @@ class Search {
 
  private:
   void look_for_causes() {
-    std::vector<std::string> none;
-    add_round(found_.baseline, none, 0.2, 0.6);
-    // A second one only where the first leaves more than solvers differ by.
+    if (stopped()) return;
+    add_round(found_.baseline, found_.baseline_excess, {}, 0.2, 0.55);
     for (int more = 1; more < options_.most_causes && !stopped(); ++more) {
       if (found_.candidates.empty()) return;
       const SceneCandidate best = found_.candidates.front();
-      if (best.excess <= options_.floor || static_cast<int>(best.names.size()) < more) return;
-      add_round(best.fit, best.names, 0.6, 0.95);
+      if (static_cast<int>(best.names.size()) < more || is_enough(best)) return;
+      add_round(best.fit, best.excess, best.names, 0.55, 0.9);
     }
   }
 
+  // What a model may leave: two honest solvers differ by so much.
+  double allowed() const {
+    return std::max(options_.floor, options_.solvers_share *
+                                        std::max(found_.nominal_excess, found_.baseline_excess));
+  }
+  bool is_enough(const SceneCandidate& one) const {
+    if (one.excess > allowed()) return false;
+    return !one.check_excess || !found_.nominal_check ||
+           *one.check_excess <=
+               std::max(2.0 * options_.floor, 2.0 * options_.solvers_share * *found_.nominal_check);
+  }
+
   // Extends a model by each cause that it has not; refits the most promising.
-  void add_round(const SceneFitResult& base, const std::vector<std::string>& names, double from,
-                 double to) {
-    std::vector<Screened> all;
-    const auto& definitions = scene_effect_definitions();
-    for (std::size_t d = 0; d < definitions.size() && !stopped(); ++d) {
-      if (std::ranges::find(names, definitions[d].name) != names.end()) continue;
-      tell("looking at " + definitions[d].name,
-           from + 0.4 * (to - from) * static_cast<double>(d) / definitions.size());
-      for (const SceneFit& start : starts_of(definitions[d], {experiment_}))
-        all.push_back(screen(base, definitions[d].name, start));
-    }
-    std::ranges::stable_sort(all, {}, &Screened::promised);
-    const double before = 0.5 * base.sum.square;
+  void add_round(const SceneFitResult& base, double base_excess,
+                 const std::vector<std::string>& names, double from, double to) {
+    tell("looking at all causes", from);
+    std::vector<ScreenedCause> screened = screen_causes(evaluator_, base, names, options_.trials);
+    std::erase_if(screened, [&](const ScreenedCause& one) {
+      return square(base_excess) - square(excess_of(one.promised, base.sum)) < options_.least_gain;
+    });
+    screened = tried(base, best_of_each(screened));
+    double best = base_excess;
     int done = 0;
-    for (const Screened& one : all) {
+    for (const ScreenedCause& one : screened) {
       if (done == options_.most_refits || stopped()) break;
-      const double best = before - all.front().promised;
-      // What promises a tenth of the best is no rival of it.
-      if (before - one.promised < 0.1 * best) break;
+      if (done > 0 && excess_of(one.promised, base.sum) > behind * std::max(best, allowed())) break;
       tell("refitting with " + one.name,
-           from + (to - from) * (0.4 + 0.6 * done / options_.most_refits));
+           from + (to - from) * (0.3 + 0.7 * done / options_.most_refits));
       SceneCandidate candidate;
       candidate.names = names;
       candidate.names.push_back(one.name);
-      candidate.fit = fit(one.model);
-      candidate.cost = cost_of(candidate.fit);
-      candidate.excess = SceneDataSet::beyond_noise(candidate.fit.sum);
+      candidate.fit = fit(one.model, first_iterations, options_.trials);
+      judge(candidate);
+      // Where it leaves much it may not have arrived.
+      if (!candidate.fit.converged && candidate.excess > allowed() && !stopped()) {
+        candidate.fit = fit(candidate.fit.model, last_iterations, options_.trials);
+        judge(candidate);
+      }
+      best = std::min(best, candidate.excess);
       found_.candidates.push_back(std::move(candidate));
       ++done;
     }
-    std::ranges::stable_sort(found_.candidates, {}, &SceneCandidate::cost);
+    std::ranges::stable_sort(found_.candidates, {},
+                             [this](const SceneCandidate& one) { return score(one); });
     keep_best_of_each();
+  }
+
+  double excess_of(double cost, const SceneDataSet::Sum& sum) const {
+    return SceneDataSet::beyond_noise({2.0 * cost, sum.count});
+  }
+
+  void judge(SceneCandidate& candidate) {
+    candidate.cost = cost_of(candidate.fit);
+    candidate.excess = SceneDataSet::beyond_noise(candidate.fit.sum);
+    candidate.check_excess = held_out(candidate.fit.model);
+  }
+
+  // Fewer numbers win where more hardly do better.
+  double score(const SceneCandidate& one) const {
+    return square(one.excess) + price_of_number * one.fit.model.size() * (1.0 + square(one.excess));
+  }
+
+  static std::vector<ScreenedCause> best_of_each(const std::vector<ScreenedCause>& screened) {
+    std::map<std::string, int> seen;
+    std::vector<ScreenedCause> kept;
+    for (const ScreenedCause& one : screened)
+      if (seen[one.name]++ == 0) kept.push_back(one);
+    return kept;
+  }
+
+  // The linear promises much: whoever keeps more of it, at the whole step, a half or a fifth, goes
+  // first, and from there.
+  std::vector<ScreenedCause> tried(const SceneFitResult& base,
+                                   std::vector<ScreenedCause> screened) {
+    constexpr std::size_t most_tried = 8;
+    if (screened.size() > most_tried) screened.resize(most_tried);
+    std::vector<Hypothesis> models;
+    constexpr double shares[] = {1.0, 0.4};
+    const Eigen::VectorXd old = base.model.unknowns();
+    for (const ScreenedCause& one : screened)
+      for (const double share : shares) {
+        Hypothesis model = one.model;
+        Eigen::VectorXd u = model.unknowns();
+        u.head(old.size()) = old + share * (u.head(old.size()) - old);
+        for (long p = old.size(); p < u.size(); ++p)
+          if (!model.free[static_cast<std::size_t>(p)].logarithmic) u[p] *= share;
+        model.set_unknowns(u);
+        models.push_back(model);
+      }
+    if (models.empty()) return screened;
+    const Eigen::MatrixXd residuals = evaluator_.residuals(models, options_.trials);
+    for (std::size_t i = 0; i < screened.size(); ++i) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t s = 0; s < std::size(shares); ++s) {
+        const std::size_t at = i * std::size(shares) + s;
+        const double cost = 0.5 * residuals.col(static_cast<long>(at)).squaredNorm();
+        if (cost >= least) continue;
+        least = cost;
+        screened[i].model = models[at];
+      }
+      // Between what was promised and what came of it.
+      screened[i].promised = std::sqrt(std::max(screened[i].promised, 1.0) * std::max(least, 1.0));
+    }
+    std::ranges::stable_sort(screened, {}, &ScreenedCause::promised);
+    return screened;
   }
 
   // The best start of a cause stands for it.
@@ -116,61 +179,48 @@ class Search {
     found_.candidates = std::move(kept);
   }
 
-  Screened screen(const SceneFitResult& base, const std::string& name, const SceneFit& start) {
-    Screened one;
-    one.name = name;
-    one.model = base.model;
-    Hypothesis added;
-    added.effects = {start.effect};
-    added.free = start.free;
-    one.model.add(added);
-    // One that does nothing where it starts: only its own derivatives are new.
-    const bool vanishes = std::ranges::all_of(start.free, [&](const effects::FreeParameter& free) {
-      const double value = start.effect.numbers.at(free.name)[free.component];
-      return (free.vanishes == effects::Vanishes::at_zero && value == 0.0) ||
-             (free.vanishes == effects::Vanishes::at_one && value == 1.0) ||
-             free.vanishes == effects::Vanishes::never;
-    });
-    if (!vanishes) {
-      const SceneFitResult there = look_at(evaluator_, one.model, options_.trials);
-      one.promised = linear_cost(there.residual, there.jacobian, one.model);
-      return one;
-    }
-    Hypothesis own = one.model;
-    own.free.erase(own.free.begin(), own.free.begin() + base.model.size());
-    const SceneFitResult there = look_at(evaluator_, own, options_.trials);
-    Eigen::MatrixXd both(base.jacobian.rows(), base.jacobian.cols() + there.jacobian.cols());
-    both << base.jacobian, there.jacobian;
-    one.promised = linear_cost(base.residual, both, one.model);
-    return one;
+  SceneFitResult fit(const Hypothesis& start, int iterations, const std::vector<int>& trials) {
+    SceneFitOptions how;
+    how.trials = trials;
+    how.iterations = iterations;
+    return fit_scene(evaluator_, start, how);
   }
 
-  SceneFitResult fit(const Hypothesis& start) {
-    SceneFitOptions how;
-    how.trials = options_.trials;
-    return fit_scene(evaluator_, start, how);
+  std::optional<double> held_out(const Hypothesis& model) {
+    if (options_.check.empty()) return std::nullopt;
+    const Eigen::MatrixXd residual = evaluator_.residuals({&model, 1}, options_.check);
+    return SceneDataSet::beyond_noise(evaluator_.sum(residual.col(0), options_.check));
   }
 
   void conclude() {
     using Outcome = SceneFindings::Outcome;
-    const SceneFitResult* model = &found_.baseline;
-    if (found_.baseline_excess <= options_.floor) {
+    const bool best_does = !found_.candidates.empty() && is_enough(found_.candidates.front());
+    if (best_does && pays(found_.candidates.front())) {
+      found_.outcome = Outcome::named;
+      find_rivals();
+      if (!found_.rivals.empty()) found_.outcome = Outcome::ambiguous;
+      name_material(found_.candidates.front().fit);
+    } else if (found_.baseline_excess <= options_.floor) {
       found_.outcome = Outcome::adequate;
-    } else if (found_.candidates.empty()) {
-      found_.outcome = Outcome::unknown;
+      name_material(found_.baseline);
     } else {
-      const SceneCandidate& best = found_.candidates.front();
-      const double share = 1.0 - std::pow(best.excess / found_.baseline_excess, 2);
-      const bool explains = best.excess <= options_.floor ||
-                            (share >= options_.least_share && best.excess <= 2.0 * options_.floor);
-      found_.outcome = explains ? Outcome::named : Outcome::unknown;
-      model = explains ? &best.fit : &found_.baseline;
-      const double gain = cost_of(found_.baseline) - best.cost;
-      for (std::size_t i = 1; explains && i < found_.candidates.size(); ++i)
-        if (found_.candidates[i].cost - best.cost < std::max(3.0, options_.rival_share * gain))
-          found_.outcome = Outcome::ambiguous;
+      found_.outcome = Outcome::unknown;
+      if (!stopped()) look_outside();
+      name_material(found_.baseline);
     }
-    if (found_.outcome != Outcome::unknown) name_material(*model);
+  }
+
+  bool pays(const SceneCandidate& one) const {
+    return square(found_.baseline_excess) - square(one.excess) >= options_.least_gain;
+  }
+
+  void find_rivals() {
+    const SceneCandidate& best = found_.candidates.front();
+    for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
+      const SceneCandidate& one = found_.candidates[i];
+      if (one.names.size() > best.names.size() || !is_enough(one)) continue;
+      if (score(one) - score(best) < 0.5 * square(best.excess) + 0.02) found_.rivals.push_back(i);
+    }
   }
 
   void name_material(const SceneFitResult& fit) {
@@ -178,15 +228,50 @@ class Search {
       const int p = fit.model.factor_on(name);
       if (p < 0) continue;
       const double off = std::log(fit.model.value(p));
-      const double error = std::hypot(fit.standard_error[p], known_to);
+      const double error = std::hypot(fit.standard_error[p], allowance(name));
       if (std::abs(off) > clear * error) found_.material.push_back(name);
     }
+  }
+
+  // Damping is what solvers differ by most, and density is seen through little but weight.
+  static double allowance(const std::string& name) {
+    return name == "damping_time" ? 10.0 * known_to : name == "density" ? 2.0 * known_to : known_to;
+  }
+
+  // What is outside acts in some trials, and in some of their time: the baseline is that of the
+  // rest. Then: where does a force act that explains what is left?
+  void look_outside() {
+    tell("looking for something that the scene does not have", 0.9);
+    std::vector<int> all = options_.trials;
+    all.insert(all.end(), options_.check.begin(), options_.check.end());
+    refit_what_is_clean(all);
+    if (stopped()) return;
+    found_.outside =
+        find_outside_force(evaluator_, found_.baseline.model.effects, all, options_.threads);
+  }
+
+  // A trial that the material alone explains is one in which nothing else acts.
+  void refit_what_is_clean(const std::vector<int>& all) {
+    for (const int t : all) {
+      if (stopped()) return;
+      SceneFitResult own = fit(scene_baseline(experiment_), first_iterations, {t});
+      if (SceneDataSet::beyond_noise(own.sum) > 2.0 * options_.floor) continue;
+      found_.clean.push_back(t);
+    }
+    if (found_.clean.empty()) return;
+    const SceneFitResult clean =
+        fit(scene_baseline(experiment_), baseline_iterations, found_.clean);
+    if (SceneDataSet::beyond_noise(clean.sum) > 2.0 * options_.floor) {
+      found_.clean.clear();
+      return;
+    }
+    found_.baseline = clean;
   }
 
   void tell(const std::string& what, double share) const {
     if (options_.progress) options_.progress(what, share);
   }
-  bool stopped() const { return options_.stop && *options_.stop; }
+  bool stopped() const { return options_.stop && options_.stop(); }
 
   SceneEvaluator& evaluator_;
   const SceneSearchOptions& options_;
@@ -216,19 +301,25 @@ SceneFindings search_scene(SceneEvaluator& evaluator, const SceneSearchOptions& 
   return Search(evaluator, options).run();
 }
 
+std::string joined_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " and ") + name;
+  return text;
+}
+
 std::string findings_text(const SceneFindings& found, const SceneExperiment&) {
   const auto units = [](double value) { return io::format_number(value, 3); };
   std::string text = "misfit beyond the noise, in noise units: " + units(found.nominal_excess) +
                      " as the files say, " + units(found.baseline_excess) +
                      " with modulus, density and damping refitted\n";
   text += "  refitted: " + numbers_of(found.baseline) + "\n";
-  for (const SceneCandidate& one : found.candidates) {
-    std::string names;
-    for (const std::string& name : one.names) names += (names.empty() ? "" : " and ") + name;
-    text += "  " + names + ": " + units(one.excess) + " left, " +
-            io::format_number(one.cost - found.candidates.front().cost, 4) + " nats behind; " +
+  for (const SceneCandidate& one : found.candidates)
+    text += "  " + joined_names(one.names) + ": " + units(one.excess) + " left" +
+            (one.check_excess ? ", held out " + units(*one.check_excess) : "") + "; " +
             numbers_of(one.fit) + "\n";
-  }
+  if (found.outside.found)
+    text += "  a force from outside on " + found.outside.place.curve + " takes " +
+            io::format_number(100.0 * found.outside.share, 3) + " % of what is left\n";
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/discrepancy/scene_fit/outside_force.h"
 #include "pedicel/discrepancy/scene_fit/scene_fit.h"
 
 namespace pedicel::discrepancy {
@@ -15,39 +16,54 @@ struct SceneCandidate {
   SceneFitResult fit;
   double cost = 0.0;    ///< nats: half the sum of squares, and 1/2 ln n for each number
   double excess = 0.0;  ///< noise units, RMS beyond the noise
+  std::optional<double> check_excess;  ///< the same on trials held out
 };
 
 struct SceneSearchOptions {
-  std::vector<int> trials;
-  int most_refits = 6;  ///< candidates refitted in full, a round
+  std::vector<int> trials;  ///< to be fitted
+  std::vector<int> check;   ///< held out
+  int most_refits = 4;      ///< candidates refitted in full, a round
   int most_causes = 2;
-  /// Noise units: what two honest solvers of such a scene differ by. A misfit below is none.
-  double floor = 0.4;
-  /// A cause must take so much of the mean square beyond the noise to be named at all.
-  double least_share = 0.9;
-  /// Nats as a share of what the best explains, within which another cause rivals it.
-  double rival_share = 0.05;
+  /// Noise units: what two honest solvers of such a scene differ by, and what they differ by as a
+  /// share of what is to be explained. A misfit below is none.
+  double floor = 0.35, solvers_share = 0.05;
+  /// A cause must lower the mean square beyond the noise by so much more to be looked for at all.
+  double least_gain = 0.06;
+  int threads = 1;
   std::function<void(const std::string&, double)> progress;  ///< what is done, and its share
-  const std::atomic<bool>* stop = nullptr;
+  std::function<bool()> stop;  ///< true: what is known so far is to be concluded
 };
 
 struct SceneFindings {
   enum class Outcome { adequate, named, ambiguous, unknown };
   Outcome outcome = Outcome::adequate;
-  double nominal_excess = 0.0;             ///< noise units, of the files' own model
-  SceneFitResult baseline;                 ///< modulus, density and damping refitted
-  double baseline_excess = 0.0;            ///< noise units
-  std::vector<SceneCandidate> candidates;  ///< cheapest first
+  double nominal_excess = 0.0;                          ///< noise units, of the files' own model
+  SceneFitResult baseline;                              ///< modulus, density and damping refitted
+  double baseline_excess = 0.0;                         ///< noise units
+  std::optional<double> nominal_check, baseline_check;  ///< the same on trials held out
+  std::vector<SceneCandidate> candidates;               ///< those with causes, the best first
+  std::vector<std::size_t> rivals;  ///< of the best: candidates that do nearly as well
   /// Of a factor beside the causes, that left what is known of it: "youngs_modulus".
   std::vector<std::string> material;
-  bool partial = false;  ///< it was stopped
+  OutsideForce outside;    ///< where nothing explains the data
+  std::vector<int> clean;  ///< trials that the baseline alone explains, likewise
+  bool partial = false;    ///< it was stopped
+
+  bool explained() const { return outcome == Outcome::named || outcome == Outcome::ambiguous; }
+  /// The model that is told: with the causes, or the baseline.
+  const SceneFitResult& model() const {
+    return explained() && !candidates.empty() ? candidates.front().fit : baseline;
+  }
 };
 
-/// Which cause explains what modulus, density and damping leave: every candidate is looked at in
-/// the linear, the best are refitted in full.
+/// Which cause explains what modulus, density and damping leave: all are looked at in the linear at
+/// once, the best are refitted in full, a second one is looked for on top where one does not do.
 SceneFindings search_scene(SceneEvaluator& evaluator, const SceneSearchOptions& options);
 
 /// For people: the fits, and what they say.
 std::string findings_text(const SceneFindings& findings, const SceneExperiment& experiment);
+
+/// "contact_friction and payload".
+std::string joined_names(const std::vector<std::string>& names);
 
 }  // namespace pedicel::discrepancy

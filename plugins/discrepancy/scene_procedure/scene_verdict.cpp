@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy {
@@ -10,6 +11,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double ninety_five = 1.96;
+constexpr std::size_t most_nearest = 3;
 
 Estimate estimate_of(const SceneFitResult& fit, int p) {
   const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
@@ -17,108 +19,259 @@ Estimate estimate_of(const SceneFitResult& fit, int p) {
   return {fit.model.value(p), free.to_value(u - error), free.to_value(u + error), free.unit};
 }
 
-NamedCause cause_of(const SceneFitResult& fit, const std::string& name, const SceneFindings& found,
-                    double evidence) {
-  NamedCause cause;
-  cause.name = name;
-  cause.evidence = evidence;
-  for (int p = 0; p < fit.model.size(); ++p) {
-    const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
-    const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
-    if (effect.name != name) continue;
-    cause.parameters[free.name].push_back(estimate_of(fit, p));
-    cause.words = effect.words;
-  }
-  const SceneEffectDefinition* known = find_scene_effect(name);
-  const std::string left = io::format_number(SceneDataSet::beyond_noise(fit.sum), 3);
-  cause.because = (known ? known->sentence : name + " differs from the file") +
-                  ": with it the misfit beyond the noise falls from " +
-                  io::format_number(found.baseline_excess, 3) + " to " + left + " noise units";
-  return cause;
-}
+struct Misfit {
+  double square = 0.0;
+  int count = 0;
+  double over_noise() const { return std::sqrt(count > 0 ? square / count : 1.0); }
+  double beyond() const { return std::max(0.0, square - count); }
+};
 
-double rms_over_noise(double excess) {
-  return std::sqrt(1.0 + excess * excess);
-}
+class Conclusion {
+ public:
+  Conclusion(SceneSimulator& simulator, const SceneDataSet& data, SceneDiagnosis& diagnosis)
+      : simulator_(simulator),
+        experiment_(simulator.experiment()),
+        data_(data),
+        d_(diagnosis),
+        found_(diagnosis.findings),
+        v_(diagnosis.verdict) {}
+
+  void run() {
+    using Of = SceneFindings::Outcome;
+    v_.outcome = found_.outcome == Of::adequate    ? Outcome::adequate
+                 : found_.outcome == Of::named     ? Outcome::named
+                 : found_.outcome == Of::ambiguous ? Outcome::ambiguous
+                                                   : Outcome::unknown;
+    set_errors();
+    set_parameters();
+    add_causes();
+    // A material's number alone is a finding, too.
+    if (v_.outcome == Outcome::adequate && !v_.causes.empty()) v_.outcome = Outcome::named;
+    if (v_.outcome == Outcome::unknown) tell_unknown();
+    if (v_.outcome == Outcome::ambiguous) tell_next();
+  }
+
+ private:
+  Misfit misfit(const std::vector<SceneReadings>& readings, const std::vector<int>& trials) const {
+    Misfit all;
+    for (const int t : trials) {
+      if (static_cast<std::size_t>(t) >= readings.size()) continue;
+      for (const SceneDataSet::Sum& one : data_.sums(t, readings[static_cast<std::size_t>(t)])) {
+        all.square += one.square;
+        all.count += one.count;
+      }
+    }
+    return all;
+  }
+
+  void set_errors() {
+    const auto of = [&](const std::vector<int>& trials) {
+      Errors errors;
+      if (trials.empty()) return errors;
+      errors.nominal = misfit(d_.nominal, trials).over_noise();
+      errors.refitted = misfit(d_.refitted, trials).over_noise();
+      errors.extended = misfit(d_.extended, trials).over_noise();
+      return errors;
+    };
+    v_.fit = of(d_.fit_trials);
+    v_.check = of(d_.check_trials);
+    const Errors& judged = d_.check_trials.empty() ? v_.fit : v_.check;
+    const auto gain = [&](double before) {
+      return before > 1.05 ? std::optional((before - *judged.extended) / (before - 1.0))
+                           : std::nullopt;
+    };
+    if (!judged.nominal || d_.check_trials.empty()) return;
+    if (found_.explained()) v_.gain = gain(*judged.refitted);
+    v_.gain_over_nominal = gain(*judged.nominal);
+  }
+
+  void set_parameters() {
+    const SceneFitResult& model = found_.model();
+    for (const char* name : {"youngs_modulus", "density", "damping_time"})
+      if (const int p = model.model.factor_on(name); p >= 0 && p < model.standard_error.size())
+        v_.parameters[std::string(name) + "_factor"] = estimate_of(model, p);
+  }
+
+  void add_causes() {
+    const auto& all = found_.candidates;
+    if (found_.explained()) {
+      for (const std::string& name : all.front().names)
+        v_.causes.push_back(cause_of(all.front(), name));
+      for (const std::size_t r : found_.rivals) {
+        const SceneCandidate& rival = all[r];
+        for (const std::string& name : rival.names)
+          if (std::ranges::none_of(v_.causes,
+                                   [&](const NamedCause& one) { return one.name == name; }))
+            v_.causes.push_back(cause_of(rival, name));
+      }
+    } else if (found_.outcome == SceneFindings::Outcome::unknown) {
+      for (std::size_t i = 0; i < std::min(most_nearest, all.size()); ++i) {
+        v_.nearest.push_back(cause_of(all[i], all[i].names.back()));
+        v_.nearest.back().against =
+            "it leaves " + io::format_number(all[i].excess, 3) + " noise units beyond the noise";
+      }
+    }
+    for (std::size_t i = found_.explained() ? 1 : 0; i < all.size(); ++i)
+      v_.competing.push_back(
+          {joined_names(all[i].names), found_.explained() ? all[i].cost - all.front().cost : 0.0});
+    for (const std::string& name : found_.material) v_.causes.push_back(material_cause(name));
+  }
+
+  NamedCause cause_of(const SceneCandidate& candidate, const std::string& name) {
+    const SceneFitResult& fit = candidate.fit;
+    NamedCause cause;
+    cause.name = name;
+    cause.evidence = 0.5 * found_.baseline.sum.square - candidate.cost;
+    std::vector<plant::Effect> without;
+    for (const plant::Effect& effect : fit.model.effects)
+      if (effect.name != name) without.push_back(effect);
+    for (int p = 0; p < fit.model.size(); ++p) {
+      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+      const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
+      if (effect.name != name || p >= fit.standard_error.size()) continue;
+      cause.parameters[free.name].push_back(estimate_of(fit, p));
+      cause.words = effect.words;
+    }
+    const SceneEffectDefinition* known = find_scene_effect(name);
+    if (known) cause.plain = known->plain_name;
+    const std::string before = io::format_number(found_.baseline_excess, 3),
+                      left = io::format_number(candidate.excess, 3);
+    cause.because = (known ? known->sentence : effects::plain_name(name)) +
+                    ": with it the misfit beyond the noise falls from " + before + " to " + left +
+                    " noise units";
+    // What is left without it: the baseline, where it is the only one.
+    const bool alone = candidate.names.size() == 1;
+    const SceneCandidate* other = nullptr;
+    for (const SceneCandidate& one : found_.candidates)
+      if (!alone && one.names.size() == 1 && one.names.front() != name &&
+          std::ranges::find(candidate.names, one.names.front()) != candidate.names.end())
+        other = &one;
+    if (&candidate == &found_.candidates.front()) {
+      set_share(cause, alone   ? d_.refitted
+                       : other ? predict(other->fit.model.effects)
+                               : predict(without));
+      set_change(cause, without);
+    }
+    return cause;
+  }
+
+  // A number of the material, beside the causes.
+  NamedCause material_cause(const std::string& name) {
+    const SceneFitResult& model = found_.model();
+    NamedCause cause;
+    cause.name = name;
+    const int p = model.model.factor_on(name);
+    cause.parameters["factor"].push_back(estimate_of(model, p));
+    std::vector<plant::Effect> without;
+    for (const plant::Effect& effect : d_.model)
+      if (effect.name != name) without.push_back(effect);
+    cause.because = "the fitted factor leaves what is known of the file's own number";
+    const std::vector<SceneReadings> left = predict(without);
+    set_share(cause, left);
+    set_change(cause, without, &left);
+    return cause;
+  }
+
+  std::vector<SceneReadings> predict(const std::vector<plant::Effect>& effects) {
+    SceneVariant variant{effects};
+    std::vector<SceneSimulator::Request> requests;
+    for (int t = 0; t < static_cast<int>(experiment_.trials.size()); ++t)
+      requests.push_back({&variant, t});
+    return simulator_.run(requests);
+  }
+
+  void set_share(NamedCause& cause, const std::vector<SceneReadings>& without) const {
+    const auto share = [&](const std::vector<int>& trials) -> std::optional<double> {
+      if (trials.empty()) return std::nullopt;
+      const double nominal = misfit(d_.nominal, trials).beyond();
+      if (nominal <= 0.0) return std::nullopt;
+      return std::clamp(
+          (misfit(without, trials).square - misfit(d_.extended, trials).square) / nominal, -1.0,
+          1.0);
+    };
+    cause.share = {share(d_.fit_trials), share(d_.check_trials)};
+  }
+
+  void set_change(NamedCause& cause, const std::vector<plant::Effect>& without,
+                  const std::vector<SceneReadings>* known = nullptr) {
+    const std::vector<SceneReadings> left = known ? *known : predict(without);
+    double square[4] = {}, count[4] = {};
+    const auto add = [&](int kind, double d) {
+      if (!std::isfinite(d)) return;
+      square[kind] += d * d;
+      count[kind] += 1.0;
+    };
+    for (std::size_t t = 0; t < left.size(); ++t) {
+      const SceneReadings &a = d_.extended[t], &b = left[t];
+      for (long i = 0; i < a.markers.size(); ++i) add(0, a.markers.data()[i] - b.markers.data()[i]);
+      for (std::size_t w = 0; w < a.wrenches.size(); ++w)
+        for (long c = 0; c < a.wrenches[w].cols(); ++c)
+          for (long r = 0; r < a.wrenches[w].rows(); ++r)
+            add(c < 3 ? 1 : 2, a.wrenches[w](r, c) - b.wrenches[w](r, c));
+      for (std::size_t p = 0; p < a.pixels.size(); ++p)
+        for (long i = 0; i < a.pixels[p].size(); ++i)
+          add(3, a.pixels[p].data()[i] - b.pixels[p].data()[i]);
+    }
+    const auto rms = [&](int kind, double per) -> std::optional<double> {
+      if (count[kind] == 0.0) return std::nullopt;
+      return std::sqrt(per * square[kind] / count[kind]);
+    };
+    cause.change.marker = rms(0, 3.0);
+    cause.change.force = rms(1, 3.0);
+    cause.change.moment = rms(2, 3.0);
+    cause.change.pixel = rms(3, 2.0);
+  }
+
+  void tell_unknown() {
+    const std::string left = io::format_number(found_.baseline_excess, 3);
+    if (!found_.outside.found) {
+      v_.remainder = left +
+                     " noise units are left beyond the noise; no known cause and no force at one "
+                     "place of a plant explains them";
+      return;
+    }
+    const OutsideForce& force = found_.outside;
+    OutsideAction action;
+    action.position = force.position;
+    if (experiment_.plants.size() > 1)
+      action.plant = experiment_.plants[static_cast<std::size_t>(force.plant)].name;
+    action.place = force.place;
+    action.from = force.from;
+    action.to = force.to;
+    action.direction = force.direction;
+    v_.remainder = outside_sentence(action) + " It shows most in " +
+                   experiment_.trials[static_cast<std::size_t>(force.trial)].name +
+                   ", where a force of " + io::format_number(force.size, 2) + " N at " +
+                   io::format_number(force.place.at, 2) + " of " + force.place.curve +
+                   " would explain " + io::format_number(100.0 * force.share, 2) +
+                   " % of what is left";
+    if (action.plant.empty() && !experiment_.plants.empty())
+      action.plant = experiment_.plants.front().name;
+    v_.unknown = action;
+    v_.next_experiment = "Look at " + force.place.curve + " there while the trial is repeated";
+  }
+
+  void tell_next() {
+    for (const NamedCause& cause : v_.causes)
+      if (const SceneEffectDefinition* known = find_scene_effect(cause.name))
+        v_.next_experiment += (v_.next_experiment.empty() ? "" : "; or ") + known->tells_apart;
+    if (v_.next_experiment.empty())
+      v_.next_experiment = "repeat the trial with the largest residual at twice its size";
+  }
+
+  SceneSimulator& simulator_;
+  const SceneExperiment& experiment_;
+  const SceneDataSet& data_;
+  SceneDiagnosis& d_;
+  const SceneFindings& found_;
+  Verdict& v_;
+};
 
 }  // namespace
 
-Verdict verdict_of(const SceneFindings& found, const SceneExperiment&) {
-  Verdict verdict;
-  using Of = SceneFindings::Outcome;
-  verdict.outcome = found.outcome == Of::adequate    ? Outcome::adequate
-                    : found.outcome == Of::named     ? Outcome::named
-                    : found.outcome == Of::ambiguous ? Outcome::ambiguous
-                                                     : Outcome::unknown;
-  verdict.partial = found.partial;
-  verdict.fit.nominal = rms_over_noise(found.nominal_excess);
-  verdict.fit.refitted = rms_over_noise(found.baseline_excess);
-  const bool explains = found.outcome == Of::named || found.outcome == Of::ambiguous;
-  const SceneFitResult& model =
-      explains && !found.candidates.empty() ? found.candidates.front().fit : found.baseline;
-  for (const char* name : {"youngs_modulus", "density", "damping_time"})
-    if (const int p = model.model.factor_on(name); p >= 0)
-      verdict.parameters[std::string(name) + "_factor"] = estimate_of(model, p);
-  if (!found.candidates.empty()) {
-    const SceneCandidate& best = found.candidates.front();
-    if (explains) verdict.fit.extended = rms_over_noise(best.excess);
-    for (const SceneCandidate& one : found.candidates) {
-      const double evidence = 0.5 * found.baseline.sum.square - one.cost;
-      std::string all;
-      for (const std::string& name : one.names) all += (all.empty() ? "" : " + ") + name;
-      const double behind = one.cost - best.cost;
-      if (&one == &best && explains)
-        for (const std::string& name : one.names)
-          verdict.causes.push_back(cause_of(one.fit, name, found, evidence));
-      else if (found.outcome == Of::ambiguous && one.names.size() == 1 &&
-               behind < 0.05 * evidence + 3.0)
-        verdict.causes.push_back(cause_of(one.fit, one.names.front(), found, evidence));
-      else if (found.outcome == Of::unknown && verdict.nearest.size() < 3)
-        verdict.nearest.push_back(cause_of(one.fit, one.names.back(), found, evidence));
-      if (&one != &best) verdict.competing.push_back({all, behind});
-    }
-  }
-  for (const std::string& name : found.material)
-    verdict.causes.push_back(cause_of(model, name, found, 0.0));
-  // A material's number alone is a finding, too.
-  if (verdict.outcome == Outcome::adequate && !verdict.causes.empty())
-    verdict.outcome = Outcome::named;
-  if (verdict.outcome == Outcome::unknown)
-    verdict.remainder = io::format_number(found.baseline_excess, 3) +
-                        " noise units are left beyond the noise, and no known cause explains them";
-  if (verdict.outcome == Outcome::ambiguous)
-    for (const NamedCause& cause : verdict.causes)
-      if (const SceneEffectDefinition* known = find_scene_effect(cause.name))
-        verdict.next_experiment +=
-            (verdict.next_experiment.empty() ? "" : "; or ") + known->tells_apart;
-  return verdict;
-}
-
-std::string scene_headline(const Verdict& verdict) {
-  std::string names;
-  for (const NamedCause& cause : verdict.causes) {
-    const SceneEffectDefinition* known = find_scene_effect(cause.name);
-    names += (names.empty() ? "" : ", ") +
-             (known ? known->plain_name : effects::plain_name(cause.name)) + " (" + cause.name +
-             ")";
-    for (const auto& [parameter, estimates] : cause.parameters) {
-      std::string values;
-      for (const Estimate& estimate : estimates)
-        values += (values.empty() ? "" : ", ") + io::format_number(estimate.value, 3);
-      names += " " + parameter + " " + (estimates.size() > 1 ? "[" + values + "]" : values);
-      if (estimates.front().unit != "1") names += " " + estimates.front().unit;
-    }
-  }
-  switch (verdict.outcome) {
-    case Outcome::adequate:
-      return "The scene's model is adequate: nothing beyond what two solvers differ by.";
-    case Outcome::named:
-      return "The data show " + names + ".";
-    case Outcome::ambiguous:
-      return "The data cannot tell apart: " + names + ".";
-    default:
-      return "Something is there that no known cause explains: " + verdict.remainder + ".";
-  }
+void conclude_scene(SceneSimulator& simulator, const SceneDataSet& data,
+                    SceneDiagnosis& diagnosis) {
+  Conclusion(simulator, data, diagnosis).run();
 }
 
 }  // namespace pedicel::discrepancy

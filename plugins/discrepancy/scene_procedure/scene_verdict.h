@@ -1,14 +1,10 @@
 #pragma once
 
-#include "pedicel/discrepancy/scene_fit/scene_search.h"
-#include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::discrepancy {
 
-/// What a search of a scene found, as verdict.json says it.
-Verdict verdict_of(const SceneFindings& findings, const SceneExperiment& experiment);
-
-/// One sentence for people.
-std::string scene_headline(const Verdict& verdict);
+/// Fills `diagnosis.verdict` from its findings and predictions. `data`: as they are judged.
+void conclude_scene(SceneSimulator& simulator, const SceneDataSet& data, SceneDiagnosis& diagnosis);
 
 }  // namespace pedicel::discrepancy

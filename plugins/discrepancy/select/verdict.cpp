@@ -51,6 +51,9 @@ Json to_json(const NamedCause& cause) {
   Json json = {{"name", cause.name}, {"parameters", parameters}};
   json["where"] = nullptr;
   if (cause.where) json["where"] = {{"curve", cause.where->curve}, {"at", cause.where->at}};
+  for (const char* key : {"plant", "fruit", "link", "joint", "camera", "wrench", "marker"})
+    if (const auto word = cause.words.find(key); word != cause.words.end())
+      json["where"][key] = word->second;
   for (const auto& [key, word] : cause.words) json[key] = word;
   json["because"] = cause.because;
   json["evidence"] = number(cause.evidence);
@@ -59,6 +62,7 @@ Json to_json(const NamedCause& cause) {
   if (cause.change.marker) json["change"]["marker"] = sized(*cause.change.marker, "m");
   if (cause.change.force) json["change"]["force"] = sized(*cause.change.force, "N");
   if (cause.change.moment) json["change"]["moment"] = sized(*cause.change.moment, "N m");
+  if (cause.change.pixel) json["change"]["pixel"] = sized(*cause.change.pixel, "px");
   if (!cause.against.empty()) json["against"] = cause.against;
   return json;
 }
@@ -81,6 +85,17 @@ Json to_json(const std::vector<NamedCause>& causes) {
   Json list = Json::array();
   for (const NamedCause& cause : causes) list.push_back(to_json(cause));
   return list;
+}
+
+Json to_json(const Vec3& vector) {
+  return {number(vector.x()), number(vector.y()), number(vector.z())};
+}
+
+Json to_json(const OutsideAction& action) {
+  return {{"position", to_json(action.position)},  {"plant", action.plant},
+          {"curve", action.place.curve},           {"at", number(action.place.at)},
+          {"from", number(action.from)},           {"to", number(action.to)},
+          {"direction", to_json(action.direction)}};
 }
 
 Json to_json(const Errors& errors) {
@@ -155,9 +170,41 @@ std::string to_json(const Verdict& verdict) {
                {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
                {"simulations", verdict.simulations},
                {"seconds", number(verdict.seconds)}};
+  if (verdict.unknown) json["unknown"] = to_json(*verdict.unknown);
+  if (!verdict.extended_scene.empty()) json["extended_scene"] = verdict.extended_scene;
   if (!verdict.symptoms.empty()) json["symptoms"] = to_json(verdict.symptoms);
   if (verdict.partial) json["partial"] = true;
   return json.dump(2);
+}
+
+std::string said_name(const NamedCause& cause) {
+  return (cause.plain.empty() ? effects::plain_name(cause.name) : cause.plain) + " (" + cause.name +
+         ")";
+}
+
+namespace {
+
+// "-x", or "(0.7, 0.7, 0)" where it is along no axis.
+std::string direction_text(const Vec3& direction) {
+  constexpr double near = 0.94;  // within 20 degrees
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(direction[axis]) > near)
+      return std::string(direction[axis] < 0.0 ? "-" : "+") + "xyz"[axis];
+  const auto rounded = [](double x) { return short_number(std::round(100.0 * x) / 100.0); };
+  return "(" + rounded(direction.x()) + ", " + rounded(direction.y()) + ", " +
+         rounded(direction.z()) + ")";
+}
+
+}  // namespace
+
+std::string outside_sentence(const OutsideAction& action) {
+  const auto rounded = [](double x) { return short_number(std::round(1000.0 * x) / 1000.0); };
+  return "Something holds " + action.place.curve +
+         (action.plant.empty() ? "" : " of " + action.plant) + " at (" +
+         rounded(action.position.x()) + ", " + rounded(action.position.y()) + ", " +
+         rounded(action.position.z()) + ") m from " +
+         short_number(std::round(100.0 * action.from) / 100.0) + " s on, pulling towards " +
+         direction_text(action.direction) + ".";
 }
 
 std::string share_removed(double gain) {
@@ -187,7 +234,7 @@ std::string said(const NamedCause& cause) {
     place = " at " + marker->second;
   else if (cause.where && known && known->home != effects::Home::base)
     place = " at " + short_number(cause.where->at) + " of " + cause.where->curve;
-  return effects::plain_name(cause.name) + " (" + cause.name + ")" + place;
+  return said_name(cause) + place;
 }
 
 std::string changed(const NamedCause& cause) {
@@ -240,10 +287,7 @@ std::string finding(const Verdict& verdict) {
   for (const NamedCause& cause : verdict.causes) {
     const bool last = &cause == &verdict.causes.back();
     const std::string joint = verdict.outcome == Outcome::ambiguous ? " or " : " and ";
-    names += (names.empty() ? ""
-              : last        ? joint
-                            : ", ") +
-             effects::plain_name(cause.name) + " (" + cause.name + ")";
+    names += (names.empty() ? "" : last ? joint : ", ") + said_name(cause);
   }
   const std::string gain = verdict.gain ? "it removes " + share_removed(*verdict.gain) +
                                               " of the error above the noise on held-out trials"
@@ -256,8 +300,13 @@ std::string finding(const Verdict& verdict) {
     case Outcome::ambiguous:
       return "Something is missing, and these data cannot tell which: " + names + "." +
              details(verdict);
-    case Outcome::unknown:
-      return "Something is missing that none of the known causes explains. Do not extrapolate.";
+    case Outcome::unknown: {
+      std::string beside;
+      for (const NamedCause& cause : verdict.causes) beside += " Beside it " + said(cause) + ".";
+      return "Something is missing that none of the known causes explains." +
+             (verdict.unknown ? " " + outside_sentence(*verdict.unknown) : "") + beside +
+             " Do not extrapolate.";
+    }
     case Outcome::bad_data:
       return "The data cannot be used: " + verdict.remainder;
     case Outcome::numerical:

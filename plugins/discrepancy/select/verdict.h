@@ -30,10 +30,12 @@ struct Change {
   std::optional<double> marker;    ///< m
   std::optional<double> force;     ///< N
   std::optional<double> moment{};  ///< N m, at the root
+  std::optional<double> pixel{};   ///< px
 };
 
 struct NamedCause {
   std::string name;
+  std::string plain{};  ///< for sentences; empty: as its effect says it
   std::map<std::string, std::vector<Estimate>> parameters;  ///< one entry a component
   std::optional<plant::CurvePlace> where;
   std::map<std::string, std::string> words;  ///< which marker, which trial
@@ -42,6 +44,15 @@ struct NamedCause {
   Share share;
   Change change;
   std::string against;  ///< of one that came near: what speaks against it
+};
+
+/// What acts from outside, and no known cause is.
+struct OutsideAction {
+  Vec3 position = Vec3::Zero();  ///< m, W
+  std::string plant;             ///< name; empty where there is one only
+  plant::CurvePlace place;
+  double from = 0.0, to = 0.0;    ///< s
+  Vec3 direction = Vec3::Zero();  ///< unit, W: towards where it pulls
 };
 
 struct CompetingModel {
@@ -86,12 +97,14 @@ struct Verdict {
   std::optional<double> gain;               ///< over the refitted model, on held-out trials
   std::optional<double> gain_over_nominal;  ///< likewise
   std::string remainder;
+  std::optional<OutsideAction> unknown{};  ///< under Outcome::unknown, where it was found
   std::vector<DetectableLimit> detectable_limits;
   std::string next_experiment;
-  std::string extended_plant;   ///< file name, empty where there is none
-  std::string next;             ///< file of the experiment that decides; empty where there is none
-  bool partial = false;         ///< the search was cut short
-  bool refit_misleads = false;  ///< the refit makes the held-out trials worse
+  std::string extended_plant;    ///< file name, empty where there is none
+  std::string extended_scene{};  ///< likewise
+  std::string next;              ///< file of the experiment that decides; empty where there is none
+  bool partial = false;          ///< the search was cut short
+  bool refit_misleads = false;   ///< the refit makes the held-out trials worse
   long simulations = 0;
   double seconds = 0.0;
 };
@@ -100,6 +113,10 @@ std::string to_json(const Verdict& verdict);
 /// How much of the error above the noise a gain removes: "96 %", or "all" where noise alone is
 /// left.
 std::string share_removed(double gain);
+/// "contact that is too smooth (contact_friction)".
+std::string said_name(const NamedCause& cause);
+/// "Something holds branch_1 at (0.21, 0.03, 0.34) m from 1.2 s on, pulling towards -x."
+std::string outside_sentence(const OutsideAction& action);
 /// One sentence: what is wrong and how sure that is.
 std::string headline(const Verdict& verdict);
 

@@ -23,8 +23,11 @@ SceneEffectDefinition define_contact_compliance() {
   };
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
     const double own = nominal_state(c.experiment).coupling.contact_stiffness;
-    return {effects::Start("contact_compliance")
-                .positive("stiffness", std::min(2.0e3, own), 50.0, own)};
+    std::vector<effects::Start> starts;
+    for (const double share : {400.0, 3.0e3, 3.0e4})
+      starts.push_back(effects::Start("contact_compliance")
+                           .positive("stiffness", std::min(share, own), 50.0, own));
+    return starts;
   };
   d.tells_apart = "press a part of the plant that is held from behind";
   return d;

@@ -20,7 +20,11 @@ SceneEffectDefinition define_reaction() {
     t.state.joint_stiffness = own > 0.0 ? own * k / (own + k) : k;
   };
   d.starts = [](const SceneStartContext&) -> std::vector<effects::Start> {
-    return {effects::Start("reaction").positive("joint_stiffness", 500.0, 5.0, 1.0e5)};
+    std::vector<effects::Start> starts;
+    for (const double stiffness : {60.0, 400.0, 3000.0})
+      starts.push_back(
+          effects::Start("reaction").positive("joint_stiffness", stiffness, 5.0, 1.0e5));
+    return starts;
   };
   d.tells_apart = "push with the tool against a spring scale, and watch a marker on the tool";
   return d;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/io/html_report.h"
+
+namespace pedicel::discrepancy {
+
+// Parts of a card that a verdict alone fills, of plants and of scenes.
+
+/// Whatever was accepted: what the data show, and which causes would make it.
+void add_symptom_numbers(io::HtmlReport& page, const Verdict& v);
+/// Causes, details and what came closest, with sizes, shares and what they change.
+void add_causes(io::HtmlReport& page, const Verdict& v);
+/// What could still hide.
+void add_hiding(io::HtmlReport& page, const Verdict& v);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,308 @@
+#include "pedicel/discrepancy/scene_fit/outside_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double spacing = 0.045;  // m, of the places tried along a curve
+constexpr int most_places = 40;
+constexpr double bin = 0.03;         // s, in which the force is one
+constexpr double wanted_way = 2e-3;  // m, that a response moves what it moves most
+constexpr double clear_force = 5.0;  // standard errors
+constexpr double least_of_peak = 0.15;
+constexpr double least_share = 0.3;  // of the misfit, for a force to be found at all
+constexpr std::size_t widest = 8;
+
+struct ForcePlace {
+  int plant = 0;
+  plant::CurvePlace at;
+};
+
+std::vector<ForcePlace> places_of(const SceneExperiment& experiment) {
+  std::vector<ForcePlace> places;
+  double gap = spacing;
+  do {
+    places.clear();
+    for (std::size_t p = 0; p < experiment.plants.size(); ++p)
+      for (const plant::PlantCurve& curve : experiment.plants[p].file.curves) {
+        double length = 0.0;
+        for (std::size_t i = 1; i < curve.points.size(); ++i)
+          length += (curve.points[i] - curve.points[i - 1]).norm();
+        const int count = std::max(2, static_cast<int>(std::ceil(length / gap)));
+        for (int i = 1; i <= count; ++i)
+          places.push_back({static_cast<int>(p),
+                            plant::CurvePlace{curve.name, static_cast<double>(i) / count, {}}});
+      }
+    gap *= 1.3;
+  } while (static_cast<int>(places.size()) > most_places);
+  return places;
+}
+
+/// One trial of the experiment, in which the places are markers that nobody has seen.
+SceneExperiment with_places(const SceneExperiment& experiment, int trial,
+                            const std::vector<ForcePlace>& places) {
+  SceneExperiment own = experiment;
+  own.trials = {experiment.trials[static_cast<std::size_t>(trial)]};
+  for (const ForcePlace& place : places) {
+    SceneMarker marker;
+    marker.name = "place " + std::to_string(own.markers.size());
+    marker.plant = place.plant;
+    marker.place = place.at;
+    own.markers.push_back(marker);
+  }
+  Samples& markers = own.trials.front().markers;
+  if (markers.size() == 0)
+    for (double t = 0.0; t < own.trials.front().duration(); t += 0.01) markers.time.push_back(t);
+  Eigen::MatrixXd wide = Eigen::MatrixXd::Constant(static_cast<long>(markers.time.size()),
+                                                   3 * static_cast<long>(own.markers.size()),
+                                                   std::numeric_limits<double>::quiet_NaN());
+  wide.leftCols(markers.value.cols()) = markers.value;
+  markers.value = wide;
+  for (Samples& pixels : own.trials.front().pixels) {
+    Eigen::MatrixXd more =
+        Eigen::MatrixXd::Constant(pixels.value.rows(), 2 * static_cast<long>(own.markers.size()),
+                                  std::numeric_limits<double>::quiet_NaN());
+    more.leftCols(pixels.value.cols()) = pixels.value;
+    pixels.value = more;
+  }
+  return own;
+}
+
+class ForceSearch {
+ public:
+  ForceSearch(const SceneExperiment& experiment, int trial, const std::vector<plant::Effect>& model,
+              const SceneNumerics& numerics, int threads)
+      : places_(places_of(experiment)),
+        own_(with_places(experiment, trial, places_)),
+        first_(3 * static_cast<long>(experiment.markers.size())),
+        data_(own_),
+        simulator_(own_, numerics, threads) {
+    base_.effects = model;
+    times_of_rows();
+  }
+
+  OutsideForce run() {
+    OutsideForce best;
+    const SceneReadings here = simulate({base_}).front();
+    if (!here.healthy) return best;
+    const Eigen::VectorXd residual = residual_of(here);
+    const double size = suitable_size(here);
+    std::vector<double> left;
+    std::vector<OutsideForce> found;
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+      const Eigen::MatrixXd response = response_of(p, size, residual);
+      found.push_back(course(residual, response));
+      left.push_back(1.0 - found.back().share);
+    }
+    const auto least = std::ranges::min_element(left) - left.begin();
+    best = found[static_cast<std::size_t>(least)];
+    best.plant = places_[static_cast<std::size_t>(least)].plant;
+    best.place = between(left, static_cast<std::size_t>(least));
+    best.found = best.share >= least_share && best.to > best.from;
+    if (best.found) best.position = position(here, best, static_cast<std::size_t>(least));
+    return best;
+  }
+
+ private:
+  std::vector<SceneReadings> simulate(const std::vector<SceneVariant>& variants) {
+    std::vector<SceneSimulator::Request> requests;
+    for (const SceneVariant& variant : variants) requests.push_back({&variant, 0});
+    return simulator_.run(requests);
+  }
+
+  Eigen::VectorXd residual_of(const SceneReadings& readings) const {
+    Eigen::VectorXd out(data_.size(0));
+    data_.residual(0, readings, std::numeric_limits<double>::infinity(), out);
+    return out;
+  }
+
+  SceneVariant pushed(std::size_t place, int axis, double size) const {
+    SceneVariant variant = base_;
+    SceneForce force;
+    force.plant = places_[place].plant;
+    force.place = places_[place].at;
+    force.force = size * Vec3::Unit(axis);
+    variant.forces.push_back(force);
+    return variant;
+  }
+
+  // N, such that what moves most moves far enough to be seen, and not far.
+  double suitable_size(const SceneReadings& here) {
+    double size = 1.0e-3;
+    std::vector<SceneVariant> variants;
+    for (std::size_t p = 0; p < places_.size() && variants.size() < widest; ++p)
+      if (places_[p].at.at == 1.0) variants.push_back(pushed(p, 0, size));
+    double most = 0.0;
+    for (const SceneReadings& one : simulate(variants)) {
+      if (!one.healthy) continue;
+      const Eigen::MatrixXd moved = one.markers - here.markers;
+      for (long c = first_; c < moved.cols(); ++c)
+        for (long r = 0; r < moved.rows(); ++r)
+          if (std::isfinite(moved(r, c))) most = std::max(most, std::abs(moved(r, c)));
+    }
+    return most > 0.0 ? size * std::clamp(wanted_way / most, 0.01, 1.0e4) : size;
+  }
+
+  // Of the residual by a force at a place, 1/N: three columns.
+  Eigen::MatrixXd response_of(std::size_t place, double size, const Eigen::VectorXd& residual) {
+    const auto known = responses_.find(place);
+    if (known != responses_.end()) return known->second;
+    // Places that fill the solver's lanes together.
+    responses_.clear();
+    std::vector<SceneVariant> variants;
+    std::vector<std::size_t> of;
+    const std::size_t together = 2 * widest / 3;
+    for (std::size_t p = place; p < std::min(place + together, places_.size()); ++p) {
+      for (int axis = 0; axis < 3; ++axis) variants.push_back(pushed(p, axis, size));
+      of.push_back(p);
+    }
+    const std::vector<SceneReadings> readings = simulate(variants);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      Eigen::MatrixXd columns(residual.size(), 3);
+      for (int axis = 0; axis < 3; ++axis) {
+        const SceneReadings& one = readings[3 * i + static_cast<std::size_t>(axis)];
+        if (one.healthy)
+          columns.col(axis) = (residual - residual_of(one)) / size;
+        else
+          columns.col(axis).setZero();
+      }
+      responses_[of[i]] = columns;
+    }
+    return responses_[place];
+  }
+
+  void times_of_rows() {
+    const auto add = [&](const Samples& samples) {
+      for (long c = 0; c < samples.value.cols(); ++c)
+        row_time_.insert(row_time_.end(), samples.time.begin(), samples.time.end());
+    };
+    const SceneTrial& trial = own_.trials.front();
+    add(trial.markers);
+    for (const Samples& one : trial.pixels) add(one);
+    for (const Samples& one : trial.wrenches) add(one);
+    add(trial.torques);
+    if (trial.follows_commands) add(trial.joints);
+  }
+
+  // The force that explains the residual best, bin by bin.
+  OutsideForce course(const Eigen::VectorXd& residual, const Eigen::MatrixXd& response) const {
+    const auto bins = static_cast<std::size_t>(own_.trials.front().duration() / bin) + 1;
+    std::vector<Mat3> normal(bins, Mat3::Zero());
+    std::vector<Vec3> right(bins, Vec3::Zero());
+    std::vector<double> square(bins, 0.0), count(bins, 0.0);
+    for (long i = 0; i < residual.size(); ++i) {
+      const auto b = static_cast<std::size_t>(row_time_[static_cast<std::size_t>(i)] / bin);
+      if (b >= bins || residual[i] == 0.0) continue;
+      const Vec3 row = response.row(i).transpose();
+      normal[b] += row * row.transpose();
+      right[b] += row * residual[i];
+      square[b] += residual[i] * residual[i];
+      count[b] += 1.0;
+    }
+    OutsideForce out;
+    double all = 0.0, taken = 0.0, peak = 0.0;
+    std::vector<double> sigma(bins, std::numeric_limits<double>::infinity());
+    for (std::size_t b = 0; b < bins; ++b) {
+      out.time.push_back((static_cast<double>(b) + 0.5) * bin);
+      const double ridge = 1.0e-4 * normal[b].trace() + 1.0e-12;
+      const Mat3 inverse = (normal[b] + ridge * Mat3::Identity()).inverse();
+      const Vec3 force = inverse * right[b];
+      out.force.push_back(force);
+      const double own = std::max(0.0, square[b] - count[b]);
+      const double gain =
+          std::clamp(2.0 * force.dot(right[b]) - force.dot(normal[b] * force), 0.0, own);
+      all += own;
+      taken += gain;
+      const double left = count[b] > 3.0 ? std::max(1.0, (square[b] - gain) / count[b]) : 1.0;
+      if (normal[b].trace() > 0.0) sigma[b] = std::sqrt(left * inverse.trace());
+      peak = std::max(peak, force.norm());
+    }
+    out.share = all > 0.0 ? taken / all : 0.0;
+    mark_active(out, sigma, peak);
+    return out;
+  }
+
+  static void mark_active(OutsideForce& out, const std::vector<double>& sigma, double peak) {
+    std::vector<std::size_t> active;
+    for (std::size_t b = 0; b + 2 < out.force.size(); ++b) {
+      const auto strong = [&](std::size_t i) {
+        return out.force[i].norm() > clear_force * sigma[i] &&
+               out.force[i].norm() > least_of_peak * peak;
+      };
+      if (strong(b) && strong(b + 1) && strong(b + 2)) active.push_back(b);
+    }
+    if (active.empty()) return;
+    out.from = static_cast<double>(active.front()) * bin;
+    out.to = static_cast<double>(active.back() + 3) * bin;
+    Vec3 mean = Vec3::Zero();
+    double square = 0.0;
+    for (const std::size_t b : active) {
+      mean += out.force[b];
+      square += out.force[b].squaredNorm();
+    }
+    out.size = std::sqrt(square / static_cast<double>(active.size()));
+    if (mean.norm() > 0.0) out.direction = mean.normalized();
+  }
+
+  // Between the places that were tried: the parabola through the best one and its neighbours.
+  plant::CurvePlace between(const std::vector<double>& left, std::size_t best) const {
+    plant::CurvePlace place = places_[best].at;
+    const bool inside = best > 0 && best + 1 < places_.size() &&
+                        places_[best - 1].at.curve == place.curve &&
+                        places_[best + 1].at.curve == place.curve;
+    if (!inside) return place;
+    const double a = left[best - 1], b = left[best], c = left[best + 1];
+    const double bend = a - 2.0 * b + c;
+    const double shift = bend > 0.0 ? std::clamp(0.5 * (a - c) / bend, -0.5, 0.5) : 0.0;
+    place.at += shift * (places_[best + 1].at.at - place.at);
+    return place;
+  }
+
+  // Where the place was when it began: as simulated, and moved by what the force does.
+  Vec3 position(const SceneReadings& here, const OutsideForce& force, std::size_t best) {
+    const std::vector<double>& time = own_.trials.front().markers.time;
+    const auto after = std::ranges::lower_bound(time, force.from + bin);
+    const long row = std::min<long>(after - time.begin(), here.markers.rows() - 1);
+    return here.markers.row(row).segment<3>(first_ + 3 * static_cast<long>(best)).transpose();
+  }
+
+  std::vector<ForcePlace> places_;
+  SceneExperiment own_;
+  long first_;  // column of the places' markers
+  SceneDataSet data_;
+  SceneSimulator simulator_;
+  SceneVariant base_;
+  std::vector<double> row_time_;
+  std::map<std::size_t, Eigen::MatrixXd> responses_;
+};
+
+}  // namespace
+
+OutsideForce find_outside_force(SceneEvaluator& evaluator, const std::vector<plant::Effect>& model,
+                                std::span<const int> trials, int threads) {
+  const SceneExperiment& experiment = evaluator.simulator().experiment();
+  SceneVariant variant{model};
+  double most = 0.0;
+  int worst = -1;
+  for (const int t : trials) {
+    const SceneSimulator::Request request{&variant, t};
+    const SceneReadings readings = evaluator.simulator().run({&request, 1}).front();
+    SceneDataSet::Sum sum;
+    for (const SceneDataSet::Sum& one : evaluator.data().sums(t, readings)) sum += one;
+    if (sum.square > most) {
+      most = sum.square;
+      worst = t;
+    }
+  }
+  if (worst < 0) return {};
+  OutsideForce found =
+      ForceSearch(experiment, worst, model, evaluator.simulator().numerics(), threads).run();
+  found.trial = worst;
+  return found;
+}
+
+}  // namespace pedicel::discrepancy

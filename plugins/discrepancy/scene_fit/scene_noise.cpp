@@ -1,0 +1,38 @@
+#include "pedicel/discrepancy/scene_fit/scene_noise.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+constexpr int draws = 7;  // with the model itself they fill the solver's eight lanes
+}
+
+std::vector<SceneReadings> predictions_of(SceneSimulator& simulator, const SceneVariant& model) {
+  std::vector<SceneSimulator::Request> requests;
+  for (int t = 0; t < static_cast<int>(simulator.experiment().trials.size()); ++t)
+    requests.push_back({&model, t});
+  return simulator.run(requests);
+}
+
+void widen_noise(SceneSimulator& simulator, SceneDataSet& data, const SceneVariant& model,
+                 std::span<const SceneReadings> finer) {
+  const int trials = static_cast<int>(simulator.experiment().trials.size());
+  std::vector<SceneVariant> variants(draws + 1, model);
+  for (int d = 0; d <= draws; ++d) variants[static_cast<std::size_t>(d)].draw = d;
+  std::vector<SceneSimulator::Request> requests;
+  for (int t = 0; t < trials; ++t)
+    for (const SceneVariant& variant : variants) requests.push_back({&variant, t});
+  const std::vector<SceneReadings> readings = simulator.run(requests);
+  for (int t = 0; t < trials; ++t) {
+    const auto first = static_cast<std::size_t>(t) * variants.size();
+    std::vector<SceneReadings> others(readings.begin() + static_cast<long>(first) + 1,
+                                      readings.begin() + static_cast<long>(first + draws) + 1);
+    // The mesh counts as much as all draws together.
+    if (!finer.empty()) {
+      for (int d = 0; d < draws; ++d) others.push_back(finer[static_cast<std::size_t>(t)]);
+      for (int d = 0; d < draws; ++d) others.push_back(readings[first]);
+    }
+    if (readings[first].healthy) data.widen(t, readings[first], others);
+  }
+}
+
+}  // namespace pedicel::discrepancy

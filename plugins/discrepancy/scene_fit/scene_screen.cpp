@@ -1,0 +1,134 @@
+#include "pedicel/discrepancy/scene_fit/scene_screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr std::size_t most_at_once = 16;  // models, whose readings are all kept
+
+/// One start of a cause and the models that tell of it.
+struct Start {
+  std::string name;
+  Hypothesis model;  // the base and the cause
+  bool vanishes = false;
+  int at = -1;             // index of its residual; -1: that of the base
+  std::vector<int> moved;  // of the residuals with one number moved
+  std::vector<double> step;
+};
+
+bool does_nothing(const SceneFit& start) {
+  return std::ranges::all_of(start.free, [&](const effects::FreeParameter& free) {
+    const double value =
+        start.effect.numbers.at(free.name)[static_cast<std::size_t>(free.component)];
+    return (free.vanishes == effects::Vanishes::at_zero && value == 0.0) ||
+           (free.vanishes == effects::Vanishes::at_one && value == 1.0);
+  });
+}
+
+// Least squares in which no number goes farther than its own scale goes a few times.
+Eigen::VectorXd linear_step(const Eigen::VectorXd& residual, const Eigen::MatrixXd& jacobian,
+                            const Hypothesis& model, double& left) {
+  const long n = jacobian.cols();
+  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  const Eigen::VectorXd right = jacobian.transpose() * residual;
+  for (long p = 0; p < n; ++p) {
+    const double width = model.free[static_cast<std::size_t>(p)].width();
+    normal(p, p) += 1.0 / (width * width) + 1.0e-9;
+  }
+  const Eigen::VectorXd step = normal.ldlt().solve(right);
+  left = 0.5 * (residual - jacobian * step).squaredNorm();
+  return step;
+}
+
+class Screen {
+ public:
+  Screen(SceneEvaluator& evaluator, const SceneFitResult& base, std::span<const int> trials)
+      : evaluator_(evaluator), base_(base), trials_(trials) {}
+
+  void add(const std::string& name, const SceneFit& fit) {
+    Start start;
+    start.name = name;
+    start.model = base_.model;
+    Hypothesis added;
+    added.effects = {fit.effect};
+    added.free = fit.free;
+    start.model.add(added);
+    start.vanishes = does_nothing(fit);
+    if (!start.vanishes) start.at = want(start.model);
+    const Eigen::VectorXd u = start.model.unknowns(), high = start.model.high();
+    for (int p = base_.model.size(); p < start.model.size(); ++p) {
+      // A tenth of what is known: derivatives of contacts need more than a trifle.
+      double step = start.model.free[static_cast<std::size_t>(p)].logarithmic ? 0.1 : 1.0;
+      if (u[p] + step > high[p]) step = -step;
+      Eigen::VectorXd moved = u;
+      moved[p] += step;
+      Hypothesis other = start.model;
+      other.set_unknowns(moved);
+      start.moved.push_back(want(other));
+      start.step.push_back(step);
+    }
+    starts_.push_back(std::move(start));
+  }
+
+  std::vector<ScreenedCause> run() {
+    Eigen::MatrixXd all(base_.residual.size(), static_cast<long>(wanted_.size()));
+    for (std::size_t first = 0; first < wanted_.size(); first += most_at_once) {
+      const std::size_t count = std::min(most_at_once, wanted_.size() - first);
+      all.middleCols(static_cast<long>(first), static_cast<long>(count)) =
+          evaluator_.residuals(std::span(wanted_).subspan(first, count), trials_);
+    }
+    std::vector<ScreenedCause> screened;
+    for (const Start& start : starts_) screened.push_back(judged(start, all));
+    std::ranges::stable_sort(screened, {}, &ScreenedCause::promised);
+    return screened;
+  }
+
+ private:
+  int want(const Hypothesis& model) {
+    wanted_.push_back(model);
+    return static_cast<int>(wanted_.size()) - 1;
+  }
+
+  ScreenedCause judged(const Start& start, const Eigen::MatrixXd& all) const {
+    const Eigen::VectorXd here = start.at < 0 ? base_.residual : Eigen::VectorXd(all.col(start.at));
+    const long own = static_cast<long>(start.moved.size()), old = base_.jacobian.cols();
+    Eigen::MatrixXd jacobian(here.size(), old + own);
+    jacobian.leftCols(old) = base_.jacobian;
+    for (long p = 0; p < own; ++p)
+      jacobian.col(old + p) = (here - all.col(start.moved[static_cast<std::size_t>(p)])) /
+                              start.step[static_cast<std::size_t>(p)];
+    ScreenedCause out;
+    out.name = start.name;
+    out.model = start.model;
+    const Eigen::VectorXd step = linear_step(here, jacobian, start.model, out.promised);
+    const Eigen::VectorXd u = start.model.unknowns() + step;
+    out.model.set_unknowns(u.cwiseMax(start.model.low()).cwiseMin(start.model.high()));
+    return out;
+  }
+
+  SceneEvaluator& evaluator_;
+  const SceneFitResult& base_;
+  std::span<const int> trials_;
+  std::vector<Hypothesis> wanted_;
+  std::vector<Start> starts_;
+};
+
+}  // namespace
+
+std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneFitResult& base,
+                                         const std::vector<std::string>& has,
+                                         std::span<const int> trials) {
+  Screen screen(evaluator, base, trials);
+  const SceneExperiment& experiment = evaluator.simulator().experiment();
+  for (const SceneEffectDefinition& definition : scene_effect_definitions()) {
+    if (std::ranges::find(has, definition.name) != has.end()) continue;
+    for (const SceneFit& start : starts_of(definition, {experiment}))
+      screen.add(definition.name, start);
+  }
+  return screen.run();
+}
+
+}  // namespace pedicel::discrepancy

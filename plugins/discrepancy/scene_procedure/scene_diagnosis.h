@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "pedicel/discrepancy/scene_fit/scene_search.h"
+#include "pedicel/discrepancy/select/verdict.h"
+
+namespace pedicel::discrepancy {
+
+struct SceneDiagnosisOptions {
+  /// Mesh and step of the predictions that are judged; those of the search are coarser.
+  SceneNumerics numerics;
+  SceneNumerics search{.distance = 0.02, .dt = 2.0e-3};
+  int threads = 1;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< s
+  std::function<void(const std::string&, double)> progress;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// What was found out of a measured scene.
+struct SceneDiagnosis {
+  SceneFindings findings;
+  Verdict verdict;
+  std::vector<int> fit_trials, check_trials;
+  /// By trial: as the files say, refitted, and extended (the refitted one where nothing was found).
+  std::vector<SceneReadings> nominal, refitted, extended;
+  std::vector<plant::Effect> model;  ///< the extended one, on top of the files
+  std::string text;                  ///< the fits, for people
+};
+
+/// Which trials are fitted and which held out: as the experiment says; where it says nothing, of
+/// three trials or more the one with the second largest misfit (`misfit`, by trial) is held out.
+void split_scene_trials(const SceneExperiment& experiment, const std::vector<double>& misfit,
+                        std::vector<int>& fit, std::vector<int>& check);
+
+/// The whole procedure: noise of the predictions, baseline, causes, held-out trials, verdict.
+SceneDiagnosis diagnose_scene(const SceneExperiment& experiment,
+                              const SceneDiagnosisOptions& options);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,311 @@
+#include "pedicel/discrepancy/scene_procedure/scene_symptoms.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/io/csv.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double shows_at = 5.0;    // standard errors
+constexpr double still = 0.15;      // s, in which nothing is expected to have moved
+constexpr double clear_push = 6.0;  // noise units, of a force that is a touch
+constexpr double firm_push = 0.4;   // of the largest force: there its ratio is told
+
+SymptomNumber symptom(const std::string& name, const std::string& of, double value, double error,
+                      const std::string& unit, std::vector<std::string> speaks_for) {
+  SymptomNumber out;
+  out.name = name;
+  out.of = of;
+  out.value = value;
+  out.error = error;
+  out.unit = unit;
+  out.shows = error > 0.0 && std::abs(value) > shows_at * error;
+  out.speaks_for = std::move(speaks_for);
+  return out;
+}
+
+/// Columns of a table over time, without what weight and inertia of the tool give: the prediction's
+/// own course at its own rest stands for them.
+struct Push {
+  std::vector<double> time, normal, across;  // s, N, N
+};
+
+Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench) {
+  Push out;
+  Vec3 rest = Vec3::Zero();
+  int count = 0;
+  for (long r = 0; r < wrench.rows() && time[static_cast<std::size_t>(r)] < time.front() + still;
+       ++r)
+    if (wrench.row(r).head<3>().allFinite()) {
+      rest += wrench.row(r).head<3>().transpose();
+      ++count;
+    }
+  if (count > 0) rest /= count;
+  // The direction of the strongest push stands for the normal.
+  Vec3 most = Vec3::Zero();
+  for (long r = 0; r < wrench.rows(); ++r) {
+    const Vec3 f = wrench.row(r).head<3>().transpose() - rest;
+    if (f.allFinite() && f.norm() > most.norm()) most = f;
+  }
+  const Vec3 n = most.norm() > 0.0 ? Vec3(most.normalized()) : Vec3(Vec3::UnitX());
+  for (long r = 0; r < wrench.rows(); ++r) {
+    const Vec3 f = wrench.row(r).head<3>().transpose() - rest;
+    if (!f.allFinite()) continue;
+    out.time.push_back(time[static_cast<std::size_t>(r)]);
+    out.normal.push_back(n.dot(f));
+    out.across.push_back((f - n * n.dot(f)).norm());
+  }
+  return out;
+}
+
+// The first and the last time at which a push of some size is there; NaN where there is none.
+std::pair<double, double> touch(const Push& push, double least) {
+  double first = std::nan(""), last = std::nan("");
+  for (std::size_t i = 0; i + 3 < push.time.size(); ++i) {
+    const bool there = std::hypot(push.normal[i], push.across[i]) > least &&
+                       std::hypot(push.normal[i + 3], push.across[i + 3]) > least;
+    if (!there) continue;
+    if (std::isnan(first)) first = push.time[i];
+    last = push.time[i + 3];
+  }
+  return {first, last};
+}
+
+class Symptoms {
+ public:
+  Symptoms(const SceneExperiment& experiment, const SceneDataSet& data,
+           std::span<const SceneReadings> predicted)
+      : experiment_(experiment), data_(data), predicted_(predicted) {}
+
+  std::vector<SymptomNumber> run() {
+    for (std::size_t t = 0; t < experiment_.trials.size() && t < predicted_.size(); ++t) {
+      const SceneTrial& trial = experiment_.trials[t];
+      const SceneReadings& model = predicted_[t];
+      if (!model.healthy) continue;
+      for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
+        if (trial.wrenches[w].size() > 0) contact(trial, trial.wrenches[w], model.wrenches[w], w);
+      lag(trial, model);
+      for (std::size_t c = 0; c < trial.pixels.size(); ++c)
+        image(trial, trial.pixels[c], model.pixels[c], experiment_.cameras[c]);
+      standing(trial, model);
+    }
+    std::ranges::stable_sort(found_, [](const SymptomNumber& a, const SymptomNumber& b) {
+      return std::abs(a.value) / a.error > std::abs(b.value) / b.error;
+    });
+    // Of each kind the clearest trial.
+    std::vector<SymptomNumber> kept;
+    for (const SymptomNumber& one : found_)
+      if (std::ranges::none_of(kept, [&](const SymptomNumber& k) { return k.name == one.name; }))
+        kept.push_back(one);
+    return kept;
+  }
+
+ private:
+  void contact(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
+               std::size_t sensor) {
+    const double noise = data_.deviation(SceneChannel::force);
+    const Push measured = push_of(samples.time, samples.value), told = push_of(samples.time, model);
+    const auto [begin, end] = touch(measured, clear_push * noise);
+    const auto [begin_told, end_told] = touch(told, clear_push * noise);
+    const double sample = samples.size() > 1
+                              ? (samples.time.back() - samples.time.front()) / (samples.size() - 1)
+                              : 0.0;
+    const auto tell = [&](const std::string& name, double a, double b, const std::string& what) {
+      if (std::isnan(a) || std::isnan(b)) return;
+      found_.push_back(symptom(name, trial.name, a - b, 1.5 * sample, "s",
+                               {"plant_pose", "tool_pose", "robot_latency", "joint_offset"}));
+      found_.back().sentence = "In " + trial.name + " the tool " + what + " " +
+                               io::format_number(std::abs(a - b), 2) + " s " +
+                               (a > b ? "later" : "earlier") + " than simulated, at " +
+                               io::format_number(a, 3) + " s.";
+    };
+    tell("touch_onset", begin, begin_told, "begins to touch");
+    tell("touch_end", end, end_told, "lets go");
+    friction(trial, measured, told, noise);
+    rest(trial, samples, model, sensor);
+  }
+
+  // The ratio while the push is firm, and when it leaves its first value: the contact slips.
+  void friction(const SceneTrial& trial, const Push& measured, const Push& told, double noise) {
+    const auto ratio = [&](const Push& push, double& error) {
+      const double most = push.normal.empty() ? 0.0 : *std::ranges::max_element(push.normal);
+      double normal = 0.0, across = 0.0;
+      int count = 0;
+      for (std::size_t i = 0; i < push.time.size(); ++i) {
+        if (push.normal[i] < firm_push * most || most < 2.0 * clear_push * noise) continue;
+        normal += push.normal[i];
+        across += push.across[i];
+        ++count;
+      }
+      error = count > 0 ? noise * std::sqrt(static_cast<double>(count)) / normal : 0.0;
+      return count > 0 ? across / normal : std::nan("");
+    };
+    double error = 0.0, none = 0.0;
+    const double a = ratio(measured, error), b = ratio(told, none);
+    if (std::isnan(a) || std::isnan(b)) return;
+    found_.push_back(symptom("friction_ratio", trial.name, a - b, std::max(error, 0.005), "1",
+                             {"contact_friction", "wrench_gain"}));
+    found_.back().sentence = "In " + trial.name + " the tangential force is " +
+                             io::format_number(a, 3) + " of the normal one, simulated " +
+                             io::format_number(b, 3) + ".";
+    const double slip = slip_of(measured, noise), slip_told = slip_of(told, noise);
+    if (std::isnan(slip) || std::isnan(slip_told)) return;
+    found_.push_back(
+        symptom("slip", trial.name, slip - slip_told, 0.02, "s", {"contact_friction"}));
+    found_.back().sentence = "In " + trial.name + " the contact begins to slip at " +
+                             io::format_number(slip, 3) + " s, simulated at " +
+                             io::format_number(slip_told, 3) + " s.";
+  }
+
+  // When the ratio of a firm push first reaches what it is at most.
+  static double slip_of(const Push& push, double noise) {
+    std::vector<double> ratios, times;
+    for (std::size_t i = 0; i < push.time.size(); ++i)
+      if (push.normal[i] > 3.0 * clear_push * noise) {
+        ratios.push_back(push.across[i] / push.normal[i]);
+        times.push_back(push.time[i]);
+      }
+    if (ratios.size() < 20) return std::nan("");
+    std::vector<double> sorted = ratios;
+    std::ranges::sort(sorted);
+    const double high = sorted[sorted.size() * 95 / 100];
+    for (std::size_t i = 0; i + 2 < ratios.size(); ++i)
+      if (ratios[i] > 0.95 * high && ratios[i + 1] > 0.95 * high && ratios[i + 2] > 0.95 * high)
+        return times[i];
+    return std::nan("");
+  }
+
+  // Before anything moves: weight and the sensor's zero.
+  void rest(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
+            std::size_t sensor) {
+    Eigen::Matrix<double, 6, 1> off = Eigen::Matrix<double, 6, 1>::Zero();
+    int count = 0;
+    for (long r = 0; r < samples.size() &&
+                     samples.time[static_cast<std::size_t>(r)] < samples.time.front() + still;
+         ++r) {
+      const Eigen::RowVectorXd d = samples.value.row(r) - model.row(r);
+      if (!d.allFinite()) continue;
+      off += d.transpose();
+      ++count;
+    }
+    if (count < 3) return;
+    off /= count;
+    const std::string name = experiment_.wrenches[sensor].name;
+    const double root = std::sqrt(static_cast<double>(count));
+    found_.push_back(symptom("wrench_at_rest", trial.name, off.head<3>().norm(),
+                             1.7 * data_.deviation(SceneChannel::force) / root, "N",
+                             {"wrench_bias", "payload", "wrench_gain"}));
+    found_.back().sentence = "At rest the sensor " + name + " says " +
+                             io::format_number(off.head<3>().norm(), 3) +
+                             " N more than weight explains.";
+    found_.push_back(symptom("moment_at_rest", trial.name, off.tail<3>().norm(),
+                             1.7 * data_.deviation(SceneChannel::moment) / root, "N m",
+                             {"wrench_bias", "payload"}));
+    found_.back().sentence = "At rest the sensor " + name + " says a moment of " +
+                             io::format_number(off.tail<3>().norm(), 3) +
+                             " N m more than weight explains.";
+  }
+
+  // The shift in time of a marker on the arm that takes most of its residual.
+  void lag(const SceneTrial& trial, const SceneReadings& model) {
+    double top = 0.0, bottom = 0.0;
+    for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
+      if (experiment_.markers[m].plant >= 0 || trial.markers.size() < 3) continue;
+      for (long c = 3 * static_cast<long>(m); c < 3 * static_cast<long>(m) + 3; ++c)
+        for (long r = 1; r + 1 < trial.markers.size(); ++r) {
+          const auto i = static_cast<std::size_t>(r);
+          const double speed = (model.markers(r + 1, c) - model.markers(r - 1, c)) /
+                               (trial.markers.time[i + 1] - trial.markers.time[i - 1]);
+          const double d = trial.markers.value(r, c) - model.markers(r, c);
+          if (!std::isfinite(d) || !std::isfinite(speed)) continue;
+          top -= d * speed;
+          bottom += speed * speed;
+        }
+    }
+    if (bottom <= 0.0) return;
+    const double shift = top / bottom;
+    found_.push_back(symptom("robot_lag", trial.name, -shift,
+                             data_.deviation(SceneChannel::position) / std::sqrt(bottom) + 2.0e-4,
+                             "s", {"robot_latency", "latency"}));
+    found_.back().sentence =
+        "In " + trial.name + " the arm's log is " + io::format_number(1.0e3 * std::abs(shift), 2) +
+        " ms " + (shift < 0.0 ? "behind" : "ahead of") + " what the markers on the arm show.";
+  }
+
+  // Image residual as a small motion of the camera: two shifts, a turn and a scale.
+  void image(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
+             const Camera& camera) {
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    int count = 0;
+    for (long r = 0; r < samples.size(); ++r)
+      for (long m = 0; 2 * m + 1 < samples.value.cols(); ++m) {
+        const Eigen::Vector2d at = model.row(r).segment<2>(2 * m).transpose() - camera.centre;
+        const Eigen::Vector2d off =
+            (samples.value.row(r) - model.row(r)).segment<2>(2 * m).transpose();
+        if (!at.allFinite() || !off.allFinite()) continue;
+        Eigen::Matrix<double, 2, 4> j;
+        j << 1, 0, -at.y(), at.x(), 0, 1, at.x(), at.y();
+        normal += j.transpose() * j;
+        right += j.transpose() * off;
+        ++count;
+      }
+    if (count < 10) return;
+    const Eigen::Vector4d fit = normal.ldlt().solve(right);
+    const double error =
+        data_.deviation(SceneChannel::pixel) / std::sqrt(static_cast<double>(count));
+    found_.push_back(symptom("image_motion", trial.name, fit.head<2>().norm(), 2.0 * error + 0.02,
+                             "px", {"camera_pose", "camera_focal", "lens_distortion"}));
+    found_.back().sentence = "The image of " + camera.name + " is moved by (" +
+                             io::format_number(fit[0], 2) + ", " + io::format_number(fit[1], 2) +
+                             ") px, turned by " + io::format_number(1.0e3 * fit[2], 2) +
+                             " mrad and scaled by " + io::format_number(1.0 + fit[3], 5) + ".";
+  }
+
+  // The mean offset of the plant's markers before anything moves.
+  void standing(const SceneTrial& trial, const SceneReadings& model) {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (long r = 0;
+         r < trial.markers.size() && trial.markers.time[static_cast<std::size_t>(r)] < still; ++r)
+      for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
+        if (experiment_.markers[m].plant < 0) continue;
+        const Vec3 d = (trial.markers.value.row(r) - model.markers.row(r))
+                           .segment<3>(3 * static_cast<long>(m))
+                           .transpose();
+        if (!d.allFinite()) continue;
+        sum += d;
+        ++count;
+      }
+    if (count < 3) return;
+    const Vec3 mean = sum / count;
+    found_.push_back(symptom(
+        "plant_shift", trial.name, mean.norm(),
+        1.7 * data_.deviation(SceneChannel::position) / std::sqrt(static_cast<double>(count)) +
+            5.0e-5,
+        "m", {"plant_pose", "frame_rotation"}));
+    found_.back().sentence = "At rest the plant's markers are off by (" +
+                             io::format_number(1.0e3 * mean.x(), 2) + ", " +
+                             io::format_number(1.0e3 * mean.y(), 2) + ", " +
+                             io::format_number(1.0e3 * mean.z(), 2) + ") mm on average.";
+  }
+
+  const SceneExperiment& experiment_;
+  const SceneDataSet& data_;
+  std::span<const SceneReadings> predicted_;
+  std::vector<SymptomNumber> found_;
+};
+
+}  // namespace
+
+std::vector<SymptomNumber> scene_symptoms(const SceneExperiment& experiment,
+                                          const SceneDataSet& data,
+                                          std::span<const SceneReadings> predicted) {
+  return Symptoms(experiment, data, predicted).run();
+}
+
+}  // namespace pedicel::discrepancy

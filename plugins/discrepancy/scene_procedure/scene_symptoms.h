@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pedicel/discrepancy/scene/scene_data.h"
+#include "pedicel/discrepancy/select/verdict.h"
+
+namespace pedicel::discrepancy {
+
+/// In which respects measured trials differ from predictions, one a trial: when the tool touches
+/// and lets go, how much the contact rubs, how far the arm's log lags, how the camera's image has
+/// moved, what the wrench says at rest, and where the plant stands. The clearest of each kind
+/// first.
+std::vector<SymptomNumber> scene_symptoms(const SceneExperiment& experiment,
+                                          const SceneDataSet& data,
+                                          std::span<const SceneReadings> predicted);
+
+}  // namespace pedicel::discrepancy

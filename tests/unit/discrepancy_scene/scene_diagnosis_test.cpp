@@ -1,0 +1,104 @@
+#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+
+#include <gmock/gmock.h>
+
+#include "arm_at_stem.h"
+#include "pedicel/discrepancy/scene/scene_observe.h"
+#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
+#include "pedicel/world/scene_reader.h"
+
+namespace pedicel::discrepancy {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+
+// Data of a variant with the instruments' noise, diagnosed with the same mesh and step.
+class DiagnosedScene : public testing::Test {
+ protected:
+  DiagnosedScene() {
+    numerics_.distance = 0.05;
+    numerics_.dt = 2.0e-3;
+  }
+  SceneDiagnosis diagnose(const std::vector<std::string>& hidden,
+                          const std::vector<SceneForce>& forces = {}) {
+    at_.write_all();
+    const SceneExperiment plain = at_.read();
+    SceneVariant variant;
+    for (const std::string& text : hidden) variant.effects.push_back(scene_effect(text, plain));
+    variant.forces = forces;
+    SceneObserveOptions how;
+    how.numerics = numerics_;
+    made_ = observed_scene(plain, variant, how);
+    SceneDiagnosisOptions options;
+    options.numerics = options.search = numerics_;
+    return diagnose_scene(made_, options);
+  }
+  static const NamedCause* cause(const SceneDiagnosis& diagnosis, const std::string& name) {
+    for (const NamedCause& one : diagnosis.verdict.causes)
+      if (one.name == name) return &one;
+    return nullptr;
+  }
+
+  ArmAtStem at_;
+  SceneNumerics numerics_;
+  SceneExperiment made_;
+};
+
+TEST_F(DiagnosedScene, NothingHiddenIsAdequate) {
+  const SceneDiagnosis found = diagnose({});
+  EXPECT_EQ(found.verdict.outcome, Outcome::adequate) << found.text;
+  EXPECT_TRUE(found.verdict.causes.empty()) << found.text;
+  EXPECT_LT(*found.verdict.fit.nominal, 1.1);
+}
+
+TEST_F(DiagnosedScene, ASensorsBiasIsNamedWithItsSize) {
+  const SceneDiagnosis found =
+      diagnose({"{name: wrench_bias, force: [0.3, 0, -0.2], moment: [0, 0.02, 0]}"});
+  EXPECT_EQ(found.verdict.outcome, Outcome::named) << found.text;
+  const NamedCause* bias = cause(found, "wrench_bias");
+  ASSERT_TRUE(bias) << found.text;
+  EXPECT_NEAR(bias->parameters.at("force")[0].value, 0.3, 0.02);
+  EXPECT_NEAR(bias->parameters.at("force")[2].value, -0.2, 0.02);
+  EXPECT_GT(*bias->share.fit, 0.9);
+  EXPECT_GT(*bias->change.force, 0.3);
+  // A symptom says the same without any fit.
+  EXPECT_THAT(found.verdict.symptoms,
+              Contains(testing::AllOf(Field(&SymptomNumber::name, "wrench_at_rest"),
+                                      Field(&SymptomNumber::shows, true))));
+}
+
+TEST_F(DiagnosedScene, AMovedPlantIsNamedAndItsSceneRuns) {
+  const SceneDiagnosis found = diagnose({"{name: plant_pose, offset: [0.003, -0.004, 0]}"});
+  EXPECT_EQ(found.verdict.outcome, Outcome::named) << found.text;
+  const NamedCause* pose = cause(found, "plant_pose");
+  ASSERT_TRUE(pose) << found.text;
+  EXPECT_NEAR(pose->parameters.at("offset")[1].value, -0.004, 3.0e-4);
+  const TemporaryFolder out;
+  const ExtendedScene extended = write_extended_scene(out / "", made_, found.model, 0);
+  ASSERT_EQ(extended.file, "extended.scene.yaml");
+  Diagnostics diagnostics;
+  const auto scene = world::read_scene(out / extended.file, diagnostics);
+  ASSERT_TRUE(scene) << diagnostics.text();
+  EXPECT_NEAR(scene->plants.front().pose.position.y(), 0.03 - 0.004, 5.0e-4);
+}
+
+TEST_F(DiagnosedScene, AForceFromOutsideIsUnknownWithPlaceTimeAndDirection) {
+  SceneForce force;
+  force.place = {"stem", 0.75, {}};
+  force.force = {-0.06, 0.0, 0.0};
+  force.from = 0.5;
+  force.rise = 0.1;
+  const SceneDiagnosis found = diagnose({}, {force});
+  EXPECT_EQ(found.verdict.outcome, Outcome::unknown) << found.text;
+  ASSERT_TRUE(found.verdict.unknown) << found.text;
+  const OutsideAction& outside = *found.verdict.unknown;
+  EXPECT_EQ(outside.place.curve, "stem");
+  EXPECT_NEAR(outside.place.at, 0.75, 0.1);
+  EXPECT_NEAR(outside.from, 0.5, 0.15);
+  EXPECT_LT(outside.direction.x(), -0.8);
+  EXPECT_NEAR(outside.position.z(), 0.45, 0.06);
+}
+
+}  // namespace
+}  // namespace pedicel::discrepancy
