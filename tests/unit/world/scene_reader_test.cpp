@@ -1,4 +1,5 @@
 #include "pedicel/world/scene_reader.h"
+#include "pedicel/world/scene_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,6 +44,13 @@ bodies:
 ground: {height: -0.1}
 loads:
   - {fruit: truss_0/fruit_1, force: [0, 0, -3], from: 0.5, to: 1.5, ramp: true}
+ties:
+  - {organ: truss/stem, at: 0.9, offset: [0, 0, 1], length: 0.95, stiffness: 500}
+  - {organ: tree/trunk, to: [0, 0.1, 1.5]}
+cuts:
+  - {organ: tree/trunk, at: 0.5, time: 2}
+  - {organ: truss_0/stem, by_tool: true, reach: 0.03}
+wind: {velocity: [3, 1, 0], height: 1.5, roughness: 0.02, intensity: 0.2, length: 4, rise: 0, shelter: false}
 cameras:
   - {name: near, eye: [1, 0, 1], target: [0, 0, 0.5], fov: 0.5, follow: {fruit: truss_0/fruit_1}}
 pictures:
@@ -91,6 +99,13 @@ TEST_F(SceneReader, ReadsEveryKey) {
   EXPECT_EQ(scene->bodies.at(0).parts.size(), 5u);
   EXPECT_EQ(scene->ground->height, -0.1);
   EXPECT_TRUE(scene->loads.at(0).ramp);
+  EXPECT_TRUE(scene->ties.at(0).is_offset);
+  EXPECT_EQ(scene->ties.at(0).length, 0.95);
+  EXPECT_FALSE(scene->ties.at(1).length);
+  EXPECT_EQ(scene->cuts.at(0).time, 2.0);
+  EXPECT_FALSE(scene->cuts.at(1).time);
+  EXPECT_EQ(scene->wind->length, 4.0);
+  EXPECT_FALSE(scene->wind->shelter);
   EXPECT_EQ(scene->cameras.at(0).follow.kind, Anchor::Kind::fruit);
   EXPECT_EQ(scene->pictures.at(1).when, ScenePicture::When::before_detachment);
   EXPECT_TRUE(scene->pictures.at(1).strain);
@@ -98,6 +113,22 @@ TEST_F(SceneReader, ReadsEveryKey) {
   EXPECT_EQ(scene->sweep->values.size(), 2u);
   EXPECT_EQ(scene->expectations.at(2).test, Expectation::Test::rises_with_sweep);
   EXPECT_EQ(scene->expectations.at(3).low, 1.0);
+}
+
+// What is read is written, and read again the same.
+TEST_F(SceneReader, WhatIsWrittenReadsAgain) {
+  Diagnostics diagnostics;
+  const auto scene = parse_scene(text, folder_ / "try.scene.yaml", diagnostics);
+  ASSERT_TRUE(scene) << diagnostics.text();
+  const std::string written = scene_text(*scene, folder_);
+  const auto again = parse_scene(written, folder_ / "try.scene.yaml", diagnostics);
+  ASSERT_TRUE(again) << diagnostics.text() << written;
+  EXPECT_EQ(scene_text(*again, folder_), written);
+  EXPECT_EQ(again->ties.size(), 2u);
+  EXPECT_EQ(again->cuts.at(1).reach, 0.03);
+  ASSERT_TRUE(again->wind);
+  EXPECT_EQ(again->wind->roughness, 0.02);
+  EXPECT_EQ(again->wind->rise, 0.0);
 }
 
 // Z of the tool along `approach`, Y along `across` (here the default, world Y).
