@@ -128,6 +128,14 @@ std::string counted_cases(const cluster::Survey& survey, const cluster::TaskHead
               : std::string("unknown length"));
 }
 
+/// From what the cases took that are done; empty: nothing is known, or nothing runs.
+std::string time_left(const cluster::Survey& survey, const cluster::Queue::State& state) {
+  if (survey.done() == 0 || state.running == 0 || survey.missing.empty()) return {};
+  const double each = survey.seconds / survey.done();
+  const double left = each * static_cast<double>(survey.missing.size()) / state.running;
+  return ", about " + std::to_string(static_cast<long>(left + 0.5)) + " s left";
+}
+
 int tell(const fs::path& folder) {
   const cluster::RunFolder run(folder);
   const cluster::TaskFile tasks = cluster::read_task_file(run.tasks());
@@ -137,9 +145,10 @@ int tell(const fs::path& folder) {
     cluster::SlurmQueue queue(run, tasks.head, {});
     const cluster::Queue::State state = queue.state();
     std::cout << "  " << queue.left() << ": "
-              << (state.known ? std::to_string(state.running) + " tasks running, " +
-                                    std::to_string(state.waiting) + " waiting"
-                              : std::string("Slurm does not answer"))
+              << (state.known
+                      ? std::to_string(state.running) + " tasks running, " +
+                            std::to_string(state.waiting) + " waiting" + time_left(survey, state)
+                      : std::string("Slurm does not answer"))
               << "\n";
   }
   for (const cluster::CaseRecord& failure : survey.failures)

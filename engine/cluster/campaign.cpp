@@ -232,7 +232,7 @@ std::string Campaign::missing_text() const {
     }
     const auto said = std::ranges::find(survey_.failures, one.id, &CaseRecord::id);
     text += "\n  " + one.name + ": " +
-            (said == survey_.failures.end() ? "no word of it"
+            (said == survey_.failures.end() ? "no word of it, see " + folder_.logs().string()
                                             : said->reason + " (on " + said->host + ")");
   }
   return text;
