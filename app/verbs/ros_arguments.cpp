@@ -55,6 +55,7 @@ int ros_verb(const RosArguments& a, const RunArguments& run, bool paused) {
   if (run.scene.empty()) throw UsageError("--ros: no scene given, expected one");
   const std::pair<const char*, bool> others[] = {{"--out", !run.out.empty()},
                                                  {"--events", !run.events.empty()},
+                                                 {"--gltf", !run.gltf.empty()},
                                                  {"--compare", !run.compare.empty()},
                                                  {"--save-state", !run.save_state.empty()},
                                                  {"--json", run.json},

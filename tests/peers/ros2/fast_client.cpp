@@ -154,12 +154,11 @@ std::string one_byte(std::uint8_t value) {
   return bytes_of([&](Cdr& cdr) { cdr << value; });
 }
 /// Of a response that begins with a Result; 255 where none came.
-int result_of(std::string reply, std::string* why = nullptr) {
+int result_of(std::string reply) {
   if (reply.empty()) return 255;
   std::uint8_t result = 255;
   std::string text;
   read(reply, [&](Cdr& cdr) { cdr >> result >> text; });
-  if (why) *why = text;
   return result;
 }
 int state_of(std::string reply) {
