@@ -1,7 +1,11 @@
 // Names of ROS 2 as they stand in DDS.
 #include "pedicel/app/ros/ros_name.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "pedicel/app/ros/interfaces.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::app {
 namespace {
@@ -22,6 +26,18 @@ TEST(RosName, NamespacesLeaveWhatAllNodesShare) {
   for (const char* good : {"", "/arm", "/a/b_2", "/_x"}) EXPECT_TRUE(is_namespace(good)) << good;
   for (const char* bad : {"arm", "/", "/arm/", "/a//b", "/2a", "/a-b", "/a b", "/\xc3\xa4"})
     EXPECT_FALSE(is_namespace(bad)) << bad;
+}
+
+TEST(Interfaces, AreFoundByNameAndByAddress) {
+  EXPECT_EQ(address_of_interface("lo"), "127.0.0.1");
+  EXPECT_EQ(address_of_interface("127.0.0.1"), "127.0.0.1");
+  try {
+    address_of_interface("10.255.255.254");
+    FAIL() << "expected it to be refused";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::HasSubstr("no interface of this machine, expected 127.0.0.1"));
+  }
 }
 
 }  // namespace
