@@ -38,9 +38,12 @@ McapSink::McapSink(const std::filesystem::path& file)
     : writer_(file, {.library = "pedicel " + version()}) {}
 
 int McapSink::add(const Topic& topic) {
-  return writer_.add_channel(
-      topic.name, {topic.definitions.front().name, "ros2msg", ros::schema_text(topic.definitions)},
-      "cdr", {{"offered_qos_profiles", qos_text(topic.delivery)}});
+  const auto known = topics_.find(topic.name);
+  if (known != topics_.end()) return known->second;
+  return topics_[topic.name] = writer_.add_channel(
+             topic.name,
+             {topic.definitions.front().name, "ros2msg", ros::schema_text(topic.definitions)},
+             "cdr", {{"offered_qos_profiles", qos_text(topic.delivery)}});
 }
 
 void McapSink::write(int topic, double time, std::string_view cdr) {

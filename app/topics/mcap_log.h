@@ -8,7 +8,7 @@
 
 namespace pedicel::app {
 
-/// Topics as an MCAP file (profile ros2).
+/// Topics as an MCAP file (profile ros2). A topic that is added again is the same one.
 class McapSink : public TopicSink {
  public:
   /// Throws io::WriteError, as all functions here.
@@ -19,6 +19,7 @@ class McapSink : public TopicSink {
 
  private:
   mcap::Writer writer_;
+  std::map<std::string, int> topics_;
 };
 
 /// What writes all topics of a run to a file, at the scene's log_rate.

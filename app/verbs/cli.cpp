@@ -109,11 +109,11 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
 /// What a picture or a film of the window would leave undone.
 void check_picture_arguments(const RunArguments& a) {
   const std::pair<const char*, bool> of_runs[] = {
-      {"--steps", a.steps.has_value()},        {"--log", !a.log.empty()},
-      {"--events", !a.events.empty()},         {"--trajectory", !a.trajectory.empty()},
-      {"--compare", !a.compare.empty()},       {"--save-state", !a.save_state.empty()},
-      {"--load-state", !a.load_state.empty()}, {"--param-sweep", !a.param_sweep.empty()},
-      {"--print-scene", a.print_scene}};
+      {"--steps", a.steps.has_value()},          {"--log", !a.log.empty()},
+      {"--events", !a.events.empty()},           {"--gltf", !a.gltf.empty()},
+      {"--trajectory", !a.trajectory.empty()},   {"--compare", !a.compare.empty()},
+      {"--save-state", !a.save_state.empty()},   {"--load-state", !a.load_state.empty()},
+      {"--param-sweep", !a.param_sweep.empty()}, {"--print-scene", a.print_scene}};
   for (const auto& [option, given] : of_runs)
     if (given)
       throw UsageError(std::string(option) +

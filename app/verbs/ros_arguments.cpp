@@ -6,6 +6,7 @@
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
 #ifdef PEDICEL_ROS
+#include "pedicel/app/ros/interfaces.h"
 #include "pedicel/app/ros/ros_name.h"
 #include "pedicel/app/ros/ros_server.h"
 #endif
@@ -17,8 +18,10 @@ void add_ros_options(CLI::App& app, RosArguments& a) {
   app.add_option("--domain", a.domain, "of ROS 2 (default: ROS_DOMAIN_ID, else 0)")
       ->check(CLI::Range(0, 232));
   app.add_option("--namespace", a.ros_namespace, "of its topics and services: /arm");
-  app.add_option("--ros-interface", a.interface,
-                 "address of the network that ROS 2 uses, or any (default: this machine only)");
+  app.add_option(
+      "--ros-interface", a.interface,
+      "name or address of the network interface that ROS 2 uses, or any (default: this machine "
+      "only)");
   app.add_option("--pace", a.pace,
                  "simulated seconds a second with --ros; 0: as fast as it can (default: 1)")
       ->check(CLI::Range(0.0, 1.0e3));
@@ -55,6 +58,7 @@ int ros_verb(const RosArguments& a, const RunArguments& run, bool paused) {
   if (run.scene.empty()) throw UsageError("--ros: no scene given, expected one");
   const std::pair<const char*, bool> others[] = {{"--out", !run.out.empty()},
                                                  {"--events", !run.events.empty()},
+                                                 {"--gltf", !run.gltf.empty()},
                                                  {"--compare", !run.compare.empty()},
                                                  {"--save-state", !run.save_state.empty()},
                                                  {"--json", run.json},
@@ -72,6 +76,8 @@ int ros_verb(const RosArguments& a, const RunArguments& run, bool paused) {
                      ": expected one such as /arm: a slash, then letters, digits and _");
   RosOptions options;
   options.node = {domain_of(a), a.ros_namespace, a.interface};
+  if (!a.interface.empty() && a.interface != "any")
+    options.node.interface = address_of_interface(a.interface);
   options.simulation = run_options(run).simulation;
   options.pace = a.pace.value_or(1.0);
   options.paused = paused;

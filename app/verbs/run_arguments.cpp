@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "pedicel/app/gltf/gltf_film.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/plant_import.h"
@@ -47,6 +48,7 @@ void add_table_options(CLI::App& app, RunArguments& a) {
       "--log", a.log,
       "a copy of log.csv there, at the end of the run; *.mcap: what ROS 2's topics would "
       "say, while it runs");
+  app.add_option("--gltf", a.gltf, "the moving scene there (*.glb), for Blender and browsers");
   app.add_option("--events", a.events, "a copy of events.csv there, at the end of the run");
   app.add_option("--trajectory", a.trajectory,
                  "joint positions over time (CSV) that the robot follows, in place of the scene's "
@@ -73,8 +75,8 @@ std::string RunArguments::number(const std::string& key) const {
 
 bool RunArguments::asks_for_run() const {
   const bool files = !out.empty() || !script.empty() || !log.empty() || !events.empty() ||
-                     !compare.empty() || !save_state.empty() || !load_state.empty() ||
-                     !param_sweep.empty() || !trajectory.empty();
+                     !gltf.empty() || !compare.empty() || !save_state.empty() ||
+                     !load_state.empty() || !param_sweep.empty() || !trajectory.empty();
   return files || headless || json || quiet || print_scene || steps;
 }
 
@@ -126,6 +128,7 @@ void check_files(const RunArguments& a) {
   const std::pair<const char*, const std::string*> named[] = {{"--out", &a.out},
                                                               {"--log", &a.log},
                                                               {"--events", &a.events},
+                                                              {"--gltf", &a.gltf},
                                                               {"--save-state", &a.save_state}};
   for (const auto& [option, name] : named)
     if (name->starts_with("--"))
@@ -168,6 +171,7 @@ void check_run_arguments(const RunArguments& a) {
   if (!a.param_sweep.empty())
     for (const auto& [option, given] : {std::pair{"--log", &a.log},
                                         {"--events", &a.events},
+                                        {"--gltf", &a.gltf},
                                         {"--compare", &a.compare},
                                         {"--save-state", &a.save_state},
                                         {"--load-state", &a.load_state}})
@@ -254,6 +258,11 @@ RunOptions run_options(const RunArguments& a) {
   else
     options.log = a.log;
   options.events = a.events;
+  if (!a.gltf.empty()) {
+    if (!a.gltf.ends_with(".glb"))
+      throw UsageError("--gltf " + a.gltf + ": expected a name that ends in .glb");
+    options.watchers.push_back(gltf_film(a.gltf));
+  }
   options.steps = a.steps;
   options.save_state = a.save_state;
   options.load_state = a.load_state;

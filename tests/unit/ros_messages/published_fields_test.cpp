@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pedicel/ros_messages/action_messages.h"
 #include "pedicel/ros_messages/control_messages.h"
 #include "pedicel/ros_messages/marker_messages.h"
 #include "pedicel/ros_messages/simulation_messages.h"
@@ -163,6 +164,57 @@ TEST(PublishedFields, OfSimulationInterfaces) {
   EXPECT_EQ(lines<GetEntitiesStates::Response>(),
             "simulation_interfaces/srv/GetEntitiesStates_Response: simulation_interfaces/Result "
             "result; string[] entities; simulation_interfaces/EntityState[] states;");
+}
+
+TEST(PublishedFields, OfActions) {
+  EXPECT_EQ(lines<UUID>(), "unique_identifier_msgs/msg/UUID: uint8[16] uuid;");
+  EXPECT_EQ(lines<GoalInfo>(),
+            "action_msgs/msg/GoalInfo: unique_identifier_msgs/UUID goal_id; "
+            "builtin_interfaces/Time stamp;");
+  EXPECT_EQ(lines<GoalStatus>(),
+            "action_msgs/msg/GoalStatus: action_msgs/GoalInfo goal_info; int8 status;");
+  EXPECT_EQ(lines<GoalStatusArray>(),
+            "action_msgs/msg/GoalStatusArray: action_msgs/GoalStatus[] status_list;");
+  EXPECT_EQ(lines<CancelGoal::Response>(),
+            "action_msgs/srv/CancelGoal_Response: int8 return_code; action_msgs/GoalInfo[] "
+            "goals_canceling;");
+  EXPECT_EQ(lines<MultiDOFJointTrajectoryPoint>(),
+            "trajectory_msgs/msg/MultiDOFJointTrajectoryPoint: geometry_msgs/Transform[] "
+            "transforms; geometry_msgs/Twist[] velocities; geometry_msgs/Twist[] accelerations; "
+            "builtin_interfaces/Duration time_from_start;");
+  EXPECT_EQ(lines<MultiDOFJointTrajectory>(),
+            "trajectory_msgs/msg/MultiDOFJointTrajectory: std_msgs/Header header; string[] "
+            "joint_names; trajectory_msgs/MultiDOFJointTrajectoryPoint[] points;");
+  EXPECT_EQ(lines<JointTolerance>(),
+            "control_msgs/msg/JointTolerance: string name; float64 position; float64 velocity; "
+            "float64 acceleration;");
+  EXPECT_EQ(lines<JointComponentTolerance>(),
+            "control_msgs/msg/JointComponentTolerance: string joint_name; uint16 component; "
+            "float64 position; float64 velocity; float64 acceleration;");
+  EXPECT_EQ(lines<FollowJointTrajectory::Goal>(),
+            "control_msgs/action/FollowJointTrajectory_Goal: trajectory_msgs/JointTrajectory "
+            "trajectory; trajectory_msgs/MultiDOFJointTrajectory multi_dof_trajectory; "
+            "control_msgs/JointTolerance[] path_tolerance; control_msgs/JointComponentTolerance[] "
+            "component_path_tolerance; control_msgs/JointTolerance[] goal_tolerance; "
+            "control_msgs/JointComponentTolerance[] component_goal_tolerance; "
+            "builtin_interfaces/Duration goal_time_tolerance;");
+  EXPECT_EQ(lines<FollowJointTrajectory::Result>(),
+            "control_msgs/action/FollowJointTrajectory_Result: int32 error_code; string "
+            "error_string;");
+  EXPECT_EQ(lines<FollowJointTrajectory::Feedback>(),
+            "control_msgs/action/FollowJointTrajectory_Feedback: std_msgs/Header header; string[] "
+            "joint_names; trajectory_msgs/JointTrajectoryPoint desired; "
+            "trajectory_msgs/JointTrajectoryPoint actual; trajectory_msgs/JointTrajectoryPoint "
+            "error; int32 index; string[] multi_dof_joint_names; "
+            "trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_desired; "
+            "trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_actual; "
+            "trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_error; int32 "
+            "multi_dof_index;");
+  EXPECT_EQ(lines<GripperCommandMessage>(),
+            "control_msgs/msg/GripperCommand: float64 position; float64 max_effort;");
+  EXPECT_EQ(lines<GripperCommand::Result>(),
+            "control_msgs/action/GripperCommand_Result: float64 position; float64 effort; bool "
+            "stalled; bool reached_goal;");
 }
 
 // The hash that rosidl gives std_msgs/msg/String, and the digest of FIPS 180-4's example.

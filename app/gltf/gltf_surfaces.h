@@ -1,0 +1,15 @@
+#pragma once
+
+#include "pedicel/app/gltf/gltf_file.h"
+#include "pedicel/app/run/plant_info.h"
+
+namespace pedicel::app {
+
+/// The things of a shape (spheres, boxes, meshes, capsules, tubes, blades) as surfaces, those of
+/// one material together.
+std::vector<GltfSurface> surfaces_of(const render::DrawList& shape);
+
+/// A plant's stems and leaves as surfaces that hang on its elements.
+std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model, const PlantInfo& plant);
+
+}  // namespace pedicel::app
