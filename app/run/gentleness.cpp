@@ -1,13 +1,15 @@
 #include "pedicel/app/run/gentleness.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pedicel::app {
 
 namespace {
 
-/// Strain energy is looked at every so many steps: stems swing far slower than that.
-constexpr long energy_steps = 4;
+/// s, after which strain energies are looked at again: all segments at every step would take 3 % of
+/// a run's time.
+constexpr double energy_interval = 0.05;
 
 void add_contact(Gentleness::Record& record, double force, double time, double dt) {
   if (!(force > 0.0)) return;
@@ -31,9 +33,10 @@ Gentleness::Gentleness(const cosserat::RodSystem& rods, const PlantStep& plants)
 }
 
 void Gentleness::observe(const world::SimWorld& world, const world::WorldReport&) {
+  const long every = std::max(1l, std::lround(energy_interval / world.dt()));
   for (int p = 0; p < rods_.size(); ++p) {
     observe_contacts(p, world.time(), world.dt());
-    if (steps_ % energy_steps == 0) observe_energy(p);
+    if (steps_ % every == 0) observe_energy(p);
   }
   ++steps_;
 }

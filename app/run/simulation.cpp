@@ -60,7 +60,7 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
   gentleness_ = std::make_unique<Gentleness>(*rods_, plant_step());
   if (robot_ && !scene_.wrenches.empty()) {
-    wrenches_ = std::make_unique<WrenchSensors>(scene_, *robot_, plant_step(), diagnostics);
+    wrenches_ = std::make_unique<WrenchSensors>(scene_, *robot_, plant_step(), world_, diagnostics);
     if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   }
   // Participants of one phase act in the order in which they join.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/app/run/body_contacts.h"
 #include "pedicel/app/run/colliders.h"
 #include "pedicel/core/check.h"
 
@@ -46,7 +47,7 @@ Wrench WrenchNoiseSource::next(double dt) {
   return bias_ + walk_ + drawn(random_, noise_.force_std, noise_.moment_std);
 }
 
-WrenchSensor::WrenchSensor(const world::SceneWrench& scene, const RobotControl& robot,
+WrenchSensor::WrenchSensor(const world::SceneWrench& scene, RobotControl& robot,
                            const PlantStep& plants, const Vec3& gravity, std::uint64_t seed)
     : scene_(scene),
       robot_(robot),
@@ -61,8 +62,9 @@ WrenchSensor::WrenchSensor(const world::SceneWrench& scene, const RobotControl& 
   for (const int link : beyond_) before_.push_back(robot.link_pose(link));
 }
 
-void WrenchSensor::step(double time, double dt) {
-  measure(dt);
+void WrenchSensor::step(world::SimWorld& world) {
+  const double time = world.time();
+  measure(world);
   if (scene_.noise.latency > 0.0) {
     past_.emplace_back(time, exact_);
     while (past_.size() > 1 && past_[1].first <= time - scene_.noise.latency + 1.0e-9)
@@ -73,7 +75,17 @@ void WrenchSensor::step(double time, double dt) {
   if (due > last_sample_ + 0.5 / scene_.rate) sample(time);
 }
 
-void WrenchSensor::measure(double dt) {
+void WrenchSensor::add_bodies(world::SimWorld& world, Vec3& force, Vec3& moment) const {
+  each_body_contact(world, robot_.robot(), [&](int link, const Vec3& force_W, const Vec3& place_W) {
+    const bool felt = scene_.touch ? link == link_ : std::ranges::count(beyond_, link) > 0;
+    if (!felt) return;
+    force += force_W;
+    moment += place_W.cross(force_W);
+  });
+}
+
+void WrenchSensor::measure(world::SimWorld& world) {
+  const double dt = world.dt();
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // W, about the world's origin
   Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
   const std::size_t links = scene_.touch ? 1 : beyond_.size();
@@ -96,6 +108,7 @@ void WrenchSensor::measure(double dt) {
             axes * mass.inertia * axes.transpose() * (angle / dt * turn.axis());
     before_[i] = now;
   }
+  add_bodies(world, force, moment);
   if (moved_ && !scene_.touch) {
     force -= (momentum - momentum_) / dt;
     moment -= (spin - spin_) / dt;
@@ -126,8 +139,10 @@ void WrenchSensor::sample(double time) {
   ++samples_;
 }
 
-WrenchSensors::WrenchSensors(const world::Scene& scene, const RobotControl& robot,
-                             const PlantStep& plants, Diagnostics& diagnostics) {
+WrenchSensors::WrenchSensors(const world::Scene& scene, RobotControl& robot,
+                             const PlantStep& plants, world::SimWorld& world,
+                             Diagnostics& diagnostics)
+    : world_(world) {
   for (const world::SceneWrench& one : scene.wrenches) try {
       sensors_.emplace_back(one, robot, plants, scene.gravity,
                             static_cast<std::uint64_t>(scene.seed));
@@ -136,8 +151,8 @@ WrenchSensors::WrenchSensors(const world::Scene& scene, const RobotControl& robo
     }
 }
 
-void WrenchSensors::observe(const world::SimWorld& world, const world::WorldReport&) {
-  for (WrenchSensor& one : sensors_) one.step(world.time(), world.dt());
+void WrenchSensors::observe(const world::SimWorld&, const world::WorldReport&) {
+  for (WrenchSensor& one : sensors_) one.step(world_);
 }
 
 }  // namespace pedicel::app

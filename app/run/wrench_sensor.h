@@ -29,18 +29,17 @@ class WrenchNoiseSource {
 };
 
 /// A force sensor of the scene (SceneWrench). At a wrist it is what the link and all beyond it
-/// exert on what carries it: their weight, less what their motion takes, and what plants exert on
-/// them. At a fingertip it is what plants exert on the link. Rigid bodies that touch the robot are
-/// not felt.
+/// exert on what carries it: their weight, less what their motion takes, and what plants and rigid
+/// bodies exert on them. At a fingertip it is what plants and bodies exert on the link.
 class WrenchSensor {
  public:
   /// Throws UsageError where the robot has no such link.
-  WrenchSensor(const world::SceneWrench& scene, const RobotControl& robot, const PlantStep& plants,
+  WrenchSensor(const world::SceneWrench& scene, RobotControl& robot, const PlantStep& plants,
                const Vec3& gravity, std::uint64_t seed);
 
   const world::SceneWrench& scene() const { return scene_; }
   /// Once a step, in its end.
-  void step(double time, double dt);
+  void step(world::SimWorld& world);
   /// As it is, in the link's frame about its origin.
   const Wrench& exact() const { return exact_; }
   /// As the sensor says it, with noise, tare and latency: sampled at its rate, held in between.
@@ -49,12 +48,13 @@ class WrenchSensor {
   long samples() const { return samples_; }
 
  private:
-  void measure(double dt);
+  void measure(world::SimWorld& world);
+  void add_bodies(world::SimWorld& world, Vec3& force, Vec3& moment) const;
   void sample(double time);
   Wrench late(double time) const;
 
   world::SceneWrench scene_;
-  const RobotControl& robot_;
+  RobotControl& robot_;
   const PlantStep& plants_;
   Vec3 gravity_;
   int link_ = -1;
@@ -75,13 +75,14 @@ class WrenchSensor {
 class WrenchSensors : public world::Observer {
  public:
   /// Faults go to `diagnostics`.
-  WrenchSensors(const world::Scene& scene, const RobotControl& robot, const PlantStep& plants,
-                Diagnostics& diagnostics);
+  WrenchSensors(const world::Scene& scene, RobotControl& robot, const PlantStep& plants,
+                world::SimWorld& world, Diagnostics& diagnostics);
 
   void observe(const world::SimWorld& world, const world::WorldReport& report) override;
   const std::vector<WrenchSensor>& all() const { return sensors_; }
 
  private:
+  world::SimWorld& world_;
   std::vector<WrenchSensor> sensors_;
 };
 

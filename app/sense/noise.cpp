@@ -19,17 +19,17 @@ void add_to_colours(render::Image& image, const world::CameraNoise& noise, Rando
     value = byte_of(gain * value + (deviation > 0.0 ? deviation * random.normal() : 0.0));
 }
 
-/// By the depths without noise.
+/// Whether a depth leaves the plane of its neighbours to either side by more than `edge` (m). The
+/// inverse depth of a plane is linear over the picture, so that a floor far away has no edges.
 bool at_edge(const render::LabelMap& map, const std::vector<float>& depth, int x, int y,
              double edge) {
-  const float own = depth[map.index(x, y)];
-  constexpr int step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-  for (const auto& [dx, dy] : step) {
-    const int u = x + dx, v = y + dy;
-    if (u < 0 || v < 0 || u >= map.width || v >= map.height) continue;
-    if (!(std::abs(depth[map.index(u, v)] - own) <= edge)) return true;
-  }
-  return false;
+  const double own = depth[map.index(x, y)];
+  const auto leaves = [&](std::size_t before, std::size_t after) {
+    const double bend = 1.0 / depth[before] + 1.0 / depth[after] - 2.0 / own;
+    return std::abs(bend) * own * own > edge;
+  };
+  return (x > 0 && x + 1 < map.width && leaves(map.index(x - 1, y), map.index(x + 1, y))) ||
+         (y > 0 && y + 1 < map.height && leaves(map.index(x, y - 1), map.index(x, y + 1)));
 }
 
 void add_to_depths(render::LabelMap& map, const world::CameraNoise& noise, Random& random) {

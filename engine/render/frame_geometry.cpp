@@ -47,6 +47,7 @@ MeshCache::Entry& MeshCache::entry(const std::shared_ptr<const geometry::Triangl
     found.owner = mesh;
     found.box = mesh_bounds(*mesh);
     found.drawn = std::make_unique<InstancedMesh>(gl_, with_normals(*mesh), mesh_layout());
+    found.drawn->set_closed(is_closed(*mesh));
   }
   return found;
 }
@@ -200,8 +201,13 @@ void FrameGeometry::upload() {
                  staging_.data(), GL_STREAM_DRAW);
 }
 
-void FrameGeometry::draw(Kind kind) const {
-  for (const Batch& b : batches_[static_cast<int>(kind)]) b.mesh->draw(buffer_, b.first, b.count());
+void FrameGeometry::draw(Kind kind, bool cull) const {
+  for (const Batch& b : batches_[static_cast<int>(kind)]) {
+    const bool half = cull && b.mesh->is_closed();
+    if (half) gl_.Enable(GL_CULL_FACE), gl_.CullFace(GL_BACK);
+    b.mesh->draw(buffer_, b.first, b.count());
+    if (half) gl_.Disable(GL_CULL_FACE);
+  }
 }
 
 long FrameGeometry::triangles() const {

@@ -62,8 +62,9 @@ class FrameGeometry {
   FrameGeometry& operator=(const FrameGeometry&) = delete;
 
   void prepare(const DrawList& list, const Detail& detail);
-  /// Draws all batches of a kind with the program in use.
-  void draw(Kind kind) const;
+  /// Draws all batches of a kind with the program in use. `cull` leaves out the back faces of
+  /// closed meshes: in views that are not mirrored.
+  void draw(Kind kind, bool cull = false) const;
   long triangles() const;
 
  private:

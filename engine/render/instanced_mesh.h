@@ -31,6 +31,10 @@ class InstancedMesh {
   /// Draws `count` instances whose floats lie in `buffer` from `first_float` on.
   void draw(GLuint buffer, std::size_t first_float, int count) const;
 
+  /// Its back faces are never seen from outside: they may be left out.
+  void set_closed(bool closed) { closed_ = closed; }
+  bool is_closed() const { return closed_; }
+
   /// Floats that one instance takes.
   int instance_floats() const { return instance_floats_; }
   int triangles() const { return index_count_ / 3; }
@@ -41,6 +45,7 @@ class InstancedMesh {
   GLuint first_location_ = 0;
   GLuint array_ = 0, vertices_ = 0, indices_ = 0;
   int instance_floats_ = 0, index_count_ = 0;
+  bool closed_ = false;
 };
 
 }  // namespace pedicel::render

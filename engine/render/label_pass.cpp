@@ -54,7 +54,7 @@ LabelMap LabelPass::draw(const FrameGeometry& geometry, bool ground, GLuint empt
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   for (const Kind kind : {Kind::tube, Kind::sphere, Kind::mesh, Kind::blade}) {
     gl_.UseProgram(programs_[static_cast<std::size_t>(kind)]);
-    geometry.draw(kind);
+    geometry.draw(kind, true);
   }
   if (ground) {
     gl_.BindVertexArray(empty_array);

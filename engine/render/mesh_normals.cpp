@@ -52,4 +52,27 @@ MeshData with_normals(const geometry::TriangleMesh& mesh, double crease) {
   return data;
 }
 
+bool is_closed(const geometry::TriangleMesh& mesh) {
+  std::map<std::tuple<double, double, double>, int> places;
+  std::vector<int> place_of;
+  for (const Vec3& p : mesh.vertices)
+    place_of.push_back(
+        places.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(places.size())).first->second);
+  std::map<std::pair<int, int>, int> edges;
+  double volume = 0.0;
+  for (const auto& triangle : mesh.triangles) {
+    int corner[3];
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = place_of[static_cast<std::size_t>(triangle[k])];
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+    for (int k = 0; k < 3; ++k) ++edges[{corner[k], corner[(k + 1) % 3]}];
+    volume += mesh.vertices[triangle[0]].dot(
+        mesh.vertices[triangle[1]].cross(mesh.vertices[triangle[2]]));
+  }
+  for (const auto& [edge, count] : edges) {
+    const auto back = edges.find({edge.second, edge.first});
+    if (count != 1 || back == edges.end()) return false;
+  }
+  return volume > 0.0;
+}
+
 }  // namespace pedicel::render

@@ -231,7 +231,7 @@ class Renderer::Implementation {
   void draw_lit(const FrameGeometry& geometry) const {
     for (int kind = 0; kind < kind_count; ++kind) {
       programs_.use_lit(static_cast<Kind>(kind));
-      geometry.draw(static_cast<Kind>(kind));
+      geometry.draw(static_cast<Kind>(kind), true);
     }
   }
 

@@ -13,7 +13,7 @@ std::vector<Parameter> CameraNoise::parameters() {
        "a stereo camera."},
       {"dropout", "1", &dropout, 0.0, 1.0, "Share of pixels at edges that have no depth."},
       {"edge", "m", &edge, 0.0, 100.0,
-       "An edge is where the depth differs by more than this from a neighbour's."},
+       "An edge is where the depth leaves the plane of its neighbours by more than this."},
       {"latency", "s", &latency, 0.0, 10.0, "Delay of what the sensor says."}};
 }
 

@@ -138,6 +138,11 @@ class CamerasTest(Case):
         self.assertAlmostEqual(scaled.mean(), 0, delta=0.001)
         lost = np.isnan(seen.depth)
         self.assertTrue(0.001 < lost.mean() < 0.1)
+        # Half of the pixels between a ball and what is behind it are lost, and none of the floor's middle.
+        rims = np.zeros_like(lost)
+        rims[:, 1:-1] = (exact.classes[:, 1:-1] == 7) & (exact.classes[:, :-2] == 8)
+        self.assertAlmostEqual(lost[rims].mean(), 0.5, delta=0.2)
+        self.assertEqual(lost[140:, :60].sum(), 0)
         self.assertTrue(np.array_equal(sim.camera("front").depth, seen.depth, equal_nan=True))
         again = pedicel.Simulation(os_path(self, "noisy.scene.yaml"))
         self.assertTrue(np.array_equal(again.camera("front").rgb, seen.rgb))

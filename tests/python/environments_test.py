@@ -25,6 +25,21 @@ class ContractTest(unittest.TestCase):
             return a.keys() == b.keys() and all(self.equal(a[k], b[k]) for k in a)
         return np.array_equal(a, b)
 
+    def test_every_step_tells_how_gentle_it_was(self):
+        env = self.environment("pedicel/Reveal-v0")
+        env.reset(seed=2)
+        info = env.step(env.action_space.sample())[4]
+        keys = {"peak_force", "impulse", "margin_used", "strain_energy", "touched", "broken"}
+        self.assertEqual(set(info["gentleness"]), keys)
+        self.assertEqual(info["gentleness"], env.simulation.gentleness_total)
+        self.assertGreater(info["gentleness"]["margin_used"], 0)     # the fruit hangs on its stalk
+        vector = envs.make_vec("pedicel/Reveal-v0", 2)
+        self.addCleanup(vector.close)
+        vector.reset(seed=2)
+        told = vector.step(vector.action_space.sample())[4]["gentleness"]
+        self.assertEqual(told["margin_used"].shape, (2,))
+        self.assertTrue(np.all(told["margin_used"] > 0))
+
     def test_spaces_and_returns(self):
         for name in NAMES:
             for action in ("tool", "joint"):

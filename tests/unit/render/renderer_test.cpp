@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pedicel/core/check.h"
+#include "pedicel/render/mesh_normals.h"
 #include "pedicel/render/offscreen.h"
 
 namespace pedicel::render {
@@ -255,6 +256,30 @@ TEST_F(RendererTest, AMeshThatChangedPlacesIsNotMistakenForTheOld) {
     return count;
   };
   EXPECT_GT(reds(0.4), 10 * reds(0.1));
+}
+
+TEST_F(RendererTest, AMeshWithAHoleIsSeenFromInside) {
+  // A closed box, and the same without the side that looks at the camera: its far side shows.
+  auto closed = std::make_shared<geometry::TriangleMesh>();
+  for (int i = 0; i < 8; ++i)
+    closed->vertices.emplace_back(i & 1 ? 0.4 : -0.4, i & 2 ? 0.4 : -0.4, i & 4 ? 0.4 : -0.4);
+  closed->triangles = {{0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1},
+                       {4, 5, 7}, {4, 7, 6}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  EXPECT_TRUE(is_closed(*closed));
+  auto open = std::make_shared<geometry::TriangleMesh>(*closed);
+  open->triangles.erase(open->triangles.begin(), open->triangles.begin() + 2);
+  EXPECT_FALSE(is_closed(*open));
+  auto inside_out = *closed;
+  for (auto& triangle : inside_out.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_FALSE(is_closed(inside_out));
+  const auto depth = [&](const std::shared_ptr<geometry::TriangleMesh>& mesh) {
+    list_.meshes = {{mesh, Pose{}, red}};
+    const LabelMap map = renderer_->label(list_, camera_, width, height);
+    EXPECT_TRUE(is_red(picture().at(width / 2, height / 2)));
+    return map.depth[map.index(width / 2, height / 2)];
+  };
+  EXPECT_NEAR(depth(closed), 1.6, 1e-4);
+  EXPECT_NEAR(depth(open), 2.4, 1e-4);
 }
 
 TEST_F(RendererTest, FarThingsCostFewTriangles) {

@@ -35,12 +35,13 @@ class WrenchTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::unique_ptr<Simulation> simulation(const std::string& wrenches) {
+  std::unique_ptr<Simulation> simulation(const std::string& wrenches,
+                                         const std::string& more = "") {
     Diagnostics diagnostics;
     const auto scene = world::parse_scene(
         "format: pedicel-scene\nversion: 1\npurpose: t\nsee: n\nduration: 1\ndt: 0.001\nseed: 2\n"
         "robot: {file: lift.urdf, joints: {rail: 0}}\nwrenches: [" +
-            wrenches + "]\n",
+            wrenches + "]\n" + more,
         folder_ / "t.scene.yaml", diagnostics);
     if (!scene) throw InvalidFile(diagnostics);
     return std::make_unique<Simulation>(*scene, SimulationOptions{});
@@ -59,6 +60,18 @@ TEST_F(WrenchTest, AnArmAtRestIsFeltByItsWeight) {
   // The hand's mass is 30 mm beside its origin along Y, the finger's straight below it.
   EXPECT_LT((wrist.tail<3>() - Vec3(0, 0, -0.03 * 0.5 * 9.81)).norm(), 1e-6);
   EXPECT_LT((tip - (Wrench() << 0, 0, -0.2 * 9.81, 0, 0, 0).finished()).norm(), 1e-6);
+}
+
+TEST_F(WrenchTest, ABodyThatLiesOnAFingerIsFelt) {
+  // The finger's box is level, its upper face 10 mm above its origin at a height of 0.8 m.
+  const auto sim = simulation("{name: wrist, link: hand}, {name: tip, link: finger, touch: true}",
+                              "bodies: [{name: load, box: [0.1, 0.03, 0.03], mass: 0.3, "
+                              "position: [0.05, 0, 0.826]}]\n");
+  for (int i = 0; i < 800; ++i) sim->step();
+  const Wrench wrist = sim->wrenches()[0].exact(), tip = sim->wrenches()[1].exact();
+  EXPECT_NEAR(tip[2], -0.3 * 9.81, 0.05);
+  EXPECT_NEAR(tip[4], 0.05 * 0.3 * 9.81, 0.01);  // 50 mm along X
+  EXPECT_NEAR(wrist[0], (0.7 + 0.3) * 9.81, 0.05);
 }
 
 TEST_F(WrenchTest, MotionTakesItsPart) {
