@@ -100,7 +100,8 @@ std::string markers_text(const LogContents& log, const LogScene& scene) {
     else
       unknown += "  # " + start + "plant: ?, curve: ?, at: ?}\n";
   };
-  for (const auto& [frame, series] : log.frames) {
+  for (const auto& entry : log.frames) {
+    const std::string& frame = entry.first;
     // A body that moves is no marker by itself, and links are where the joints say.
     const bool is_thing = scene.robot.link(frame) >= 0 ||
                           std::ranges::any_of(scene.scene.bodies, [&](const auto& body) {
