@@ -10,8 +10,11 @@ namespace {
 
 constexpr double spacing = 0.045;  // m, of the places tried along a curve
 constexpr int most_places = 40;
-constexpr double bin = 0.03;         // s, in which the force is one
-constexpr double wanted_way = 2e-3;  // m, that a response moves what it moves most
+constexpr double bin = 0.03;  // s, in which the force is one
+constexpr double least_way = 1.0e-3,
+                 most_way = 0.02;    // m, that a response moves what it moves most
+constexpr double rise = 0.05;        // s, of the force in a response
+constexpr double loud_bin = 2.0;     // noise units squared, of a bin that is not noise alone
 constexpr double clear_force = 5.0;  // standard errors
 constexpr double least_of_peak = 0.15;
 constexpr double least_share = 0.3;  // of the misfit, for a force to be found at all
@@ -90,6 +93,7 @@ class ForceSearch {
     const SceneReadings here = simulate({base_}).front();
     if (!here.healthy) return best;
     const Eigen::VectorXd residual = residual_of(here);
+    begin_ = onset(residual);
     const double size = suitable_size(here);
     std::vector<double> left;
     std::vector<OutsideForce> found;
@@ -126,6 +130,8 @@ class ForceSearch {
     force.plant = places_[place].plant;
     force.place = places_[place].at;
     force.force = size * Vec3::Unit(axis);
+    force.from = begin_;
+    force.rise = rise;
     variant.forces.push_back(force);
     return variant;
   }
@@ -144,7 +150,39 @@ class ForceSearch {
         for (long r = 0; r < moved.rows(); ++r)
           if (std::isfinite(moved(r, c))) most = std::max(most, std::abs(moved(r, c)));
     }
-    return most > 0.0 ? size * std::clamp(wanted_way / most, 0.01, 1.0e4) : size;
+    return most > 0.0 ? size * std::clamp(way_of(here) / most, 0.01, 1.0e4) : size;
+  }
+
+  // m, that markers of plants are off at most: responses shall be as large, since contact that
+  // sticks against a little slides under more.
+  double way_of(const SceneReadings& here) const {
+    const Eigen::MatrixXd& measured = own_.trials.front().markers.value;
+    double most = least_way;
+    for (long c = 0; c < first_; ++c)
+      for (long r = 0; r < measured.rows(); ++r) {
+        const double off = std::abs(measured(r, c) - here.markers(r, c));
+        if (own_.markers[static_cast<std::size_t>(c / 3)].plant >= 0 && std::isfinite(off))
+          most = std::max(most, off);
+      }
+    return std::min(most, most_way);
+  }
+
+  // s, before which the residual is noise: the force does not act there, and responses to one that
+  // did would meet another contact.
+  double onset(const Eigen::VectorXd& residual) const {
+    const auto bins = static_cast<std::size_t>(own_.trials.front().duration() / bin) + 1;
+    std::vector<double> square(bins, 0.0), count(bins, 0.0);
+    for (long i = 0; i < residual.size(); ++i) {
+      const auto b = static_cast<std::size_t>(row_time_[static_cast<std::size_t>(i)] / bin);
+      if (b >= bins || residual[i] == 0.0) continue;
+      square[b] += residual[i] * residual[i];
+      count[b] += 1.0;
+    }
+    const auto loud = [&](std::size_t b) { return square[b] > loud_bin * count[b]; };
+    for (std::size_t b = 0; b + 2 < bins; ++b)
+      if (loud(b) && loud(b + 1) && loud(b + 2))
+        return std::max(0.0, (static_cast<double>(b) - 1.0) * bin);
+    return 0.0;
   }
 
   // Of the residual by a force at a place, 1/N: three columns.
@@ -236,7 +274,12 @@ class ForceSearch {
       if (strong(b) && strong(b + 1) && strong(b + 2)) active.push_back(b);
     }
     if (active.empty()) return;
-    out.from = static_cast<double>(active.front()) * bin;
+    // It began small.
+    std::size_t first = active.front();
+    while (first > 0 && out.force[first - 1].norm() > clear_force * sigma[first - 1] &&
+           out.force[first - 1].norm() > least_of_peak / 3.0 * peak)
+      --first;
+    out.from = static_cast<double>(first) * bin;
     out.to = static_cast<double>(active.back() + 3) * bin;
     Vec3 mean = Vec3::Zero();
     double square = 0.0;
@@ -262,12 +305,49 @@ class ForceSearch {
     return place;
   }
 
-  // Where the place was when it began: as simulated, and moved by what the force does.
-  Vec3 position(const SceneReadings& here, const OutsideForce& force, std::size_t best) {
-    const std::vector<double>& time = own_.trials.front().markers.time;
-    const auto after = std::ranges::lower_bound(time, force.from + bin);
-    const long row = std::min<long>(after - time.begin(), here.markers.rows() - 1);
-    return here.markers.row(row).segment<3>(first_ + 3 * static_cast<long>(best)).transpose();
+  // Where the place was when it began: as simulated, and off by what the markers beside it are.
+  Vec3 position(const SceneReadings& here, const OutsideForce& force, std::size_t best) const {
+    const Samples& markers = own_.trials.front().markers;
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (long r = 0; r < markers.size(); ++r) {
+      const double t = markers.time[static_cast<std::size_t>(r)];
+      if (t < force.from || t > force.from + 3.0 * bin) continue;
+      const Vec3 place =
+          here.markers.row(r).segment<3>(first_ + 3 * static_cast<long>(best)).transpose() +
+          off_beside(here, r, force);
+      if (!place.allFinite()) continue;
+      sum += place;
+      ++count;
+    }
+    return count > 0 ? Vec3(sum / count) : sum;
+  }
+
+  // m, W, measured less simulated, between the markers below and above on the curve.
+  Vec3 off_beside(const SceneReadings& here, long row, const OutsideForce& force) const {
+    double below = 0.0, above = std::numeric_limits<double>::infinity();
+    Vec3 off_below = Vec3::Zero(), off_above = Vec3::Zero();
+    for (std::size_t m = 0; 3 * static_cast<long>(m) < first_; ++m) {
+      const SceneMarker& marker = own_.markers[m];
+      if (marker.plant != force.plant || marker.place.curve != force.place.curve) continue;
+      const long c = 3 * static_cast<long>(m);
+      const Vec3 off = (own_.trials.front().markers.value.row(row) - here.markers.row(row))
+                           .segment<3>(c)
+                           .transpose();
+      if (!off.allFinite()) continue;
+      const double at = marker.place.at;
+      if (at <= force.place.at && at >= below) {
+        below = at;
+        off_below = off;
+      }
+      if (at > force.place.at && at < above) {
+        above = at;
+        off_above = off;
+      }
+    }
+    if (!std::isfinite(above)) return off_below;
+    const double share = (force.place.at - below) / (above - below);
+    return (1.0 - share) * off_below + share * off_above;
   }
 
   std::vector<ForcePlace> places_;
@@ -276,6 +356,7 @@ class ForceSearch {
   SceneDataSet data_;
   SceneSimulator simulator_;
   SceneVariant base_;
+  double begin_ = 0.0;  // s, of the responses' forces
   std::vector<double> row_time_;
   std::map<std::size_t, Eigen::MatrixXd> responses_;
 };
