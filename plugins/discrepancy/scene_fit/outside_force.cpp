@@ -18,6 +18,9 @@ constexpr double loud_bin = 2.0;     // noise units squared, of a bin that is no
 constexpr double clear_force = 5.0;  // standard errors
 constexpr double least_of_peak = 0.15;
 constexpr double least_share = 0.3;  // of the misfit, for a force to be found at all
+/// Of the stiffness against what the data see: along a stem nearly nothing moves, and a force there
+/// would be noise.
+constexpr double weak_axis = 3.0e-3;
 constexpr std::size_t widest = 8;
 
 struct ForcePlace {
@@ -242,11 +245,11 @@ class ForceSearch {
       count[b] += 1.0;
     }
     OutsideForce out;
-    double all = 0.0, taken = 0.0, peak = 0.0;
-    std::vector<double> sigma(bins, std::numeric_limits<double>::infinity());
+    double all = 0.0, taken = 0.0;
+    std::vector<double> clear(bins, 0.0);  // what it gains, in units of what is left a sample
     for (std::size_t b = 0; b < bins; ++b) {
       out.time.push_back((static_cast<double>(b) + 0.5) * bin);
-      const double ridge = 1.0e-4 * normal[b].trace() + 1.0e-12;
+      const double ridge = weak_axis * normal[b].trace() + 1.0e-12;
       const Mat3 inverse = (normal[b] + ridge * Mat3::Identity()).inverse();
       const Vec3 force = inverse * right[b];
       out.force.push_back(force);
@@ -256,28 +259,32 @@ class ForceSearch {
       all += own;
       taken += gain;
       const double left = count[b] > 3.0 ? std::max(1.0, (square[b] - gain) / count[b]) : 1.0;
-      if (normal[b].trace() > 0.0) sigma[b] = std::sqrt(left * inverse.trace());
-      peak = std::max(peak, force.norm());
+      clear[b] = gain / left;
     }
     out.share = all > 0.0 ? taken / all : 0.0;
-    mark_active(out, sigma, peak);
+    mark_active(out, clear);
     return out;
   }
 
-  static void mark_active(OutsideForce& out, const std::vector<double>& sigma, double peak) {
+  static void mark_active(OutsideForce& out, const std::vector<double>& clear) {
+    const auto seen = [&](std::size_t b) { return clear[b] > clear_force * clear_force; };
+    std::vector<double> sizes;
+    for (std::size_t b = 0; b < clear.size(); ++b)
+      if (seen(b)) sizes.push_back(out.force[b].norm());
+    if (sizes.empty()) return;
+    // Where it begins, responses are small and forces wild.
+    std::ranges::sort(sizes);
+    const double peak = sizes[sizes.size() * 9 / 10];
+    const auto strong = [&](std::size_t b) {
+      return seen(b) && out.force[b].norm() > least_of_peak * peak;
+    };
     std::vector<std::size_t> active;
-    for (std::size_t b = 0; b + 2 < out.force.size(); ++b) {
-      const auto strong = [&](std::size_t i) {
-        return out.force[i].norm() > clear_force * sigma[i] &&
-               out.force[i].norm() > least_of_peak * peak;
-      };
+    for (std::size_t b = 0; b + 2 < clear.size(); ++b)
       if (strong(b) && strong(b + 1) && strong(b + 2)) active.push_back(b);
-    }
     if (active.empty()) return;
     // It began small.
     std::size_t first = active.front();
-    while (first > 0 && out.force[first - 1].norm() > clear_force * sigma[first - 1] &&
-           out.force[first - 1].norm() > least_of_peak / 3.0 * peak)
+    while (first > 0 && seen(first - 1) && out.force[first - 1].norm() > least_of_peak / 3.0 * peak)
       --first;
     out.from = static_cast<double>(first) * bin;
     out.to = static_cast<double>(active.back() + 3) * bin;
