@@ -320,14 +320,25 @@ class ForceSearch {
     for (long r = 0; r < markers.size(); ++r) {
       const double t = markers.time[static_cast<std::size_t>(r)];
       if (t < force.from || t > force.from + 3.0 * bin) continue;
-      const Vec3 place =
-          here.markers.row(r).segment<3>(first_ + 3 * static_cast<long>(best)).transpose() +
-          off_beside(here, r, force);
+      const Vec3 place = simulated(here, r, force.place, best) + off_beside(here, r, force);
       if (!place.allFinite()) continue;
       sum += place;
       ++count;
     }
     return count > 0 ? Vec3(sum / count) : sum;
+  }
+
+  // m, W, of a place between the best of those tried and its neighbour.
+  Vec3 simulated(const SceneReadings& here, long row, const plant::CurvePlace& place,
+                 std::size_t best) const {
+    const auto at = [&](std::size_t p) -> Vec3 {
+      return here.markers.row(row).segment<3>(first_ + 3 * static_cast<long>(p)).transpose();
+    };
+    const double beyond = place.at - places_[best].at.at;
+    if (beyond == 0.0) return at(best);
+    const std::size_t other = beyond > 0.0 ? best + 1 : best - 1;
+    const double share = beyond / (places_[other].at.at - places_[best].at.at);
+    return (1.0 - share) * at(best) + share * at(other);
   }
 
   // m, W, measured less simulated, between the markers below and above on the curve.
