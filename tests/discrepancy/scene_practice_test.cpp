@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "places.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -10,11 +10,17 @@ namespace {
 
 constexpr double spacing = 0.045;  // m, of the places tried along a curve
 constexpr int most_places = 40;
-constexpr double bin = 0.03;         // s, in which the force is one
-constexpr double wanted_way = 2e-3;  // m, that a response moves what it moves most
+constexpr double bin = 0.03;  // s, in which the force is one
+constexpr double least_way = 1.0e-3,
+                 most_way = 0.02;    // m, that a response moves what it moves most
+constexpr double rise = 0.05;        // s, of the force in a response
+constexpr double loud_bin = 2.0;     // noise units squared, of a bin that is not noise alone
 constexpr double clear_force = 5.0;  // standard errors
 constexpr double least_of_peak = 0.15;
 constexpr double least_share = 0.3;  // of the misfit, for a force to be found at all
+/// Of the stiffness against what the data see: along a stem nearly nothing moves, and a force there
+/// would be noise.
+constexpr double weak_axis = 3.0e-3;
 constexpr std::size_t widest = 8;
 
 struct ForcePlace {
@@ -90,6 +96,7 @@ class ForceSearch {
     const SceneReadings here = simulate({base_}).front();
     if (!here.healthy) return best;
     const Eigen::VectorXd residual = residual_of(here);
+    begin_ = onset(residual);
     const double size = suitable_size(here);
     std::vector<double> left;
     std::vector<OutsideForce> found;
@@ -126,6 +133,8 @@ class ForceSearch {
     force.plant = places_[place].plant;
     force.place = places_[place].at;
     force.force = size * Vec3::Unit(axis);
+    force.from = begin_;
+    force.rise = rise;
     variant.forces.push_back(force);
     return variant;
   }
@@ -144,7 +153,39 @@ class ForceSearch {
         for (long r = 0; r < moved.rows(); ++r)
           if (std::isfinite(moved(r, c))) most = std::max(most, std::abs(moved(r, c)));
     }
-    return most > 0.0 ? size * std::clamp(wanted_way / most, 0.01, 1.0e4) : size;
+    return most > 0.0 ? size * std::clamp(way_of(here) / most, 0.01, 1.0e4) : size;
+  }
+
+  // m, that markers of plants are off at most: responses shall be as large, since contact that
+  // sticks against a little slides under more.
+  double way_of(const SceneReadings& here) const {
+    const Eigen::MatrixXd& measured = own_.trials.front().markers.value;
+    double most = least_way;
+    for (long c = 0; c < first_; ++c)
+      for (long r = 0; r < measured.rows(); ++r) {
+        const double off = std::abs(measured(r, c) - here.markers(r, c));
+        if (own_.markers[static_cast<std::size_t>(c / 3)].plant >= 0 && std::isfinite(off))
+          most = std::max(most, off);
+      }
+    return std::min(most, most_way);
+  }
+
+  // s, before which the residual is noise: the force does not act there, and responses to one that
+  // did would meet another contact.
+  double onset(const Eigen::VectorXd& residual) const {
+    const auto bins = static_cast<std::size_t>(own_.trials.front().duration() / bin) + 1;
+    std::vector<double> square(bins, 0.0), count(bins, 0.0);
+    for (long i = 0; i < residual.size(); ++i) {
+      const auto b = static_cast<std::size_t>(row_time_[static_cast<std::size_t>(i)] / bin);
+      if (b >= bins || residual[i] == 0.0) continue;
+      square[b] += residual[i] * residual[i];
+      count[b] += 1.0;
+    }
+    const auto loud = [&](std::size_t b) { return square[b] > loud_bin * count[b]; };
+    for (std::size_t b = 0; b + 2 < bins; ++b)
+      if (loud(b) && loud(b + 1) && loud(b + 2))
+        return std::max(0.0, (static_cast<double>(b) - 1.0) * bin);
+    return 0.0;
   }
 
   // Of the residual by a force at a place, 1/N: three columns.
@@ -204,11 +245,11 @@ class ForceSearch {
       count[b] += 1.0;
     }
     OutsideForce out;
-    double all = 0.0, taken = 0.0, peak = 0.0;
-    std::vector<double> sigma(bins, std::numeric_limits<double>::infinity());
+    double all = 0.0, taken = 0.0;
+    std::vector<double> clear(bins, 0.0);  // what it gains, in units of what is left a sample
     for (std::size_t b = 0; b < bins; ++b) {
       out.time.push_back((static_cast<double>(b) + 0.5) * bin);
-      const double ridge = 1.0e-4 * normal[b].trace() + 1.0e-12;
+      const double ridge = weak_axis * normal[b].trace() + 1.0e-12;
       const Mat3 inverse = (normal[b] + ridge * Mat3::Identity()).inverse();
       const Vec3 force = inverse * right[b];
       out.force.push_back(force);
@@ -218,25 +259,34 @@ class ForceSearch {
       all += own;
       taken += gain;
       const double left = count[b] > 3.0 ? std::max(1.0, (square[b] - gain) / count[b]) : 1.0;
-      if (normal[b].trace() > 0.0) sigma[b] = std::sqrt(left * inverse.trace());
-      peak = std::max(peak, force.norm());
+      clear[b] = gain / left;
     }
     out.share = all > 0.0 ? taken / all : 0.0;
-    mark_active(out, sigma, peak);
+    mark_active(out, clear);
     return out;
   }
 
-  static void mark_active(OutsideForce& out, const std::vector<double>& sigma, double peak) {
+  static void mark_active(OutsideForce& out, const std::vector<double>& clear) {
+    const auto seen = [&](std::size_t b) { return clear[b] > clear_force * clear_force; };
+    std::vector<double> sizes;
+    for (std::size_t b = 0; b < clear.size(); ++b)
+      if (seen(b)) sizes.push_back(out.force[b].norm());
+    if (sizes.empty()) return;
+    // Where it begins, responses are small and forces wild.
+    std::ranges::sort(sizes);
+    const double peak = sizes[sizes.size() * 9 / 10];
+    const auto strong = [&](std::size_t b) {
+      return seen(b) && out.force[b].norm() > least_of_peak * peak;
+    };
     std::vector<std::size_t> active;
-    for (std::size_t b = 0; b + 2 < out.force.size(); ++b) {
-      const auto strong = [&](std::size_t i) {
-        return out.force[i].norm() > clear_force * sigma[i] &&
-               out.force[i].norm() > least_of_peak * peak;
-      };
+    for (std::size_t b = 0; b + 2 < clear.size(); ++b)
       if (strong(b) && strong(b + 1) && strong(b + 2)) active.push_back(b);
-    }
     if (active.empty()) return;
-    out.from = static_cast<double>(active.front()) * bin;
+    // It began small.
+    std::size_t first = active.front();
+    while (first > 0 && seen(first - 1) && out.force[first - 1].norm() > least_of_peak / 3.0 * peak)
+      --first;
+    out.from = static_cast<double>(first) * bin;
     out.to = static_cast<double>(active.back() + 3) * bin;
     Vec3 mean = Vec3::Zero();
     double square = 0.0;
@@ -262,12 +312,60 @@ class ForceSearch {
     return place;
   }
 
-  // Where the place was when it began: as simulated, and moved by what the force does.
-  Vec3 position(const SceneReadings& here, const OutsideForce& force, std::size_t best) {
-    const std::vector<double>& time = own_.trials.front().markers.time;
-    const auto after = std::ranges::lower_bound(time, force.from + bin);
-    const long row = std::min<long>(after - time.begin(), here.markers.rows() - 1);
-    return here.markers.row(row).segment<3>(first_ + 3 * static_cast<long>(best)).transpose();
+  // Where the place was when it began: as simulated, and off by what the markers beside it are.
+  Vec3 position(const SceneReadings& here, const OutsideForce& force, std::size_t best) const {
+    const Samples& markers = own_.trials.front().markers;
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (long r = 0; r < markers.size(); ++r) {
+      const double t = markers.time[static_cast<std::size_t>(r)];
+      if (t < force.from || t > force.from + 3.0 * bin) continue;
+      const Vec3 place = simulated(here, r, force.place, best) + off_beside(here, r, force);
+      if (!place.allFinite()) continue;
+      sum += place;
+      ++count;
+    }
+    return count > 0 ? Vec3(sum / count) : sum;
+  }
+
+  // m, W, of a place between the best of those tried and its neighbour.
+  Vec3 simulated(const SceneReadings& here, long row, const plant::CurvePlace& place,
+                 std::size_t best) const {
+    const auto at = [&](std::size_t p) -> Vec3 {
+      return here.markers.row(row).segment<3>(first_ + 3 * static_cast<long>(p)).transpose();
+    };
+    const double beyond = place.at - places_[best].at.at;
+    if (beyond == 0.0) return at(best);
+    const std::size_t other = beyond > 0.0 ? best + 1 : best - 1;
+    const double share = beyond / (places_[other].at.at - places_[best].at.at);
+    return (1.0 - share) * at(best) + share * at(other);
+  }
+
+  // m, W, measured less simulated, between the markers below and above on the curve.
+  Vec3 off_beside(const SceneReadings& here, long row, const OutsideForce& force) const {
+    double below = 0.0, above = std::numeric_limits<double>::infinity();
+    Vec3 off_below = Vec3::Zero(), off_above = Vec3::Zero();
+    for (std::size_t m = 0; 3 * static_cast<long>(m) < first_; ++m) {
+      const SceneMarker& marker = own_.markers[m];
+      if (marker.plant != force.plant || marker.place.curve != force.place.curve) continue;
+      const long c = 3 * static_cast<long>(m);
+      const Vec3 off = (own_.trials.front().markers.value.row(row) - here.markers.row(row))
+                           .segment<3>(c)
+                           .transpose();
+      if (!off.allFinite()) continue;
+      const double at = marker.place.at;
+      if (at <= force.place.at && at >= below) {
+        below = at;
+        off_below = off;
+      }
+      if (at > force.place.at && at < above) {
+        above = at;
+        off_above = off;
+      }
+    }
+    if (!std::isfinite(above)) return off_below;
+    const double share = (force.place.at - below) / (above - below);
+    return (1.0 - share) * off_below + share * off_above;
   }
 
   std::vector<ForcePlace> places_;
@@ -276,6 +374,7 @@ class ForceSearch {
   SceneDataSet data_;
   SceneSimulator simulator_;
   SceneVariant base_;
+  double begin_ = 0.0;  // s, of the responses' forces
   std::vector<double> row_time_;
   std::map<std::size_t, Eigen::MatrixXd> responses_;
 };

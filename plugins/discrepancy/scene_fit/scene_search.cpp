@@ -85,18 +85,19 @@ class Search {
     screened = tried(base, best_of_each(screened));
     double best = base_excess;
     int done = 0;
+    const int most = names.empty() ? options_.most_refits : (options_.most_refits + 1) / 2;
     for (const ScreenedCause& one : screened) {
-      if (done == options_.most_refits || stopped()) break;
+      if (done == most || stopped()) break;
       if (done > 0 && excess_of(one.promised, base.sum) > behind * std::max(best, allowed())) break;
-      tell("refitting with " + one.name,
-           from + (to - from) * (0.3 + 0.7 * done / options_.most_refits));
+      tell("refitting with " + one.name, from + (to - from) * (0.3 + 0.7 * done / most));
       SceneCandidate candidate;
       candidate.names = names;
       candidate.names.push_back(one.name);
       candidate.fit = fit(one.model, first_iterations, options_.trials);
       judge(candidate);
-      // Where it leaves much it may not have arrived.
-      if (!candidate.fit.converged && candidate.excess > allowed() && !stopped()) {
+      // Where it leaves too much it may not have arrived, unless it leaves most of it.
+      if (!candidate.fit.converged && candidate.excess > allowed() &&
+          candidate.excess < 0.5 * base_excess && !stopped()) {
         candidate.fit = fit(candidate.fit.model, last_iterations, options_.trials);
         judge(candidate);
       }

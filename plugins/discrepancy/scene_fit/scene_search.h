@@ -22,7 +22,7 @@ struct SceneCandidate {
 struct SceneSearchOptions {
   std::vector<int> trials;  ///< to be fitted
   std::vector<int> check;   ///< held out
-  int most_refits = 4;      ///< candidates refitted in full, a round
+  int most_refits = 4;      ///< candidates refitted in full, the first round; half in the next
   int most_causes = 2;
   /// Noise units: what two honest solvers of such a scene differ by, and what they differ by as a
   /// share of what is to be explained. A misfit below is none.

@@ -10,10 +10,12 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double shows_at = 5.0;    // standard errors
-constexpr double still = 0.15;      // s, in which nothing is expected to have moved
-constexpr double clear_push = 6.0;  // noise units, of a force that is a touch
-constexpr double firm_push = 0.4;   // of the largest force: there its ratio is told
+constexpr double shows_at = 5.0;     // standard errors
+constexpr double still = 0.15;       // s, in which nothing is expected to have moved
+constexpr double clear_push = 10.0;  // noise units, of a force that is a touch
+constexpr double light_push = 0.08;  // of the largest, likewise: an arm's own inertia is below
+constexpr double width = 0.012;      // s, to either side, over which forces are smoothed
+constexpr double firm_push = 0.4;    // of the largest force: there its ratio is told
 
 SymptomNumber symptom(const std::string& name, const std::string& of, double value, double error,
                       const std::string& unit, std::vector<std::string> speaks_for) {
@@ -34,7 +36,19 @@ struct Push {
   std::vector<double> time, normal, across;  // s, N, N
 };
 
-Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench) {
+void smooth(const std::vector<double>& time, std::vector<double>& x) {
+  const std::vector<double> given = x;
+  std::size_t first = 0, last = 0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (; last < x.size() && time[last] <= time[i] + width; ++last) sum += given[last];
+    for (; time[first] < time[i] - width; ++first) sum -= given[first];
+    x[i] = sum / static_cast<double>(last - first);
+  }
+}
+
+/// `noise`: N, of each component; 0 for predictions.
+Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench, double noise) {
   Push out;
   Vec3 rest = Vec3::Zero();
   int count = 0;
@@ -57,9 +71,16 @@ Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench) {
     if (!f.allFinite()) continue;
     out.time.push_back(time[static_cast<std::size_t>(r)]);
     out.normal.push_back(n.dot(f));
-    out.across.push_back((f - n * n.dot(f)).norm());
+    const double across = (f - n * n.dot(f)).squaredNorm();
+    out.across.push_back(std::sqrt(std::max(0.0, across - 2.0 * noise * noise)));
   }
+  smooth(out.time, out.normal);
+  smooth(out.time, out.across);
   return out;
+}
+
+double largest(const Push& push) {
+  return push.normal.empty() ? 0.0 : *std::ranges::max_element(push.normal);
 }
 
 // The first and the last time at which a push of some size is there; NaN where there is none.
@@ -108,15 +129,17 @@ class Symptoms {
   void contact(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
                std::size_t sensor) {
     const double noise = data_.deviation(SceneChannel::force);
-    const Push measured = push_of(samples.time, samples.value), told = push_of(samples.time, model);
-    const auto [begin, end] = touch(measured, clear_push * noise);
-    const auto [begin_told, end_told] = touch(told, clear_push * noise);
+    const Push measured = push_of(samples.time, samples.value, noise),
+               told = push_of(samples.time, model, 0.0);
+    const double least = std::max(clear_push * noise, light_push * largest(measured));
+    const auto [begin, end] = touch(measured, least);
+    const auto [begin_told, end_told] = touch(told, least);
     const double sample = samples.size() > 1
                               ? (samples.time.back() - samples.time.front()) / (samples.size() - 1)
                               : 0.0;
     const auto tell = [&](const std::string& name, double a, double b, const std::string& what) {
       if (std::isnan(a) || std::isnan(b)) return;
-      found_.push_back(symptom(name, trial.name, a - b, 1.5 * sample, "s",
+      found_.push_back(symptom(name, trial.name, a - b, 1.5 * sample + width / 3.0, "s",
                                {"plant_pose", "tool_pose", "robot_latency", "joint_offset"}));
       found_.back().sentence = "In " + trial.name + " the tool " + what + " " +
                                io::format_number(std::abs(a - b), 2) + " s " +
@@ -132,7 +155,7 @@ class Symptoms {
   // The ratio while the push is firm, and when it leaves its first value: the contact slips.
   void friction(const SceneTrial& trial, const Push& measured, const Push& told, double noise) {
     const auto ratio = [&](const Push& push, double& error) {
-      const double most = push.normal.empty() ? 0.0 : *std::ranges::max_element(push.normal);
+      const double most = largest(push);
       double normal = 0.0, across = 0.0;
       int count = 0;
       for (std::size_t i = 0; i < push.time.size(); ++i) {
@@ -147,15 +170,14 @@ class Symptoms {
     double error = 0.0, none = 0.0;
     const double a = ratio(measured, error), b = ratio(told, none);
     if (std::isnan(a) || std::isnan(b)) return;
-    found_.push_back(symptom("friction_ratio", trial.name, a - b, std::max(error, 0.005), "1",
+    found_.push_back(symptom("friction_ratio", trial.name, a - b, std::max(error, 0.01), "1",
                              {"contact_friction", "wrench_gain"}));
     found_.back().sentence = "In " + trial.name + " the tangential force is " +
                              io::format_number(a, 3) + " of the normal one, simulated " +
                              io::format_number(b, 3) + ".";
     const double slip = slip_of(measured, noise), slip_told = slip_of(told, noise);
     if (std::isnan(slip) || std::isnan(slip_told)) return;
-    found_.push_back(
-        symptom("slip", trial.name, slip - slip_told, 0.02, "s", {"contact_friction"}));
+    found_.push_back(symptom("slip", trial.name, slip - slip_told, 0.1, "s", {"contact_friction"}));
     found_.back().sentence = "In " + trial.name + " the contact begins to slip at " +
                              io::format_number(slip, 3) + " s, simulated at " +
                              io::format_number(slip_told, 3) + " s.";

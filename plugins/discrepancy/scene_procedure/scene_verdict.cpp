@@ -45,6 +45,10 @@ class Conclusion {
     set_errors();
     set_parameters();
     add_causes();
+    // What explains most first; those that the data cannot tell apart, likeliest first.
+    if (v_.outcome == Outcome::named)
+      std::ranges::stable_sort(v_.causes, std::ranges::greater{},
+                               [](const NamedCause& one) { return one.share.fit.value_or(0.0); });
     // A material's number alone is a finding, too.
     if (v_.outcome == Outcome::adequate && !v_.causes.empty()) v_.outcome = Outcome::named;
     if (v_.outcome == Outcome::unknown) tell_unknown();
@@ -85,11 +89,24 @@ class Conclusion {
     v_.gain_over_nominal = gain(*judged.nominal);
   }
 
+  // In the units of the file, where the scene has one material; else as factors.
   void set_parameters() {
     const SceneFitResult& model = found_.model();
-    for (const char* name : {"youngs_modulus", "density", "damping_time"})
-      if (const int p = model.model.factor_on(name); p >= 0 && p < model.standard_error.size())
-        v_.parameters[std::string(name) + "_factor"] = estimate_of(model, p);
+    for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
+      const int p = model.model.factor_on(name);
+      if (p < 0 || p >= model.standard_error.size()) continue;
+      const Estimate factor = estimate_of(model, p);
+      const effects::EffectDefinition* known = effects::find_effect(name);
+      const bool one = experiment_.plants.size() == 1 && known && known->material &&
+                       experiment_.plants.front().file.material.*(known->material);
+      if (!one) {
+        v_.parameters[std::string(name) + "_factor"] = factor;
+        continue;
+      }
+      const double own = *(experiment_.plants.front().file.material.*(known->material));
+      v_.parameters[name] = {own * factor.value, own * factor.low, own * factor.high,
+                             known->material_unit};
+    }
   }
 
   void add_causes() {

@@ -84,6 +84,7 @@ TEST_F(DiagnosedScene, AMovedPlantIsNamedAndItsSceneRuns) {
 }
 
 TEST_F(DiagnosedScene, AForceFromOutsideIsUnknownWithPlaceTimeAndDirection) {
+  at_.gap = "0.2";  // the finger stays away
   SceneForce force;
   force.place = {"stem", 0.75, {}};
   force.force = {-0.06, 0.0, 0.0};
