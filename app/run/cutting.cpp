@@ -54,7 +54,7 @@ Cutting::Cutting(const std::vector<world::SceneCut>& cuts, cosserat::RodSystem& 
 }
 
 void Cutting::cut(const std::string& organ, double at) {
-  const OrganPlace place = find_organ_place(rods_, organ, at);
+  const PlaceOnPlant place = find_organ_place(rods_, organ, at);
   if (!rods_.state(place.plant).alive[place.element])
     throw UsageError("cut: " + in_quotes(organ) + " has come off there already");
   cut_at(place, organ);
@@ -76,7 +76,7 @@ bool Cutting::is_due(const Planned& one) const {
   return (tool_().position - place).norm() <= one.cut->reach;
 }
 
-void Cutting::cut_at(const OrganPlace& place, const std::string& organ) {
+void Cutting::cut_at(const PlaceOnPlant& place, const std::string& organ) {
   const cosserat::RodModel& model = rods_.model(place.plant);
   const cosserat::JointLoad load =
       cosserat::joint_load(model, rods_.state(place.plant), place.element);

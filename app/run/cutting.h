@@ -40,11 +40,11 @@ class Cutting : public world::Participant {
  private:
   struct Planned {
     const world::SceneCut* cut;
-    OrganPlace place;
+    PlaceOnPlant place;
     bool done = false;
   };
   bool is_due(const Planned& one) const;
-  void cut_at(const OrganPlace& place, const std::string& organ);
+  void cut_at(const PlaceOnPlant& place, const std::string& organ);
 
   cosserat::RodSystem& rods_;
   world::SimWorld& world_;

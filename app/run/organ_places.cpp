@@ -9,12 +9,12 @@ namespace pedicel::app {
 
 namespace {
 
-OrganPlace place_in_stem(const cosserat::RodModel& model, int plant, int organ, double at) {
+PlaceOnPlant place_in_stem(const cosserat::RodModel& model, int plant, int organ, double at) {
   double left = 0.0;
   for (const cosserat::Element& element : model.elements)
     if (element.organ == organ) left += element.length;
   left *= at;
-  OrganPlace place{plant, 0, 0.0};
+  PlaceOnPlant place{plant, 0, 0.0};
   for (int e = 0; e < model.size(); ++e) {
     if (model.elements[e].organ != organ) continue;
     const double length = model.elements[e].length;
@@ -27,7 +27,8 @@ OrganPlace place_in_stem(const cosserat::RodModel& model, int plant, int organ, 
 
 }  // namespace
 
-OrganPlace find_organ_place(const cosserat::RodSystem& rods, const std::string& organ, double at) {
+PlaceOnPlant find_organ_place(const cosserat::RodSystem& rods, const std::string& organ,
+                              double at) {
   if (!(at >= 0.0 && at <= 1.0))
     throw UsageError("at = " + std::to_string(at) + ": must be between 0 and 1");
   std::vector<std::string> names;

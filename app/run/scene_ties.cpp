@@ -49,7 +49,7 @@ SceneTies::SceneTies(const std::vector<world::SceneTie>& ties, cosserat::RodSyst
 }
 
 void SceneTies::add(const world::SceneTie& tie, const std::string& organ, const std::string& name) {
-  const OrganPlace place = find_organ_place(rods_, organ, tie.at);
+  const PlaceOnPlant place = find_organ_place(rods_, organ, tie.at);
   const Vec3 from = cosserat::point_on(rods_.model(place.plant), rods_.state(place.plant),
                                        place.element, place.back);
   cosserat::Tie held;

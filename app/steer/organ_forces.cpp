@@ -6,7 +6,7 @@ namespace pedicel::app {
 
 void OrganForces::set(const std::string& organ, double at, const Vec3& force_W,
                       const Vec3& moment_W) {
-  const OrganPlace place = find_organ_place(simulation_.rods(), organ, at);
+  const PlaceOnPlant place = find_organ_place(simulation_.rods(), organ, at);
   const auto found = std::ranges::find_if(
       all_, [&](const One& one) { return one.organ == organ && one.at == at; });
   if (found != all_.end()) {

@@ -27,7 +27,7 @@ class OrganForces : public world::Participant {
   struct One {
     std::string organ;
     double at = 0.0;
-    OrganPlace place;
+    PlaceOnPlant place;
     std::size_t slot = 0;  // in RodSystem::loads()
     Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
   };

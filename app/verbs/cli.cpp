@@ -375,7 +375,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
     check_ros_arguments(ros);
     if (!ros.ros) return window_verb(run, window, paused, open_desktop, make_films);
     check_run_arguments(run);
-    set_verbosity(run);
+    apply_verbosity(run);
     return ros_verb(ros, run, paused);
   });
 }
