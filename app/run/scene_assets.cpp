@@ -2,8 +2,8 @@
 
 #include "pedicel/app/run/rod_options.h"
 #include "pedicel/app/run/scene_plants.h"
-#include "pedicel/world/settings.h"
 #include "pedicel/app/run/wind_field.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::app {
 

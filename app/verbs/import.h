@@ -18,8 +18,9 @@ struct ImportArguments {
   std::string units, up, axes, origin, origin_pixel, camera, plane;
   std::optional<double> rate, scale, stiffness;
   double likelihood = 0.6;
-  std::vector<std::string> places, names, holds;  ///< POINT=CURVE:AT, POINT=NAME (or the map of a log), POINT=CURVE:AT
-  std::string lead;                               ///< CURVE:AT
+  std::vector<std::string> places, names,
+      holds;         ///< POINT=CURVE:AT, POINT=NAME (or the map of a log), POINT=CURVE:AT
+  std::string lead;  ///< CURVE:AT
   std::vector<std::string> begins, releases, forces, force_begins;  ///< [TRIAL=]VALUE
   std::string force_column, force_unit, force_direction, force_axes, time_unit, extension;
   bool quiet = false;

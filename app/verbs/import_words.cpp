@@ -43,7 +43,8 @@ void add_frame_options(CLI::App& verb, ImportArguments& a) {
 
 void add_place_options(CLI::App& verb, ImportArguments& a) {
   add_word_list(verb, "--place", a.places, "POINT=CURVE:AT, where a point sits on the plant");
-  add_word_list(verb, "--map", a.names, "POINT=NAME, its name in the experiment; of a log its map (a file)");
+  add_word_list(verb, "--map", a.names,
+                "POINT=NAME, its name in the experiment; of a log its map (a file)");
   add_word_list(verb, "--hold", a.holds, "POINT=CURVE:AT, a point that leads the plant there");
   verb.add_option("--lead", a.lead, "CURVE:AT, where the machine of --force leads the plant");
   verb.add_option("--stiffness", a.stiffness, "of what leads, N/m (default: rigid)")

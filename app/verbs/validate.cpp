@@ -10,7 +10,6 @@
 #include "pedicel/app/run/mesh_fields.h"
 #include "pedicel/app/run/simulation.h"
 #include "pedicel/app/session/document/document.h"
-#include "pedicel/world/variation.h"
 #include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/app/verbs/validate_tables.h"
 #include "pedicel/discrepancy/admission/admission.h"
@@ -23,6 +22,7 @@
 #include "pedicel/skeleton/plant_source.h"
 #include "pedicel/urdf/urdf_reader.h"
 #include "pedicel/world/scene_reader.h"
+#include "pedicel/world/variation.h"
 
 namespace pedicel::app {
 

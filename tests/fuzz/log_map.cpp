@@ -1,4 +1,5 @@
 #include "pedicel/discrepancy/log_import/log_map.h"
+
 #include "reading.h"
 
 using namespace pedicel;

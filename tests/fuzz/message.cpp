@@ -28,16 +28,36 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::string bytes = fuzz::text_of(data + 1, size - 1);
   switch (data[0] % 10) {
-    case 0: read<ros::JointState>(bytes); break;
-    case 1: read<ros::WrenchStamped>(bytes); break;
-    case 2: read<ros::TFMessage>(bytes); break;
-    case 3: read<ros::JointTrajectory>(bytes); break;
-    case 4: read<ros::MarkerArray>(bytes); break;
-    case 5: read<ros::CameraInfo>(bytes); break;
-    case 6: read<ros::PointCloud2>(bytes); break;
-    case 7: read<ros::DynamicJointState>(bytes); break;
-    case 8: read<ros::GetEntities::Request>(bytes); break;
-    default: read<ros::StepSimulation::Request>(bytes); break;
+    case 0:
+      read<ros::JointState>(bytes);
+      break;
+    case 1:
+      read<ros::WrenchStamped>(bytes);
+      break;
+    case 2:
+      read<ros::TFMessage>(bytes);
+      break;
+    case 3:
+      read<ros::JointTrajectory>(bytes);
+      break;
+    case 4:
+      read<ros::MarkerArray>(bytes);
+      break;
+    case 5:
+      read<ros::CameraInfo>(bytes);
+      break;
+    case 6:
+      read<ros::PointCloud2>(bytes);
+      break;
+    case 7:
+      read<ros::DynamicJointState>(bytes);
+      break;
+    case 8:
+      read<ros::GetEntities::Request>(bytes);
+      break;
+    default:
+      read<ros::StepSimulation::Request>(bytes);
+      break;
   }
   return 0;
 }

@@ -1,10 +1,10 @@
 #include "pedicel/world/scene_reader.h"
-#include "pedicel/world/scene_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/world/scene_writer.h"
 
 namespace pedicel::world {
 namespace {
