@@ -101,7 +101,7 @@ TEST(Verdict, PutsComponentsIntoLists) {
 TEST(Verdict, IsNullWhereThereIsNoValue) {
   const Json json = Json::parse(to_json(full()));
   EXPECT_TRUE(json["causes"][0]["parameters"]["stiffness"]["high"].is_null());
-  EXPECT_TRUE(json["causes"][1]["where"].is_null());
+  EXPECT_EQ(json["causes"][1]["where"], Json({{"marker", "m2"}}));  // it has no place on a curve
   EXPECT_TRUE(json["could_hide"][1]["smallest_seen"].is_null());
   const Json bare = Json::parse(to_json(Verdict{}));
   EXPECT_EQ(keys(bare), keys(json));
