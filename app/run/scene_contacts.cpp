@@ -28,7 +28,7 @@ SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
   const bool all = assets.coupling.two_way;
   reaction_ = std::make_unique<Reaction>(world_, all ? robot_ : nullptr, colliders_,
                                          all ? 0 : world_.body_count());
-  if (grip_) grip_->pass_on(plant_step_->contacts());
+  if (all && grip_) grip_->pass_on(plant_step_->contacts());
   plant_step_->set_reaction(
       [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
 }

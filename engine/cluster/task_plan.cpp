@@ -23,8 +23,8 @@ std::vector<Input> inputs_of(const Plan& plan, const fs::path& folder) {
   std::vector<Input> inputs;
   for (const fs::path& file : plan.inputs) inputs.push_back({path_from(folder, file), {}});
   std::ranges::sort(inputs, {}, &Input::path);
-  const auto same = std::ranges::unique(inputs, {}, &Input::path);
-  inputs.erase(same.begin(), same.end());
+  const auto is_same = [](const Input& a, const Input& b) { return a.path == b.path; };
+  inputs.erase(std::unique(inputs.begin(), inputs.end(), is_same), inputs.end());
   for (Input& input : inputs) input.sha256 = sha256_of_file(folder / input.path);
   return inputs;
 }

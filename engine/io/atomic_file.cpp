@@ -76,6 +76,11 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
     if (error)
       throw WriteError(path.parent_path().string() + ": cannot be created: " + error.message());
   }
+  // Renaming would put a plain file in the place of a device or a pipe.
+  const auto there = std::filesystem::status(path, error);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there) &&
+      !std::filesystem::is_directory(there))
+    throw WriteError(path.string() + ": is a device or a pipe, expected a plain file, or none yet");
   Part part(path);
   part.write(contents);
   part.place();

@@ -96,7 +96,7 @@ SceneTie read_tie(const io::YamlNode& node) {
   tie.is_offset = offset.has_value();
   if (to || offset) tie.to = map.vector(tie.is_offset ? "offset" : "to");
   if (map.optional("length")) tie.length = map.number("length", io::not_negative);
-  tie.stiffness = map.number("stiffness", io::positive, tie.stiffness);
+  tie.stiffness = map.number("stiffness", {1.0e-3, 1.0e9}, tie.stiffness);
   map.finish();
   return tie;
 }
@@ -125,7 +125,9 @@ SceneWind read_wind(const io::YamlNode& node) {
                " m/s, expected one along the ground of at most " + io::yaml_number(fastest_wind));
   wind.height = map.number("height", io::positive, wind.height);
   wind.roughness = map.number("roughness", io::not_negative, wind.roughness);
-  if (wind.roughness >= wind.height) map.error("wind: expected a roughness below the height");
+  // Nearer to each other, the logarithm of their ratio would multiply the wind.
+  if (wind.roughness > 0.5 * wind.height)
+    map.error("wind: expected a roughness of at most half of the height");
   wind.intensity = map.number("intensity", io::fraction, wind.intensity);
   wind.length = map.number("length", io::positive, wind.length);
   wind.rise = map.number("rise", io::not_negative, wind.rise);

@@ -33,7 +33,9 @@ void read_values(io::YamlMap& map, VariedNumber& one) {
   const auto node = map.required("values");
   if (!node) return;
   for (const io::YamlNode& value : node->list("values")) one.values.push_back(value.text("values"));
-  if (one.values.empty()) node->error("values: is empty, expected one or more");
+  if (!one.values.empty()) return;
+  node->error("values: is empty, expected one or more");
+  one.values.emplace_back();  // a scene is drawn from before its faults are told
 }
 
 VariedNumber read_number(const std::string& key, const io::YamlNode& node) {

@@ -86,6 +86,13 @@ class SceneReader {
       node->error("the scene has no robot, expected one whose joints were measured");
     else
       read_robot(*out_.scene.robot);
+    // What its simulation does not have must not be passed over in silence.
+    for (const auto& [stands, what] :
+         {std::pair(!out_.scene.ties.empty(), "ties"), std::pair(!out_.scene.cuts.empty(), "cuts"),
+          std::pair(out_.scene.wind.has_value(), "wind")})
+      if (stands)
+        node->error(std::string("the scene has ") + what +
+                    ", which scene experiments are simulated without: expected none");
     for (const world::ScenePlant& plant : out_.scene.plants) read_plant(*node, plant);
     if (out_.scene.plants.empty()) node->error("the scene has no plants, expected at least one");
     whole_ = diagnostics_.error_count() == before;

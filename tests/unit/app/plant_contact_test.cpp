@@ -74,6 +74,24 @@ TEST(PlantContact, AFruitThatCameOffLandsOnAnotherPlant) {
   EXPECT_NEAR(force, weight, 0.25 * weight);
 }
 
+// In one-way coupling the robot moves as if no plant were there; that plants touch each other does
+// not change it.
+TEST(PlantContact, OneWayCouplingStaysOneWay) {
+  const SceneCase files;
+  files.write("upper.plant.yaml", stem_file("[0, 0, 0.5]", "[0.2, 0, 0.5]", 0.004, 1.0e9));
+  files.write("slider.urdf", slider_urdf(0.2, "0 0 1"));
+  const auto height = [&](const std::string& coupling) {
+    const auto sim = files.simulation(
+        coupling + "plants:\n  - {name: upper, file: upper.plant.yaml}\n" +
+        "robot: {name: slider, file: slider.urdf, position: [0.15, 0, 0.54], control: torque}\n");
+    for (int i = 0; i < 60; ++i) sim->step();
+    return sim->robot()->robot().positions()[0];
+  };
+  const double free = height("");
+  EXPECT_EQ(height("coupling: {plant_contact: 1}\n"), free);
+  EXPECT_GT(height("coupling: {plant_contact: 1, direction: two_way}\n"), free + 0.01);
+}
+
 TEST(PlantContact, NeedsTheDirectSolver) {
   SceneCase files;
   write_crossed(files);

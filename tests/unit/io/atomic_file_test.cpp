@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -26,6 +27,16 @@ TEST(AtomicFile, WritesWhatIsReadBackAndReplacesTheOld) {
   EXPECT_EQ(read_file(path), bytes);
   const auto entries = std::filesystem::directory_iterator(folder / "deep/er");
   EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "a temporary file was left behind";
+}
+
+// Renamed over it, a plain file would stand in its place.
+TEST(AtomicFile, LeavesAPipeAlone) {
+  TemporaryFolder folder;
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT([&] { write_file_atomically(pipe, "x"); },
+              ThrowsMessage<WriteError>(HasSubstr("expected a plain file")));
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(AtomicFile, SaysWhyItCannotWrite) {

@@ -1,9 +1,11 @@
 #include "pedicel/world/variation.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "pedicel/world/scene_reader.h"
 #include "pedicel/world/settings.h"
 
 namespace pedicel::world {
@@ -35,6 +37,17 @@ TEST(Variation, StaysWithinItsBounds) {
     EXPECT_GE(number(variation, seed), -0.5);
     EXPECT_LE(number(variation, seed), 0.25);
   }
+}
+
+// A scene is drawn from before its faults are told: an empty choice divided by zero there.
+TEST(Variation, AnEmptyChoiceOfASceneIsToldAndNotDrawnFrom) {
+  Diagnostics diagnostics;
+  const auto scene = parse_scene(
+      "format: pedicel-scene\nversion: 1\npurpose: p\nsee: s\nduration: 1\n"
+      "vary: {detach.stretch: {distribution: choice, values: []}}\n",
+      "try.scene.yaml", diagnostics);
+  EXPECT_FALSE(scene && !diagnostics.has_errors());
+  EXPECT_THAT(diagnostics.text(), testing::HasSubstr("values: is empty"));
 }
 
 TEST(Variation, KeysAreDrawnInTheirOrder) {
