@@ -192,6 +192,7 @@ class Conclusion {
   std::vector<SceneReadings> predict(const std::vector<plant::Effect>& effects) {
     SceneVariant variant{effects};
     std::vector<SceneSimulator::Request> requests;
+    requests.reserve(experiment_.trials.size());
     for (int t = 0; t < static_cast<int>(experiment_.trials.size()); ++t)
       requests.push_back({&variant, t});
     return simulator_.run(requests);
