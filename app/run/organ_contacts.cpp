@@ -37,6 +37,7 @@ std::vector<OrganContact> organ_contacts(const cosserat::RodSystem& rods) {
       pair.force_W += contact.normal * contact.point.normal_W + contact.tangential_W;
     }
   std::vector<OrganContact> all;
+  all.reserve(pairs.size());
   for (auto& [key, pair] : pairs) all.push_back(std::move(pair));
   return all;
 }

@@ -39,7 +39,9 @@ SceneTies::SceneTies(const std::vector<world::SceneTie>& ties, cosserat::RodSyst
         const std::string number = number_in_grid(rods_.model(p).name, plant);
         if (number.empty()) continue;
         in_grid = true;
-        add(tie, rods_.model(p).name + tie.organ.substr(slash), name + "_" + number);
+        std::string numbered = name;
+        numbered.append("_").append(number);
+        add(tie, rods_.model(p).name + tie.organ.substr(slash), numbered);
       }
       if (!in_grid) add(tie, tie.organ, name);
     } catch (const UsageError& error) {
