@@ -28,7 +28,7 @@ namespace {
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-constexpr int newest_kept = 10, reliable_kept = 100, services_kept = 100;
+constexpr int newest_kept = 10, reliable_kept = 100;
 constexpr std::uint32_t neighbours = 10;         // participants of this machine that are looked for
 constexpr int first_own = 30, own_numbers = 70;  // numbers of our own participants
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
@@ -32,7 +33,7 @@ constexpr double seconds_between_lines = 30.0;
 cluster::Progress shown_by(ProgressLine& line, bool quiet) {
   if (quiet || verbosity() < Verbosity::lines) return {};
   const bool on_terminal = ::isatty(STDERR_FILENO) == 1;
-  return [&line, on_terminal, show = line.callback(false), last = std::optional<Timer>()](
+  return [on_terminal, show = line.callback(false), last = std::optional<Timer>()](
              const std::string& what, double share) mutable {
     if (!on_terminal && last && last->seconds() < seconds_between_lines) return;
     last.emplace();
@@ -133,7 +134,7 @@ std::string time_left(const cluster::Survey& survey, const cluster::Queue::State
   if (survey.done() == 0 || state.running == 0 || survey.missing.empty()) return {};
   const double each = survey.seconds / survey.done();
   const double left = each * static_cast<double>(survey.missing.size()) / state.running;
-  return ", about " + std::to_string(static_cast<long>(left + 0.5)) + " s left";
+  return ", about " + std::to_string(std::lround(left)) + " s left";
 }
 
 int tell(const fs::path& folder) {
@@ -181,6 +182,7 @@ int call_again(const fs::path& folder, bool collect_only) {
   words.insert(words.end(), head.again.begin(), head.again.end());
   if (collect_only) words.emplace_back("--collect-only");
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   std::error_code error;
