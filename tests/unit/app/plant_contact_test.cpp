@@ -1,6 +1,8 @@
 // Plants that touch each other in a scene, what came off them, and strings.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "pedicel/app/run/organ_contacts.h"
 #include "pedicel/app/run/scene_ties.h"
 #include "unit/app/contact_cases.h"
@@ -14,29 +16,46 @@ const char* two_stems =
     "plants:\n  - {name: upper, file: upper.plant.yaml}\n  - {name: lower, file: "
     "lower.plant.yaml}\n";
 
-// A heavy stem that lies across a light one.
+// A soft stem that ends above a stiffer one and carries a fruit, drawn 0.2 mm apart.
 void write_crossed(const SceneCase& files) {
-  files.write("upper.plant.yaml", stem_file("[-0.3, 0, 0.512]", "[0.05, 0, 0.512]", 0.006, 2.0e7));
+  files.write(
+      "upper.plant.yaml",
+      stem_file("[-0.3, 0, 0.5122]", "[0.05, 0, 0.5122]", 0.006, 1.0e8,
+                "fruits:\n  - {name: fruit, curve: stem, at: 1, radius: 0.008, density: 900}\n"));
   files.write("lower.plant.yaml", stem_file("[0, -0.3, 0.5]", "[0, 0.1, 0.5]", 0.006, 2.0e9));
 }
 
-TEST(PlantContact, AStemLiesOnAnotherOne) {
+double lowest(const Simulation& sim, int plant) {
+  double height = 1.0e9;
+  for (const Vec3& position : sim.rods().state(plant).position)
+    height = std::min(height, position.z());
+  return height;
+}
+
+// A load presses the upper one down: apart it sinks past the lower one, touching it is held by it.
+TEST(PlantContact, AStemPressesOnAnotherOne) {
   SceneCase files;
   write_crossed(files);
-  const auto apart = files.simulation(two_stems);
-  const auto touching = files.simulation(std::string("coupling: {plant_contact: 1}\n") + two_stems);
-  for (int i = 0; i < 480; ++i) {
+  const std::string scene =
+      std::string(two_stems) + "loads:\n  - {fruit: upper/fruit, force: [0, 0, -0.5], to: 10}\n";
+  const auto apart = files.simulation(scene);
+  const auto touching = files.simulation("coupling: {plant_contact: 1}\n" + scene);
+  for (int i = 0; i < 720; ++i) {
     apart->step();
     touching->step();
   }
   EXPECT_TRUE(organ_contacts(apart->rods()).empty());
+  EXPECT_LT(lowest(*apart, 0), 0.49);
+  EXPECT_NEAR(lowest(*apart, 1), 0.5, 1e-5);
   const std::vector<OrganContact> pairs = organ_contacts(touching->rods());
-  // As drawn the upper one carries itself: it only rests against the lower one.
-  for (const OrganContact& pair : pairs) {
-    EXPECT_EQ(pair.organ, "upper/stem");
-    EXPECT_EQ(pair.other, "lower/stem");
-    EXPECT_GE(pair.force_W.z(), 0.0);
-  }
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].organ, "upper/stem");
+  EXPECT_EQ(pairs[0].other, "lower/stem");
+  // The load stands beyond the crossing, so that the lower one bears more than all of it.
+  EXPECT_GT(pairs[0].force_W.z(), 0.3);
+  EXPECT_LT(pairs[0].force_W.z(), 0.9);
+  EXPECT_GT(lowest(*touching, 0), lowest(*apart, 0) + 0.005);
+  EXPECT_LT(lowest(*touching, 1), 0.4995);
 }
 
 // It falls from a stalk that breaks at once, and comes to rest on the stem of another plant below,
