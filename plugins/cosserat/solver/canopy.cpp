@@ -33,7 +33,11 @@ RodSettings settings_for_leaning(RodSettings settings) {
 
 // Their joints' memory starts where the plant stands, as DirectSolver has it.
 void begin_memory(const RodModel& model, RodState& state) {
-  if (model.laws.empty() || state.joint_bias.size() == model.laws.size()) return;
+  const std::size_t joints = model.laws.size();
+  if (joints == 0 || (state.joint_bias.size() == joints &&
+                      state.joint_memory.size() == joints * branch_count(model)))
+    return;
+  state.joint_bias.clear();
   start_memory(model, state);
 }
 

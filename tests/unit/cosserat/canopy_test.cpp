@@ -222,5 +222,24 @@ TEST(Canopy, JointLawsStayWithTheirPlant) {
   for (std::size_t i = 0; i < own.size(); ++i) EXPECT_LT((kept[i] - own[i]).norm(), 1e-6);
 }
 
+// A plant that gets other laws between two steps has memory of another size.
+TEST(Canopy, OtherLawsStartTheirMemoryAnew) {
+  RodSystem system{RodSettings{}};
+  for (int p = 0; p < 2; ++p) system.add_plant(plant::forest_plant(p));
+  system.let_plants_touch(SelfContactSettings{});
+  for (const int branches : {1, 3, 0, 2}) {
+    JointBranch slow;
+    slow.share = 0.1;
+    slow.time = 0.2;
+    JointLaw law;
+    law.branches.assign(branches, slow);
+    system.edit_model(1).laws.assign(system.model(1).elements.size(), law);
+    system.edit_state(1);
+    for (int i = 0; i < 5; ++i) system.step(dt, gravity);
+    EXPECT_EQ(system.state(1).joint_memory.size(), branches * system.model(1).elements.size());
+    EXPECT_TRUE(system.state(1).position.back().allFinite());
+  }
+}
+
 }  // namespace
 }  // namespace pedicel::cosserat::cases
