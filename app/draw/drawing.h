@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/app/run/blade.h"
+#include "pedicel/app/plants/blade.h"
 #include "pedicel/core/frames.h"
 #include "pedicel/plant/model/plant_model.h"
 #include "pedicel/render/draw_list.h"

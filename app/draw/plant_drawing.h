@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/run/surface_strain.h"
+#include "pedicel/app/plants/surface_strain.h"
 #include "pedicel/cosserat/model/rod_state.h"
 
 namespace pedicel::app {

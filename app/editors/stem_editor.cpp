@@ -7,7 +7,7 @@
 #include "pedicel/app/editors/organ_numbers.h"
 #include "pedicel/app/editors/point_editor.h"
 #include "pedicel/app/editors/thing_editor.h"
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/widgets.h"
 #include "pedicel/plant/plant_edit.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pedicel/app/gltf/gltf_file.h"
-#include "pedicel/app/run/plant_info.h"
+#include "pedicel/app/plants/plant_info.h"
 
 namespace pedicel::app {
 

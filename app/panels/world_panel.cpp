@@ -4,7 +4,7 @@
 
 #include "pedicel/app/editors/effects_part.h"
 #include "pedicel/app/panels/panel.h"
-#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/session/document/effective_plant.h"
 #include "pedicel/app/session/measured/measured_data.h"
 #include "pedicel/app/session/session_measured.h"

@@ -3,8 +3,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/python/arrays.h"
-#include "pedicel/app/run/plant_overrides.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/plant_import.h"
 #include "pedicel/core/check.h"

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "pedicel/app/draw/scene_view.h"
+#include "pedicel/app/plants/organ_contacts.h"
 #include "pedicel/app/report/meta.h"
 #include "pedicel/app/report/run_state.h"
 #include "pedicel/app/report/sensor_recorder.h"
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/run/channels.h"
-#include "pedicel/app/run/organ_contacts.h"
 #include "pedicel/app/run/rough_spell.h"
 #include "pedicel/app/run/scene_assets.h"
 #include "pedicel/app/run/verbosity.h"

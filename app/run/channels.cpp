@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "pedicel/app/run/organ_contacts.h"
+#include "pedicel/app/plants/organ_contacts.h"
 #include "pedicel/app/run/scene_assets.h"
 
 namespace pedicel::app {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/world/expectation.h"
 
 namespace pedicel::app {

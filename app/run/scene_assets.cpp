@@ -1,8 +1,8 @@
 #include "pedicel/app/run/scene_assets.h"
 
-#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/plants/rod_options.h"
+#include "pedicel/app/plants/wind_field.h"
 #include "pedicel/app/run/scene_plants.h"
-#include "pedicel/app/run/wind_field.h"
 #include "pedicel/world/settings.h"
 
 namespace pedicel::app {

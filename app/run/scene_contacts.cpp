@@ -1,8 +1,8 @@
 #include "pedicel/app/run/scene_contacts.h"
 
+#include "pedicel/app/plants/start_overlaps.h"
 #include "pedicel/app/run/colliders.h"
 #include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/run/start_overlaps.h"
 
 namespace pedicel::app {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/run/gripper_step.h"
-#include "pedicel/app/run/plant_step.h"
 #include "pedicel/app/run/reaction.h"
 #include "pedicel/app/run/robot_control.h"
 #include "pedicel/cosserat/contact/self_contact.h"

@@ -1,7 +1,7 @@
 #include "pedicel/app/run/scene_plants.h"
 
+#include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/run/large_plant.h"
-#include "pedicel/app/run/plant_overrides.h"
 #include "pedicel/cosserat/solver/standing.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_builder.h"

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/run/cutting.h"
-#include "pedicel/app/run/gentleness.h"
+#include "pedicel/app/plants/cutting.h"
+#include "pedicel/app/plants/gentleness.h"
+#include "pedicel/app/plants/plant_info.h"
+#include "pedicel/app/plants/scene_loads.h"
+#include "pedicel/app/plants/scene_ties.h"
+#include "pedicel/app/plants/wind_field.h"
 #include "pedicel/app/run/measurements.h"
-#include "pedicel/app/run/plant_info.h"
 #include "pedicel/app/run/scene_contacts.h"
-#include "pedicel/app/run/scene_loads.h"
-#include "pedicel/app/run/scene_ties.h"
-#include "pedicel/app/run/wind_field.h"
 #include "pedicel/plant/plant_file.h"
 #include "pedicel/world/scene.h"
 #include "pedicel/world/sim_world.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/run/robot_control.h"
 #include "pedicel/core/random.h"
 #include "pedicel/world/scene.h"

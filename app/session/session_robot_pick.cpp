@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/session/live/pick_program.h"
 #include "pedicel/app/session/live/robot_goal.h"
 #include "pedicel/app/session/session_core.h"

@@ -1,6 +1,6 @@
 #include "pedicel/app/session/session_tuning.h"
 
-#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/session/document/plant_parameters.h"
 #include "pedicel/app/session/session.h"
 #include "pedicel/app/session/session_files.h"

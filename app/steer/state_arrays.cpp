@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 
 namespace pedicel::app {
 

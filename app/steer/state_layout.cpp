@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/core/check.h"
 
 namespace pedicel::app {

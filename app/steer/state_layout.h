@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/run/organ_places.h"
+#include "pedicel/app/plants/organ_places.h"
 #include "pedicel/app/run/simulation.h"
 #include "pedicel/app/steer/state_fields.h"
 

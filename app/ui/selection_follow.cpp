@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/session/live/organ_place.h"
 #include "pedicel/app/ui/ui.h"
 

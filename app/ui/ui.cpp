@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/commands/measured_commands.h"
 #include "pedicel/app/session/document/scene_references.h"

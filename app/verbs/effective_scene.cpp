@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/app/bench/parallel_worlds.h"
+#include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/run/scene_plants.h"
-#include "pedicel/app/verbs/parallel_worlds.h"
 #include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/random.h"

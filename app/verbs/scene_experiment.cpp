@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "pedicel/app/verbs/parallel_worlds.h"
+#include "pedicel/app/bench/parallel_worlds.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/report/scene_report.h"

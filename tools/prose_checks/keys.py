@@ -56,7 +56,7 @@ RULES = [
     Rule("settings.md", ("engine/world/settings.cpp",), (NUMBER,), 5),
     Rule("settings.md", ("plugins/cosserat/solver/rod_settings.cpp",), (PARAMETER,), 4),
     Rule("settings.md", ("plugins/coupling/coupling_settings.cpp",), (PARAMETER,), 8),
-    Rule("settings.md", ("app/run/rod_options.cpp",), (WORD,), 3, end=""),
+    Rule("settings.md", ("app/plants/rod_options.cpp",), (WORD,), 3, end=""),
     Rule("settings.md", ("plugins/plant/plant_numbers.cpp",), (DOTTED,), 11),
     Rule("verdict.md", ("plugins/discrepancy/select/verdict.cpp",), (JSON,), 30, end=""),
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "pedicel/app/run/plant_overrides.h"
-#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/plants/plant_overrides.h"
+#include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/commands/scene_things.h"
 #include "pedicel/app/session/document/document.h"

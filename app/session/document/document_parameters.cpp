@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/session/document/plant_parameters.h"
 #include "pedicel/coupling/coupling_settings.h"
 

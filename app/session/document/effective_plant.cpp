@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/plant_parameters.h"
 #include "pedicel/core/check.h"

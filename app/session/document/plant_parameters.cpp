@@ -1,6 +1,6 @@
 #include "pedicel/app/session/document/plant_parameters.h"
 
-#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/plant/plant_numbers.h"
 
 namespace pedicel::app {

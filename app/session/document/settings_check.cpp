@@ -1,7 +1,7 @@
 #include "pedicel/app/session/document/settings_check.h"
 
-#include "pedicel/app/run/plant_overrides.h"
-#include "pedicel/app/run/rod_options.h"
+#include "pedicel/app/plants/plant_overrides.h"
+#include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/run/scene_assets.h"
 #include "pedicel/core/check.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/run/plant_step.h"
+#include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/session/live/robot_goal.h"
 #include "pedicel/core/check.h"
 #include "pedicel/robot/cartesian_path.h"

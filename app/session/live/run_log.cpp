@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/app/run/surface_strain.h"
+#include "pedicel/app/plants/surface_strain.h"
 
 namespace pedicel::app {
 

@@ -1,7 +1,7 @@
 #include "pedicel/app/session/live/snapshot_maker.h"
 
+#include "pedicel/app/plants/surface_strain.h"
 #include "pedicel/app/run/channels.h"
-#include "pedicel/app/run/surface_strain.h"
 
 namespace pedicel::app {
 

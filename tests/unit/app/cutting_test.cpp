@@ -1,5 +1,5 @@
 // Cuts through stems: what is cut off goes on as one body with the momentum that it had.
-#include "pedicel/app/run/cutting.h"
+#include "pedicel/app/plants/cutting.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Worlds of one scene read the same meshes and fields and still do not influence each other.
-#include "pedicel/app/verbs/parallel_worlds.h"
+#include "pedicel/app/bench/parallel_worlds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

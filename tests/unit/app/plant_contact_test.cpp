@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "pedicel/app/run/organ_contacts.h"
-#include "pedicel/app/run/scene_ties.h"
+#include "pedicel/app/plants/organ_contacts.h"
+#include "pedicel/app/plants/scene_ties.h"
 #include "unit/app/contact_cases.h"
 
 namespace pedicel::app {

@@ -1,4 +1,4 @@
-#include "pedicel/app/run/plant_overrides.h"
+#include "pedicel/app/plants/plant_overrides.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

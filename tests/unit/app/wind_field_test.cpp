@@ -1,6 +1,6 @@
 // Wind over a scene: its mean, gusts that travel, shelter behind plants, and what it does to a
 // stem.
-#include "pedicel/app/run/wind_field.h"
+#include "pedicel/app/plants/wind_field.h"
 
 #include <gmock/gmock.h>
 

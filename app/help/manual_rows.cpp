@@ -1,0 +1,153 @@
+#include "pedicel/app/help/manual_rows.h"
+
+#include <cmath>
+
+#include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/core/exit_code.h"
+#include "pedicel/core/parameter.h"
+#include "pedicel/cosserat/solver/rod_solver.h"
+#include "pedicel/coupling/coupling_settings.h"
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/plant/plant_numbers.h"
+#include "pedicel/plant/plant_shape.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+std::string code(const std::string& text) {
+  return "`" + text + "`";
+}
+
+std::string number_text(double x) {
+  return io::format_number(x, 6);
+}
+
+// A sentence as the last cell of a row: a phrase without its full stop.
+std::string phrase(std::string sentence) {
+  if (sentence.ends_with('.')) sentence.pop_back();
+  return sentence;
+}
+
+std::string range_text(const io::Bounds& bounds) {
+  const bool low = std::isfinite(bounds.minimum), high = std::isfinite(bounds.maximum);
+  if (low && high)
+    return bounds.open_minimum
+               ? "above " + number_text(bounds.minimum) + ", at most " + number_text(bounds.maximum)
+               : number_text(bounds.minimum) + " to " + number_text(bounds.maximum);
+  if (low)
+    return bounds.open_minimum ? "above " + number_text(bounds.minimum)
+                               : number_text(bounds.minimum) + " or more";
+  return "any number";
+}
+
+std::string range_text(const effects::EffectParameter& parameter) {
+  if (parameter.size == 3)
+    return std::isfinite(parameter.bounds.minimum) ? "three numbers " + range_text(parameter.bounds)
+                                                   : "`[x, y, z]`";
+  if (parameter.size > 1)
+    return std::to_string(parameter.size) + " numbers, " + range_text(parameter.bounds);
+  if (parameter.size > 0) return range_text(parameter.bounds);
+  std::string words;
+  for (const std::string& word : parameter.words) words += (words.empty() ? "" : ", ") + code(word);
+  return words.empty() ? "a name" : words;
+}
+
+void add_effects(std::vector<ManualRow>& rows) {
+  for (const effects::EffectDefinition& one : effects::effect_definitions()) {
+    rows.push_back({"effects", 1, {code(one.name), one.needs_place ? "needed" : "", one.sentence}});
+    for (const effects::EffectParameter& parameter : one.parameters)
+      rows.push_back(
+          {"effects",
+           2,
+           {code(one.name), code(parameter.name), parameter.size == 0 ? "" : parameter.unit,
+            parameter.required ? "needed" : parameter.otherwise, range_text(parameter),
+            parameter.sentence}});
+  }
+}
+
+// `settings` are those of a default-constructed section, so that values are defaults.
+void add_parameters(std::vector<ManualRow>& rows, const std::vector<Parameter>& settings,
+                    const char* page = "settings") {
+  for (const Parameter& one : settings) {
+    const bool flag = std::holds_alternative<bool*>(one.value);
+    const bool whole = std::holds_alternative<int*>(one.value);
+    const std::string bounds = number_text(one.minimum) + " to " + number_text(one.maximum);
+    rows.push_back({page,
+                    1,
+                    {code(one.name), one.unit, number_text(one.get()),
+                     flag ? "0, 1" : (whole ? "whole, " : "") + bounds, phrase(one.sentence)}});
+  }
+}
+
+void add_settings(std::vector<ManualRow>& rows) {
+  for (const world::SceneNumber& one : world::scene_numbers())
+    rows.push_back({"settings",
+                    1,
+                    {code(std::string(one.key)), std::string(one.unit), "the scene's",
+                     (one.whole() ? "whole, " : "") + number_text(one.minimum) + " to " +
+                         number_text(one.maximum),
+                     phrase(std::string(one.sentence))}});
+  cosserat::RodSettings rods;
+  add_parameters(rows, cosserat::parameters_of(rods));
+  coupling::CouplingSettings contact;
+  add_parameters(rows, coupling::parameters_of(contact));
+  for (const plant::PlantNumber& one : plant::plant_numbers())
+    rows.push_back({"settings",
+                    1,
+                    {code(std::string(one.key)), std::string(one.unit), "the plant's",
+                     range_text(one.bounds), phrase(std::string(one.sentence))}});
+}
+
+void add_sensors(std::vector<ManualRow>& rows) {
+  for (const plant::ShapeFactor& one : plant::shape_factors())
+    rows.push_back({"settings",
+                    1,
+                    {code(std::string(one.key)), "1", "1", range_text(plant::shape_bounds),
+                     phrase(std::string(one.sentence))}});
+  world::SceneLook look;
+  add_parameters(rows, look.parameters());
+  world::CameraNoise camera;
+  add_parameters(rows, camera.parameters(), "cameras");
+  world::WrenchNoise wrench;
+  add_parameters(rows, wrench.parameters(), "cameras");
+}
+
+void add_diagnosis_settings(std::vector<ManualRow>& rows) {
+  discrepancy::DiagnosisSettings defaults;
+  for (const discrepancy::DiagnosisSetting& one : discrepancy::described(defaults))
+    rows.push_back({"diagnosis_settings",
+                    1,
+                    {code(one.name), one.unit, number_text(one.get()),
+                     std::string(discrepancy::to_string(one.kind)), phrase(one.sentence),
+                     one.source, phrase(one.doubled)}});
+}
+
+void add_commands(std::vector<ManualRow>& rows) {
+  for (const CommandDescription& one : command_table()) {
+    std::string arguments;
+    for (const ArgumentDescription& argument : one.arguments)
+      arguments += (arguments.empty() ? "" : "; ") + code(argument.name) +
+                   (argument.needed ? "" : " (optional)") + ": " + argument.sentence;
+    rows.push_back({"scripts", 1, {code(one.verb), arguments, one.sentence}});
+  }
+}
+
+}  // namespace
+
+std::vector<ManualRow> manual_rows() {
+  std::vector<ManualRow> rows;
+  add_effects(rows);
+  add_settings(rows);
+  add_sensors(rows);
+  add_diagnosis_settings(rows);
+  add_commands(rows);
+  for (const ExitCodeDescription& one : exit_codes())
+    rows.push_back({"command_line", 1, {one.code, one.meaning}});
+  return rows;
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pedicel/app/plants/organ_places.h"
+#include "pedicel/world/recorder.h"
+#include "pedicel/world/scene.h"
+#include "pedicel/world/sim_world.h"
+
+namespace pedicel::app {
+
+/// Cuts through stems: those of the scene, and those that somebody asks for. What is cut off goes
+/// on as one rigid body, "PLANT/CURVE_cut".
+class Cutting : public world::Participant {
+ public:
+  /// Keeps references to all. A cut of an organ that no plant has is an error.
+  Cutting(const std::vector<world::SceneCut>& cuts, cosserat::RodSystem& rods,
+          world::SimWorld& world, Diagnostics& diagnostics);
+
+  /// Where the tool is (m, W), for cuts by it and for their record.
+  void set_tool(std::function<Pose()> tool) { tool_ = std::move(tool); }
+
+  /// Hears of each body that was cut off, and of its plant.
+  void set_released(std::function<void(int plant, int body)> released) {
+    released_ = std::move(released);
+  }
+
+  /// Between two steps: cuts a stem at the joint next to a fraction of its length. Throws
+  /// UsageError where there is no such organ, or it has come off already.
+  void cut(const std::string& organ, double at);
+
+  world::Phase phase() const override { return world::Phase::commands; }
+  void act(world::SimWorld& world, world::WorldReport& report) override;
+
+  /// What was cut so far, with cause "cut".
+  const std::vector<world::Event>& events() const { return events_; }
+
+ private:
+  struct Planned {
+    const world::SceneCut* cut;
+    PlaceOnPlant place;
+    bool done = false;
+  };
+  bool is_due(const Planned& one) const;
+  void cut_at(const PlaceOnPlant& place, const std::string& organ);
+
+  cosserat::RodSystem& rods_;
+  world::SimWorld& world_;
+  std::function<Pose()> tool_;
+  std::function<void(int plant, int body)> released_;
+  std::vector<Planned> planned_;
+  std::vector<world::Event> events_;
+};
+
+}  // namespace pedicel::app

@@ -1,0 +1,138 @@
+#include "pedicel/app/plants/plant_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/io/csv.h"
+
+namespace pedicel::app {
+
+namespace {
+
+/// A single rough step is a knock; this many in a row are a run that has lost its way.
+constexpr int most_rough_steps = 100;
+
+constexpr double fastest = 1.0e4;  // m/s: beyond it nothing in a plant moves
+
+/// The fastest element that is alive; -1 where none is.
+int fastest_of(const cosserat::RodState& state) {
+  int found = -1;
+  for (int e = 0; e < state.size(); ++e)
+    if (state.alive[e] &&
+        (found < 0 || state.velocity[e].squaredNorm() > state.velocity[found].squaredNorm()))
+      found = e;
+  return found;
+}
+
+// A link that leaves a stem no room, against its clamp or the ground, leaves it no smooth
+// equilibrium either: steps go to and fro about a kink of the potential, which keeps them in
+// bounds. Such a run is inexact there (RoughSpell says so) but has not lost its way.
+bool is_squeezed(const cosserat::StepReport& report,
+                 const std::vector<cosserat::ContactForce>& contacts) {
+  if (report.errors & cosserat::line_search_failed) return false;
+  return std::ranges::any_of(contacts, [](const cosserat::ContactForce& contact) {
+    return !cosserat::is_self_contact(contact.point.collider);
+  });
+}
+
+std::string cause_of(const cosserat::StepReport& report, double speed) {
+  if (report.errors & cosserat::not_finite) return "a position is not a finite number";
+  if (speed > fastest) return "it moves at " + io::format_number(speed, 3) + " m/s";
+  return "no equilibrium found in " + std::to_string(most_rough_steps) +
+         " steps in a row: the last change of position (m) or direction (rad) is " +
+         io::format_number(report.last_change, 3);
+}
+
+}  // namespace
+
+std::string fruit_name(const cosserat::RodModel& model, int fruit) {
+  return model.name + "/" + model.fruits[fruit].name;
+}
+
+PlantStep::PlantStep(cosserat::RodSystem& rods, coupling::ColliderSet& colliders,
+                     LinkPose link_pose)
+    : rods_(rods), colliders_(colliders), link_pose_(std::move(link_pose)), contacts_(colliders) {
+  // Before the first step nothing touches: who asks finds zeros.
+  contacts_.begin();
+  for (int p = 0; p < rods_.size(); ++p) contacts_.add(p, rods_.model(p), {});
+  contacts_.end();
+}
+
+void PlantStep::act(world::SimWorld& world, world::WorldReport& report) {
+  // Bullet has moved the links; plants feel them where they are now.
+  move_colliders();
+  rods_.step(world.dt(), world.settings().gravity);
+  rough_steps_.resize(rods_.size(), 0);
+  sum_up(world.settings().gravity, report);
+  // After the forces were summed up: the step in which it broke counts.
+  for (int p = 0; p < rods_.size(); ++p)
+    for (const cosserat::DetachEvent& event : rods_.detached(p)) release(world, p, event);
+  if (released_) contacts_.add_colliders();
+  // Last, since it moves the links and bodies against which the plants were solved.
+  if (reaction_) reaction_(contacts_);
+}
+
+void PlantStep::move_colliders() {
+  poses_.resize(colliders_.size());
+  for (int c = 0; c < colliders_.size(); ++c) poses_[c] = link_pose_(colliders_.collider(c));
+  colliders_.update(poses_);
+}
+
+void PlantStep::sum_up(const Vec3& gravity, world::WorldReport& report) {
+  contacts_.begin();
+  for (int p = 0; p < rods_.size(); ++p) {
+    contacts_.add(p, rods_.model(p), rods_.contact_forces(p));
+    judge(p, report);
+    const cosserat::StepReport& own = rods_.report(p);
+    // A search that fails is as rough as one that ends too early.
+    const bool rough = own.errors & (cosserat::not_converged | cosserat::line_search_failed);
+    const bool counts = rough && !is_squeezed(own, rods_.contact_forces(p));
+    rough_steps_[p] = counts ? rough_steps_[p] + 1 : 0;
+    report.contacts += own.contacts;
+    report.plant_energy += cosserat::energy_of(rods_.model(p), rods_.state(p), gravity).total();
+    report.deepest_overlap = std::max(report.deepest_overlap, own.deepest);
+    report.worst_residual = std::max(report.worst_residual, own.last_change);
+  }
+  contacts_.end();
+}
+
+// Names the organ of the worst error, and of a fatal one the quantity.
+void PlantStep::judge(int plant, world::WorldReport& report) const {
+  const cosserat::StepReport& own = rods_.report(plant);
+  const cosserat::RodModel& model = rods_.model(plant);
+  const cosserat::RodState& state = rods_.state(plant);
+  const int quickest = fastest_of(state);
+  const double speed = quickest < 0 ? 0.0 : state.velocity[quickest].norm();
+  // Speed is looked at as well: a run that flies apart may converge in each step.
+  const bool lost = (own.errors & cosserat::not_finite) || rough_steps_[plant] > most_rough_steps ||
+                    speed > fastest;
+  if (lost) report.errors |= world::plant_not_finite;
+  if (own.errors & cosserat::not_converged) report.errors |= world::plant_not_converged;
+  // The first culprit of a step stays, unless another plant is lost.
+  if (!lost && (!own.errors || !report.culprit.empty())) return;
+  const int element = own.element >= 0 && !(speed > fastest) ? own.element : quickest;
+  if (element >= 0) report.culprit = model.organs[model.elements[element].organ];
+  if (lost) report.cause = cause_of(own, speed);
+}
+
+void PlantStep::release(world::SimWorld& world, int plant, const cosserat::DetachEvent& event) {
+  const cosserat::RodModel& model = rods_.model(plant);
+  const cosserat::Fruit& fruit = model.fruits[event.fruit];
+  Detached record{plant, event, fruit_name(model, event.fruit), -1, {}};
+  // NaN says that there is none; zero would be a place.
+  record.tool.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (tool_) record.tool = tool_();
+  world::BodyDescription body = world::fruit_body(record.fruit, fruit.radius, event.mass,
+                                                  event.stub_length, event.stub_radius);
+  body.pose = {event.position_W, event.orientation};
+  // It goes on as it moved, so that a jerk is the plant's doing and not ours.
+  body.velocity = event.velocity_W;
+  body.angular_velocity = event.angular_velocity_W;
+  record.body = world.add_body(body);
+  detached_.push_back(std::move(record));
+  if (released_) released_(detached_.back());
+}
+
+}  // namespace pedicel::app

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pedicel/app/plants/blade.h"
+#include "pedicel/cosserat/solver/rod_system.h"
+#include "pedicel/world/scene.h"
+#include "pedicel/world/sim_world.h"
+
+namespace pedicel::app {
+
+/// Gives a plant areas on which wind acts: its stems as cylinders, its leaves' blades as plates.
+/// Stems whose file states a drag area keep it.
+void expose_to_wind(cosserat::RodModel& model, const std::vector<Blade>& blades);
+
+/// The wind of a scene (assets/manual/theory_wind.md): a mean that grows with height, gusts that
+/// travel with it, and shelter behind plants.
+class WindField : public world::Participant {
+ public:
+  /// The plants stand as drawn, exposed to wind. `seed` draws the gusts.
+  WindField(const world::SceneWind& wind, int seed, cosserat::RodSystem& rods);
+
+  /// m/s, W, at a place (m) and time (s), without shelter.
+  Vec3 velocity(const Vec3& place, double time) const;
+  /// 1, which an element gets of it.
+  double shelter(int plant, int element) const { return shelter_[plant][element]; }
+
+  world::Phase phase() const override { return world::Phase::commands; }
+  void act(world::SimWorld& world, world::WorldReport& report) override;
+
+ private:
+  struct Wave {
+    Vec3 number = Vec3::Zero();     // rad/m, W
+    Vec3 amplitude = Vec3::Zero();  // 1, of the mean speed
+    double phase = 0.0;             // rad
+  };
+  void draw_gusts(int seed);
+  void find_shelter();
+
+  world::SceneWind wind_;
+  cosserat::RodSystem& rods_;
+  std::vector<Wave> waves_;
+  std::vector<std::vector<double>> shelter_;  // by plant and element
+};
+
+}  // namespace pedicel::app
