@@ -141,22 +141,32 @@ DataSetResult make_data_set(const DataSetOptions& options) {
   const Timer timer;
   Maker maker(options);
   take_data_set_folder(options);
-  DataSetResult result;
-  for (long i = 0; i < options.count && !stop_requested; ++i) {
-    const std::filesystem::path labels = labels_file(options.out, i);
-    const bool there = std::filesystem::exists(labels);
-    const bool good = there ? !is_left_out(labels) : maker.make(i);
-    result.made += !there && good;
-    result.pictures += good;
-    result.left_out += !good;
-    if (!good && !there)
-      say(Verbosity::warnings, "picture %ld (seed %ld) is left out: its simulation is unstable", i,
-          options.seed + i);
+  long made = 0;
+  for (long i = options.first; i < options.count && !stop_requested; ++i) {
+    if (!std::filesystem::exists(labels_file(options.out, i))) {
+      if (maker.make(i))
+        ++made;
+      else
+        say(Verbosity::warnings, "picture %ld (seed %ld) is left out: its simulation is unstable",
+            i, options.seed + i);
+    }
     show_progress(options, i + 1);
+  }
+  DataSetResult result = end_data_set(options);
+  result.made = made;
+  result.seconds = timer.seconds();
+  return result;
+}
+
+DataSetResult end_data_set(const DataSetOptions& options) {
+  DataSetResult result;
+  for (long i = 0; i < options.count; ++i) {
+    const std::filesystem::path labels = labels_file(options.out, i);
+    if (!std::filesystem::exists(labels)) continue;
+    ++(is_left_out(labels) ? result.left_out : result.pictures);
   }
   result.annotations = write_coco(options);
   write_contact_sheet(options);
-  result.seconds = timer.seconds();
   return result;
 }
 

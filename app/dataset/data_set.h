@@ -15,6 +15,7 @@ struct DataSetOptions {
   SimulationOptions simulation;
   std::filesystem::path out;
   long count = 100;                             ///< pictures
+  long first = 0;                               ///< the first of them that this run makes
   int seed = 0;                                 ///< picture i is drawn from seed + i
   std::optional<std::array<int, 2>> size = {};  ///< px, in place of the cameras' own
   std::string camera;                           ///< empty: the scene's cameras in turn
@@ -36,5 +37,13 @@ struct DataSetResult {
 /// pictures cannot be taken, too), io::WriteError where the folder holds something else. Ends
 /// early, with everything closed, where stop_requested.
 DataSetResult make_data_set(const DataSetOptions& options);
+
+/// Counts the pictures that are there, and writes what is put together from all: annotations and
+/// contact sheet. make_data_set() ends with it.
+DataSetResult end_data_set(const DataSetOptions& options);
+
+/// Files of the set in `from` (of the same identity) go into that of `options`, by links where both
+/// are on one disk. What is there stays. Throws io::WriteError.
+void take_pictures(const std::filesystem::path& from, const DataSetOptions& options);
 
 }  // namespace pedicel::app

@@ -1,5 +1,6 @@
 #include "pedicel/app/dataset/data_set_files.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 
@@ -92,6 +93,18 @@ void take_data_set_folder(const DataSetOptions& options) {
   fs::create_directories(options.out / "labels", none);
   if (none) throw io::WriteError(options.out.string() + ": cannot be made: " + none.message());
   io::write_file_atomically(head, about(options).dump(1) + "\n");
+}
+
+void take_pictures(const fs::path& from, const DataSetOptions& options) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(from))
+    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(from));
+  // A picture's labels say that it is whole, so they come last.
+  std::ranges::stable_sort(files, {}, [](const fs::path& one) { return *one.begin() == "labels"; });
+  for (const fs::path& one : files) {
+    const bool of_pictures = one.has_parent_path() && *one.begin() != "annotations";
+    if (of_pictures || one == "things.json") io::link_or_copy(from / one, options.out / one);
+  }
 }
 
 std::string picture_name(long picture) {

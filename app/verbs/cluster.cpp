@@ -81,12 +81,7 @@ void place_files(const fs::path& from, io::OutputFolder& to, const std::string& 
   for (const auto& entry : fs::recursive_directory_iterator(from)) {
     const std::string name = entry.path().lexically_relative(from).generic_string();
     if (entry.is_directory() || name == left_out || name.starts_with(".pedicel-files")) continue;
-    const fs::path target = to.file(name);
-    std::error_code error;
-    fs::create_directories(target.parent_path(), error);
-    if (!error) fs::create_hard_link(entry.path(), target, error);
-    if (error) fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing, error);
-    if (error) throw io::WriteError(target.string() + ": cannot be written: " + error.message());
+    io::link_or_copy(entry.path(), to.file(name));
   }
 }
 

@@ -10,9 +10,13 @@
 #include "pedicel/app/dataset/data_set.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/film.h"
+#include "pedicel/app/verbs/cluster.h"
+#include "pedicel/app/verbs/dataset_tasks.h"
 #include "pedicel/app/verbs/run_arguments.h"
+#include "pedicel/cluster/cluster_options.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/exit_code.h"
+#include "pedicel/core/files_read.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/output_folder.h"
 #include "pedicel/render/offscreen.h"
@@ -27,6 +31,8 @@ struct DatasetArguments {
   std::string randomise, at;
   long count = 100;
   std::optional<int> seed;
+  cluster::ClusterOptions cluster;
+  int part = -1;  // of the set, which a task of --cluster makes
 };
 
 void add_options(CLI::App& verb, DatasetArguments& a) {
@@ -48,6 +54,10 @@ void add_options(CLI::App& verb, DatasetArguments& a) {
       ->allow_extra_args(false);
   verb.add_flag("--json", a.run.json, "print the result as JSON");
   verb.add_flag("--quiet", a.run.quiet, "warnings and errors only");
+  add_instruction_set_option(verb);
+  cluster::add_cluster_options(verb, a.cluster);
+  verb.add_option("--part", a.part, "only this part of the set: what a task of --cluster calls")
+      ->check(CLI::NonNegativeNumber);
 }
 
 /// What the file varies comes after what the scene varies, and in place of its equal keys.
@@ -112,18 +122,27 @@ std::string to_json(const DataSetOptions& options, const DataSetResult& result) 
   return json.dump(2);
 }
 
-int run(const DatasetArguments& a) {
+int run(DatasetArguments a, const CLI::App& verb) {
+  a.cluster = cluster::with_profile(a.cluster);
   if (a.run.quiet) set_verbosity(Verbosity::warnings);
-  const DataSetOptions options = options_of(a);
+  std::optional<FilesRead> inputs;
+  if (a.cluster.wanted()) inputs.emplace();
+  DataSetOptions options = options_of(a);
+  if (a.part >= 0) options = options_of_part(options, a.part);
   std::string why;
   if (!render::OffscreenContext::create(why)) throw NoPictures(why);
   stop_in_good_order();
-  const DataSetResult result = make_data_set(options);
+  bool whole = true;
+  const DataSetResult result =
+      a.cluster.wanted() ? make_data_set_as_tasks(options, verb, a.cluster, *inputs, whole)
+                         : make_data_set(options);
   if (a.run.json) std::cout << to_json(options, result) << std::endl;
   say(Verbosity::lines, "%ld pictures (%ld of them new, in %.1f s), %ld annotations, written to %s",
       result.pictures, result.made, result.seconds, result.annotations,
       options.out.string().c_str());
-  return exit_ok;
+  if (a.part >= 0) throw_if_stopped();  // a part that was stopped is no result
+  if (stop_requested) return stop_exit_code();
+  return whole || a.cluster.no_wait ? exit_ok : exit_failure;
 }
 
 }  // namespace
@@ -132,7 +151,7 @@ std::function<int()> add_dataset_verb(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("dataset", "make labelled pictures of a scene that varies");
   const auto arguments = std::make_shared<DatasetArguments>();
   add_options(*verb, *arguments);
-  return [arguments] { return run(*arguments); };
+  return [arguments, verb] { return run(*arguments, *verb); };
 }
 
 }  // namespace pedicel::app

@@ -86,6 +86,23 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
   part.place();
 }
 
+void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  if (!error) fs::create_hard_link(from, to, error);
+  if (!error || (fs::equivalent(from, to, error) && !error)) return;
+  // Beside the target and renamed, so that the name never stands for half a file.
+  const fs::path part = to.string() + ".part";
+  fs::copy_file(from, part, fs::copy_options::overwrite_existing, error);
+  if (!error) fs::rename(part, to, error);
+  if (error) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw WriteError(to.string() + ": cannot be written: " + error.message());
+  }
+}
+
 std::string read_file(const std::filesystem::path& path) {
   note_file_read(path);
   std::error_code error;

@@ -17,6 +17,11 @@ class WriteError : public std::runtime_error {
 /// Throws WriteError with the path and the system's reason.
 void write_file_atomically(const std::filesystem::path& path, const std::string& contents);
 
+/// `to` gets the contents of `from`: by a link where both are on one disk, by a copy elsewhere.
+/// Both are final files, which nobody writes to. Creates missing parent folders; replaces what is
+/// there. Throws WriteError.
+void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Reads a whole file of at most 256 MB. Throws InvalidFile ("cannot be read: reason").
 std::string read_file(const std::filesystem::path& path);
 
