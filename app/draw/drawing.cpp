@@ -13,12 +13,12 @@ namespace pedicel::app {
 namespace {
 
 using render::DrawList;
-using render::Material;
+using render::Shading;
 
 constexpr int round_segments = 40;
 
 void add_cylinder(DrawList& shape, const Pose& pose, double radius, double length,
-                  const Material& material) {
+                  const Shading& material) {
   auto mesh = std::make_shared<const geometry::TriangleMesh>(
       geometry::make_cylinder(radius, length, round_segments));
   shape.meshes.push_back({std::move(mesh), pose, material});
@@ -51,27 +51,27 @@ double spread(int number) {
   return std::fmod(0.6180339887498949 * (number + 1), 1.0);
 }
 
-Material skin_of(const FruitLook& look, int number) {
+Shading skin_of(const FruitLook& look, int number) {
   const auto share = static_cast<float>(look.variety * std::pow(spread(number), 2.0));
-  Material skin = look.skin;
+  Shading skin = look.skin;
   skin.colour.r += share * (look.unripe.r - skin.colour.r);
   skin.colour.g += share * (look.unripe.g - skin.colour.g);
   skin.colour.b += share * (look.unripe.b - skin.colour.b);
   return skin;
 }
 
-Material material_of(const std::string& look) {
-  namespace materials = render::materials;
-  static const std::map<std::string, Material> known = {{"steel", materials::steel},
-                                                        {"wood", materials::wood},
-                                                        {"light", materials::robot_light},
-                                                        {"dark", materials::robot_dark},
-                                                        {"accent", materials::accent}};
+Shading material_of(const std::string& look) {
+  namespace shadings = render::shadings;
+  static const std::map<std::string, Shading> known = {{"steel", shadings::steel},
+                                                       {"wood", shadings::wood},
+                                                       {"light", shadings::robot_light},
+                                                       {"dark", shadings::robot_dark},
+                                                       {"accent", shadings::accent}};
   const auto found = known.find(look);
-  return found == known.end() ? Material{} : found->second;
+  return found == known.end() ? Shading{} : found->second;
 }
 
-void add_part(DrawList& shape, const world::BodyPart& part, const Material& material) {
+void add_part(DrawList& shape, const world::BodyPart& part, const Shading& material) {
   using Kind = world::BodyPart::Kind;
   const Vec3 half_axis = part.pose.rotation * Vec3(0, 0, 0.5 * part.length);
   switch (part.kind) {
@@ -95,7 +95,7 @@ void add_visual(DrawList& shape, const robot::Visual& visual) {
   using Kind = robot::Geometry::Kind;
   const robot::Geometry& geometry = visual.geometry;
   const Eigen::Vector4f colour = visual.color.cast<float>();
-  const Material material{{colour[0], colour[1], colour[2]}, 0.4f, 0.5f};
+  const Shading material{{colour[0], colour[1], colour[2]}, 0.4f, 0.5f};
   switch (geometry.kind) {
     case Kind::box:
       shape.boxes.push_back({visual.X_LV, 0.5 * geometry.size, material});
@@ -121,10 +121,10 @@ void add_visual(DrawList& shape, const robot::Visual& visual) {
 
 FruitLook FruitLook::apple() {
   FruitLook look;
-  look.skin = render::materials::apple;
+  look.skin = render::shadings::apple;
   look.unripe = render::Colour::hex(0xb7b53e);
   look.sepals = 0;
-  look.stalk = render::materials::wood;
+  look.stalk = render::shadings::wood;
   return look;
 }
 
@@ -188,7 +188,7 @@ std::vector<DrawList> robot_shapes(const robot::RobotDescription& robot) {
 }
 
 void add_force(DrawList& list, const Vec3& point_W, const Vec3& force_W, double metres_per_newton,
-               const Material& material) {
+               const Shading& material) {
   const Vec3 arrow = metres_per_newton * force_W;
   const double radius = std::clamp(0.02 * arrow.norm(), 4e-4, 2e-3);
   list.add_arrow(point_W - arrow, point_W, radius, material);

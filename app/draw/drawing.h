@@ -15,12 +15,12 @@ namespace pedicel::app {
 
 /// A fruit's looks.
 struct FruitLook {
-  render::Material skin = render::materials::tomato;
+  render::Shading skin = render::shadings::tomato;
   render::Colour unripe = render::Colour::hex(0xee7a22);
   double variety = 0.45;  ///< 1, how far a fruit's colour may go towards `unripe`
-  render::Material calyx = render::materials::leaf;
+  render::Shading calyx = render::shadings::leaf;
   int sepals = 5;  ///< 0: no calyx
-  render::Material stalk = render::materials::stem;
+  render::Shading stalk = render::shadings::stem;
 
   static FruitLook tomato() { return {}; }
   static FruitLook apple();
@@ -44,6 +44,6 @@ std::vector<render::DrawList> robot_shapes(const robot::RobotDescription& robot)
 
 /// An arrow that ends at `point_W` (m) and shows a force (N).
 void add_force(render::DrawList& list, const Vec3& point_W, const Vec3& force_W,
-               double metres_per_newton, const render::Material& material);
+               double metres_per_newton, const render::Shading& material);
 
 }  // namespace pedicel::app

@@ -69,10 +69,10 @@ std::optional<Vec3> bar_of(const Element& element) {
 
 /// Whether it was one.
 bool add_bar(DrawList& list, const RodModel& model, const RodState& state, int e,
-             const render::Material& material, const Colour& colour) {
+             const render::Shading& material, const Colour& colour) {
   const auto half = bar_of(model.elements[static_cast<std::size_t>(e)]);
   if (!half) return false;
-  render::Material look = material;
+  render::Shading look = material;
   look.colour = colour;
   const Vec3 middle = 0.5 * (start_of(model, state, e) + state.position[e]);
   list.boxes.push_back({{middle, state.orientation[e]}, *half, look});
@@ -83,7 +83,7 @@ bool add_bar(DrawList& list, const RodModel& model, const RodState& state, int e
 
 PlantLook PlantLook::apple() {
   PlantLook look;
-  look.stem = render::materials::wood;
+  look.stem = render::shadings::wood;
   look.blade.colour = Colour::hex(0x47763a);
   look.vein = {Colour::hex(0x6b7d45), 0.7f, 0.25f};
   look.fruit = FruitLook::apple();
@@ -131,7 +131,7 @@ std::vector<Colour> PlantDrawing::plain_colours() const {
   return result;
 }
 
-const render::Material& PlantDrawing::material_of(int element) const {
+const render::Shading& PlantDrawing::material_of(int element) const {
   return is_leaf_[model_.elements[element].organ] ? look_.vein : look_.stem;
 }
 
@@ -152,7 +152,7 @@ void PlantDrawing::add_chains(DrawList& list, const RodState& state,
     const int parent = model_.elements[e].parent;
     const bool goes_on = parent >= 0 && next[parent] == e;
     if (!state.alive[e] || goes_on) continue;
-    const render::Material& material = material_of(e);
+    const render::Shading& material = material_of(e);
     const DrawList::Counts before = list.counts();
     if (bar_of(model_.elements[e])) {
       for (int k = e; k >= 0; k = next[k]) add_bar(list, model_, state, k, material, colours_of[k]);

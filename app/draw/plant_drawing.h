@@ -10,9 +10,9 @@
 namespace pedicel::app {
 
 struct PlantLook {
-  render::Material stem = render::materials::stem;
-  render::Material vein{render::Colour::hex(0x6fa84a), 0.6f, 0.3f};  ///< rods of a leaf
-  render::Material blade = render::materials::leaf;
+  render::Shading stem = render::shadings::stem;
+  render::Shading vein{render::Colour::hex(0x6fa84a), 0.6f, 0.3f};  ///< rods of a leaf
+  render::Shading blade = render::shadings::leaf;
   FruitLook fruit;
 
   static PlantLook tomato() { return {}; }
@@ -49,7 +49,7 @@ class PlantDrawing {
   void add_blades(render::DrawList& list, const cosserat::RodState& state) const;
   std::vector<render::Colour> colours(const cosserat::RodState& state,
                                       std::optional<double> strain_scale) const;
-  const render::Material& material_of(int element) const;
+  const render::Shading& material_of(int element) const;
   render::Label label_of(int element) const {
     return organ_labels_[model_.elements[element].organ];
   }

@@ -8,7 +8,7 @@ namespace pedicel::app {
 
 namespace {
 
-render::Material tint_of(render::Material material, double hue, double value) {
+render::Shading tint_of(render::Shading material, double hue, double value) {
   material.colour = tinted(material.colour, hue, value);
   return material;
 }

@@ -58,7 +58,7 @@ int GltfFile::floats(std::span<const float> values, const std::string& type, boo
   return index;
 }
 
-int GltfFile::material(const render::Material& look, bool both_sides) {
+int GltfFile::material(const render::Shading& look, bool both_sides) {
   const nlohmann::ordered_json made = {
       {"pbrMetallicRoughness",
        {{"baseColorFactor",

@@ -16,7 +16,7 @@ struct GltfSurface {
   std::vector<float> positions, normals;  ///< m; three a vertex
   std::vector<std::uint32_t> indices;     ///< three a triangle
   std::vector<std::uint16_t> joints;      ///< one a vertex; empty: rigid
-  render::Material material;
+  render::Shading material;
   bool both_sides = false;
 };
 
@@ -38,7 +38,7 @@ class GltfFile {
   enum class Target { none = 0, vertices = 34962, indices = 34963 };
   int view(const void* data, std::size_t size, Target target);
   int accessor(int view, int component, std::size_t count, const std::string& type);
-  int material(const render::Material& material, bool both_sides);
+  int material(const render::Shading& material, bool both_sides);
   static int floats_of(const std::string& type);
 
   nlohmann::ordered_json json_;

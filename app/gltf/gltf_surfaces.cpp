@@ -12,14 +12,14 @@ namespace {
 
 constexpr int sides = 16, stem_sides = 8;
 
-bool alike(const render::Material& a, const render::Material& b) {
+bool alike(const render::Shading& a, const render::Shading& b) {
   return a.colour.r == b.colour.r && a.colour.g == b.colour.g && a.colour.b == b.colour.b &&
          a.roughness == b.roughness;
 }
 
 class Gathered {
  public:
-  void add(const geometry::TriangleMesh& mesh, const Pose& pose, const render::Material& material) {
+  void add(const geometry::TriangleMesh& mesh, const Pose& pose, const render::Shading& material) {
     if (mesh.triangles.empty()) return;
     GltfSurface& surface = of(material, false);
     const render::MeshData data = render::with_normals(mesh);
@@ -45,7 +45,7 @@ class Gathered {
     std::erase_if(all_, [](const GltfSurface& one) { return one.indices.empty(); });
     return std::move(all_);
   }
-  GltfSurface& of(const render::Material& material, bool both_sides) {
+  GltfSurface& of(const render::Shading& material, bool both_sides) {
     for (GltfSurface& one : all_)
       if (alike(one.material, material) && one.both_sides == both_sides) return one;
     all_.push_back({{}, {}, {}, {}, material, both_sides});

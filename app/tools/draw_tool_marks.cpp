@@ -11,12 +11,12 @@ namespace {
 
 using render::Colour;
 
-constexpr render::Material snap{Colour::hex(0x39c46a), 0.5f, 0.3f};
-constexpr render::Material handle{Colour::hex(0xf4f6f8), 0.5f, 0.2f};
-constexpr render::Material chosen_handle{Colour::hex(0xffb020), 0.5f, 0.2f};
-constexpr render::Material node{Colour::hex(0x2f6fd0), 0.6f, 0.2f};
-constexpr render::Material radius_handle{Colour::hex(0x37b6d6), 0.5f, 0.2f};
-constexpr render::Material cut{Colour::hex(0xf0402d), 0.5f, 0.2f};
+constexpr render::Shading snap{Colour::hex(0x39c46a), 0.5f, 0.3f};
+constexpr render::Shading handle{Colour::hex(0xf4f6f8), 0.5f, 0.2f};
+constexpr render::Shading chosen_handle{Colour::hex(0xffb020), 0.5f, 0.2f};
+constexpr render::Shading node{Colour::hex(0x2f6fd0), 0.6f, 0.2f};
+constexpr render::Shading radius_handle{Colour::hex(0x37b6d6), 0.5f, 0.2f};
+constexpr render::Shading cut{Colour::hex(0xf0402d), 0.5f, 0.2f};
 constexpr Colour line{Colour::hex(0xffffff)}, outline{Colour::hex(0x37b6d6)};
 
 /// m, of a ball that covers so many pixels there.
@@ -65,7 +65,7 @@ void DrawTool::add_points(render::DrawList& list, const Ui& ui, const SceneFrame
     const double radius = drawn ? drawn->radius(drawn->control_arc(one.index)) : 0.0;
     const Vec3 place = centre + 1.3 * radius * (frame.camera.eye - centre).normalized();
     const bool is_chosen = point_chosen && ui.selection.point == one.index;
-    const render::Material& look = is_chosen ? chosen_handle : handle;
+    const render::Shading& look = is_chosen ? chosen_handle : handle;
     const double size = size_of(frame, place, is_chosen ? 6.0 : 4.5);
     if (one.kind == plant::PointKind::smooth)
       list.spheres.push_back({place, size, look});

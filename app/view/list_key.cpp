@@ -24,7 +24,7 @@ class Key {
     for (int i = 0; i < 4; ++i) add(pose.rotation.coeffs()[i]);
   }
   void add(const render::Colour& c) { add(c.r), add(c.g), add(c.b); }
-  void add(const render::Material& m) { add(m.colour), add(m.roughness), add(m.specular); }
+  void add(const render::Shading& m) { add(m.colour), add(m.roughness), add(m.specular); }
   void add(const render::TubeSegment& t) {
     for (const Vec3* v : {&t.p0, &t.p1, &t.tangent0, &t.tangent1}) add(*v);
     add(t.r0), add(t.r1), add(t.colour0), add(t.colour1), add(t.roughness), add(t.specular);

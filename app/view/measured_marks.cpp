@@ -149,7 +149,7 @@ void MeasuredMarks::add_shape(const MeasuredData& data, const MeasuredMoment& mo
     for (std::size_t i = 0; i < curve.at.size(); ++i) {
       const Vec3& point = moment.shape[static_cast<std::size_t>(curve.first) + i];
       if (!point.allFinite()) continue;
-      Colour colour = render::materials::stem.colour;
+      Colour colour = render::shadings::stem.colour;
       if (coloured)
         colour = render::strain_colour(
             residual_along(*data.experiment(), path->marker_rms,
@@ -163,8 +163,8 @@ void MeasuredMarks::add_shape(const MeasuredData& data, const MeasuredMoment& mo
 
 void MeasuredMarks::add_markers(const MeasuredMoment& moment, const MeasuredView& view, int model,
                                 const Pose& place_W) {
-  const render::Material seen{measured_colour, 0.4f, 0.4f};
-  const render::Material said{model_colour(model), 0.4f, 0.4f};
+  const render::Shading seen{measured_colour, 0.4f, 0.4f};
+  const render::Shading said{model_colour(model), 0.4f, 0.4f};
   for (std::size_t m = 0; m < moment.markers.size(); ++m) {
     const MarkerMoment& one = moment.markers[m];
     const BeadSizes size = bead_sizes(stem_radii_[m], static_cast<int>(m) == view.marker);

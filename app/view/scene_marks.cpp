@@ -13,9 +13,9 @@ using render::Colour;
 using render::DrawList;
 
 constexpr Colour chosen_colour = Colour::hex(0xffd24a), pointed_colour = Colour::hex(0xfff1c0);
-constexpr render::Material pull_arrow{Colour::hex(0xff8c1a), 0.5f, 0.3f};
-constexpr render::Material contact_arrow{Colour::hex(0x2a8be0), 0.5f, 0.3f};
-constexpr render::Material culprit_mark{Colour::hex(0xe0322d), 0.5f, 0.3f};
+constexpr render::Shading pull_arrow{Colour::hex(0xff8c1a), 0.5f, 0.3f};
+constexpr render::Shading contact_arrow{Colour::hex(0x2a8be0), 0.5f, 0.3f};
+constexpr render::Shading culprit_mark{Colour::hex(0xe0322d), 0.5f, 0.3f};
 
 void add_rods(DrawList& list, const PlantSnapshot& plant) {
   const cosserat::RodModel& model = *plant.model;

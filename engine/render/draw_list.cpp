@@ -68,7 +68,7 @@ void DrawList::add_tube(std::span<const TubePoint> points, float roughness, floa
 }
 
 void DrawList::add_arrow(const Vec3& tail, const Vec3& tip, double radius,
-                         const Material& material) {
+                         const Shading& material) {
   const double length = (tip - tail).norm();
   if (length < 1e-6) return;
   const Vec3 direction = (tip - tail) / length;

@@ -24,24 +24,24 @@ struct Colour {
 };
 
 /// How a surface takes the light.
-struct Material {
+struct Shading {
   Colour colour;
   float roughness = 0.6f;  ///< 0.1 polished .. 1 chalk
   float specular = 0.5f;   ///< strength of the highlight, 0 .. 1
 };
 
 /// A named set of materials, so that every scene has the same readable colours.
-namespace materials {
-inline constexpr Material stem{Colour::hex(0x6b8f3a), 0.6f, 0.35f};
-inline constexpr Material wood{Colour::hex(0x7a5a3c), 0.85f, 0.2f};
-inline constexpr Material leaf{Colour::hex(0x4f8f36), 0.55f, 0.3f};
-inline constexpr Material tomato{Colour::hex(0xd7301f), 0.22f, 0.8f};
-inline constexpr Material apple{Colour::hex(0xb9262b), 0.3f, 0.7f};
-inline constexpr Material robot_light{Colour::hex(0xe4e6e8), 0.4f, 0.5f};
-inline constexpr Material robot_dark{Colour::hex(0x3a3f46), 0.45f, 0.5f};
-inline constexpr Material accent{Colour::hex(0xe8862d), 0.45f, 0.5f};
-inline constexpr Material steel{Colour::hex(0x9aa3ab), 0.3f, 0.8f};
-}  // namespace materials
+namespace shadings {
+inline constexpr Shading stem{Colour::hex(0x6b8f3a), 0.6f, 0.35f};
+inline constexpr Shading wood{Colour::hex(0x7a5a3c), 0.85f, 0.2f};
+inline constexpr Shading leaf{Colour::hex(0x4f8f36), 0.55f, 0.3f};
+inline constexpr Shading tomato{Colour::hex(0xd7301f), 0.22f, 0.8f};
+inline constexpr Shading apple{Colour::hex(0xb9262b), 0.3f, 0.7f};
+inline constexpr Shading robot_light{Colour::hex(0xe4e6e8), 0.4f, 0.5f};
+inline constexpr Shading robot_dark{Colour::hex(0x3a3f46), 0.45f, 0.5f};
+inline constexpr Shading accent{Colour::hex(0xe8862d), 0.45f, 0.5f};
+inline constexpr Shading steel{Colour::hex(0x9aa3ab), 0.3f, 0.8f};
+}  // namespace shadings
 
 /// What a thing is called in a label map (label_map.h), so that a picture can tell one from
 /// another: 0 for what has no name. Below 2^24.
@@ -51,7 +51,7 @@ using Label = std::uint32_t;
 struct Capsule {
   Vec3 p0, p1;
   double r0 = 0.0, r1 = 0.0;
-  Material material;
+  Shading material;
   Label label = 0;
 };
 
@@ -78,14 +78,14 @@ struct TubePoint {
 struct Sphere {
   Vec3 centre;  ///< W, m
   double radius = 0.0;
-  Material material;
+  Shading material;
   Label label = 0;
 };
 
 struct Box {
   Pose pose;          ///< box to world
   Vec3 half_extents;  ///< m
-  Material material;
+  Shading material;
   Label label = 0;
 };
 
@@ -94,14 +94,14 @@ struct Box {
 struct MeshInstance {
   std::shared_ptr<const geometry::TriangleMesh> mesh;
   Pose pose;  ///< mesh to world
-  Material material;
+  Shading material;
   Label label = 0;
 };
 
 /// A flat triangle seen and lit from both sides, letting some light through: a leaf blade.
 struct BladeFace {
   Vec3 a, b, c;  ///< W, m
-  Material material;
+  Shading material;
   Label label = 0;
 };
 
@@ -145,7 +145,7 @@ class DrawList {
   void add_tube(std::span<const TubePoint> points, float roughness = 0.6f, float specular = 0.35f);
 
   /// A shaft with a cone at its tip, from tail to tip (forces). Shorter than 1 um: nothing.
-  void add_arrow(const Vec3& tail, const Vec3& tip, double radius, const Material& material);
+  void add_arrow(const Vec3& tail, const Vec3& tip, double radius, const Shading& material);
 
   /// Empties the list and keeps its memory; the ground stays.
   void clear();

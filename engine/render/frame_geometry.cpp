@@ -21,7 +21,7 @@ void put(std::vector<float>& to, const Colour& colour) {
   const Colour linear = to_linear(colour);
   to.insert(to.end(), {linear.r, linear.g, linear.b});
 }
-void put(std::vector<float>& to, const Material& material, Label label) {
+void put(std::vector<float>& to, const Shading& material, Label label) {
   put(to, material.colour);
   to.insert(to.end(), {material.roughness, material.specular, static_cast<float>(label)});
 }
@@ -148,7 +148,7 @@ void FrameGeometry::add_capsules(const DrawList& list, const Detail& detail) {
   }
 }
 
-void FrameGeometry::add_sphere(const Vec3& centre, double radius, const Material& material,
+void FrameGeometry::add_sphere(const Vec3& centre, double radius, const Shading& material,
                                Label label, const Detail& detail) {
   const int level = detail.level(centre, radius);
   if (level < 0) return;

@@ -78,7 +78,7 @@ class FrameGeometry {
   std::vector<float>& batch(Kind kind, const InstancedMesh& mesh);
   void add_tubes(const DrawList& list, const Detail& detail);
   void add_capsules(const DrawList& list, const Detail& detail);
-  void add_sphere(const Vec3& centre, double radius, const Material& material, Label label,
+  void add_sphere(const Vec3& centre, double radius, const Shading& material, Label label,
                   const Detail& detail);
   void add_solids(const DrawList& list, const Detail& detail);
   void add_thin(const DrawList& list);

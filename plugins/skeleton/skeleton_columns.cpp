@@ -11,68 +11,69 @@ namespace pedicel::plant {
 
 namespace {
 
-constexpr auto roles = static_cast<std::size_t>(Role::count);
+constexpr auto roles = static_cast<std::size_t>(ColumnRole::count);
 
 struct Name {
   std::string_view text;  ///< without capitals, blanks and separators
-  Role role;
+  ColumnRole role;
 };
 
 constexpr std::array names = {
-    Name{"vid", Role::id},
-    Name{"id", Role::id},
-    Name{"nodeid", Role::id},
-    Name{"node", Role::id},
-    Name{"cylid", Role::id},
-    Name{"cylinderid", Role::id},
-    Name{"parentid", Role::parent},
-    Name{"parent", Role::parent},
-    Name{"parentnode", Role::parent},
-    Name{"parentcylinder", Role::parent},
-    Name{"x", Role::x},
-    Name{"y", Role::y},
-    Name{"z", Role::z},
-    Name{"xskeleton", Role::x},
-    Name{"yskeleton", Role::y},
-    Name{"zskeleton", Role::z},
-    Name{"edgetype", Role::edge},
-    Name{"edge", Role::edge},
-    Name{"isbranch", Role::edge},
-    Name{"diameter", Role::diameter},
-    Name{"diam", Role::diameter},
-    Name{"radius", Role::radius},
-    Name{"radiuscyl", Role::radius},
-    Name{"mtgcode", Role::code},
-    Name{"startx", Role::start_x},
-    Name{"starty", Role::start_y},
-    Name{"startz", Role::start_z},
-    Name{"startpointx", Role::start_x},
-    Name{"startpointy", Role::start_y},
-    Name{"startpointz", Role::start_z},
-    Name{"endx", Role::end_x},
-    Name{"endy", Role::end_y},
-    Name{"endz", Role::end_z},
-    Name{"endpointx", Role::end_x},
-    Name{"endpointy", Role::end_y},
-    Name{"endpointz", Role::end_z},
-    Name{"axisx", Role::axis_x},
-    Name{"axisy", Role::axis_y},
-    Name{"axisz", Role::axis_z},
-    Name{"axisdirectionx", Role::axis_x},
-    Name{"axisdirectiony", Role::axis_y},
-    Name{"axisdirectionz", Role::axis_z},
-    Name{"length", Role::length},
-    Name{"branch", Role::branch},
-    Name{"branchid", Role::branch},
-    Name{"branchorder", Role::order},
-    Name{"branchingorder", Role::order},
-    Name{"extension", Role::extension},
-    Name{"extensionid", Role::extension},
+    Name{"vid", ColumnRole::id},
+    Name{"id", ColumnRole::id},
+    Name{"nodeid", ColumnRole::id},
+    Name{"node", ColumnRole::id},
+    Name{"cylid", ColumnRole::id},
+    Name{"cylinderid", ColumnRole::id},
+    Name{"parentid", ColumnRole::parent},
+    Name{"parent", ColumnRole::parent},
+    Name{"parentnode", ColumnRole::parent},
+    Name{"parentcylinder", ColumnRole::parent},
+    Name{"x", ColumnRole::x},
+    Name{"y", ColumnRole::y},
+    Name{"z", ColumnRole::z},
+    Name{"xskeleton", ColumnRole::x},
+    Name{"yskeleton", ColumnRole::y},
+    Name{"zskeleton", ColumnRole::z},
+    Name{"edgetype", ColumnRole::edge},
+    Name{"edge", ColumnRole::edge},
+    Name{"isbranch", ColumnRole::edge},
+    Name{"diameter", ColumnRole::diameter},
+    Name{"diam", ColumnRole::diameter},
+    Name{"radius", ColumnRole::radius},
+    Name{"radiuscyl", ColumnRole::radius},
+    Name{"mtgcode", ColumnRole::code},
+    Name{"startx", ColumnRole::start_x},
+    Name{"starty", ColumnRole::start_y},
+    Name{"startz", ColumnRole::start_z},
+    Name{"startpointx", ColumnRole::start_x},
+    Name{"startpointy", ColumnRole::start_y},
+    Name{"startpointz", ColumnRole::start_z},
+    Name{"endx", ColumnRole::end_x},
+    Name{"endy", ColumnRole::end_y},
+    Name{"endz", ColumnRole::end_z},
+    Name{"endpointx", ColumnRole::end_x},
+    Name{"endpointy", ColumnRole::end_y},
+    Name{"endpointz", ColumnRole::end_z},
+    Name{"axisx", ColumnRole::axis_x},
+    Name{"axisy", ColumnRole::axis_y},
+    Name{"axisz", ColumnRole::axis_z},
+    Name{"axisdirectionx", ColumnRole::axis_x},
+    Name{"axisdirectiony", ColumnRole::axis_y},
+    Name{"axisdirectionz", ColumnRole::axis_z},
+    Name{"length", ColumnRole::length},
+    Name{"branch", ColumnRole::branch},
+    Name{"branchid", ColumnRole::branch},
+    Name{"branchorder", ColumnRole::order},
+    Name{"branchingorder", ColumnRole::order},
+    Name{"extension", ColumnRole::extension},
+    Name{"extensionid", ColumnRole::extension},
 };
 
-bool is_length(Role role) {
-  return (role >= Role::x && role <= Role::z) || role == Role::diameter || role == Role::radius ||
-         (role >= Role::start_x && role <= Role::end_z) || role == Role::length;
+bool is_length(ColumnRole role) {
+  return (role >= ColumnRole::x && role <= ColumnRole::z) || role == ColumnRole::diameter ||
+         role == ColumnRole::radius || (role >= ColumnRole::start_x && role <= ColumnRole::end_z) ||
+         role == ColumnRole::length;
 }
 
 std::string bare(std::string_view text) {
@@ -83,7 +84,7 @@ std::string bare(std::string_view text) {
   return out;
 }
 
-std::optional<Role> role_of(std::string_view name) {
+std::optional<ColumnRole> role_of(std::string_view name) {
   const std::string text = bare(name);
   for (const Name& known : names)
     if (known.text == text) return known.role;
@@ -92,7 +93,7 @@ std::optional<Role> role_of(std::string_view name) {
 
 /// What a heading says: "Start_X (mm)", "x_m".
 struct Heading {
-  std::optional<Role> role;
+  std::optional<ColumnRole> role;
   std::string unit;
 };
 
@@ -120,8 +121,8 @@ class Finder {
     const int before = diagnostics_.error_count();
     read_stated_unit();
     for (std::size_t c = 0; c < table_.columns().size(); ++c) take(static_cast<int>(c));
-    const bool cylinders =
-        columns_.has(Role::start_x) || columns_.has(Role::start_y) || columns_.has(Role::start_z);
+    const bool cylinders = columns_.has(ColumnRole::start_x) || columns_.has(ColumnRole::start_y) ||
+                           columns_.has(ColumnRole::start_z);
     columns_.kind = cylinders ? SkeletonColumns::Kind::cylinders : SkeletonColumns::Kind::nodes;
     const std::string missing = cylinders ? missing_of_cylinders() : missing_of_nodes();
     if (!missing.empty())
@@ -191,7 +192,7 @@ class Finder {
     return unit->factor;
   }
 
-  std::string missing(std::initializer_list<std::pair<Role, const char*>> needed) const {
+  std::string missing(std::initializer_list<std::pair<ColumnRole, const char*>> needed) const {
     std::string list;
     for (const auto& [role, name] : needed)
       if (!columns_.has(role)) list += (list.empty() ? "" : ", ") + std::string(name);
@@ -199,47 +200,49 @@ class Finder {
   }
 
   std::string missing_of_nodes() const {
-    return missing({{Role::x, "x"},
-                    {Role::y, "y"},
-                    {Role::z, "z"},
-                    {Role::parent, "parentid"},
-                    {Role::id, "vid"},
-                    {Role::edge, "edgetype"}});
+    return missing({{ColumnRole::x, "x"},
+                    {ColumnRole::y, "y"},
+                    {ColumnRole::z, "z"},
+                    {ColumnRole::parent, "parentid"},
+                    {ColumnRole::id, "vid"},
+                    {ColumnRole::edge, "edgetype"}});
   }
 
   // An end, or an axis and a length. Rows without an id are counted from 1, as TreeQSM does.
   std::string missing_of_cylinders() const {
-    std::string list = missing({{Role::parent, "parent_id"},
-                                {Role::start_x, "start_x"},
-                                {Role::start_y, "start_y"},
-                                {Role::start_z, "start_z"},
-                                {Role::radius, "radius"}});
-    const std::string end =
-        missing({{Role::end_x, "end_x"}, {Role::end_y, "end_y"}, {Role::end_z, "end_z"}});
-    const std::string axis = missing({{Role::axis_x, "axis_x"},
-                                      {Role::axis_y, "axis_y"},
-                                      {Role::axis_z, "axis_z"},
-                                      {Role::length, "length"}});
+    std::string list = missing({{ColumnRole::parent, "parent_id"},
+                                {ColumnRole::start_x, "start_x"},
+                                {ColumnRole::start_y, "start_y"},
+                                {ColumnRole::start_z, "start_z"},
+                                {ColumnRole::radius, "radius"}});
+    const std::string end = missing(
+        {{ColumnRole::end_x, "end_x"}, {ColumnRole::end_y, "end_y"}, {ColumnRole::end_z, "end_z"}});
+    const std::string axis = missing({{ColumnRole::axis_x, "axis_x"},
+                                      {ColumnRole::axis_y, "axis_y"},
+                                      {ColumnRole::axis_z, "axis_z"},
+                                      {ColumnRole::length, "length"}});
     if (!end.empty() && !axis.empty()) list += (list.empty() ? "" : ", ") + end;
     return list;
   }
 
-  bool is_read(Role role) const {
-    const bool by_end = columns_.has(Role::end_x);
+  bool is_read(ColumnRole role) const {
+    const bool by_end = columns_.has(ColumnRole::end_x);
     if (columns_.kind == SkeletonColumns::Kind::nodes)
-      return role <= Role::code && !(role == Role::radius && columns_.has(Role::diameter));
-    if (role >= Role::axis_x && role <= Role::length) return !by_end;
-    if (role == Role::order) return !columns_.has(Role::branch);
-    if (role == Role::extension) return !columns_.has(Role::branch) && !columns_.has(Role::order);
-    return role == Role::id || role == Role::parent || role == Role::radius ||
-           role >= Role::start_x;
+      return role <= ColumnRole::code &&
+             !(role == ColumnRole::radius && columns_.has(ColumnRole::diameter));
+    if (role >= ColumnRole::axis_x && role <= ColumnRole::length) return !by_end;
+    if (role == ColumnRole::order) return !columns_.has(ColumnRole::branch);
+    if (role == ColumnRole::extension)
+      return !columns_.has(ColumnRole::branch) && !columns_.has(ColumnRole::order);
+    return role == ColumnRole::id || role == ColumnRole::parent || role == ColumnRole::radius ||
+           role >= ColumnRole::start_x;
   }
 
   void say_what_is_left() {
     constexpr std::size_t shown = 12;
     std::vector<bool> read(table_.columns().size(), false);
     for (std::size_t r = 0; r < roles; ++r)
-      if (columns_.at[r] >= 0) read[columns_.at[r]] = is_read(static_cast<Role>(r));
+      if (columns_.at[r] >= 0) read[columns_.at[r]] = is_read(static_cast<ColumnRole>(r));
     std::string list;
     std::size_t count = 0;
     for (std::size_t c = 0; c < read.size(); ++c) {
@@ -266,12 +269,13 @@ SkeletonColumns find_skeleton_columns(const io::TableText& table, double unit,
 }
 
 bool looks_like_skeleton(const std::vector<std::string>& headings) {
-  const auto has = [&](Role role) {
+  const auto has = [&](ColumnRole role) {
     return std::any_of(headings.begin(), headings.end(),
                        [&](const std::string& text) { return read_heading(text).role == role; });
   };
-  const bool node = has(Role::x) && has(Role::y) && has(Role::z) && has(Role::id);
-  return has(Role::parent) && (node || has(Role::start_x));
+  const bool node =
+      has(ColumnRole::x) && has(ColumnRole::y) && has(ColumnRole::z) && has(ColumnRole::id);
+  return has(ColumnRole::parent) && (node || has(ColumnRole::start_x));
 }
 
 }  // namespace pedicel::plant

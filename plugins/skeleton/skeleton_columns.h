@@ -11,7 +11,7 @@
 namespace pedicel::plant {
 
 /// What a column of a skeleton table can be.
-enum class Role {
+enum class ColumnRole {
   id,
   parent,
   x,
@@ -42,12 +42,12 @@ enum class Role {
 struct SkeletonColumns {
   enum class Kind { none, nodes, cylinders };
   Kind kind = Kind::none;
-  std::array<int, static_cast<std::size_t>(Role::count)> at;
-  std::array<double, static_cast<std::size_t>(Role::count)> unit;
+  std::array<int, static_cast<std::size_t>(ColumnRole::count)> at;
+  std::array<double, static_cast<std::size_t>(ColumnRole::count)> unit;
 
-  bool has(Role role) const { return at[static_cast<std::size_t>(role)] >= 0; }
-  int column(Role role) const { return at[static_cast<std::size_t>(role)]; }
-  double factor(Role role) const { return unit[static_cast<std::size_t>(role)]; }
+  bool has(ColumnRole role) const { return at[static_cast<std::size_t>(role)] >= 0; }
+  int column(ColumnRole role) const { return at[static_cast<std::size_t>(role)]; }
+  double factor(ColumnRole role) const { return unit[static_cast<std::size_t>(role)]; }
 };
 
 /// Told from the names, whatever their capitals, separators and the program that wrote them: our

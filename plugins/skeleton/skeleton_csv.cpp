@@ -71,9 +71,9 @@ class TableParser {
     }
     Row row;
     row.link.where = {table_.file(), table_.line(), 1};
-    row.link.id =
-        columns_.has(Role::id) ? whole(Role::id) : std::optional<std::int64_t>(rows_.size() + 1);
-    row.link.parent = whole(Role::parent);
+    row.link.id = columns_.has(ColumnRole::id) ? whole(ColumnRole::id)
+                                               : std::optional<std::int64_t>(rows_.size() + 1);
+    row.link.parent = whole(ColumnRole::parent);
     if (is_cylinders())
       take_cylinder(row);
     else
@@ -84,32 +84,36 @@ class TableParser {
   }
 
   void take_node(Row& row) {
-    row.position = point(Role::x);
-    const io::TableCell& edge = table_.cells()[columns_.column(Role::edge)];
+    row.position = point(ColumnRole::x);
+    const io::TableCell& edge = table_.cells()[columns_.column(ColumnRole::edge)];
     row.edge = edge.text.substr(0, 40);
     row.edge_column = edge.column;
-    if (columns_.has(Role::code)) row.code = table_.cells()[columns_.column(Role::code)].text;
+    if (columns_.has(ColumnRole::code))
+      row.code = table_.cells()[columns_.column(ColumnRole::code)].text;
   }
 
   void take_cylinder(Row& row) {
-    row.start = point(Role::start_x);
-    row.position = columns_.has(Role::end_x) ? point(Role::end_x)
-                                             : row.start + length(Role::length) * direction();
-    if (columns_.has(Role::branch)) row.branch = whole(Role::branch);
-    if (columns_.has(Role::order)) row.order = whole(Role::order);
-    if (columns_.has(Role::extension)) row.extension = whole(Role::extension);
+    row.start = point(ColumnRole::start_x);
+    row.position = columns_.has(ColumnRole::end_x)
+                       ? point(ColumnRole::end_x)
+                       : row.start + length(ColumnRole::length) * direction();
+    if (columns_.has(ColumnRole::branch)) row.branch = whole(ColumnRole::branch);
+    if (columns_.has(ColumnRole::order)) row.order = whole(ColumnRole::order);
+    if (columns_.has(ColumnRole::extension)) row.extension = whole(ColumnRole::extension);
   }
 
   Vec3 direction() {
     Vec3 axis;
     for (int i = 0; i < 3; ++i)
-      axis[i] = table_.number(columns_.column(Role(static_cast<int>(Role::axis_x) + i)), false);
+      axis[i] = table_.number(columns_.column(ColumnRole(static_cast<int>(ColumnRole::axis_x) + i)),
+                              false);
     const double norm = axis.norm();
     return norm > 0.0 ? Vec3(axis / norm) : axis;
   }
 
   void take_diameter(Row& row) {
-    const Role role = columns_.has(Role::diameter) ? Role::diameter : Role::radius;
+    const ColumnRole role =
+        columns_.has(ColumnRole::diameter) ? ColumnRole::diameter : ColumnRole::radius;
     if (!columns_.has(role)) return;
     const auto column = static_cast<std::size_t>(columns_.column(role));
     const double value = table_.number(column, true);
@@ -117,22 +121,22 @@ class TableParser {
     if (value < 0.0)
       table_.cell_error(column, "negative diameter",
                         in_quotes(table_.cells()[column].text) + ", expected a number >= 0");
-    row.diameter = value * columns_.factor(role) * (role == Role::radius ? 2.0 : 1.0);
+    row.diameter = value * columns_.factor(role) * (role == ColumnRole::radius ? 2.0 : 1.0);
   }
 
-  double length(Role role) {
+  double length(ColumnRole role) {
     return table_.number(columns_.column(role), false) * columns_.factor(role);
   }
 
-  Vec3 point(Role first) {
+  Vec3 point(ColumnRole first) {
     Vec3 place;
-    for (int i = 0; i < 3; ++i) place[i] = length(Role(static_cast<int>(first) + i));
+    for (int i = 0; i < 3; ++i) place[i] = length(ColumnRole(static_cast<int>(first) + i));
     return place;
   }
 
   // Some programs write them as 12.0. Digits alone are read as they stand, so that large ones are
   // exact.
-  std::optional<std::int64_t> whole(Role role) {
+  std::optional<std::int64_t> whole(ColumnRole role) {
     const auto column = static_cast<std::size_t>(columns_.column(role));
     const std::string_view text = table_.cells()[column].text;
     std::int64_t value = 0;
@@ -190,7 +194,7 @@ class TableParser {
     for (const Row& row : rows_)
       if (!row.link.id)
         diagnostics_.repeated_error("no id", row.link.where,
-                                    table_.columns()[columns_.column(Role::id)].name +
+                                    table_.columns()[columns_.column(ColumnRole::id)].name +
                                         " is empty, expected the number of the node");
   }
 
@@ -204,7 +208,7 @@ class TableParser {
     if (branches(row)) return true;
     if (!is_one_of(row.edge, {"<", "0", "0.0", "false"}))
       diagnostics_.repeated_error("edge", {table_.file(), row.link.where.line, row.edge_column},
-                                  table_.columns()[columns_.column(Role::edge)].name + ": " +
+                                  table_.columns()[columns_.column(ColumnRole::edge)].name + ": " +
                                       in_quotes(row.edge) +
                                       ", expected < (or 0) to follow or + (or 1) to branch");
     return false;

@@ -34,7 +34,7 @@ std::vector<Beside> Beside::all_of(const TrialView& view) {
   std::vector<Beside> all;
   const double noise = noise_of_markers(view);
   for (const Drive& drive : drives_of(view)) {
-    const int marker = marker_near(*view.layout, drive.spot, near);
+    const int marker = marker_near(*view.nominal_plant, drive.spot, near);
     if (marker < 0) continue;
     Beside one(view, drive, marker, noise);
     if (static_cast<int>(one.track_.time.size()) >= least_rows) all.push_back(std::move(one));

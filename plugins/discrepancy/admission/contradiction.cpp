@@ -41,9 +41,9 @@ bool is_met(Needs needs, const Trial& trial) {
 
 std::vector<Contradiction> contradictions(const Experiment& experiment) {
   std::vector<Contradiction> found;
-  const std::optional<Layout> layout = Layout::of(experiment);
+  const std::optional<NominalPlant> nominal_plant = NominalPlant::of(experiment);
   for (const Trial& trial : experiment.trials) {
-    const TrialView view{experiment, trial, layout ? &*layout : nullptr};
+    const TrialView view{experiment, trial, nominal_plant ? &*nominal_plant : nullptr};
     for (std::size_t kind = 0; kind < checks.size(); ++kind)
       if (!is_met(checks[kind].needs, trial)) {
         continue;

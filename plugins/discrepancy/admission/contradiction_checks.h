@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/discrepancy/admission/layout.h"
+#include "pedicel/discrepancy/admission/nominal_plant.h"
 #include "pedicel/discrepancy/data/experiment.h"
 
 /// What one trial may contradict. Each check has a file of its own, with the reason for its limits.
@@ -26,7 +26,7 @@ struct largest_known {
 struct TrialView {
   const Experiment& experiment;
   const Trial& trial;
-  const Layout* layout;  ///< null: the plant cannot be built
+  const NominalPlant* nominal_plant;  ///< null: the plant cannot be built
 };
 
 struct Fault {

@@ -154,7 +154,7 @@ std::optional<Fault> copied_rows(const TrialView& view) {
 
 double explained(const TrialView& view) {
   double most = 0.0;
-  if (view.layout)
+  if (view.nominal_plant)
     for (const Beside& beside : Beside::all_of(view)) most = std::max(most, beside.explained());
   return most;
 }
@@ -171,7 +171,7 @@ std::optional<Fault> check_copies(const TrialView& view) {
   if (noise_of_markers(view) < least_scatter) return std::nullopt;
   for (const Trial& other : view.experiment.trials) {
     if (&other == &view.trial || !is_same(view.trial.markers, other.markers)) continue;
-    if (!is_the_copy(view, {view.experiment, other, view.layout})) continue;
+    if (!is_the_copy(view, {view.experiment, other, view.nominal_plant})) continue;
     return Fault{"markers.csv", "holds the same numbers as " +
                                     (other.folder / "markers.csv").string() +
                                     ": expected the trial's own; a file copied?"};

@@ -140,7 +140,7 @@ std::optional<Fault> other_rate(const Beside& beside) {
 }  // namespace
 
 std::optional<Fault> check_drive(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   for (const Beside& beside : Beside::all_of(view))
     for (const auto check : {other_unit, other_rate, shifted})
       if (auto fault = check(beside)) return fault;

@@ -47,13 +47,13 @@ FirstPlaces first_places(const TrialView& view) {
   Pose base;  // of what stood as drawn
   if (view.trial.base && !view.trial.base->time.empty()) {
     base.rotation = view.trial.base->rotation_at(0.0);
-    base.position = view.trial.base->position_at(0.0) - base.rotation * view.layout->root();
+    base.position = view.trial.base->position_at(0.0) - base.rotation * view.nominal_plant->root();
   }
-  places.root = base * view.layout->root();
+  places.root = base * view.nominal_plant->root();
   for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
     const Vec3 seen = first_seen(view.trial, m);
     if (!seen.allFinite()) continue;
-    const Spot& spot = view.layout->markers()[m];
+    const Spot& spot = view.nominal_plant->markers()[m];
     places.marker.push_back(m);
     places.seen.push_back(seen);
     places.drawn.push_back(base * spot.drawn);

@@ -19,7 +19,7 @@ constexpr double least_share = 1.0e-3;  // of the drive's main square: below, it
 Drive hold_drive(const TrialView& view, const Hold& hold) {
   const DrivenPath* path = &hold.path;
   const Vec3 start = path->position.front();
-  return {Drive::Kind::hold, path, view.layout->spot(hold.place),
+  return {Drive::Kind::hold, path, view.nominal_plant->spot(hold.place),
           [path, start](double t) { return Vec3(path->position_at(t) - start); }, hold.release};
 }
 
@@ -33,7 +33,7 @@ Drive base_drive(const TrialView& view) {
   const DrivenPath* path = &*view.trial.base;
   const Vec3 start = path->position.front();
   Spot root;
-  root.drawn = root.settled = view.layout->root();
+  root.drawn = root.settled = view.nominal_plant->root();
   return {Drive::Kind::base, path, root,
           [path, start](double t) { return Vec3(path->position_at(t) - start); },
           std::numeric_limits<double>::infinity()};
@@ -47,7 +47,7 @@ Drive load_drive(const TrialView& view) {
       if (t >= load.from && t < load.to) sum += load.force;
     return sum;
   };
-  return {Drive::Kind::load, nullptr, view.layout->spot(loads->front().place), force,
+  return {Drive::Kind::load, nullptr, view.nominal_plant->spot(loads->front().place), force,
           std::numeric_limits<double>::infinity()};
 }
 
@@ -111,11 +111,11 @@ Track force_track(const Trial& trial) {
   return track;
 }
 
-int marker_near(const Layout& layout, const Spot& spot, double share) {
+int marker_near(const NominalPlant& nominal_plant, const Spot& spot, double share) {
   int nearest = -1;
-  double least = share * std::max(spot.from_root, 0.1 * layout.reach());
-  for (int m = 0; m < static_cast<int>(layout.markers().size()); ++m) {
-    const double way = layout.along(layout.markers()[m], spot);
+  double least = share * std::max(spot.from_root, 0.1 * nominal_plant.reach());
+  for (int m = 0; m < static_cast<int>(nominal_plant.markers().size()); ++m) {
+    const double way = nominal_plant.along(nominal_plant.markers()[m], spot);
     if (way > least) continue;
     least = way;
     nearest = m;
@@ -163,8 +163,9 @@ Following following(const Track& track, const Drive& drive, const ClockReading& 
 }
 
 bool is_led_slowly(const TrialView& view, const Drive& drive) {
-  const double compliance = view.layout->compliance(drive.spot).trace();
-  return frequency_square(*drive.path, drive.until) * compliance * view.layout->mass() <= slow;
+  const double compliance = view.nominal_plant->compliance(drive.spot).trace();
+  return frequency_square(*drive.path, drive.until) * compliance * view.nominal_plant->mass() <=
+         slow;
 }
 
 double noise_of_markers(const TrialView& view) {

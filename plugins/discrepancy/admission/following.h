@@ -31,7 +31,7 @@ Track force_track(const Trial& trial);
 
 /// The marker that is nearest to a place along the plant, up to a share of its way from the root;
 /// -1: there is none.
-int marker_near(const Layout& layout, const Spot& spot, double share);
+int marker_near(const NominalPlant& nominal_plant, const Spot& spot, double share);
 
 /// Another reading of the clocks: a sample at t saw what the drive did at (t - shift) / scale. A
 /// hold ends by that time, too, unless `own_end`.

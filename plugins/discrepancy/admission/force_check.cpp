@@ -56,7 +56,7 @@ bool is_across(const Following& f, const Mat3& compliance) {
 
 std::optional<Fault> check_force(const TrialView& view) {
   const Trial& trial = view.trial;
-  if (!view.layout || trial.force.size() == 0 || trial.holds.empty() ||
+  if (!view.nominal_plant || trial.force.size() == 0 || trial.holds.empty() ||
       trial.holds.front().slides())
     return std::nullopt;
   const std::vector<Drive> drives = drives_of(view);
@@ -64,7 +64,7 @@ std::optional<Fault> check_force(const TrialView& view) {
   const Drive& drive = drives.front();
   const Following f = following(force_track(trial), drive);
   if (f.rows < least_rows || f.driven <= 0.0) return std::nullopt;
-  const Mat3 plant = view.layout->compliance(drive.spot);
+  const Mat3 plant = view.nominal_plant->compliance(drive.spot);
   if (!plant.allFinite()) return std::nullopt;
   if (is_across(f, plant))
     return Fault{"force.csv", "goes across the way that " + drive.path->file.string() +

@@ -125,7 +125,7 @@ std::optional<Fault> late(const Led& led, const Drive& drive) {
 
 std::optional<Fault> check_force_clock(const TrialView& view) {
   const Trial& trial = view.trial;
-  if (!view.layout || trial.force.size() < least_rows || trial.holds.empty() ||
+  if (!view.nominal_plant || trial.force.size() < least_rows || trial.holds.empty() ||
       trial.holds.front().slides())
     return std::nullopt;
   const std::vector<Drive> drives = drives_of(view);

@@ -98,7 +98,7 @@ std::optional<Fault> turned_about_vertical(const FirstPlaces& places, double lef
   for (const Vec3& axis : {Vec3(Vec3::Zero()), places.root}) {
     double square = 0.0;
     for (const Vec3& x : places.drawn) square += (x - axis).head<2>().squaredNorm();
-    if (std::sqrt(square / places.size()) < off_axis * view.layout->reach()) continue;
+    if (std::sqrt(square / places.size()) < off_axis * view.nominal_plant->reach()) continue;
     const double angle = turn_to(places.settled, places.seen, axis);
     const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
     std::vector<Vec3> back;
@@ -117,17 +117,17 @@ std::optional<Fault> turned_about_vertical(const FirstPlaces& places, double lef
 
 // A turn and a scale about an origin that is far away move all markers alike, too.
 std::optional<Fault> shifted(const FirstPlaces& places, const TrialView& view) {
-  double nearest = view.layout->reach(), farthest = 0.0;
+  double nearest = view.nominal_plant->reach(), farthest = 0.0;
   Vec3 mean = Vec3::Zero();
   for (int i = 0; i < places.size(); ++i) {
-    const double from_root = view.layout->markers()[places.marker[i]].from_root;
+    const double from_root = view.nominal_plant->markers()[places.marker[i]].from_root;
     nearest = std::min(nearest, from_root);
     farthest = std::max(farthest, from_root);
     mean += (places.seen[i] - places.settled[i]) / places.size();
   }
   std::vector<Vec3> back = places.seen;
   for (Vec3& x : back) x -= mean;
-  const double limit = std::max(largest_known::offset, least_shift * view.layout->reach()) +
+  const double limit = std::max(largest_known::offset, least_shift * view.nominal_plant->reach()) +
                        (largest_known::rotation + largest_known::scale) * places.root.norm();
   if (nearest > near_root * farthest || mean.norm() < limit) return std::nullopt;
   if (misfit(places, back) > uniform * mean.norm()) return std::nullopt;
@@ -142,7 +142,7 @@ std::optional<Fault> shifted(const FirstPlaces& places, const TrialView& view) {
 }  // namespace
 
 std::optional<Fault> check_frame(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   const FirstPlaces places = first_places(view);
   if (places.size() == 0) return std::nullopt;
   const double left =
@@ -150,10 +150,10 @@ std::optional<Fault> check_frame(const TrialView& view) {
   if (auto fault = other_axes_fit(places, left)) return fault;
   if (auto fault = turned_about_vertical(places, left, view)) return fault;
   if (auto fault = shifted(places, view)) return fault;
-  if (left < elsewhere * view.layout->reach()) return std::nullopt;
+  if (left < elsewhere * view.nominal_plant->reach()) return std::nullopt;
   return Fault{"markers.csv",
                "begins " + millimetres(left) + " from the plant's drawing, and the plant reaches " +
-                   millimetres(view.layout->reach()) + ": expected the plant's own frame"};
+                   millimetres(view.nominal_plant->reach()) + ": expected the plant's own frame"};
 }
 
 }  // namespace pedicel::discrepancy

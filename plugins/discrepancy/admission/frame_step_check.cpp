@@ -41,13 +41,13 @@ struct Step {
 Step step_at(const TrialView& view, int row) {
   const Samples& samples = view.trial.markers;
   Step step;
-  step.nearest = view.layout->reach();
+  step.nearest = view.nominal_plant->reach();
   std::vector<int> seen;
   for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
     if (!samples.value.block(row - 2, 3 * m, 4, 3).allFinite()) continue;
     seen.push_back(m);
     step.of_markers.push_back(way(samples, row, m) - way(samples, row - 1, m));
-    const double from_root = view.layout->markers()[m].from_root;
+    const double from_root = view.nominal_plant->markers()[m].from_root;
     step.nearest = std::min(step.nearest, from_root);
     step.farthest = std::max(step.farthest, from_root);
   }
@@ -63,7 +63,7 @@ Step step_at(const TrialView& view, int row) {
 }  // namespace
 
 std::optional<Fault> check_frame_steps(const TrialView& view) {
-  if (!view.layout || view.trial.base) return std::nullopt;
+  if (!view.nominal_plant || view.trial.base) return std::nullopt;
   const Samples& samples = view.trial.markers;
   const double noise = noise_of_markers(view);
   const double usual = clock_of({}, samples.time).step;

@@ -26,7 +26,7 @@ std::string point(const Vec3& x) {
 /// Where the held point should begin.
 Vec3 expected_place(const TrialView& view, const Spot& spot) {
   const FirstPlaces places = first_places(view);
-  const int marker = marker_near(*view.layout, spot, beside);
+  const int marker = marker_near(*view.nominal_plant, spot, beside);
   for (int i = 0; i < places.size(); ++i)
     // Beyond what a turned or scaled frame makes of it, markers are aside because the plant is.
     if (places.marker[i] == marker) {
@@ -43,7 +43,7 @@ class Beginning {
   Beginning(const TrialView& view, const Spot& spot)
       : expected_(expected_place(view, spot)),
         settled_(spot.settled),
-        limit_(largest_known::offset + spring_share * view.layout->reach()) {}
+        limit_(largest_known::offset + spring_share * view.nominal_plant->reach()) {}
 
   double distance(const Vec3& begins) const {
     return std::min((begins - expected_).norm(), (begins - settled_).norm());
@@ -74,7 +74,7 @@ std::string likely(const TrialView& view, const Hold& hold, const Beginning& beg
   if (best) return "; read as " + as_read(best->read) + " it would: " + best->what + "?";
   double nearest = much_nearer * far, at = -1.0;
   for (int i = 0; i <= 20; ++i) {
-    const Spot other = view.layout->spot({hold.place.curve, 0.05 * i, {}});
+    const Spot other = view.nominal_plant->spot({hold.place.curve, 0.05 * i, {}});
     if ((other.settled - begins).norm() >= nearest) continue;
     nearest = (other.settled - begins).norm();
     at = 0.05 * i;
@@ -84,7 +84,7 @@ std::string likely(const TrialView& view, const Hold& hold, const Beginning& beg
 }
 
 std::optional<Fault> begins_elsewhere(const TrialView& view, const Hold& hold) {
-  const Spot spot = view.layout->spot(hold.place);
+  const Spot spot = view.nominal_plant->spot(hold.place);
   const Beginning beginning(view, spot);
   const Vec3 begins = hold.path.position.front();
   if (!beginning.is_far(begins)) return std::nullopt;
@@ -113,7 +113,7 @@ std::optional<Fault> turned_quaternion(const DrivenPath& path) {
 }  // namespace
 
 std::optional<Fault> check_holds(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   for (const Hold& hold : view.trial.holds) {
     if (hold.path.time.empty()) continue;
     if (hold.slides()) continue;  // it may begin beside its path

@@ -35,7 +35,7 @@ std::optional<Fault> same_columns(const TrialView& view) {
   const int markers = static_cast<int>(view.experiment.markers.size());
   for (int a = 0; a < markers; ++a)
     for (int b = a + 1; b < markers; ++b) {
-      const Spot &one = view.layout->markers()[a], &other = view.layout->markers()[b];
+      const Spot &one = view.nominal_plant->markers()[a], &other = view.nominal_plant->markers()[b];
       if ((one.drawn - other.drawn).norm() < apart) continue;
       int equal = 0;
       for (int row = 0; row < samples.size(); ++row)
@@ -64,9 +64,10 @@ std::string number(double x) {
 // some trackers say that they did not see a marker.
 std::optional<Fault> words_for_not_seen(const TrialView& view) {
   const Samples& samples = view.trial.markers;
-  const double farthest = 2.0 * view.layout->reach() + view.layout->root().norm();
+  const double farthest = 2.0 * view.nominal_plant->reach() + view.nominal_plant->root().norm();
   for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
-    const bool zero_is_no_place = view.layout->markers()[m].drawn.norm() >= largest_known::offset;
+    const bool zero_is_no_place =
+        view.nominal_plant->markers()[m].drawn.norm() >= largest_known::offset;
     std::map<double, int> rows;
     for (int row = 0; row < samples.size(); ++row) {
       const Vec3 x = place(samples, row, m);
@@ -101,7 +102,7 @@ std::optional<Fault> exchanged_for_good(const TrialView& view) {
 // the world's origin moves both; it does not exchange them.
 std::optional<Fault> exchanged_from_the_start(const TrialView& view) {
   const Samples& samples = view.trial.markers;
-  const std::vector<Spot>& spots = view.layout->markers();
+  const std::vector<Spot>& spots = view.nominal_plant->markers();
   const FirstPlaces first = first_places(view);
   for (int i = 0; i < first.size(); ++i)
     for (int j = i + 1; j < first.size(); ++j) {
@@ -138,11 +139,11 @@ struct Stretch {
 
 std::vector<Stretch> stretches(const TrialView& view) {
   const Samples& samples = view.trial.markers;
-  const std::vector<Spot>& spots = view.layout->markers();
+  const std::vector<Spot>& spots = view.nominal_plant->markers();
   std::vector<Stretch> found;
   for (int a = 0; a < static_cast<int>(spots.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(spots.size()); ++b) {
-      Stretch stretch{a, b, 0.0, view.layout->along(spots[a], spots[b]), 0};
+      Stretch stretch{a, b, 0.0, view.nominal_plant->along(spots[a], spots[b]), 0};
       const double most =
           (1.0 + largest_known::scale) * stretch.way + largest_known::offset + little;
       int seen = 0;
@@ -184,7 +185,7 @@ std::optional<Fault> stretched(const TrialView& view) {
 
 std::optional<Fault> check_labels(const TrialView& view) {
   if (auto fault = never_seen(view)) return fault;
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   for (const auto check :
        {words_for_not_seen, same_columns, exchanged_for_good, exchanged_from_the_start, stretched})
     if (auto fault = check(view)) return fault;

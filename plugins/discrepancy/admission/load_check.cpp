@@ -99,7 +99,7 @@ std::optional<Fault> against(const std::vector<LoadAnswer>& answers, const Marke
 std::optional<Fault> other_way_or_size(const TrialView& view, const Drive& drive, int marker,
                                        const Following& f) {
   if (f.explained() < explains || f.driven <= 0.0) return std::nullopt;
-  const Mat3 compliance = view.layout->compliance(drive.spot);
+  const Mat3 compliance = view.nominal_plant->compliance(drive.spot);
   if (!compliance.allFinite()) return std::nullopt;
   const Vec3 nominal = compliance * f.along;
   const std::string& name = view.experiment.markers[marker].name;
@@ -109,7 +109,7 @@ std::optional<Fault> other_way_or_size(const TrialView& view, const Drive& drive
                                     " go across the load beside it: expected the way that it "
                                     "pulls; another axis, or a frame turned?"};
   // A plant that is as stiff as it may be goes no farther than this.
-  const double most = most_off * most_way * view.layout->reach() / f.driven;
+  const double most = most_off * most_way * view.nominal_plant->reach() / f.driven;
   const double usual = std::min(nominal.norm(), most), here = f.gain.norm();
   if (here < most_off * usual && here > usual / most_off) return std::nullopt;
   return Fault{"markers.csv", "has " + name +
@@ -139,10 +139,10 @@ std::optional<Fault> answers_of(const TrialView& view, const Track& track, int m
 }  // namespace
 
 std::optional<Fault> check_loads(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   for (const Drive& drive : drives_of(view)) {
     if (drive.kind != Drive::Kind::load) continue;
-    const int marker = marker_near(*view.layout, drive.spot, near);
+    const int marker = marker_near(*view.nominal_plant, drive.spot, near);
     if (marker < 0) continue;
     const Track track = track_of(view.trial, marker);
     if (auto fault = answers_of(view, track, marker)) return fault;

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/admission/layout.h"
+#include "pedicel/discrepancy/admission/nominal_plant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +16,15 @@ constexpr double largest_way = 0.01, smallest_way = 1.0e-4;
 
 }  // namespace
 
-std::optional<Layout> Layout::of(const Experiment& experiment) {
+std::optional<NominalPlant> NominalPlant::of(const Experiment& experiment) {
   try {
-    return Layout(experiment);
+    return NominalPlant(experiment);
   } catch (const InvalidFile&) {
     return std::nullopt;
   }
 }
 
-Layout::Layout(const Experiment& experiment)
+NominalPlant::NominalPlant(const Experiment& experiment)
     : file_(experiment.plant),
       built_(PlantMaker(experiment, experiment.plant.distance, 0.0).nominal()),
       drawn_(cosserat::drawn_state(built_.model)),
@@ -41,7 +41,7 @@ Layout::Layout(const Experiment& experiment)
   for (const Marker& marker : experiment.markers) markers_.push_back(spot(marker.place));
 }
 
-Spot Layout::spot(const plant::CurvePlace& place) const {
+Spot NominalPlant::spot(const plant::CurvePlace& place) const {
   Spot spot;
   spot.point = built_.locate(file_.curve_index(place.curve), place.at);
   const auto [element, back] = spot.point;
@@ -51,14 +51,14 @@ Spot Layout::spot(const plant::CurvePlace& place) const {
   return spot;
 }
 
-const Mat3& Layout::compliance(const Spot& spot) const {
+const Mat3& NominalPlant::compliance(const Spot& spot) const {
   const auto [known, is_new] =
       compliances_.try_emplace({spot.point.element, spot.point.back}, Mat3::Zero());
   if (is_new) known->second = find_compliance(spot);
   return known->second;
 }
 
-Mat3 Layout::find_compliance(const Spot& spot) const {
+Mat3 NominalPlant::find_compliance(const Spot& spot) const {
   const int element = spot.point.element;
   const double back = spot.point.back;
   const auto moved = [&](const Vec3& force) {
@@ -84,7 +84,7 @@ Mat3 Layout::find_compliance(const Spot& spot) const {
   return estimate(usual_force * largest_way / way);
 }
 
-double Layout::along(const Spot& a, const Spot& b) const {
+double NominalPlant::along(const Spot& a, const Spot& b) const {
   int one = a.point.element, other = b.point.element;
   if (one == other) return std::abs(a.from_root - b.from_root);
   // A parent stands before its children: the later of two is on no way to the other.

@@ -20,10 +20,10 @@ struct Spot {
 
 /// Where the nominal plant stands. Rods hardly stretch: two points of it are never farther from
 /// each other than the way along the plant.
-class Layout {
+class NominalPlant {
  public:
   /// Nothing where the plant cannot be built; that is for others to say.
-  static std::optional<Layout> of(const Experiment& experiment);
+  static std::optional<NominalPlant> of(const Experiment& experiment);
 
   const std::vector<Spot>& markers() const { return markers_; }  ///< in the experiment's order
   Spot spot(const plant::CurvePlace& place) const;
@@ -37,7 +37,7 @@ class Layout {
   double reach() const { return reach_; }     ///< m, to the end that is farthest from the root
 
  private:
-  explicit Layout(const Experiment& experiment);
+  explicit NominalPlant(const Experiment& experiment);
 
   Mat3 find_compliance(const Spot& spot) const;
 

@@ -27,7 +27,7 @@ const Trial* follows_that_of(const Beside& beside) {
   const Experiment& experiment = beside.view().experiment;
   for (const Trial& other : experiment.trials) {
     if (&other == &beside.view().trial) continue;
-    const TrialView view{experiment, other, beside.view().layout};
+    const TrialView view{experiment, other, beside.view().nominal_plant};
     for (const Drive& drive : drives_of(view))
       if (drive.kind == beside.drive().kind && beside.explained_by(drive) > agrees) return &other;
   }
@@ -61,7 +61,7 @@ std::string likely(const Beside& beside, const Following& f) {
 std::optional<Fault> goes_elsewhere(const Beside& beside) {
   if (!beside.drive().path) return std::nullopt;
   const Following f = beside.follow();
-  const double reach = beside.view().layout->reach();
+  const double reach = beside.view().nominal_plant->reach();
   if (f.rows < least_rows) return std::nullopt;
   if (f.driven < std::max(least_way * reach, seen * beside.noise())) return std::nullopt;
   if (f.moved < rests * f.driven)
@@ -85,7 +85,7 @@ std::optional<Fault> goes_elsewhere(const Beside& beside) {
 }  // namespace
 
 std::optional<Fault> check_paths(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   for (const Beside& beside : Beside::all_of(view))
     if (auto fault = goes_elsewhere(beside)) return fault;
   return std::nullopt;

@@ -108,7 +108,7 @@ std::optional<Fault> runs_away(const Beside& beside) {
 }  // namespace
 
 std::optional<Fault> check_rate(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   for (const Beside& beside : Beside::all_of(view))
     if (auto fault = runs_away(beside)) return fault;
   return std::nullopt;

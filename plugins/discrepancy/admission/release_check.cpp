@@ -63,7 +63,7 @@ bool is_released(const Beside& beside) {
 // Held at the end of its path, the point rests, and what is beside it as well.
 std::optional<Fault> leaves_early(const Beside& beside) {
   const Drive& drive = beside.drive();
-  const double reach = beside.view().layout->reach();
+  const double reach = beside.view().nominal_plant->reach();
   const double end = rests_from(*drive.path, reach);
   if (drive.until - end < least_time) return std::nullopt;
   Drive known = drive;
@@ -85,7 +85,7 @@ std::optional<Fault> leaves_early(const Beside& beside) {
 // It is led on, and goes along.
 std::optional<Fault> follows_on(const Beside& beside) {
   const Drive& drive = beside.drive();
-  const double end = drive.path->time.back(), reach = beside.view().layout->reach();
+  const double end = drive.path->time.back(), reach = beside.view().nominal_plant->reach();
   if (end - drive.until < least_time) return std::nullopt;
   Drive longer = drive;
   longer.until = end;
@@ -116,7 +116,7 @@ std::optional<Fault> leaves_late(const Beside& beside) {
   if (!held.allFinite()) held = track.place.front();
   const double infinity = std::numeric_limits<double>::infinity();
   const double most = away(track, held, drive.until, infinity).most;
-  if (most < std::max(left_behind * beside.view().layout->reach(), visible * beside.noise()))
+  if (most < std::max(left_behind * beside.view().nominal_plant->reach(), visible * beside.noise()))
     return std::nullopt;
   double begins = infinity;
   for (std::size_t i = track.time.size(); i-- > 0 && track.time[i] >= drive.until;)
@@ -148,7 +148,7 @@ std::optional<Fault> path_of_another_clock(const Beside& beside) {
 }  // namespace
 
 std::optional<Fault> check_releases(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   for (const Beside& beside : Beside::all_of(view)) {
     if (!is_released(beside)) continue;
     for (const auto check : {path_of_another_clock, leaves_late, leaves_early, follows_on})

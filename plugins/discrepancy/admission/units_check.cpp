@@ -38,9 +38,9 @@ struct Ratios {
   std::vector<double> along, drawn;
 };
 
-Ratios ratios_of(const FirstPlaces& places, const Layout& layout) {
+Ratios ratios_of(const FirstPlaces& places, const NominalPlant& nominal_plant) {
   Ratios ratios;
-  const double least_way = near * layout.reach();
+  const double least_way = near * nominal_plant.reach();
   const auto add = [&](double seen, double drawn, double along) {
     if (along < least_way || drawn < 0.5 * least_way) return;
     ratios.along.push_back(seen / along);
@@ -49,20 +49,21 @@ Ratios ratios_of(const FirstPlaces& places, const Layout& layout) {
   for (int i = 0; i < places.size(); ++i)
     for (int j = 0; j < i; ++j)
       add((places.seen[i] - places.seen[j]).norm(), (places.drawn[i] - places.drawn[j]).norm(),
-          layout.along(layout.markers()[places.marker[i]], layout.markers()[places.marker[j]]));
+          nominal_plant.along(nominal_plant.markers()[places.marker[i]],
+                              nominal_plant.markers()[places.marker[j]]));
   if (ratios.along.empty())
     for (int i = 0; i < places.size(); ++i)
       add((places.seen[i] - places.root).norm(), (places.drawn[i] - places.root).norm(),
-          layout.markers()[places.marker[i]].from_root);
+          nominal_plant.markers()[places.marker[i]].from_root);
   return ratios;
 }
 
 }  // namespace
 
 std::optional<Fault> check_units(const TrialView& view) {
-  if (!view.layout) return std::nullopt;
+  if (!view.nominal_plant) return std::nullopt;
   const FirstPlaces places = first_places(view);
-  const Ratios ratios = ratios_of(places, *view.layout);
+  const Ratios ratios = ratios_of(places, *view.nominal_plant);
   if (ratios.along.empty()) return std::nullopt;
   const double along = median_of(ratios.along), drawn = median_of(ratios.drawn);
   if (along <= most && drawn >= least) return std::nullopt;

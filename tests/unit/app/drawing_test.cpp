@@ -218,7 +218,7 @@ TEST(RobotShapes, HaveOneEntryALinkAndTheColoursOfTheFile) {
 
 TEST(AddForce, EndsAtThePointItActsOn) {
   DrawList list;
-  add_force(list, Vec3(0, 0, 1), Vec3(2, 0, 0), 0.1, render::materials::accent);
+  add_force(list, Vec3(0, 0, 1), Vec3(2, 0, 0), 0.1, render::shadings::accent);
   ASSERT_EQ(list.capsules.size(), 2u);
   EXPECT_NEAR((list.capsules[0].p0 - Vec3(-0.2, 0, 1)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((list.capsules[1].p1 - Vec3(0, 0, 1)).norm(), 0.0, 1e-12);

@@ -41,7 +41,7 @@ fruits:
   }
 
   /// Materials differ in roughness, which no shade changes.
-  static bool has_skin(const render::DrawList& list, const render::Material& skin) {
+  static bool has_skin(const render::DrawList& list, const render::Shading& skin) {
     return std::ranges::any_of(list.spheres, [&](const render::Sphere& sphere) {
       return sphere.material.roughness == skin.roughness;
     });
@@ -57,15 +57,15 @@ fruits:
 };
 
 TEST_F(PlantLooks, AStiffTomatoStaysATomato) {
-  EXPECT_TRUE(has_skin(drawn(green_), render::materials::tomato));
-  EXPECT_TRUE(has_skin(drawn(stiff_), render::materials::tomato));
+  EXPECT_TRUE(has_skin(drawn(green_), render::shadings::tomato));
+  EXPECT_TRUE(has_skin(drawn(stiff_), render::shadings::tomato));
   EXPECT_TRUE(has_skin(drawn(green_, ", set: {material.youngs_modulus: 5.0e+9}"),
-                       render::materials::tomato));
+                       render::shadings::tomato));
 }
 
 TEST_F(PlantLooks, ASoftAppleStaysAnApple) {
-  EXPECT_TRUE(has_skin(drawn(green_ + "look: apple\n"), render::materials::apple));
-  EXPECT_FALSE(has_skin(drawn(green_ + "look: apple\n"), render::materials::tomato));
+  EXPECT_TRUE(has_skin(drawn(green_ + "look: apple\n"), render::shadings::apple));
+  EXPECT_FALSE(has_skin(drawn(green_ + "look: apple\n"), render::shadings::tomato));
 }
 
 }  // namespace

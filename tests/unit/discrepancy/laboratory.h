@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "pedicel/core/random.h"
-#include "pedicel/discrepancy/admission/layout.h"
+#include "pedicel/discrepancy/admission/nominal_plant.h"
 #include "pedicel/discrepancy/simulate/simulator.h"
 
 /// A day in a laboratory: a stem with two branches, nine markers; let go along x and y, weights
@@ -67,7 +67,7 @@ inline void add_samples(Samples& samples, double until, Eigen::Index columns) {
 }
 
 inline void add_trials(Experiment& experiment) {
-  const Vec3 start = Layout::of(experiment)->spot({"stem", 0.8, {}}).settled;
+  const Vec3 start = NominalPlant::of(experiment)->spot({"stem", 0.8, {}}).settled;
   const auto begin = [&](const std::string& name, double until) -> Trial& {
     Trial trial;
     trial.name = name;

@@ -146,7 +146,7 @@ TEST_F(LabelTest, WhatIsHiddenIsNotThere) {
 }
 
 TEST_F(LabelTest, ThePictureBesideItIsThePicture) {
-  list_.spheres = {{Vec3(0, 0, 0.05), 0.1, materials::tomato, 1}};
+  list_.spheres = {{Vec3(0, 0, 0.05), 0.1, shadings::tomato, 1}};
   list_.ground = Ground{-0.1};
   const Image alone = renderer_->render(list_, camera_, width, height);
   const LabelMap labels = map();

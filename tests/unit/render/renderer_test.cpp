@@ -14,8 +14,8 @@ namespace pedicel::render {
 namespace {
 
 constexpr int width = 480, height = 320;
-const Material red{Colour::hex(0xd02020), 0.6f, 0.0f};
-const Material green{Colour::hex(0x20b020), 0.6f, 0.0f};
+const Shading red{Colour::hex(0xd02020), 0.6f, 0.0f};
+const Shading green{Colour::hex(0x20b020), 0.6f, 0.0f};
 
 double brightness(const Image& image, int x, int y) {
   const std::uint8_t* p = image.at(x, y);
@@ -315,7 +315,7 @@ TEST_F(RendererTest, RefusesBadSizesAndSettings) {
 }
 
 TEST_F(RendererTest, AGhostLetsThroughWhatIsBehindItAndHidesNothingBeforeIt) {
-  const auto ball = [](const Vec3& centre, const Material& material) {
+  const auto ball = [](const Vec3& centre, const Shading& material) {
     DrawList list;
     list.spheres.push_back({centre, 0.25, material});
     return list;
