@@ -162,4 +162,13 @@ world::Event to_event(const Detached& detached) {
           e.force, e.moment,       e.torsion, e.angle,   detached.tool};
 }
 
+std::vector<world::Event> events_of(const Simulation& simulation) {
+  std::vector<world::Event> events;
+  for (const Detached& one : simulation.plant_step().detached()) events.push_back(to_event(one));
+  const auto& cuts = simulation.cutting().events();
+  events.insert(events.end(), cuts.begin(), cuts.end());
+  std::ranges::stable_sort(events, {}, &world::Event::time);
+  return events;
+}
+
 }  // namespace pedicel::app

@@ -142,6 +142,22 @@ void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
   assets_ = std::move(assets);
 }
 
+std::optional<Simulation::FallenFruit> Simulation::fallen_fruit(int plant, int fruit) const {
+  if (!rods_->state(plant).fruit_gone[fruit]) return std::nullopt;
+  if (const auto carried = cutting_->carried(plant, fruit)) {
+    const Pose pose = world_.body_pose(carried->body);
+    const Vec3 arm = pose.rotation * carried->centre_B;
+    return FallenFruit{carried->body, pose.position + arm,
+                       world_.body_velocity(carried->body) +
+                           world_.body_angular_velocity(carried->body).cross(arm),
+                       true};
+  }
+  // As soon as it is off, a fruit is a body of its own name.
+  const int body = world_.body_index(fruit_name(rods_->model(plant), fruit));
+  if (body < 0) return std::nullopt;
+  return FallenFruit{body, world_.body_pose(body).position, world_.body_velocity(body)};
+}
+
 std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
   if (anchor.kind == world::Anchor::Kind::tool && robot_) return robot_->tool_pose().position;
   if (anchor.kind == world::Anchor::Kind::body) {
@@ -156,9 +172,7 @@ std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
     if (anchor.kind != world::Anchor::Kind::fruit) continue;
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
       if (fruit_name(model, f) != anchor.name) continue;
-      // As soon as it is off, a fruit is a body of its own name.
-      const int body = world_.body_index(anchor.name);  // it has come off
-      if (body >= 0) return world_.body_pose(body).position;
+      if (const auto fallen = fallen_fruit(p, f)) return fallen->centre;
       return cosserat::point_on(model, rods_->state(p), model.fruits[f].element,
                                 model.fruits[f].back);
     }

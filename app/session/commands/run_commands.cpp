@@ -94,6 +94,21 @@ Result end_pull(Session& session, const Command&) {
   return {};
 }
 
+Result cut_organ(Session& session, const Command& c) {
+  const std::string organ = c.word("organ");
+  const double at = c.number_or("at", 0.0);
+  const auto now = session.snapshot();
+  if (!(at >= 0.0 && at <= 1.0)) return {false, "cut: at, expected a fraction from 0 to 1"};
+  const std::optional<PullPlace> place = find_organ(*now, organ, at);
+  if (!place)
+    return {false, "cut: no organ \"" + organ +
+                       "\" in the simulation, expected one of: " + organ_names(*now)};
+  if (!now->plants[static_cast<std::size_t>(place->plant)].state.alive[place->element])
+    return {false, "cut: \"" + organ + "\" has come off there already"};
+  session.cut(organ, at);
+  return {};
+}
+
 Result watch_organ(Session& session, const Command& c) {
   session.control().log().watch(c.word("organ"));
   return {};
@@ -141,6 +156,12 @@ std::vector<CommandDescription> run_commands() {
        "Pulls a place of a plant with a spring until release.",
        pull_organ},
       {"release", r, {}, "Ends the pull.", end_pull},
+      {"cut",
+       r,
+       {{"organ", Kind::word, true, "PLANT/STEM, or PLANT/FRUIT for its stalk"},
+        {"at", Kind::number, false, "fraction of the stem, from its foot (0)"}},
+       "Cuts a stem of the running plant; what it carried falls as one body.",
+       cut_organ},
       {"watch",
        r,
        {{"organ", Kind::word, true, "PLANT/STEM"}},
