@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pedicel/app/plants/organ_contacts.h"
+#include "pedicel/app/run/place.h"
 #include "pedicel/app/run/scene_assets.h"
 
 namespace pedicel::app {
@@ -93,7 +94,8 @@ void add_fruit(Channels& all, const Simulation& simulation, int p, int f) {
   world::Anchor anchor;
   anchor.kind = world::Anchor::Kind::fruit;
   anchor.name = name;
-  all.push_back({name + "_z_m", [&simulation, anchor] { return simulation.find(anchor)->z(); }});
+  all.push_back(
+      {name + "_z_m", [&simulation, anchor] { return place_of(simulation, anchor)->z(); }});
 }
 
 void add_plants(Channels& all, const Simulation& simulation) {

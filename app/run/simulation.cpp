@@ -1,5 +1,6 @@
 #include "pedicel/app/run/simulation.h"
 
+#include "pedicel/app/run/place.h"
 #include "pedicel/app/run/scene_assets.h"
 #include "pedicel/app/run/wrench_sensor.h"
 #include "pedicel/core/check.h"
@@ -103,7 +104,7 @@ void Simulation::add_bodies() {
 
 void Simulation::add_robot(Diagnostics& diagnostics) {
   if (!assets_->robot) return;
-  const auto find_place = [this](const world::Anchor& anchor) { return find(anchor); };
+  const auto find_place = [this](const world::Anchor& anchor) { return place_of(*this, anchor); };
   robot_ = make_robot_control(*scene_.robot, *assets_->robot, world_, find_place, diagnostics);
   if (!robot_) return;
   world_.add(*robot_);
@@ -140,44 +141,6 @@ void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
   // References into the first assets stay: scene, meshes, fields.
   if (!first_assets_) first_assets_ = assets_;
   assets_ = std::move(assets);
-}
-
-std::optional<Simulation::FallenFruit> Simulation::fallen_fruit(int plant, int fruit) const {
-  if (!rods_->state(plant).fruit_gone[fruit]) return std::nullopt;
-  if (const auto carried = cutting_->carried(plant, fruit)) {
-    const Pose pose = world_.body_pose(carried->body);
-    const Vec3 arm = pose.rotation * carried->centre_B;
-    return FallenFruit{carried->body, pose.position + arm,
-                       world_.body_velocity(carried->body) +
-                           world_.body_angular_velocity(carried->body).cross(arm),
-                       true};
-  }
-  // As soon as it is off, a fruit is a body of its own name.
-  const int body = world_.body_index(fruit_name(rods_->model(plant), fruit));
-  if (body < 0) return std::nullopt;
-  return FallenFruit{body, world_.body_pose(body).position, world_.body_velocity(body)};
-}
-
-std::optional<Vec3> Simulation::find(const world::Anchor& anchor) const {
-  if (anchor.kind == world::Anchor::Kind::tool && robot_) return robot_->tool_pose().position;
-  if (anchor.kind == world::Anchor::Kind::body) {
-    const int body = world_.body_index(anchor.name);
-    if (body >= 0) return world_.body_pose(body).position;
-    return std::nullopt;
-  }
-  for (int p = 0; p < rods_->size(); ++p) {
-    const cosserat::RodModel& model = rods_->model(p);
-    if (anchor.kind == world::Anchor::Kind::plant && model.name == anchor.name)
-      return model.root.position;
-    if (anchor.kind != world::Anchor::Kind::fruit) continue;
-    for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
-      if (fruit_name(model, f) != anchor.name) continue;
-      if (const auto fallen = fallen_fruit(p, f)) return fallen->centre;
-      return cosserat::point_on(model, rods_->state(p), model.fruits[f].element,
-                                model.fruits[f].back);
-    }
-  }
-  return std::nullopt;
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -80,18 +80,6 @@ class Simulation {
   /// What a user should know and that stops nothing, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// A fruit that is on its plant no more, as the body that it is or hangs on.
-  struct FallenFruit {
-    int body = -1;
-    Vec3 centre = Vec3::Zero();    ///< m, W
-    Vec3 velocity = Vec3::Zero();  ///< m/s, W, of the centre
-    bool cut = false;              ///< it fell with the stem that it hangs on
-  };
-  std::optional<FallenFruit> fallen_fruit(int plant, int fruit) const;
-
-  /// Where an anchor of the scene is now (m, W); nothing where there is no such thing.
-  std::optional<Vec3> find(const world::Anchor& anchor) const;
-
   /// Robot joints, rods and rigid bodies, bit by bit.
   std::uint64_t state_hash() const;
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pedicel/app/plants/plant_step.h"
+#include "pedicel/app/run/place.h"
 
 namespace pedicel::app {
 
@@ -144,13 +145,13 @@ void StateArrays::fill_moving_fruits(const Simulation& simulation, int world, in
   const cosserat::RodState& state = simulation.rods().state(plant);
   const int first = layout_.first_fruit[plant], count = static_cast<int>(model.fruits.size());
   each(Field::fruit_positions, world, first, count, [&](double* to, int f) {
-    const auto fallen = simulation.fallen_fruit(plant, f);
+    const auto fallen = fallen_fruit(simulation, plant, f);
     write(to,
           fallen ? fallen->centre
                  : cosserat::point_on(model, state, model.fruits[f].element, model.fruits[f].back));
   });
   each(Field::fruit_velocities, world, first, count, [&](double* to, int f) {
-    const auto fallen = simulation.fallen_fruit(plant, f);
+    const auto fallen = fallen_fruit(simulation, plant, f);
     write(to, fallen ? fallen->velocity
                      : cosserat::velocity_on(model, state, model.fruits[f].element,
                                              model.fruits[f].back));
