@@ -10,6 +10,8 @@ namespace pedicel::app {
 
 namespace {
 
+// World and plants take the same step: Bullet makes exactly one, and the rods one of the same
+// length, so that neither has to be interpolated to the other's time.
 world::WorldSettings world_settings(const world::Scene& scene) {
   world::WorldSettings settings;
   settings.dt = scene.dt;
@@ -20,6 +22,8 @@ world::WorldSettings world_settings(const world::Scene& scene) {
 /// Robot with its program, bodies, ground, loads, ties, cuts and wind: what stands in a world
 /// beside its plants.
 std::string things_of(world::Scene scene) {
+  // Plants are left out, because these may change in constants. All else is built once from the
+  // first assets, and a change of it needs a new run.
   world::Scene things;
   // Compared as text, so that no field can be forgotten in a comparison.
   things.robot = std::move(scene.robot);
@@ -46,8 +50,11 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
       notes_(assets_->notes) {
   Diagnostics diagnostics;
   // Plants first: loads, waypoints and contacts name their fruits.
+  // The order of what follows is that of who needs whom. Members are destroyed in the reverse order
+  // of their declaration, so what refers to others is declared after them.
   rods_ = std::make_unique<cosserat::RodSystem>(assets_->rods, scene_.threads);
   add_plants(diagnostics);
+  // Before the robot, whose waypoints may be at a body.
   add_bodies();
   loads_ = std::make_unique<SceneLoads>(scene_.loads, *rods_, diagnostics);
   ties_ = std::make_unique<SceneTies>(scene_.ties, *rods_, diagnostics);
@@ -55,8 +62,11 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   cutting_ = std::make_unique<Cutting>(scene_.cuts, *rods_, world_, diagnostics);
   if (robot_) cutting_->set_tool([this] { return robot_->tool_pose(); });
   // Contacts are set up where all things stand, so nothing may be missing by now.
+  // All faults are collected first and said together: a user who mends one should not meet the next
+  // one only then.
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), diagnostics);
+  // Set now, as it takes contacts, which take everything above.
   cutting_->set_released([this](int plant, int body) { contacts_->add_fallen(plant, body); });
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
   gentleness_ = std::make_unique<Gentleness>(*rods_, plant_step());
@@ -65,27 +75,35 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
     if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   }
   // Participants of one phase act in the order in which they join.
+  // Loads and cuts first: what a scene does at a time holds for the whole of that step.
   world_.add(*loads_);
   world_.add(*cutting_);
   if (scene_.wind) {
     wind_ = std::make_unique<WindField>(*scene_.wind, scene_.seed, *rods_);
     world_.add(*wind_);
   }
+  // Colliders, plants and reaction, in their own order. The robot's reader has joined before, so
+  // that links are where Bullet left them.
   contacts_->join();
+  // Observers last: they see the step when all have moved.
   world_.add(*measurements_);
   world_.add(*gentleness_);
   if (wrenches_) world_.add(*wrenches_);
+  // Errors have thrown above, so warnings are all that is left.
   for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
 }
 
 Simulation::~Simulation() = default;
 
+// Who asks gets a list in any case, and need not know whether the scene has sensors.
 const std::vector<WrenchSensor>& Simulation::wrenches() const {
   static const std::vector<WrenchSensor> none;
   return wrenches_ ? wrenches_->all() : none;
 }
 
 void Simulation::add_plants(Diagnostics& diagnostics) {
+  // Refused and not ignored: a run without the wind that its scene asks for would look like one
+  // with it.
   if (scene_.wind && assets_->rods.solver != cosserat::SolverKind::direct)
     diagnostics.error({scene_.file.string(), 0, 0},
                       "wind with the position-based solver: expected the direct solver, which "
@@ -108,6 +126,8 @@ void Simulation::add_robot(Diagnostics& diagnostics) {
   robot_ = make_robot_control(*scene_.robot, *assets_->robot, world_, find_place, diagnostics);
   if (!robot_) return;
   world_.add(*robot_);
+  // The control acts before Bullet, the reader after it. They are two participants, since one has
+  // one phase.
   world_.add(robot_->reader());
 }
 
@@ -121,6 +141,7 @@ bool Simulation::can_change_to(const SceneAssets& assets) const {
   const bool same_contacts = now.margin == then.margin && now.two_way == then.two_way &&
                              now.self_contact == then.self_contact &&
                              now.plant_contact == then.plant_contact;
+  // The file counts, too: relative paths and names are found from its folder.
   const bool same_world =
       scene_.dt == assets.scene.dt && scene_.gravity == assets.scene.gravity &&
       scene_.threads == assets.scene.threads && scene_.file == assets.scene.file &&
@@ -137,8 +158,12 @@ void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
     throw UsageError("Simulation::change_to: another scene, must differ in constants only");
   for (int p = 0; p < rods_->size(); ++p) rods_->change_constants(p, assets->models[p]);
   rods_->change_settings(assets->rods);
+  // After the plants: contacts are looked for with the shapes that these have now.
   contacts_->change_settings(assets->coupling);
   // References into the first assets stay: scene, meshes, fields.
+  // The scene that was read first goes on to be the one that runs; only constants come from the
+  // other.
+  // Only the first time: later ones are referred to by nobody.
   if (!first_assets_) first_assets_ = assets_;
   assets_ = std::move(assets);
 }
@@ -146,6 +171,7 @@ void Simulation::change_to(std::shared_ptr<const SceneAssets> assets) {
 std::uint64_t Simulation::state_hash() const {
   StateHash hash;
   // The order is part of the hash: in another one it is another number.
+  // Bullet's bodies, then plants, then joints. Everything that the next step starts from is in it.
   world_.add_to(hash);
   rods_->add_to(hash);
   if (robot_) robot_->add_to(hash);
