@@ -38,16 +38,18 @@ EffectDefinition define_weak_segment() {
         // a fit can follow.
         for (const plant::RodPlaces::Span& span : t.places.spans) {
           if (span.curve != curve) continue;
-          const double low = std::min(span.arc_near, span.arc_far);
           const double length = std::abs(span.arc_far - span.arc_near);
-          // The joint at the near end stands for half a segment on either side of it.
+          // The joint at the near end stands for half a segment on either side of it. At a clamp
+          // there is nothing on the near side, so it stands for half a segment in all.
+          const bool clamped = t.model.elements[span.element].parent < 0;
+          double from = span.arc_near - 0.5 * length, to = span.arc_near + 0.5 * length;
+          if (clamped) (span.arc_near < span.arc_far ? from : to) = span.arc_near;
           // Compliances add up in series, so the share of the length is the share of the
           // compliance.
-          const double from = span.arc_near - 0.5 * length, to = span.arc_near + 0.5 * length;
-          const double shared = std::max(
-              0.0, std::min({to, centre + half, low + length}) - std::max(from, centre - half));
+          const double shared =
+              std::max(0.0, std::min(to, centre + half) - std::max(from, centre - half));
           // Rounding may make it a little more than all.
-          const double share = std::min(1.0, shared / length);
+          const double share = std::min(1.0, shared / (to - from));
           t.model.elements[span.element].bend_stiffness /= 1.0 - share + share / t.number("factor");
         }
       }};

@@ -54,6 +54,11 @@ bool is_tip(const RodModel& model, const RodState& state, const Fruit& fruit) {
   // The stub goes along only where nothing else needs the element. Otherwise the plant would lose a
   // segment that still carries a twig, a leaf's weld or the far half of its own length.
   if (fruit.back > 0.5 * model.elements[fruit.element].length) return false;
+  // Another fruit there stays on the plant, and so does what it hangs on.
+  for (std::size_t f = 0; f < model.fruits.size(); ++f)
+    if (&model.fruits[f] != &fruit && model.fruits[f].element == fruit.element &&
+        !state.fruit_gone[f])
+      return false;
   // Children come after their parents in a model, so nothing before the element can hang on it.
   for (int e = fruit.element + 1; e < model.size(); ++e)
     if (model.elements[e].parent == fruit.element && state.alive[e]) return false;

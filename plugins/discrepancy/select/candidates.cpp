@@ -171,6 +171,7 @@ class Refits {
         candidates_(causes.size()) {}
 
   std::vector<Candidate> run() {
+    if (candidates_.empty()) return {};
     for (std::size_t i = 0; i < causes_.size(); ++i) candidates_[i].cause = causes_[i].name;
     // A base that misses the data is a bad place to be linear about: then short fits rank, else
     // scores do.
