@@ -31,8 +31,9 @@ Clamp part_of(const Clamp& whole, int k, int parts) {
 
 }  // namespace
 
-DirectSolver::Plant::Plant(const RodModel& model) : extras(model.size()) {
-  if (!model.welds.empty()) loops = std::make_unique<BlockSystem>(model);
+DirectSolver::Plant::Plant(const RodModel& model, bool by_blocks)
+    : attachments(by_blocks), extras(model.size()) {
+  if (by_blocks) loops = std::make_unique<BlockSystem>(model);
 }
 
 Pressing DirectSolver::Plant::pressing() const {
@@ -49,7 +50,8 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
   // All that a step needs is made here: step() must not allocate.
   plants_.reserve(models.size());
   for (const RodModel* model : models) {
-    plants_.emplace_back(*model);
+    const int index = static_cast<int>(plants_.size());
+    plants_.emplace_back(*model, rows_.store.layout.plant_keeps_blocks(index));
     any_loops_ = any_loops_ || plants_.back().loops;
   }
   states_.resize(plants_.size());
