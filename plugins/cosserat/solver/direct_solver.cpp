@@ -34,8 +34,9 @@ Clamp part_of(const Clamp& whole, int k, int parts) {
 
 }  // namespace
 
-DirectSolver::Plant::Plant(const RodModel& model) : extras(model.size()) {
-  if (!model.welds.empty()) loops = std::make_unique<BlockSystem>(model);
+DirectSolver::Plant::Plant(const RodModel& model, bool by_blocks)
+    : attachments(by_blocks), extras(model.size()) {
+  if (by_blocks) loops = std::make_unique<BlockSystem>(model);
 }
 
 Pressing DirectSolver::Plant::pressing() const {
@@ -52,8 +53,10 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
   // All that a step needs is made here: step() must not allocate.
   plants_.reserve(models.size());
   for (const RodModel* model : models) {
-    plants_.emplace_back(*model);
-    // One plant with welds makes all take the road that waits between elimination and substitution.
+    const int index = static_cast<int>(plants_.size());
+    plants_.emplace_back(*model, rows_.store.layout.plant_keeps_blocks(index));
+    // One plant whose loops are not in lanes makes all take the road that waits between elimination
+    // and substitution.
     any_loops_ = any_loops_ || plants_.back().loops;
   }
   states_.resize(plants_.size());

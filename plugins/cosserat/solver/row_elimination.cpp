@@ -75,6 +75,8 @@ void RowElimination::eliminate_task(const RowArrays& rows, int task) {
   // rows, where a block never leaves the registers.
   if (layout.keeps_blocks(number))
     linearise(rows, pack);
+  else if (pack.loops)
+    eliminate_loops(rows, pack);
   else if (layout.from_clamp(number))
     eliminate_from_clamp(rows, pack);
   else
@@ -100,6 +102,8 @@ void RowElimination::substitute_task(const RowArrays& rows, int task) {
   if (layout.is_pack(task)) {
     if (layout.from_clamp(number))
       substitute_to_clamp(rows, pack);
+    else if (pack.loops)
+      substitute_loops(rows, pack);
     else
       cosserat::substitute(rows, pack);
   }

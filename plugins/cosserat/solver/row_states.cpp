@@ -34,9 +34,22 @@ void RowStates::read_model(int plant, const RodModel& model) {
     if (std::any_of(chain.elements.begin(), chain.elements.end(),
                     [&](int e) { return model.elements[e].damping_time > 0.0; }))
       store_.make_viscous(chain.pack);
+    read_welds(model, chain);
   }
   // Last: drag is zero where nothing is alive, and that was put just above.
   extensions_.read_model(plant, model);
+}
+
+// Those that the rows solve.
+void RowStates::read_welds(const RodModel& model, const Chain& chain) {
+  int row = store_.packs[chain.pack].first_weld;
+  for (const int w : chain.welds) {
+    const Weld& weld = model.welds[w];
+    WeldRow& out = store_.weld[row++];
+    out.position_stiffness[chain.lane] = weld.position_stiffness;
+    put(out.bend_stiffness, chain.lane, weld.bend_stiffness);
+    put(out.rest_rotation, chain.lane, weld.rest_rotation);
+  }
 }
 
 // Variable-step BDF2 (Hairer, Norsett & Wanner, Solving ODEs I, section III.5).
