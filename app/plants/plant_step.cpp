@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pedicel/app/plants/folded_stem.h"
 #include "pedicel/cosserat/contact/self_contact.h"
 #include "pedicel/io/csv.h"
 
@@ -39,9 +40,10 @@ bool is_squeezed(const cosserat::StepReport& report,
   });
 }
 
-std::string cause_of(const cosserat::StepReport& report, double speed) {
+std::string cause_of(const cosserat::StepReport& report, double speed, bool is_folded) {
   if (report.errors & cosserat::not_finite) return "a position is not a finite number";
   if (speed > fastest) return "it moves at " + io::format_number(speed, 3) + " m/s";
+  if (is_folded) return std::string("it is ") + folded_text;
   return "no equilibrium found in " + std::to_string(most_rough_steps) +
          " steps in a row: the last change of position (m) or direction (rad) is " +
          io::format_number(report.last_change, 3);
@@ -120,9 +122,12 @@ void PlantStep::judge(int plant, world::WorldReport& report) const {
   if (!lost && (!own.errors || !report.culprit.empty())) return;
   // The element that the solver names is the one that it found hardest; where speed is what is
   // wrong, the quickest one is.
-  const int element = own.element >= 0 && !(speed > fastest) ? own.element : quickest;
+  const int folded = lost ? folded_element(model, state) : -1;
+  const int element = folded >= 0                              ? folded
+                      : own.element >= 0 && !(speed > fastest) ? own.element
+                                                               : quickest;
   if (element >= 0) report.culprit = model.organs[model.elements[element].organ];
-  if (lost) report.cause = cause_of(own, speed);
+  if (lost) report.cause = cause_of(own, speed, folded >= 0);
 }
 
 void PlantStep::release(world::SimWorld& world, int plant, const cosserat::DetachEvent& event) {

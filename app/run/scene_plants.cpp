@@ -1,12 +1,16 @@
 #include "pedicel/app/run/scene_plants.h"
 
+#include <map>
+
 #include "pedicel/app/plants/plant_overrides.h"
+#include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/run/large_plant.h"
 #include "pedicel/cosserat/solver/standing.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_builder.h"
 #include "pedicel/plant/reference_plants.h"
 #include "pedicel/skeleton/plant_source.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::app {
 
@@ -163,6 +167,47 @@ std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
   Builder builder(scene, options, diagnostics, notes);
   for (const ScenePlant& wanted : scene.plants) builder.add(wanted);
   return std::move(builder.plants);
+}
+
+namespace {
+
+/// Plants as their files have them, each read once.
+class PlantFiles {
+ public:
+  explicit PlantFiles(const SimulationOptions& options) : options_(options) {}
+
+  const std::optional<plant::PlantFile>& of(const ScenePlant& wanted, Diagnostics& diagnostics) {
+    const auto known = files_.find(wanted.name);
+    if (known != files_.end()) return known->second;
+    const auto edited = options_.edited.find(wanted.name);
+    return files_[wanted.name] = edited != options_.edited.end()
+                                     ? std::optional(edited->second)
+                                     : read_scene_plant(wanted, diagnostics);
+  }
+
+ private:
+  const SimulationOptions& options_;
+  std::map<std::string, std::optional<plant::PlantFile>> files_;
+};
+
+}  // namespace
+
+void check_settings(const std::vector<world::Scene>& scenes, const SimulationOptions& options,
+                    Diagnostics& diagnostics) {
+  PlantFiles files(options);
+  for (const world::Scene& given : scenes) {
+    const world::Scene scene = given.vary.empty() ? given : world::drawn_scene(given);
+    cosserat::RodSettings rods;
+    coupling::CouplingSettings coupling;
+    apply_rod_settings(scene.rods, rods, diagnostics);
+    apply_coupling_settings(scene.coupling, coupling, diagnostics);
+    for (const ScenePlant& wanted : scene.plants) {
+      if (wanted.source == ScenePlant::Source::built_in || wanted.set.empty()) continue;
+      if (std::optional<plant::PlantFile> file = files.of(wanted, diagnostics))
+        apply_plant_overrides(*file, wanted.set, diagnostics);
+    }
+    if (diagnostics.has_errors()) return;
+  }
 }
 
 }  // namespace pedicel::app

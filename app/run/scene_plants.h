@@ -36,4 +36,10 @@ std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
                                           Diagnostics& diagnostics,
                                           std::vector<std::string>& notes);
 
+/// Whether the settings of every scene are known keys with possible values, without building
+/// anything: an impossible one is found before the first of many runs. The scenes have the same
+/// plant files. Faults of the first scene that has some go to `diagnostics`.
+void check_settings(const std::vector<world::Scene>& scenes, const SimulationOptions& options,
+                    Diagnostics& diagnostics);
+
 }  // namespace pedicel::app

@@ -43,6 +43,36 @@ std::string things_of(world::Scene scene) {
 Simulation::Simulation(const world::Scene& scene, const SimulationOptions& options)
     : Simulation(std::make_shared<const SceneAssets>(scene, options)) {}
 
+namespace {
+
+/// A camera that follows nothing would stand at the world's origin. An optional plant that is not
+/// there is no fault.
+void check_cameras(const Simulation& simulation, Diagnostics& diagnostics) {
+  for (const world::SceneCamera& camera : simulation.scene().cameras) {
+    const world::Anchor& anchor = camera.follow;
+    if (anchor.kind == world::Anchor::Kind::none || place_of(simulation, anchor)) continue;
+    const std::string plant = anchor.name.substr(0, anchor.name.find('/'));
+    std::string known;
+    for (int p = 0; p < simulation.rods().size(); ++p) {
+      const cosserat::RodModel& model = simulation.rods().model(p);
+      if (model.name != plant && !model.name.starts_with(plant + "_")) continue;
+      std::vector<std::string> names = {model.name};
+      if (anchor.kind == world::Anchor::Kind::fruit) names.clear();
+      for (int f = 0; f < static_cast<int>(model.fruits.size()) && names.size() < 20; ++f)
+        names.push_back(fruit_name(model, f));
+      if (names.empty()) names.push_back("fruits of another plant (it has none)");
+      for (const std::string& name : names)
+        if (known.size() < 200) known += (known.empty() ? "" : ", ") + name;
+    }
+    if (known.empty()) continue;
+    diagnostics.error(anchor.where, "camera " + in_quotes(camera.name) + " follows " +
+                                        in_quotes(anchor.name) +
+                                        ", which is not there, expected one of: " + known);
+  }
+}
+
+}  // namespace
+
 Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
     : assets_(std::move(assets)),
       scene_(assets_->scene),
@@ -59,6 +89,7 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   loads_ = std::make_unique<SceneLoads>(scene_.loads, *rods_, diagnostics);
   ties_ = std::make_unique<SceneTies>(scene_.ties, *rods_, diagnostics);
   add_robot(diagnostics);
+  check_cameras(*this, diagnostics);
   cutting_ = std::make_unique<Cutting>(scene_.cuts, *rods_, world_, diagnostics);
   if (robot_) cutting_->set_tool([this] { return robot_->tool_pose(); });
   // Contacts are set up where all things stand, so nothing may be missing by now.

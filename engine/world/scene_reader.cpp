@@ -104,6 +104,7 @@ void check_fruit(const Scene& scene, const std::string& fruit, const SourcePosit
 
 void check_organ(const Scene& scene, const std::string& organ, const SourcePosition& where,
                  Diagnostics& diagnostics) {
+  if (organ.empty()) return;  // that was told when it was read
   const std::size_t slash = organ.find('/');
   if (slash == std::string::npos || !is_plant(scene, organ.substr(0, slash)))
     diagnostics.error(where,

@@ -44,6 +44,10 @@ class Procedure {
     // After the noise, because the split goes by the misfits.
     split_scene_trials(experiment_, misfits(), out_.fit_trials, out_.check_trials);
     search();
+    if (stopped() && options_.cut_short) {
+      options_.cut_short();
+      cut_ = true;
+    }
     polish();
     finish();
     return std::move(out_);
@@ -75,7 +79,10 @@ class Procedure {
     // Never finer than what judges: an experiment may ask for less than the search's default.
     coarse.distance = std::max(coarse.distance, options_.numerics.distance);
     coarse.dt = std::max(coarse.dt, options_.numerics.dt);
-    SceneSimulator simulator(experiment_, coarse, options_.threads, options_.stop);
+    // A search that is cut short ends its simulations, as at the time limit: half of one says what
+    // is not so.
+    SceneSimulator simulator(experiment_, coarse, options_.threads,
+                             options_.cut_short ? nullptr : options_.stop);
     SceneDataSet data(experiment_);
     // The finer predictions are at hand: what the coarse ones are off by is known, sample by
     // sample, and counts as noise there.
@@ -147,7 +154,8 @@ class Procedure {
   bool stopped() const { return options_.stop && *options_.stop; }
   bool late() const {
     // A steady clock, which nobody sets back.
-    return std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit;
+    return cut_ ||
+           std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit;
   }
   void tell(const std::string& what, double share) const {
     if (options_.progress) options_.progress(what, share);
@@ -158,7 +166,8 @@ class Procedure {
   Clock::time_point begin_ = Clock::now();
   SceneDataSet data_;
   SceneSimulator fine_;
-  long more_ = 0;  // simulations beside
+  long more_ = 0;     // simulations beside
+  bool cut_ = false;  // by a stop that was taken back
   SceneDiagnosis out_;
 };
 
