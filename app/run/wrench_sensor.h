@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace pedicel::app {
 
 /// Force (N) and moment (N m).
 using Wrench = Eigen::Matrix<double, 6, 1>;
+
+/// What a sensor says beside what acts: a multiple, and a zero that is off.
+struct WrenchGauge {
+  double gain = 1.0;
+  Wrench bias = Wrench::Zero();
+};
 
 /// The noise of a force sensor over a run.
 class WrenchNoiseSource {
@@ -35,7 +42,7 @@ class WrenchSensor {
  public:
   /// Throws UsageError where the robot has no such link.
   WrenchSensor(const world::SceneWrench& scene, RobotControl& robot, const PlantStep& plants,
-               const Vec3& gravity, std::uint64_t seed);
+               const Vec3& gravity, std::uint64_t seed, const WrenchGauge& gauge = {});
 
   const world::SceneWrench& scene() const { return scene_; }
   /// Once a step, in its end.
@@ -64,6 +71,7 @@ class WrenchSensor {
   bool moved_ = false;                                  // momentum_ is known
   std::deque<std::pair<double, Wrench>> past_;
   WrenchNoiseSource noise_;
+  WrenchGauge gauge_;
   Wrench exact_ = Wrench::Zero(), reading_ = Wrench::Zero();
   Wrench tare_ = Wrench::Zero();
   int tared_samples_ = 0;
@@ -75,8 +83,10 @@ class WrenchSensor {
 class WrenchSensors : public world::Observer {
  public:
   /// Faults go to `diagnostics`.
+  /// `gauges`: one a sensor, or none.
   WrenchSensors(const world::Scene& scene, RobotControl& robot, const PlantStep& plants,
-                world::SimWorld& world, Diagnostics& diagnostics);
+                world::SimWorld& world, std::span<const WrenchGauge> gauges,
+                Diagnostics& diagnostics);
 
   void observe(const world::SimWorld& world, const world::WorldReport& report) override;
   const std::vector<WrenchSensor>& all() const { return sensors_; }
