@@ -23,8 +23,8 @@ void add_robot(Channels& all, const Simulation& simulation) {
     const std::string& joint = model.joint_names()[i];
     const bool slides = robot->description().joints[robot->description().joint(joint)].type ==
                         robot::JointType::prismatic;
-    all.push_back({"joint_" + joint + (slides ? "_m" : "_rad"),
-                   [robot, i] { return robot->robot().positions()[i]; }});
+    all.push_back(
+        {"joint_" + joint + (slides ? "_m" : "_rad"), [robot, i] { return robot->reading(i); }});
     all.push_back({"torque_" + joint + (slides ? "_N" : "_Nm"),
                    [robot, i] { return robot->robot().motor_torques()[i]; }});
   }

@@ -73,9 +73,14 @@ void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
   else if (!trajectory_.empty())
     // A target is where the joint shall be at the end of this step.
     part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
+  if (lag_ > 0.0 && !led_) lag_behind(world.dt());
+  const bool lags = lag_ > 0.0;
   // Led by its motors, nobody but the one who leads sets targets.
   for (int i = 0; i < q_.size() && !led_; ++i) {
-    if (mode_ == "position") robot_.motors().set_position_target(i, q_[i], qd_[i]);
+    if (mode_ == "position" && lags)
+      robot_.motors().set_position_target(i, lagged_[i], lagged_speed_[i]);
+    else if (mode_ == "position")
+      robot_.motors().set_position_target(i, q_[i], qd_[i]);
     if (mode_ == "velocity") robot_.motors().set_velocity_target(i, qd_[i]);
     // Without anyone who leads it a robot in torque mode is limp. Set in each step: a torque that
     // was led before would else act on.
@@ -135,6 +140,15 @@ void RobotControl::approach_goal(double dt) {
     q_[i] += step;
     qd_[i] = step / dt;
   }
+}
+
+// First order, exact for a target that goes evenly within a step.
+void RobotControl::lag_behind(double dt) {
+  if (lagged_.size() == 0) lagged_ = robot_.positions();
+  const double kept = std::exp(-dt / lag_);
+  const Eigen::VectorXd before = lagged_;
+  lagged_ = q_ - lag_ * qd_ + kept * (before - q_ + dt * qd_ + lag_ * qd_);
+  lagged_speed_ = (lagged_ - before) / dt;
 }
 
 void RobotControl::Reader::act(world::SimWorld&, world::WorldReport& report) {

@@ -1,5 +1,6 @@
 #include "pedicel/app/run/simulation.h"
 
+#include "pedicel/app/run/giving_robot.h"
 #include "pedicel/app/run/place.h"
 #include "pedicel/app/run/scene_assets.h"
 #include "pedicel/app/run/wrench_sensor.h"
@@ -35,7 +36,18 @@ std::string things_of(world::Scene scene) {
   things.ties = std::move(scene.ties);
   things.cuts = std::move(scene.cuts);
   things.wind = scene.wind;
+  things.effects = std::move(scene.effects);
   return world::scene_text_without_plants(things, {});
+}
+
+std::vector<WrenchGauge> gauges_of(const SceneAssets& assets) {
+  std::vector<WrenchGauge> gauges;
+  if (!assets.effects) return gauges;
+  for (const discrepancy::SceneState::Gauge& gauge : assets.effects->state.gauges) {
+    gauges.push_back({gauge.gain, {}});
+    gauges.back().bias << gauge.force, gauge.moment;
+  }
+  return gauges;
 }
 
 }  // namespace
@@ -96,13 +108,15 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   // All faults are collected first and said together: a user who mends one should not meet the next
   // one only then.
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
-  contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), diagnostics);
+  contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), giving_.get(),
+                                              diagnostics);
   // Set now, as it takes contacts, which take everything above.
   cutting_->set_released([this](int plant, int body) { contacts_->add_fallen(plant, body); });
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
   gentleness_ = std::make_unique<Gentleness>(*rods_, plant_step());
   if (robot_ && !scene_.wrenches.empty()) {
-    wrenches_ = std::make_unique<WrenchSensors>(scene_, *robot_, plant_step(), world_, diagnostics);
+    wrenches_ = std::make_unique<WrenchSensors>(scene_, *robot_, plant_step(), world_,
+                                                gauges_of(*assets_), diagnostics);
     if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   }
   // Participants of one phase act in the order in which they join.
@@ -154,12 +168,23 @@ void Simulation::add_bodies() {
 void Simulation::add_robot(Diagnostics& diagnostics) {
   if (!assets_->robot) return;
   const auto find_place = [this](const world::Anchor& anchor) { return place_of(*this, anchor); };
-  robot_ = make_robot_control(*scene_.robot, *assets_->robot, world_, find_place, diagnostics);
+  LedRobot led;
+  if (assets_->effects) {
+    const discrepancy::SceneState& state = assets_->effects->state;
+    led = {&*assets_->believed, state.robot_delay, state.tracking_lag};
+  }
+  robot_ = make_robot_control(*scene_.robot, *assets_->robot, world_, find_place, led, diagnostics);
   if (!robot_) return;
+  const bool gives = assets_->effects && assets_->effects->state.joint_stiffness > 0.0;
+  if (gives) {
+    giving_ = std::make_unique<GivingRobot>(*robot_, assets_->effects->state, scene_.dt);
+    world_.add(giving_->before());
+  }
   world_.add(*robot_);
   // The control acts before Bullet, the reader after it. They are two participants, since one has
   // one phase.
   world_.add(robot_->reader());
+  if (gives) world_.add(giving_->after());
 }
 
 const std::vector<PlantInfo>& Simulation::plants() const {

@@ -24,6 +24,7 @@
 namespace pedicel::app {
 
 struct SceneAssets;
+class GivingRobot;
 class WrenchSensor;
 class WrenchSensors;
 
@@ -94,6 +95,7 @@ class Simulation {
   world::SimWorld world_;
   std::unique_ptr<cosserat::RodSystem> rods_;
   std::unique_ptr<RobotControl> robot_;
+  std::unique_ptr<GivingRobot> giving_;  // null: no joint gives way
   std::unique_ptr<SceneLoads> loads_;
   std::unique_ptr<SceneTies> ties_;
   std::unique_ptr<Cutting> cutting_;

@@ -48,13 +48,15 @@ Wrench WrenchNoiseSource::next(double dt) {
 }
 
 WrenchSensor::WrenchSensor(const world::SceneWrench& scene, RobotControl& robot,
-                           const PlantStep& plants, const Vec3& gravity, std::uint64_t seed)
+                           const PlantStep& plants, const Vec3& gravity, std::uint64_t seed,
+                           const WrenchGauge& gauge)
     : scene_(scene),
       robot_(robot),
       plants_(plants),
       gravity_(gravity),
       link_(robot.description().link(scene.link)),
-      noise_(scene.noise, seed_of(seed, scene.name)) {
+      noise_(scene.noise, seed_of(seed, scene.name)),
+      gauge_(gauge) {
   if (!scene.tared) tare_ = Wrench::Zero();
   if (link_ < 0)
     throw UsageError("wrench " + in_quotes(scene.name) + ": the robot has no link " +
@@ -131,7 +133,8 @@ Wrench WrenchSensor::late(double time) const {
 }
 
 void WrenchSensor::sample(double time) {
-  const Sample taken{time, late(time) + noise_.next(samples_ == 0 ? 0.0 : time - taken_at_)};
+  const Sample taken{time, gauge_.gain * late(time) + gauge_.bias +
+                               noise_.next(samples_ == 0 ? 0.0 : time - taken_at_)};
   taken_at_ = time;
   last_sample_ = std::floor(time * scene_.rate + 1.0e-6) / scene_.rate;
   ++samples_;
@@ -151,11 +154,13 @@ void WrenchSensor::tare() {
 
 WrenchSensors::WrenchSensors(const world::Scene& scene, RobotControl& robot,
                              const PlantStep& plants, world::SimWorld& world,
-                             Diagnostics& diagnostics)
+                             std::span<const WrenchGauge> gauges, Diagnostics& diagnostics)
     : world_(world) {
   for (const world::SceneWrench& one : scene.wrenches) try {
+      const auto index = static_cast<std::size_t>(&one - scene.wrenches.data());
       sensors_.emplace_back(one, robot, plants, scene.gravity,
-                            static_cast<std::uint64_t>(scene.seed));
+                            static_cast<std::uint64_t>(scene.seed),
+                            gauges.empty() ? WrenchGauge{} : gauges[index]);
     } catch (const UsageError& fault) {
       diagnostics.error(one.where, fault.what());
     }

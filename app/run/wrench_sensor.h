@@ -3,6 +3,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,12 @@ namespace pedicel::app {
 
 /// Force (N) and moment (N m).
 using Wrench = Eigen::Matrix<double, 6, 1>;
+
+/// What a sensor says beside what acts: a multiple, and a zero that is off.
+struct WrenchGauge {
+  double gain = 1.0;
+  Wrench bias = Wrench::Zero();
+};
 
 /// The noise of a force sensor over a run.
 class WrenchNoiseSource {
@@ -36,7 +43,7 @@ class WrenchSensor {
  public:
   /// Throws UsageError where the robot has no such link.
   WrenchSensor(const world::SceneWrench& scene, RobotControl& robot, const PlantStep& plants,
-               const Vec3& gravity, std::uint64_t seed);
+               const Vec3& gravity, std::uint64_t seed, const WrenchGauge& gauge = {});
 
   struct Sample {
     double time = 0.0;  ///< s
@@ -74,6 +81,7 @@ class WrenchSensor {
   bool moved_ = false;                                  // momentum_ is known
   std::deque<std::pair<double, Wrench>> past_;
   WrenchNoiseSource noise_;
+  WrenchGauge gauge_;
   Wrench exact_ = Wrench::Zero();
   std::optional<Wrench> tare_;         // nothing: it is not known yet
   std::vector<Sample> untared_, new_;  // taken before it was known; of the last step
@@ -86,8 +94,10 @@ class WrenchSensor {
 class WrenchSensors : public world::Observer {
  public:
   /// Faults go to `diagnostics`.
+  /// `gauges`: one a sensor, or none.
   WrenchSensors(const world::Scene& scene, RobotControl& robot, const PlantStep& plants,
-                world::SimWorld& world, Diagnostics& diagnostics);
+                world::SimWorld& world, std::span<const WrenchGauge> gauges,
+                Diagnostics& diagnostics);
 
   void observe(const world::SimWorld& world, const world::WorldReport& report) override;
   const std::vector<WrenchSensor>& all() const { return sensors_; }

@@ -118,7 +118,7 @@ void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExper
     if (std::filesystem::exists(folder / "extended.plant.yaml"))
       verdict.extended_plant = "extended.plant.yaml";
     for (const std::string& left : extended.left)
-      diagnosis.text += "  extended.scene.yaml has no words for " + left + "\n";
+      diagnosis.text += "  extended.scene.yaml is without " + left + "\n";
   }
   io::write_file_atomically(folder / "findings.txt", diagnosis.text);
   io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "pedicel/discrepancy/scene/camera.h"
+#include "pedicel/discrepancy/scene/run_effects.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_tables.h"
 #include "pedicel/io/yaml.h"
@@ -59,6 +60,7 @@ class SceneReader {
     if (const auto noise = map.optional("noise")) read_noise(*noise);
     if (const auto trials = map.required("trials")) read_trials(*trials);
     // Afterwards, because they may name trials.
+    out_.scene_effects = scene_file_effects(out_, diagnostics_);
     out_.effects = read_effects(map);
     map.finish();
     return std::move(out_);

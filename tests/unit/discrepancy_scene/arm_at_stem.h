@@ -36,6 +36,7 @@ class ArmAtStem {
   double swing = 0.12;    // rad
   double duration = 1.2;  // s
   std::string scene_more;
+  bool sees_nothing = false;  // no markers, no cameras
 
   std::filesystem::path path() const { return folder_ / ""; }
   void write(const std::string& name, const std::string& text) const {
@@ -83,8 +84,10 @@ class ArmAtStem {
     }
     write("push/joints.csv", joints);
     write("push/wrench_wrist.csv", wrench);
-    write("push/markers.csv", markers);
-    write("push/pixels_left.csv", pixels);
+    if (!sees_nothing) {
+      write("push/markers.csv", markers);
+      write("push/pixels_left.csv", pixels);
+    }
     write("push/torques.csv", torques);
   }
 
