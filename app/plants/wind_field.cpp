@@ -26,7 +26,7 @@ double nearest_whole(double x) {
   return (x + no_fraction) - no_fraction;
 }
 
-// cos(2 pi x) within 1e-15 of 1: a quarter turn on it is a sine, by its series.
+// cos(2 pi x) within 3e-15: a quarter turn on it is a sine, by its series.
 double cosine_of_turns(double x) {
   const double y = 2.0 * pi * (0.25 - std::abs(x - nearest_whole(x)));  // -pi/2 to pi/2
   const double z = y * y;

@@ -69,7 +69,7 @@ void run(benchmark::State& state, cosserat::RodSystem& system) {
   state.counters["elements"] = elements;
   state.counters["per_element"] =
       Counter(elements, Counter::kIsIterationInvariantRate | Counter::kInvert);
-  state.counters["real_time"] = Counter(step_length, Counter::kIsIterationInvariantRate);
+  state.counters["real_time_factor"] = Counter(step_length, Counter::kIsIterationInvariantRate);
   state.counters["iterations"] = static_cast<double>(iterations) / static_cast<double>(steps);
 }
 
