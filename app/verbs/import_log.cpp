@@ -12,7 +12,7 @@
 #include "pedicel/discrepancy/log_import/log_proposal.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/output_folder.h"
-#include "pedicel/mcap/reader.h"
+#include "pedicel/rosbag/reader.h"
 
 namespace pedicel::app {
 
@@ -45,8 +45,13 @@ std::vector<LogMap::Trial> trials_of(const LogMap& map, const std::vector<LogCon
   std::vector<LogMap::Trial> trials;
   for (const LogContents& log : logs) {
     LogMap::Trial trial;
+    const std::string stem = log.file.stem().string();
     trial.log = log.file.filename().string();
-    trial.name = log.file.stem().string();
+    trial.name = stem;
+    // Logs of several folders are often called the same.
+    const auto is_taken = [&](const LogMap::Trial& other) { return other.name == trial.name; };
+    for (int i = 2; std::ranges::any_of(trials, is_taken); ++i)
+      trial.name = stem + "_" + std::to_string(i);
     trials.push_back(trial);
   }
   return trials;
@@ -54,8 +59,11 @@ std::vector<LogMap::Trial> trials_of(const LogMap& map, const std::vector<LogCon
 
 const LogContents& log_of(const LogMap::Trial& trial, const std::vector<LogContents>& logs,
                           Diagnostics& diagnostics) {
-  const auto found = std::ranges::find_if(
-      logs, [&](const LogContents& log) { return log.file.filename() == trial.log; });
+  const auto is_it = [&](const LogContents& log) { return log.file.filename() == trial.log; };
+  const auto found = std::ranges::find_if(logs, is_it);
+  if (std::ranges::count_if(logs, is_it) > 1)
+    diagnostics.error(trial.where, "log " + in_quotes(trial.log) +
+                                       " is the name of several of the files given, expected one");
   if (found != logs.end()) return *found;
   if (!trial.log.empty() || logs.size() > 1)
     diagnostics.error(trial.where, "log " + in_quotes(trial.log) +
@@ -79,8 +87,10 @@ int import_with(const ImportArguments& a, const LogMap& map, const LogScene& sce
                 const std::vector<LogContents>& logs) {
   Diagnostics diagnostics;
   std::vector<discrepancy::LogTrial> trials;
-  for (const LogMap::Trial& trial : trials_of(map, logs)) {
-    const LogContents& log = log_of(trial, logs, diagnostics);
+  const std::vector<LogMap::Trial> wanted = trials_of(map, logs);
+  for (std::size_t t = 0; t < wanted.size(); ++t) {
+    const LogMap::Trial& trial = wanted[t];
+    const LogContents& log = map.trials.empty() ? logs[t] : log_of(trial, logs, diagnostics);
     trials.push_back(discrepancy::trial_of_log(log, map, trial, scene, diagnostics));
     for (const std::string& remark : trials.back().remarks)
       if (!a.quiet) std::fprintf(stderr, "%s\n", printable(remark).c_str());
@@ -119,10 +129,13 @@ int propose(const ImportArguments& a, const std::vector<LogContents>& logs) {
 }  // namespace
 
 bool are_logs(const ImportArguments& a) {
-  const auto logs = static_cast<std::size_t>(
-      std::ranges::count_if(a.files, [](const std::string& file) { return mcap::is_mcap(file); }));
+  const auto logs =
+      static_cast<std::size_t>(std::ranges::count_if(a.files, [](const std::string& file) {
+        return mcap::is_mcap(file) || rosbag::is_bag(file);
+      }));
   if (logs > 0 && logs < a.files.size())
-    throw UsageError("import: some files are MCAP logs and some are not, expected one kind");
+    throw UsageError(
+        "import: some files are logs (MCAP, bags) and some are not, expected one kind");
   return logs > 0;
 }
 
