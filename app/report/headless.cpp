@@ -100,7 +100,8 @@ class Run {
       pictures_ = std::make_unique<PictureTaker>();
       if (options.video) open_video();
     }
-    for (const MakeWatcher& make : options.watchers) watchers_.push_back(make(simulation_));
+    for (const MakeWatcher& make : options.watchers)
+      watchers_.push_back(make(simulation_, pictures_.get()));
     if (output_)
       sensors_ = std::make_unique<SensorRecorder>(simulation_, *output_, pictures_.get());
     say_start();
@@ -359,10 +360,10 @@ class Run {
   Simulation& simulation_;  // of started_
   std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
-  std::vector<std::unique_ptr<RunWatcher>> watchers_;
   RoughSpell rough_;
   SceneView view_;
   std::unique_ptr<PictureTaker> pictures_;
+  std::vector<std::unique_ptr<RunWatcher>> watchers_;
   std::unique_ptr<SensorRecorder> sensors_;
   FrameHistory history_;
   Frame frame_;

@@ -35,6 +35,7 @@ class ArmAtStem {
   std::string trials = "trials:\n  - {name: push, folder: push, robot: {follows: joints}}\n";
   double swing = 0.12;    // rad
   double duration = 1.2;  // s
+  std::string coupling = "{friction: 0.5}";
   std::string scene_more;
 
   std::filesystem::path path() const { return folder_ / ""; }
@@ -60,8 +61,10 @@ class ArmAtStem {
           "0.004}\n");
     write("scene.yaml",
           "format: pedicel-scene\nversion: 1\nname: finger\npurpose: A finger pushes a stem.\n"
-          "see: The stem bends.\nduration: 1\ndt: 0.001\ncoupling: {friction: 0.5}\nplants:\n"
-          "  - {name: bush, file: plant.yaml, position: [" +
+          "see: The stem bends.\nduration: 1\ndt: 0.001\ncoupling: " +
+              coupling +
+              "\nplants:\n"
+              "  - {name: bush, file: plant.yaml, position: [" +
               std::to_string(reach) + ", " + gap +
               ", 0]}\nrobot:\n  {name: arm, file: arm.urdf, joints: {turn: 0}, tool: finger}\n" +
               scene_more);
