@@ -81,6 +81,7 @@ class Run {
         recorder_(options.out, scene.log_rate),
         view_(simulation_) {
     result_.folder = options.out;
+    result_.moving_scene = options.moving_scene;
     result_.output = output_;
     if (output_) output_->file("log.csv"), output_->file("events.csv");
     if (output_ && simulation_.assets()->coupling.plant_contact)
