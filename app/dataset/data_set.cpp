@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "pedicel/app/dataset/annotations.h"
 #include "pedicel/app/dataset/data_set_files.h"
@@ -36,15 +37,18 @@ class Maker {
     if (!taker_.available()) throw UsageError(taker_.why());
   }
 
-  /// False where its simulation became unstable.
-  bool make(long picture) {
+  /// Why the picture is left out; empty: it is made.
+  std::string make(long picture) {
     world::Scene scene = options_.scene;
     scene.seed = options_.seed + static_cast<int>(picture);
-    Simulation simulation(scene, options_.simulation);
-    if (!step_to(simulation, time_of(scene.seed))) {
-      write(picture, {{"left_out", "unstable"}, {"seed", scene.seed}});
-      return false;
+    std::string why;
+    const std::unique_ptr<Simulation> built = build(scene, why);
+    if (built && !step_to(*built, time_of(scene.seed))) why = "its simulation is unstable";
+    if (!why.empty()) {
+      write(picture, {{"left_out", why}, {"seed", scene.seed}, {"drawn", drawn_json(scene)}});
+      return why;
     }
+    Simulation& simulation = *built;
     SceneSensors sensors(simulation);
     SenseRequest wanted{camera_of_picture(picture), options_.size, true, true};
     const SensedPicture seen =
@@ -61,10 +65,27 @@ class Maker {
       io::write_file_atomically(options_.out / "things.json",
                                 things_json(sensors.things()).dump(1) + "\n");
     write(picture, {{"image", std::move(image)}, {"annotations", labels.annotations}});
-    return true;
+    return "";
   }
 
  private:
+  /// Null where what was drawn cannot stand. Where the scene cannot either, that is its own fault,
+  /// and the end of the set.
+  std::unique_ptr<Simulation> build(const world::Scene& scene, std::string& why) {
+    try {
+      return std::make_unique<Simulation>(scene, options_.simulation);
+    } catch (const InvalidFile& fault) {
+      why = fault.what();
+    }
+    if (!scene_stands_) {
+      world::Scene plain = options_.scene;
+      plain.vary.clear();
+      Simulation alone(plain, options_.simulation);
+      scene_stands_ = true;
+    }
+    return nullptr;
+  }
+
   double time_of(int seed) const {
     Random random(noise_seed(static_cast<std::uint64_t>(seed), "time", 0));
     return random.uniform(options_.at[0], options_.at[1]);
@@ -121,6 +142,7 @@ class Maker {
 
   const DataSetOptions& options_;
   PictureTaker taker_;
+  bool scene_stands_ = false;  // without what varies; known once it was asked
 };
 
 void show_progress(const DataSetOptions& options, long done) {
@@ -129,8 +151,17 @@ void show_progress(const DataSetOptions& options, long done) {
                done == options.count ? "\n" : "");
 }
 
-bool is_left_out(const std::filesystem::path& labels) {
-  return !read_labels(labels).contains("image");
+/// Its labels come last; what was taken away since is made anew.
+bool is_whole(const DataSetOptions& options, long picture) {
+  const std::filesystem::path labels = labels_file(options.out, picture);
+  std::error_code none;
+  if (!std::filesystem::exists(labels, none)) return false;
+  const Json read = read_labels(labels);
+  if (!read.contains("image")) return true;
+  for (const char* key :
+       {"file_name", "depth_file", "instances_file", "classes_file", "camera_file"})
+    if (!std::filesystem::exists(options.out / read["image"].value(key, ""), none)) return false;
+  return true;
 }
 
 }  // namespace
@@ -140,15 +171,15 @@ DataSetResult make_data_set(const DataSetOptions& options) {
     throw UsageError("seed + count is above 1e9, expected seeds up to that");
   const Timer timer;
   Maker maker(options);
-  take_data_set_folder(options);
+  const io::FolderLock lock = take_data_set_folder(options);
   long made = 0;
   for (long i = options.first; i < options.count && !stop_requested; ++i) {
-    if (!std::filesystem::exists(labels_file(options.out, i))) {
-      if (maker.make(i))
-        ++made;
-      else
-        say(Verbosity::warnings, "picture %ld (seed %ld) is left out: its simulation is unstable",
-            i, options.seed + i);
+    if (!is_whole(options, i)) {
+      const std::string why = maker.make(i);
+      made += why.empty();
+      if (!why.empty())
+        say(Verbosity::warnings, "picture %ld (seed %ld) is left out: %s", i, options.seed + i,
+            why.c_str());
     }
     show_progress(options, i + 1);
   }
@@ -163,7 +194,7 @@ DataSetResult end_data_set(const DataSetOptions& options) {
   for (long i = 0; i < options.count; ++i) {
     const std::filesystem::path labels = labels_file(options.out, i);
     if (!std::filesystem::exists(labels)) continue;
-    ++(is_left_out(labels) ? result.left_out : result.pictures);
+    ++(read_labels(labels).contains("image") ? result.pictures : result.left_out);
   }
   result.annotations = write_coco(options);
   write_contact_sheet(options);

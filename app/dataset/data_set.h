@@ -27,7 +27,7 @@ struct DataSetResult {
   long pictures = 0;     ///< that there are now
   long made = 0;         ///< of them, by this run
   long annotations = 0;  ///< of all of them
-  long left_out = 0;     ///< whose simulation became unstable
+  long left_out = 0;     ///< what was drawn cannot stand, or its simulation became unstable
   double seconds = 0.0;
 };
 

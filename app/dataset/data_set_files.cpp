@@ -76,9 +76,13 @@ std::string identity_of(const DataSetOptions& options) {
   return hex(noise_seed(0, all, 0));
 }
 
-void take_data_set_folder(const DataSetOptions& options) {
+io::FolderLock take_data_set_folder(const DataSetOptions& options) {
   const fs::path head = options.out / "dataset.json";
+  io::check_output_folder(options.out);
   std::error_code none;
+  fs::create_directories(options.out, none);
+  if (none) throw io::WriteError(options.out.string() + ": cannot be made: " + none.message());
+  io::FolderLock lock(options.out);
   if (fs::exists(head, none)) {
     const Json before = Json::parse(io::read_file(head), nullptr, false);
     if (!before.is_object() || before.value("identity", "") != identity_of(options))
@@ -93,6 +97,7 @@ void take_data_set_folder(const DataSetOptions& options) {
   fs::create_directories(options.out / "labels", none);
   if (none) throw io::WriteError(options.out.string() + ": cannot be made: " + none.message());
   io::write_file_atomically(head, about(options).dump(1) + "\n");
+  return lock;
 }
 
 void take_pictures(const fs::path& from, const DataSetOptions& options) {

@@ -5,15 +5,16 @@
 
 #include "pedicel/app/dataset/data_set.h"
 #include "pedicel/app/sense/picture_files.h"
+#include "pedicel/io/output_check.h"
 
 namespace pedicel::app {
 
 /// Of everything that decides what its pictures are, the number of them left out.
 std::string identity_of(const DataSetOptions& options);
 
-/// Takes the folder: an empty one, or one with a data set of the same identity. Throws
-/// io::WriteError else.
-void take_data_set_folder(const DataSetOptions& options);
+/// Takes the folder, for as long as the lock lives: an empty one, or one with a data set of the
+/// same identity that nobody else is making. Throws io::WriteError else.
+io::FolderLock take_data_set_folder(const DataSetOptions& options);
 
 /// "000042"
 std::string picture_name(long picture);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "pedicel/app/draw/tint.h"
+#include "pedicel/app/run/place.h"
 
 namespace pedicel::app {
 
@@ -112,7 +113,7 @@ render::Camera SceneView::camera(const std::string& name, const Frame& frame) co
     if (!name.empty() && camera.name != name) continue;
     const auto anchor = camera.follow.kind == world::Anchor::Kind::none
                             ? std::nullopt
-                            : simulation_.find(camera.follow);
+                            : place_of(simulation_, camera.follow);
     return camera_of(camera, anchor.value_or(Vec3::Zero()));
   }
   return render::frame(frame.list.bounds());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "pedicel/app/draw/drawing.h"
@@ -36,6 +37,7 @@ class GltfFilm : public RunWatcher {
                        " rod elements, expected at most " + std::to_string(gltf_most_elements));
     add_robot();
     for (int p = 0; p < simulation.rods().size(); ++p) add_plant(p);
+    check_size();
   }
 
   void begin() override { take_frame(); }
@@ -47,6 +49,21 @@ class GltfFilm : public RunWatcher {
   void end() override { write(); }
 
  private:
+  /// All frames are kept until the end, and what the file says of its own size ends at 4 GB.
+  void check_size() const {
+    constexpr double most = 1.0e9, bytes = sizeof(float) * 10;  // of a track in a frame
+    const world::Scene& scene = simulation_.scene();
+    const double frames = scene.duration * scene.video.fps;
+    const double size = frames * bytes * static_cast<double>(tracks_.size());
+    if (size <= most) return;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "--gltf: %.3g frames of %zu moving parts take %.3g GB, expected at most 1 GB (a "
+                  "lower --fps or a shorter --duration)",
+                  frames, tracks_.size(), 1.0e-9 * size);
+    throw UsageError(text);
+  }
+
   void add(const std::string& name, const render::DrawList& shape,
            std::function<std::optional<Pose>()> look) {
     const std::vector<GltfSurface> surfaces = surfaces_of(shape);

@@ -60,6 +60,18 @@ void Cutting::cut(const std::string& organ, double at) {
   cut_at(place, organ);
 }
 
+bool Cutting::can_cut(const std::string& organ, double at) const try {
+  const PlaceOnPlant place = find_organ_place(rods_, organ, at);
+  return rods_.state(place.plant).alive[place.element] != 0;
+} catch (const UsageError&) {
+  return false;
+}
+
+std::optional<Cutting::Carried> Cutting::carried(int plant, int fruit) const {
+  const auto found = carried_.find({plant, fruit});
+  return found == carried_.end() ? std::nullopt : std::optional(found->second);
+}
+
 void Cutting::act(world::SimWorld&, world::WorldReport&) {
   for (Planned& one : planned_) {
     if (one.done || !is_due(one)) continue;
@@ -87,6 +99,12 @@ void Cutting::cut_at(const PlaceOnPlant& place, const std::string& organ) {
   for (int n = 2; world_.body_index(body.name) >= 0; ++n)
     body.name = organ + "_cut_" + std::to_string(n);
   const int added = world_.add_body(body);
+  for (const int f : off.fruits) {
+    const cosserat::Fruit& fruit = model.fruits[f];
+    carried_[{place.plant, f}] = {
+        added, cosserat::point_on(model, state, fruit.element, fruit.back) - off.centre_W,
+        cosserat::start_of(model, state, fruit.element) - off.centre_W};
+  }
   if (released_) released_(place.plant, added);
   world::Event event;
   event.time = world_.time();

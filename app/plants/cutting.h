@@ -1,7 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pedicel/app/plants/organ_places.h"
@@ -30,9 +33,20 @@ class Cutting : public world::Participant {
   /// Between two steps: cuts a stem at the joint next to a fraction of its length. Throws
   /// UsageError where there is no such organ, or it has come off already.
   void cut(const std::string& organ, double at);
+  /// Whether there is such an organ, and it has not come off there.
+  bool can_cut(const std::string& organ, double at) const;
 
   world::Phase phase() const override { return world::Phase::commands; }
   void act(world::SimWorld& world, world::WorldReport& report) override;
+
+  /// The body that a fruit fell with, and its centre there (m, in the body's frame); nothing where
+  /// it was not cut off.
+  struct Carried {
+    int body = -1;
+    Vec3 centre_B = Vec3::Zero();
+    Vec3 stalk_B = Vec3::Zero();  ///< m, of where its stalk begins
+  };
+  std::optional<Carried> carried(int plant, int fruit) const;
 
   /// What was cut so far, with cause "cut".
   const std::vector<world::Event>& events() const { return events_; }
@@ -52,6 +66,7 @@ class Cutting : public world::Participant {
   std::function<void(int plant, int body)> released_;
   std::vector<Planned> planned_;
   std::vector<world::Event> events_;
+  std::map<std::pair<int, int>, Carried> carried_;  // of plant and fruit
 };
 
 }  // namespace pedicel::app

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pedicel/app/plants/folded_stem.h"
 #include "pedicel/cosserat/contact/self_contact.h"
 #include "pedicel/io/csv.h"
 
@@ -14,6 +15,8 @@ namespace {
 /// A single rough step is a knock; this many in a row are a run that has lost its way.
 constexpr int most_rough_steps = 100;
 
+// Far above what a strike can do: a run that is stopped in vain is worse than one that goes on for
+// a few steps more.
 constexpr double fastest = 1.0e4;  // m/s: beyond it nothing in a plant moves
 
 /// The fastest element that is alive; -1 where none is.
@@ -37,9 +40,10 @@ bool is_squeezed(const cosserat::StepReport& report,
   });
 }
 
-std::string cause_of(const cosserat::StepReport& report, double speed) {
+std::string cause_of(const cosserat::StepReport& report, double speed, bool is_folded) {
   if (report.errors & cosserat::not_finite) return "a position is not a finite number";
   if (speed > fastest) return "it moves at " + io::format_number(speed, 3) + " m/s";
+  if (is_folded) return std::string("it is ") + folded_text;
   return "no equilibrium found in " + std::to_string(most_rough_steps) +
          " steps in a row: the last change of position (m) or direction (rad) is " +
          io::format_number(report.last_change, 3);
@@ -56,6 +60,7 @@ PlantStep::PlantStep(cosserat::RodSystem& rods, coupling::ColliderSet& colliders
     : rods_(rods), colliders_(colliders), link_pose_(std::move(link_pose)), contacts_(colliders) {
   // Before the first step nothing touches: who asks finds zeros.
   contacts_.begin();
+  // Makes the lists of organs and fruits as long as they will be.
   for (int p = 0; p < rods_.size(); ++p) contacts_.add(p, rods_.model(p), {});
   contacts_.end();
 }
@@ -64,9 +69,11 @@ void PlantStep::act(world::SimWorld& world, world::WorldReport& report) {
   // Bullet has moved the links; plants feel them where they are now.
   move_colliders();
   rods_.step(world.dt(), world.settings().gravity);
+  // Allocates once. Plants do not come and go in a world that runs.
   rough_steps_.resize(rods_.size(), 0);
   sum_up(world.settings().gravity, report);
   // After the forces were summed up: the step in which it broke counts.
+  // The body's own pushes begin in the next step: it was not there while Bullet moved.
   for (int p = 0; p < rods_.size(); ++p)
     for (const cosserat::DetachEvent& event : rods_.detached(p)) release(world, p, event);
   if (released_) contacts_.add_colliders();
@@ -92,6 +99,7 @@ void PlantStep::sum_up(const Vec3& gravity, world::WorldReport& report) {
     rough_steps_[p] = counts ? rough_steps_[p] + 1 : 0;
     report.contacts += own.contacts;
     report.plant_energy += cosserat::energy_of(rods_.model(p), rods_.state(p), gravity).total();
+    // The worst of all plants: one that is rough must not hide behind many that are not.
     report.deepest_overlap = std::max(report.deepest_overlap, own.deepest);
     report.worst_residual = std::max(report.worst_residual, own.last_change);
   }
@@ -112,9 +120,14 @@ void PlantStep::judge(int plant, world::WorldReport& report) const {
   if (own.errors & cosserat::not_converged) report.errors |= world::plant_not_converged;
   // The first culprit of a step stays, unless another plant is lost.
   if (!lost && (!own.errors || !report.culprit.empty())) return;
-  const int element = own.element >= 0 && !(speed > fastest) ? own.element : quickest;
+  // The element that the solver names is the one that it found hardest; where speed is what is
+  // wrong, the quickest one is.
+  const int folded = lost ? folded_element(model, state) : -1;
+  const int element = folded >= 0                              ? folded
+                      : own.element >= 0 && !(speed > fastest) ? own.element
+                                                               : quickest;
   if (element >= 0) report.culprit = model.organs[model.elements[element].organ];
-  if (lost) report.cause = cause_of(own, speed);
+  if (lost) report.cause = cause_of(own, speed, folded >= 0);
 }
 
 void PlantStep::release(world::SimWorld& world, int plant, const cosserat::DetachEvent& event) {
@@ -124,12 +137,15 @@ void PlantStep::release(world::SimWorld& world, int plant, const cosserat::Detac
   // NaN says that there is none; zero would be a place.
   record.tool.position.setConstant(std::numeric_limits<double>::quiet_NaN());
   if (tool_) record.tool = tool_();
+  // Described by what the event recorded, since model and state have lost the fruit by now.
   world::BodyDescription body = world::fruit_body(record.fruit, fruit.radius, event.mass,
                                                   event.stub_length, event.stub_radius);
+  // Where it hung: the body begins in the very place that the fruit leaves.
   body.pose = {event.position_W, event.orientation};
   // It goes on as it moved, so that a jerk is the plant's doing and not ours.
   body.velocity = event.velocity_W;
   body.angular_velocity = event.angular_velocity_W;
+  // The world numbers it. Who hears of it gets the number with the record.
   record.body = world.add_body(body);
   detached_.push_back(std::move(record));
   if (released_) released_(detached_.back());

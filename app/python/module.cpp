@@ -25,7 +25,7 @@ void add_values(py::module_& module) {
   py::class_<Event>(module, "Event", "A fruit that came off.")
       .def_readonly("time", &Event::time, "s")
       .def_readonly("organ", &Event::organ, "\"PLANT/FRUIT\"")
-      .def_readonly("cause", &Event::cause, "stretch, bend, force, moment, torsion or law")
+      .def_readonly("cause", &Event::cause, "stretch, bend, force, moment, torsion, law or cut")
       .def_readonly("stretch", &Event::stretch, "1, of the joint that broke")
       .def_readonly("bend", &Event::bend, "rad")
       .def_readonly("force", &Event::force, "N")

@@ -180,13 +180,18 @@ void add_forces(RunClass& run) {
       },
       "body"_a, "force"_a, "point"_a,
       "A force (N) on a body at a point (m), both in the world, for the next step.");
+  run.def(
+      "cut",
+      [](Run& self, const std::string& organ, double at) {
+        self.act({0, app::Act::Kind::cut, organ, {at}});
+      },
+      "organ"_a, "at"_a = 0.0,
+      "Cuts \"PLANT/STEM\" at a fraction `at` of its length from its foot, or the stalk of "
+      "\"PLANT/FRUIT\". What it carried falls as one body, \"ORGAN_cut\".");
 }
 
 std::vector<world::Event> events_of(Run& self) {
-  std::vector<world::Event> events;
-  for (const app::Detached& one : self.run().simulation().plant_step().detached())
-    events.push_back(app::to_event(one));
-  return events;
+  return app::events_of(self.run().simulation());
 }
 
 py::dict quantities_of(Run& self) {
@@ -246,7 +251,8 @@ void add_rest(RunClass& run) {
                             "Described numbers by key: Parameter with value, unit and bounds.");
   run.def("quantities", quantities_of,
           "Every column of log.csv as it stands now, by name with its unit.");
-  run.def_property_readonly("events", events_of, "Fruits that came off, in their order.");
+  run.def_property_readonly("events", events_of,
+                            "Fruits that came off and stems that were cut, in their order.");
   run.def("render", &Run::render, "camera"_a = "", "width"_a = 640, "height"_a = 480,
           "strain"_a = false, "text"_a = false,
           "A picture, (height, width, 3) uint8, off screen: by a camera of the scene (empty: the "

@@ -3,6 +3,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
+
 #include "pedicel/app/python/plant_class.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
@@ -12,6 +14,16 @@ namespace pedicel::python {
 namespace py = pybind11;
 
 namespace {
+
+std::filesystem::path path_of(const py::object& scene) {
+  try {
+    return scene.cast<std::filesystem::path>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("a scene is a " +
+                         py::str(py::type::of(scene).attr("__name__")).cast<std::string>() +
+                         ", expected a path or a Plant");
+  }
+}
 
 app::Document opened(const py::object& scene) {
   if (py::isinstance<Plant>(scene)) {
@@ -23,7 +35,7 @@ app::Document opened(const py::object& scene) {
     app::stand_on_ground(document);
     return document;
   }
-  const auto path = scene.cast<std::filesystem::path>();
+  const std::filesystem::path path = path_of(scene);
   const py::gil_scoped_release release;
   return app::open_document(path);
 }
@@ -48,7 +60,9 @@ std::string setting_text(const py::handle& value) {
     for (const py::handle one : value) text += (text.empty() ? "" : ",") + setting_text(one);
     return text;
   }
-  return io::exact_number(value.cast<double>());
+  const auto number = value.cast<double>();
+  // "nan" and "inf" are refused by their names.
+  return std::isfinite(number) ? io::exact_number(number) : std::to_string(number);
 }
 
 app::SteeredScene::Settings settings_of(const py::dict& settings) {

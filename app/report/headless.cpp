@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "pedicel/app/draw/scene_view.h"
@@ -52,6 +54,20 @@ std::shared_ptr<io::OutputFolder> take_folder(const std::filesystem::path& folde
   return taken;
 }
 
+/// Before the folder is taken: who refuses the simulation costs no earlier run.
+std::vector<std::unique_ptr<RunWatcher>> watchers_of(const RunOptions& options,
+                                                     Simulation& simulation, PictureTaker* taker) {
+  std::vector<std::unique_ptr<RunWatcher>> all;
+  for (const MakeWatcher& make : options.watchers) all.push_back(make(simulation, taker));
+  return all;
+}
+
+/// Null where the run takes no pictures.
+std::unique_ptr<PictureTaker> taker_of(const RunOptions& options) {
+  if (!options.pictures || options.out.empty()) return nullptr;
+  return std::make_unique<PictureTaker>();
+}
+
 /// A simulation, at the state that the run goes on from.
 class Started {
  public:
@@ -77,6 +93,8 @@ class Run {
         options_(options),
         started_(scene, options),
         simulation_(started_.simulation),
+        pictures_(taker_of(options)),
+        watchers_(watchers_of(options, simulation_, pictures_.get())),
         output_(take_folder(options.out)),
         recorder_(options.out, scene.log_rate),
         view_(simulation_) {
@@ -97,12 +115,7 @@ class Run {
         strain_history_ |= picture.strain;
       }
     }
-    if (options.pictures && !options.out.empty()) {
-      pictures_ = std::make_unique<PictureTaker>();
-      if (options.video) open_video();
-    }
-    for (const MakeWatcher& make : options.watchers)
-      watchers_.push_back(make(simulation_, pictures_.get()));
+    if (pictures_ && options.video) open_video();
     if (output_)
       sensors_ = std::make_unique<SensorRecorder>(simulation_, *output_, pictures_.get());
     say_start();
@@ -239,7 +252,7 @@ class Run {
     add_limits();
     simulation_.measurements().set_wall_seconds(result_.wall);
     picture_end();
-    for (const auto& watcher : watchers_) watcher->end();
+    for (const auto& watcher : watchers_) keep_on([&] { watcher->end(); });
     if (pictures_ && options_.video) result_.video = pictures_->finish_video();
     for (const world::Expectation& expectation : scene_.expectations) {
       if (expectation.over_sweep()) continue;
@@ -256,14 +269,30 @@ class Run {
     if (options_.comparison_with) compare_with_measured();
     if (result_.exit_code == 0 && pictures_ && !pictures_->available())
       result_.exit_code = exit_no_pictures;
-    if (output_) write_meta(output_->file("log.meta.json"), simulation_, result_);
-    if (output_)
-      io::write_file_atomically(output_->file("gentleness.csv"), to_csv(result_.handled));
-    copy_table("log.csv", options_.log);
-    copy_table("events.csv", options_.events);
-    if (!options_.save_state.empty() && result_.exit_code != exit_unstable)
-      write_state(options_.save_state, state_of(simulation_, started_.model));
+    write_files();
     say_end();
+    if (not_written_) std::rethrow_exception(not_written_);
+  }
+
+  void write_files() {
+    if (output_) keep_on([&] { write_meta(output_->file("log.meta.json"), simulation_, result_); });
+    if (output_)
+      keep_on([&] {
+        io::write_file_atomically(output_->file("gentleness.csv"), to_csv(result_.handled));
+      });
+    keep_on([&] { copy_table("log.csv", options_.log); });
+    keep_on([&] { copy_table("events.csv", options_.events); });
+    if (!options_.save_state.empty() && result_.exit_code != exit_unstable)
+      keep_on([&] { write_state(options_.save_state, state_of(simulation_, started_.model)); });
+  }
+
+  /// One file that cannot be written does not cost the others.
+  void keep_on(const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const io::WriteError&) {
+      if (!not_written_) not_written_ = std::current_exception();
+    }
   }
 
   void copy_table(const char* name, const std::filesystem::path& wanted) const {
@@ -358,17 +387,18 @@ class Run {
   const world::Scene& scene_;
   RunOptions options_;
   Started started_;
-  Simulation& simulation_;  // of started_
+  Simulation& simulation_;                  // of started_
+  std::unique_ptr<PictureTaker> pictures_;  // null: none are taken
+  std::vector<std::unique_ptr<RunWatcher>> watchers_;
   std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
   RoughSpell rough_;
   SceneView view_;
-  std::unique_ptr<PictureTaker> pictures_;
-  std::vector<std::unique_ptr<RunWatcher>> watchers_;
   std::unique_ptr<SensorRecorder> sensors_;
   FrameHistory history_;
   Frame frame_;
   SceneResult result_;
+  std::exception_ptr not_written_;  // of the first file that could not be
   Timer progress_;
   world::SceneVideo video_;
   std::vector<double> milliseconds_;

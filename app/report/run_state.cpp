@@ -77,6 +77,28 @@ std::uint64_t model_hash(const Simulation& simulation) {
   return hash.value();
 }
 
+namespace {
+
+/// Of all parts that are needed to come to it again: a number that was changed by hand would cost
+/// hours before it is seen.
+std::string sum_of(const RunState& state) {
+  StateHash hash;
+  hash.add(state.model);
+  hash.add(state.dt);
+  hash.add(static_cast<std::uint64_t>(state.steps));
+  hash.add(state.state);
+  return hexadecimal(hash.value());
+}
+
+void check_sum(const io::YamlNode& node, const RunState& state) {
+  if (node.text("sum") != sum_of(state))
+    node.error(
+        "sum: does not agree with the other numbers, expected a state as --save-state "
+        "wrote it");
+}
+
+}  // namespace
+
 RunState state_of(const Simulation& simulation, std::uint64_t model) {
   return {
       version() + " (" + git_hash() + ")", simulation.scene().name, model, simulation.scene().dt,
@@ -90,7 +112,8 @@ void write_state(const std::filesystem::path& path, const RunState& state) {
                 "\nprogram: " + word(state.program) + "\nscene: " + word(state.scene) +
                 "\nmodel: " + word(hexadecimal(state.model)) +
                 "\ndt: " + io::exact_number(state.dt) + "\nsteps: " + std::to_string(state.steps) +
-                "\nstate: " + word(hexadecimal(state.state)) + "\n");
+                "\nstate: " + word(hexadecimal(state.state)) + "\nsum: " + word(sum_of(state)) +
+                "\n");
 }
 
 RunState read_state(const std::filesystem::path& path) {
@@ -104,6 +127,12 @@ RunState read_state(const std::filesystem::path& path) {
     state.dt = map.number("dt", world::scene_bounds("dt"));
     state.steps = read_steps(map);
     state.state = read_hash(map, "state");
+    const double most = world::scene_bounds("duration").maximum;
+    if (!diagnostics.has_errors() && static_cast<double>(state.steps) * state.dt > most)
+      map.error("steps: are " + io::format_number(static_cast<double>(state.steps) * state.dt) +
+                " s, expected at most " + io::format_number(most) + " s");
+    const auto sum = map.optional("sum");
+    if (sum && !diagnostics.has_errors()) check_sum(*sum, state);
     map.finish();
   }
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);

@@ -11,12 +11,20 @@ namespace pedicel::app {
 
 namespace {
 
-/// A name of the scene as part of a file's name.
-std::string file_part(const std::string& name) {
-  std::string part = name;
-  for (char& c : part)
-    if (c == '/' || c == '\\' || c == '.' || c == ' ') c = '_';
-  return part;
+/// Names of the scene as parts of files' names, in their order: "a/b" and "a_b" are two. The first
+/// one keeps the plain name.
+template <class Things>
+std::vector<std::string> file_parts(const Things& things) {
+  std::vector<std::string> parts;
+  for (const auto& thing : things) {
+    std::string part = thing.name;
+    for (char& c : part)
+      if (c == '/' || c == '\\' || c == '.' || c == ' ') c = '_';
+    std::string one = part;
+    for (int n = 2; std::ranges::count(parts, one) > 0; ++n) one = part + "_" + std::to_string(n);
+    parts.push_back(one);
+  }
+  return parts;
 }
 
 }  // namespace
@@ -37,27 +45,27 @@ void SensorRecorder::open_cameras(io::OutputFolder& output) {
   const std::filesystem::path folder = output.file("sensors/");
   sensors_ = std::make_unique<SceneSensors>(simulation_);
   io::write_file_atomically(folder / "things.json", things_json(sensors_->things()).dump(1) + "\n");
-  for (Camera& camera : cameras_) camera.folder = folder / file_part(camera.scene->name);
+  const std::vector<std::string> parts = file_parts(simulation_.scene().cameras);
+  for (Camera& camera : cameras_)
+    camera.folder =
+        folder / parts[static_cast<std::size_t>(camera.scene - simulation_.scene().cameras.data())];
 }
 
 void SensorRecorder::open_wrenches(io::OutputFolder& output) {
-  for (const WrenchSensor& one : simulation_.wrenches()) {
+  for (const std::string& part : file_parts(simulation_.scene().wrenches))
     tables_.push_back(std::make_unique<io::CsvWriter>(
-        output.file("wrench_" + file_part(one.scene().name) + ".csv"),
+        output.file("wrench_" + part + ".csv"),
         std::vector<std::string>{"time", "fx", "fy", "fz", "tx", "ty", "tz"}));
-    written_.push_back(0);
-  }
 }
 
 void SensorRecorder::record() {
   for (std::size_t i = 0; i < tables_.size(); ++i) {
-    const WrenchSensor& sensor = simulation_.wrenches()[i];
-    if (sensor.samples() == written_[i]) continue;
-    written_[i] = sensor.samples();
-    const Wrench& now = sensor.reading();
-    const double row[] = {sensor.reading_time(), now[0], now[1], now[2], now[3], now[4], now[5]};
-    tables_[i]->row(row);
-    tables_[i]->flush();
+    const auto& samples = simulation_.wrenches()[i].new_samples();
+    for (const auto& [time, now] : samples) {
+      const double row[] = {time, now[0], now[1], now[2], now[3], now[4], now[5]};
+      tables_[i]->row(row);
+    }
+    if (!samples.empty()) tables_[i]->flush();
   }
   if (!sensors_) return;
   sensors_->remember();

@@ -36,7 +36,6 @@ class SensorRecorder {
   std::unique_ptr<SceneSensors> sensors_;
   std::vector<Camera> cameras_;
   std::vector<std::unique_ptr<io::CsvWriter>> tables_;
-  std::vector<long> written_;
 };
 
 }  // namespace pedicel::app

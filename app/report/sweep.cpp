@@ -5,6 +5,7 @@
 
 #include "pedicel/app/report/scene_report.h"
 #include "pedicel/app/report/solver_comparison.h"
+#include "pedicel/app/run/scene_plants.h"
 #include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/world/settings.h"
@@ -81,8 +82,10 @@ world::Scene scene_of_value(const world::Scene& scene, double value) {
   world::apply_override(one, scene.sweep->key, text_of(value));
   one.sweep.reset();
   one.expectations.clear();
-  for (world::Expectation expectation : scene.expectations) {
-    if (!expectation.over_sweep()) continue;
+  const world::Expectation* measured = measured_by(scene);
+  for (const world::Expectation& given : scene.expectations) {
+    if (!given.over_sweep() && &given != measured) continue;
+    world::Expectation expectation = given;
     expectation.test = world::Expectation::Test::above;
     expectation.low = -1.0e300;  // whatever is measured meets it; not measured (NaN) does not
     one.expectations.push_back(expectation);
@@ -106,7 +109,22 @@ double measured_in(const world::Expectation& wanted, const SceneResult& run) {
   return std::nan("");
 }
 
+namespace {
+
+/// An impossible value is found before the first run.
+void check_values(const world::Scene& scene, const RunOptions& options) {
+  std::vector<world::Scene> scenes;
+  if (scene.sweep)
+    for (const double value : scene.sweep->values) scenes.push_back(scene_of_value(scene, value));
+  Diagnostics diagnostics;
+  check_settings(scenes, options.simulation, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+}
+
+}  // namespace
+
 SceneResult run_with_sweep(const world::Scene& scene, const RunOptions& options) {
+  check_values(scene, options);
   SceneResult result = run_scene(scene, options);
   std::vector<SweepRun> runs;
   if (scene.sweep && result.exit_code != 4 && !stop_requested)

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pedicel/app/plants/organ_contacts.h"
+#include "pedicel/app/run/place.h"
 #include "pedicel/app/run/scene_assets.h"
 
 namespace pedicel::app {
@@ -22,8 +23,8 @@ void add_robot(Channels& all, const Simulation& simulation) {
     const std::string& joint = model.joint_names()[i];
     const bool slides = robot->description().joints[robot->description().joint(joint)].type ==
                         robot::JointType::prismatic;
-    all.push_back({"joint_" + joint + (slides ? "_m" : "_rad"),
-                   [robot, i] { return robot->robot().positions()[i]; }});
+    all.push_back(
+        {"joint_" + joint + (slides ? "_m" : "_rad"), [robot, i] { return robot->reading(i); }});
     all.push_back({"torque_" + joint + (slides ? "_N" : "_Nm"),
                    [robot, i] { return robot->robot().motor_torques()[i]; }});
   }
@@ -93,7 +94,8 @@ void add_fruit(Channels& all, const Simulation& simulation, int p, int f) {
   world::Anchor anchor;
   anchor.kind = world::Anchor::Kind::fruit;
   anchor.name = name;
-  all.push_back({name + "_z_m", [&simulation, anchor] { return simulation.find(anchor)->z(); }});
+  all.push_back(
+      {name + "_z_m", [&simulation, anchor] { return place_of(simulation, anchor)->z(); }});
 }
 
 void add_plants(Channels& all, const Simulation& simulation) {
@@ -160,6 +162,15 @@ world::Event to_event(const Detached& detached) {
   const cosserat::DetachEvent& e = detached.event;
   return {e.time,  detached.fruit, e.cause,   e.stretch, e.bend,
           e.force, e.moment,       e.torsion, e.angle,   detached.tool};
+}
+
+std::vector<world::Event> events_of(const Simulation& simulation) {
+  std::vector<world::Event> events;
+  for (const Detached& one : simulation.plant_step().detached()) events.push_back(to_event(one));
+  const auto& cuts = simulation.cutting().events();
+  events.insert(events.end(), cuts.begin(), cuts.end());
+  std::ranges::stable_sort(events, {}, &world::Event::time);
+  return events;
 }
 
 }  // namespace pedicel::app

@@ -24,5 +24,7 @@ void add_channels(world::Recorder& recorder, const Simulation& simulation);
 
 /// The record of a fruit that came off, as events.csv has it.
 world::Event to_event(const Detached& detached);
+/// What came off a scene's plants so far: fruits, and stems that were cut, by time.
+std::vector<world::Event> events_of(const Simulation& simulation);
 
 }  // namespace pedicel::app

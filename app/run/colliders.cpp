@@ -54,7 +54,8 @@ ShapeFields exact_fields_of(const robot::RobotDescription& robot) {
 
 void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
                          const robot::RobotDescription& robot, const ShapeFields& fields,
-                         const std::vector<Pose>& link_poses) {
+                         const std::vector<Pose>& link_poses,
+                         const std::map<int, double>& friction) {
   for (std::size_t l = 0; l < robot.links.size(); ++l) {
     const std::vector<robot::Collision>& collisions = robot.links[l].collisions;
     for (std::size_t c = 0; c < collisions.size(); ++c) {
@@ -65,6 +66,8 @@ void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
       collider.link = static_cast<int>(l);
       collider.shape = fields[l][c];
       collider.X_LC = collisions[c].X_LC;
+      if (const auto own = friction.find(static_cast<int>(l)); own != friction.end())
+        collider.friction = std::min(own->second, 10.0);
       set.add(std::move(collider), link_poses[l]);
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,10 +28,12 @@ ShapeFields fields_of(const robot::RobotDescription& robot, std::vector<std::str
 ShapeFields exact_fields_of(const robot::RobotDescription& robot);
 
 /// Adds one collider a collision shape of every link, named "robot/LINK". `fields` is fields_of()
-/// the robot; `link_poses` (X_WL) is where the links are now.
+/// the robot; `link_poses` (X_WL) is where the links are now. `friction`: of links that have their
+/// own against plants.
 void add_robot_colliders(coupling::ColliderSet& set, const std::string& name,
                          const robot::RobotDescription& robot, const ShapeFields& fields,
-                         const std::vector<Pose>& link_poses);
+                         const std::vector<Pose>& link_poses,
+                         const std::map<int, double>& friction = {});
 
 /// Adds one collider a part of a rigid body, named after the body.
 void add_body_colliders(coupling::ColliderSet& set, const world::BodyDescription& body, int index,

@@ -10,6 +10,7 @@ using coupling::ContactSum;
 Reaction::Reaction(world::SimWorld& world, RobotControl* robot, coupling::ColliderSet& colliders,
                    int first_body)
     : world_(world), robot_(robot), colliders_(colliders), first_body_(first_body) {
+  // One push a collider at most: a step must not allocate.
   pushes_.reserve(colliders.size());
   // Plants need to know how far things give way in the very first step, too.
   const std::vector<ContactSum> none(colliders.size());
@@ -32,6 +33,7 @@ void Reaction::push_robot(const coupling::ContactReport& contacts) {
       pushes_.push_back({colliders_.collider(i).link, sum.force_W, sum.place_W, sum.moment_W});
   }
   // Also without pushes: the motors have to hear that nothing pushes any more.
+  // All at once: the inverse mass matrix of the robot couples its links.
   robot_->robot().push_back(pushes_, world_.dt());
 }
 
@@ -51,6 +53,8 @@ bool Reaction::is_gripping(int collider) const {
 }
 
 Vec3 Reaction::place_of(int collider, const std::vector<ContactSum>& sums) const {
+  // Where it was touched in the step before. Without a touch its own place is the best guess for
+  // the first one.
   return sums[collider].contacts > 0 ? sums[collider].place_W
                                      : colliders_.placement(collider).X_WC.position;
 }

@@ -16,6 +16,8 @@ robot::RobotSettings settings_of(const world::SceneRobot& scene) {
 /// The link that waypoints move: the scene's, else one called "tool", else the last link.
 int tool_of(const world::SceneRobot& scene, const robot::RobotDescription& description) {
   const int named = description.link(scene.tool.empty() ? "tool" : scene.tool);
+  // A name says more than the order of a file, in which an arm's chain mostly ends with what it
+  // holds.
   return named >= 0 ? named : static_cast<int>(description.links.size()) - 1;
 }
 
@@ -46,11 +48,17 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
   qd_ = Eigen::VectorXd::Zero(q_.size());
   // Joints that the scene leaves out stay where the model is neutral.
   for (const auto& [joint, value] : scene.joints) q_[robot_.model().joint_index(joint)] = value;
+  // A start outside the limits would be pushed back by the limits' rows in the first step, with all
+  // their force.
   q_ = robot_.model().clamped(q_);
   speed_ = manual_speed(robot_.model(), description);
   if (!scene.gripper.empty()) gripper_ = robot_.model().joint_index(scene.gripper);
+  // The scene's limit is set on the motor: with it plants are pressed by the same drive that Bullet
+  // moves.
   if (scene.gripper_force > 0.0 && gripper_ >= 0)
     robot_.motors().set_effort_limit(gripper_, scene.gripper_force);
+  // At rest in its first pose, before the first step: plants look at the links when contacts are
+  // set up.
   robot_.reset(q_, qd_);
   start_of_step_ = q_;
 }
@@ -58,16 +66,27 @@ RobotControl::RobotControl(const world::SceneRobot& scene,
 void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
   // A grip measures from here how far Bullet has moved it.
   start_of_step_ = robot_.positions();
+  // A goal by hand goes before the program. Where neither is there, q_ holds what was told last,
+  // and the motors go on to hold it.
   if (goal_)
     approach_goal(world.dt());
   else if (!trajectory_.empty())
     // A target is where the joint shall be at the end of this step.
     part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
+  if (lag_ > 0.0 && !led_) lag_behind(world.dt());
+  const bool lags = lag_ > 0.0;
+  // Led by its motors, nobody but the one who leads sets targets.
   for (int i = 0; i < q_.size() && !led_; ++i) {
-    if (mode_ == "position") robot_.motors().set_position_target(i, q_[i], qd_[i]);
+    if (mode_ == "position" && lags)
+      robot_.motors().set_position_target(i, lagged_[i], lagged_speed_[i]);
+    else if (mode_ == "position")
+      robot_.motors().set_position_target(i, q_[i], qd_[i]);
     if (mode_ == "velocity") robot_.motors().set_velocity_target(i, qd_[i]);
+    // Without anyone who leads it a robot in torque mode is limp. Set in each step: a torque that
+    // was led before would else act on.
     if (mode_ == "torque") robot_.motors().set_torque(i, 0.0);
   }
+  // After all targets: it makes the inverse dynamics' torque from them.
   robot_.begin_step(world.dt());
 }
 
@@ -89,6 +108,7 @@ void RobotControl::lead_by_motors() {
 
 // The way to the first lap, or the lap.
 const robot::Trajectory& RobotControl::part_at(double world_time) const {
+  // The way to the lap is gone once; only the lap comes again.
   const bool leads = lap_.empty() || world_time - start_ <= trajectory_.duration();
   return leads ? trajectory_ : lap_;
 }
@@ -96,6 +116,7 @@ const robot::Trajectory& RobotControl::part_at(double world_time) const {
 double RobotControl::program_time(double world_time) const {
   const double time = world_time - start_;
   if (&part_at(world_time) == &trajectory_) return time;
+  // The lap ends where it begins, so that the jump in time is none in place.
   return std::fmod(time - trajectory_.duration(), lap_.duration());
 }
 
@@ -104,6 +125,8 @@ Eigen::VectorXd RobotControl::goal() const {
   if (led_) return robot_.positions();
   if (trajectory_.empty()) return q_;
   Eigen::VectorXd q = q_, qd = qd_;
+  // Where it is told to go in the end, not where the program is now: panels show this beside where
+  // it is.
   const robot::Trajectory& last = lap_.empty() ? trajectory_ : lap_;
   last.sample(last.duration(), q, qd);
   return q;
@@ -111,16 +134,29 @@ Eigen::VectorXd RobotControl::goal() const {
 
 void RobotControl::approach_goal(double dt) {
   for (int i = 0; i < q_.size(); ++i) {
+    // Each joint by itself. The speed goes along as the target's rate: position control takes it
+    // ahead, and so does not lag behind.
     const double step = std::clamp((*goal_)[i] - q_[i], -speed_[i] * dt, speed_[i] * dt);
     q_[i] += step;
     qd_[i] = step / dt;
   }
 }
 
+// First order, exact for a target that goes evenly within a step.
+void RobotControl::lag_behind(double dt) {
+  if (lagged_.size() == 0) lagged_ = robot_.positions();
+  const double kept = std::exp(-dt / lag_);
+  const Eigen::VectorXd before = lagged_;
+  lagged_ = q_ - lag_ * qd_ + kept * (before - q_ + dt * qd_ + lag_ * qd_);
+  lagged_speed_ = (lagged_ - before) / dt;
+}
+
 void RobotControl::Reader::act(world::SimWorld&, world::WorldReport& report) {
   // Read out as soon as Bullet is done: plants need the links' new poses.
   robot_.end_step();
   const Eigen::VectorXd& q = robot_.positions();
+  // The world stops on this, so the joint is named: a position that is no number spreads to all
+  // links in one step.
   if (q.allFinite()) return;
   report.errors |= world::robot_not_finite;
   for (int i = 0; i < q.size() && report.culprit.empty(); ++i)

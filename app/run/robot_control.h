@@ -58,6 +58,14 @@ class RobotControl : public world::Participant {
   }
   /// Gives up the program or the goal: it stays where it is now.
   void stop() { go_to(robot_.positions()); }
+  /// Its position targets are followed with a lag of first order; 0: at once.
+  void set_lag(double time) { lag_ = time; }  // s
+  /// How far its links are beyond what its encoders read, rad or m.
+  void set_given(const Eigen::VectorXd& given) { given_ = given; }
+  /// What a joint's encoder reads, rad or m.
+  double reading(int joint) const {
+    return robot_.positions()[joint] - (given_.size() > 0 ? given_[joint] : 0.0);
+  }
   /// Gives up the program: from where it is, every joint moves evenly to `q` (rad or m,
   /// moved into the limits), at its speed limit at most, at 1 rad/s or 0.25 m/s where that is
   /// lower.
@@ -92,6 +100,7 @@ class RobotControl : public world::Participant {
   robot::Robot robot_;
   Reader reader_;
   void approach_goal(double dt);
+  void lag_behind(double dt);
   const robot::Trajectory& part_at(double world_time) const;
 
   robot::Trajectory trajectory_, lap_;
@@ -102,6 +111,16 @@ class RobotControl : public world::Participant {
   int tool_link_ = 0, gripper_ = -1;
   Vec3 tool_offset_;
   Eigen::VectorXd q_, qd_, start_of_step_;
+  double lag_ = 0.0;                       // s
+  Eigen::VectorXd lagged_, lagged_speed_;  // targets behind the lag
+  Eigen::VectorXd given_;                  // empty: nothing gives way
+};
+
+/// What a scene's effects change of how its robot is led.
+struct LedRobot {
+  const robot::RobotDescription* believed = nullptr;  ///< that programs are planned for; null: it
+  double log_delay = 0.0;  ///< s: a row of its trajectory's file at t holds what was at t - delay
+  double lag = 0.0;        ///< s, RobotControl::set_lag()
 };
 
 /// How fast each joint goes where it is sent by hand, rad/s or m/s.
@@ -120,6 +139,6 @@ std::optional<robot::RobotDescription> read_robot(const world::SceneRobot& scene
 std::unique_ptr<RobotControl> make_robot_control(
     const world::SceneRobot& scene, const robot::RobotDescription& description,
     world::SimWorld& world, const std::function<std::optional<Vec3>(const world::Anchor&)>& find,
-    Diagnostics& diagnostics);
+    const LedRobot& led, Diagnostics& diagnostics);
 
 }  // namespace pedicel::app

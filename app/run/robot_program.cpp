@@ -91,13 +91,16 @@ void check_names(const world::SceneRobot& scene, const robot::RobotDescription& 
 }
 
 void plan(const world::SceneRobot& scene, RobotControl& control, const FindPlace& find,
-          Diagnostics& diagnostics) {
-  const robot::KinematicModel& model = control.robot().model();
+          const LedRobot& led, Diagnostics& diagnostics) {
+  std::optional<robot::KinematicModel> believed;
+  if (led.believed) believed.emplace(*led.believed, scene.base);
+  const robot::KinematicModel& model = believed ? *believed : control.robot().model();
   const Eigen::VectorXd start = control.robot().positions();
   const int before = diagnostics.error_count();
   if (!scene.trajectory.empty()) {
     control.set_trajectory(robot::read_trajectory_csv(scene.trajectory, control.description(),
-                                                      model, start, diagnostics));
+                                                      model, start, diagnostics),
+                           -led.log_delay);
   } else if (!scene.waypoints.empty()) {
     // Not planned with a place missing: one fault would become several.
     const auto waypoints = waypoints_of(scene, control, find, diagnostics);
@@ -124,10 +127,11 @@ std::optional<robot::RobotDescription> read_robot(const world::SceneRobot& scene
 std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
                                                  const robot::RobotDescription& description,
                                                  world::SimWorld& world, const FindPlace& find,
-                                                 Diagnostics& diagnostics) {
+                                                 const LedRobot& led, Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();
   auto control = std::make_unique<RobotControl>(scene, description, world);
-  plan(scene, *control, find, diagnostics);
+  control->set_lag(led.lag);
+  plan(scene, *control, find, led, diagnostics);
   if (diagnostics.error_count() > before) return nullptr;
   // Without motors an arm is meant to fall.
   if (scene.control != "torque")

@@ -7,7 +7,7 @@
 namespace pedicel::app {
 
 /// The longest row of steps in which a plant found no equilibrium: it is squeezed by what does not
-/// give way, and inexact there.
+/// give way, or folded flat, and inexact there.
 class RoughSpell {
  public:
   /// After every step.
@@ -17,9 +17,12 @@ class RoughSpell {
   std::string warning() const;
 
  private:
+  void look_for_folds(const Simulation& simulation);
+
   int row_ = 0, longest_ = 0;  // steps
   double from_ = 0.0;          // s
   std::string text_;           // of the longest one
+  std::string folded_;         // the first stem that lay flat on itself; empty: none
 };
 
 }  // namespace pedicel::app

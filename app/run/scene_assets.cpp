@@ -3,6 +3,8 @@
 #include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/plants/wind_field.h"
 #include "pedicel/app/run/scene_plants.h"
+#include "pedicel/discrepancy/scene/arm.h"
+#include "pedicel/discrepancy/scene/state_changes.h"
 #include "pedicel/world/settings.h"
 
 namespace pedicel::app {
@@ -16,17 +18,35 @@ void read_settings(SceneAssets& assets, Diagnostics& diagnostics) {
 
 }  // namespace
 
+void SceneAssets::read_effects(Diagnostics& diagnostics) {
+  if (scene.robot && !robot) return;
+  effects = discrepancy::read_run_effects(scene, robot ? &*robot : nullptr, coupling, diagnostics);
+  coupling = effects->state.coupling;
+  notes.insert(notes.end(), effects->notes.begin(), effects->notes.end());
+  if (!robot || diagnostics.has_errors()) return;
+  believed = robot;
+  const discrepancy::SceneState& state = effects->state;
+  *robot = discrepancy::with_tool(std::move(*robot),
+                                  discrepancy::tool_link(*scene.robot, *believed), state);
+  *robot = discrepancy::with_friction(std::move(*robot), state);
+  *robot = discrepancy::with_joint_offsets(std::move(*robot), state);
+}
+
 SceneAssets::SceneAssets(const world::Scene& given, const SimulationOptions& options)
     : scene(given.vary.empty() ? given : world::drawn_scene(given)) {
-  Diagnostics diagnostics;
+  Diagnostics diagnostics, of_robot;
   read_settings(*this, diagnostics);
-  for (ScenePlantModel& plant : build_plants(scene, options, diagnostics, notes)) {
+  // Effects name its joints, and plants need effects.
+  if (scene.robot) robot = read_robot(*scene.robot, options.packages, of_robot);
+  if (!scene.effects.empty()) read_effects(diagnostics);
+  const discrepancy::RunEffects* changes = effects ? &*effects : nullptr;
+  for (ScenePlantModel& plant : build_plants(scene, options, changes, diagnostics, notes)) {
     if (scene.wind) expose_to_wind(plant.model, plant.info.blades);
     models.push_back(std::move(plant.model));
     plants.push_back(std::move(plant.info));
   }
   // Goes on after faults in plants, so that all faults are told at once.
-  if (scene.robot) robot = read_robot(*scene.robot, options.packages, diagnostics);
+  if (!of_robot.all().empty()) diagnostics.add(InvalidFile(of_robot));
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   // Grids take seconds, and only plants ask for them in every step.
   if (robot) robot_fields = models.empty() ? exact_fields_of(*robot) : fields_of(*robot, notes);

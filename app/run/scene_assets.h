@@ -6,6 +6,7 @@
 
 #include "pedicel/app/run/colliders.h"
 #include "pedicel/app/run/simulation.h"
+#include "pedicel/discrepancy/scene/run_effects.h"
 
 namespace pedicel::app {
 
@@ -21,8 +22,16 @@ struct SceneAssets {
   std::vector<cosserat::RodModel> models;  ///< as built; a world breaks fruits off a copy
   std::vector<PlantInfo> plants;           ///< one a model
   std::optional<robot::RobotDescription> robot;
-  ShapeFields robot_fields;        ///< empty where there is no robot
+  ShapeFields robot_fields;  ///< empty where there is no robot
+  /// What its `effects:` change, where it has some; `coupling`, `models` and `robot` have that
+  /// already.
+  std::optional<discrepancy::RunEffects> effects;
+  /// As its file says, where effects change it: programs are planned for it.
+  std::optional<robot::RobotDescription> believed;
   std::vector<std::string> notes;  ///< what a user should know and that stops nothing
+
+ private:
+  void read_effects(Diagnostics& diagnostics);
 };
 
 }  // namespace pedicel::app

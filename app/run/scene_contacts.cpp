@@ -1,5 +1,7 @@
 #include "pedicel/app/run/scene_contacts.h"
 
+#include <algorithm>
+
 #include "pedicel/app/plants/start_overlaps.h"
 #include "pedicel/app/run/colliders.h"
 #include "pedicel/app/run/scene_assets.h"
@@ -7,9 +9,9 @@
 namespace pedicel::app {
 
 SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
-                             cosserat::RodSystem& rods, RobotControl* robot,
+                             cosserat::RodSystem& rods, RobotControl* robot, GivingRobot* giving,
                              Diagnostics& diagnostics)
-    : scene_(assets.scene), world_(world), rods_(rods), robot_(robot) {
+    : scene_(assets.scene), world_(world), rods_(rods), robot_(robot), giving_(giving) {
   // The grip marks the colliders that it presses, before the sources look at what touches.
   add_colliders(assets);
   add_grip(assets);
@@ -24,13 +26,23 @@ SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
         [this](const Detached& fruit) { add_fallen(fruit.plant, fruit.body); });
   // One way: plants feel the robot, and the robot moves as if they were not there. What has come
   // off them always feels them, or it would fall through their leaves.
-  if (!assets.coupling.two_way && !touch_each_other_) return;
   const bool all = assets.coupling.two_way;
-  reaction_ = std::make_unique<Reaction>(world_, all ? robot_ : nullptr, colliders_,
-                                         all ? 0 : world_.body_count());
+  if (all || touch_each_other_)
+    // An arm whose joints give way feels plants through these, and not through its motors.
+    reaction_ = std::make_unique<Reaction>(world_, all && !giving_ ? robot_ : nullptr, colliders_,
+                                           all ? 0 : world_.body_count());
   if (all && grip_) grip_->pass_on(plant_step_->contacts());
-  plant_step_->set_reaction(
-      [this](const coupling::ContactReport& contacts) { reaction_->act(contacts); });
+  if (reaction_ || giving_)
+    plant_step_->set_reaction(
+        [this](const coupling::ContactReport& contacts) { act_back(contacts); });
+}
+
+void SceneContacts::act_back(const coupling::ContactReport& contacts) {
+  if (reaction_) reaction_->act(contacts);
+  if (!giving_) return;
+  for (int p = 0; p < rods_.size(); ++p)
+    with_giving_[static_cast<std::size_t>(p)]->remember(rods_.contact_forces(p));
+  giving_->act(contacts, colliders_);
 }
 
 void SceneContacts::add_colliders(const SceneAssets& assets) {
@@ -39,8 +51,10 @@ void SceneContacts::add_colliders(const SceneAssets& assets) {
   for (int b = 0; b < world_.body_count(); ++b)
     add_body_colliders(colliders_, world_.body(b), b, world_.body_pose(b));
   if (robot_)
-    add_robot_colliders(colliders_, robot_->name(), robot_->description(), assets.robot_fields,
-                        robot_->link_poses());
+    add_robot_colliders(
+        colliders_, robot_->name(), robot_->description(), assets.robot_fields,
+        robot_->link_poses(),
+        assets.effects ? assets.effects->state.friction_of_link : std::map<int, double>{});
 }
 
 // A gripper stands where its motor balances what it holds. Only the direct solver tells how far a
@@ -52,21 +66,36 @@ void SceneContacts::add_grip(const SceneAssets& assets) {
 }
 
 void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& diagnostics) {
-  auto source = std::make_unique<coupling::ColliderSource>(colliders_, assets.coupling);
+  coupling::ColliderSource& source = add_source(assets, p);
   // A plant drawn through a link would be shot out in the first step.
   const std::vector<coupling::Overlap> overlaps =
-      source->ignore_touching(rods_.model(p), rods_.state(p));
+      source.ignore_touching(rods_.model(p), rods_.state(p));
   for (const StartOverlap& overlap : start_overlaps(rods_.model(p), colliders_, overlaps))
     diagnostics.warning(place_of(colliders_.collider(overlap.collider)), overlap.text);
-  sources_.push_back(source.get());
-  if (grip_) grip_->add(*source);
-  rods_.add_contact_source(p, std::move(source));
+  sources_.push_back(&source);
+  if (grip_) grip_->add(source);
   // Plants that touch each other touch themselves there, too.
   if (!assets.coupling.self_contact || assets.coupling.plant_contact) return;
   auto own = std::make_unique<cosserat::SelfContact>(
       rods_.model(p), coupling::self_contact_settings(assets.coupling));
   self_contacts_.push_back(own.get());
   rods_.add_contact_source(p, std::move(own));
+}
+
+coupling::ColliderSource& SceneContacts::add_source(const SceneAssets& assets, int p) {
+  if (!giving_) {
+    auto source = std::make_unique<coupling::ColliderSource>(colliders_, assets.coupling);
+    coupling::ColliderSource& added = *source;
+    rods_.add_contact_source(p, std::move(source));
+    return added;
+  }
+  coupling::CouplingSettings wide = assets.coupling;
+  wide.margin = std::max(wide.margin, discrepancy::reach_back);
+  auto source = std::make_unique<discrepancy::GivingSource>(
+      colliders_, wide, assets.coupling.margin, robot_body, giving_->arm());
+  with_giving_.push_back(source.get());
+  rods_.add_contact_source(p, std::move(source));
+  return with_giving_.back()->inner();
 }
 
 void SceneContacts::join() {
@@ -76,7 +105,9 @@ void SceneContacts::join() {
 }
 
 void SceneContacts::change_settings(const coupling::CouplingSettings& settings) {
-  for (coupling::ColliderSource* source : sources_) source->change_settings(settings);
+  coupling::CouplingSettings wide = settings;
+  if (giving_) wide.margin = std::max(wide.margin, discrepancy::reach_back);
+  for (coupling::ColliderSource* source : sources_) source->change_settings(wide);
   for (cosserat::SelfContact* own : self_contacts_)
     own->change_settings(coupling::self_contact_settings(settings));
   if (touch_each_other_) rods_.let_plants_touch(coupling::self_contact_settings(settings));

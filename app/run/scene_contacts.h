@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pedicel/app/plants/plant_step.h"
+#include "pedicel/app/run/giving_robot.h"
 #include "pedicel/app/run/gripper_step.h"
 #include "pedicel/app/run/reaction.h"
 #include "pedicel/app/run/robot_control.h"
@@ -19,10 +20,10 @@ struct SceneAssets;
 /// with two-way coupling what acts back.
 class SceneContacts {
  public:
-  /// Where all things stand now. `robot` may be null; keeps references to all but the assets, whose
-  /// scene must outlive it. Warns of what overlaps from the start, and lets it alone.
+  /// Where all things stand now. `robot` and `giving` may be null; keeps references to all but the
+  /// assets, whose scene must outlive it. Warns of what overlaps from the start, and lets it alone.
   SceneContacts(const SceneAssets& assets, world::SimWorld& world, cosserat::RodSystem& rods,
-                RobotControl* robot, Diagnostics& diagnostics);
+                RobotControl* robot, GivingRobot* giving, Diagnostics& diagnostics);
 
   /// Adds itself to the world's step: the gripper goes back to where it was stopped, plants move,
   /// the gripper goes to where it stands.
@@ -41,6 +42,8 @@ class SceneContacts {
   void add_colliders(const SceneAssets& assets);
   void add_grip(const SceneAssets& assets);
   void add_sources(const SceneAssets& assets, int plant, Diagnostics& diagnostics);
+  coupling::ColliderSource& add_source(const SceneAssets& assets, int plant);
+  void act_back(const coupling::ContactReport& contacts);
   SourcePosition place_of(const coupling::Collider& collider) const;
   Pose link_pose(const coupling::Collider& collider) const;
 
@@ -49,7 +52,9 @@ class SceneContacts {
   cosserat::RodSystem& rods_;
   RobotControl* robot_;
   coupling::ColliderSet colliders_;
-  std::vector<coupling::ColliderSource*> sources_;  // of rods_
+  GivingRobot* giving_;
+  std::vector<coupling::ColliderSource*> sources_;       // of rods_
+  std::vector<discrepancy::GivingSource*> with_giving_;  // likewise; empty where nothing gives way
   std::vector<cosserat::SelfContact*> self_contacts_;
   std::unique_ptr<GripperStep> grip_;  // null without a gripper that its motor moves
   std::unique_ptr<PlantStep> plant_step_;

@@ -1,12 +1,17 @@
 #include "pedicel/app/run/scene_plants.h"
 
+#include <map>
+
 #include "pedicel/app/plants/plant_overrides.h"
+#include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/run/large_plant.h"
 #include "pedicel/cosserat/solver/standing.h"
+#include "pedicel/discrepancy/scene/state_changes.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_builder.h"
 #include "pedicel/plant/reference_plants.h"
 #include "pedicel/skeleton/plant_source.h"
+#include "pedicel/world/settings.h"
 
 namespace pedicel::app {
 
@@ -43,9 +48,14 @@ ScenePlantModel reference_plant(const ScenePlant& wanted, int index, Diagnostics
 /// The plants of one entry: names, places and overrides.
 class Builder {
  public:
-  Builder(const world::Scene& scene, const SimulationOptions& options, Diagnostics& diagnostics,
+  Builder(const world::Scene& scene, const SimulationOptions& options,
+          const discrepancy::RunEffects* effects, Diagnostics& diagnostics,
           std::vector<std::string>& notes)
-      : scene_(scene), options_(options), diagnostics_(diagnostics), notes_(notes) {}
+      : scene_(scene),
+        options_(options),
+        effects_(effects),
+        diagnostics_(diagnostics),
+        notes_(notes) {}
 
   void add(const ScenePlant& wanted) {
     if (wanted.source == ScenePlant::Source::built_in) return add_reference(wanted);
@@ -57,6 +67,7 @@ class Builder {
     // One that was emptied by hand is no fault: nothing is drawn yet.
     if (!file || (is_edited && file->curves.empty())) return;
     apply_plant_overrides(*file, wanted.set, diagnostics_);
+    add_effects(*file, wanted);
     if (diagnostics_.has_errors()) return;
     say_if_large(*file);
     const int count = wanted.repeat[0] * wanted.repeat[1];
@@ -87,6 +98,29 @@ class Builder {
     return false;
   }
 
+  void add_effects(plant::PlantFile& file, const ScenePlant& wanted) {
+    if (!effects_) return;
+    for (plant::Effect& effect : effects_->of_plant(wanted.name)) {
+      if (effect.place && file.curve_index(effect.place->curve) < 0) {
+        std::string names;
+        for (const plant::PlantCurve& curve : file.curves)
+          names += (names.empty() ? "" : ", ") + curve.name;
+        diagnostics_.error(effect.where, "effect " + effect.name + " is on curve " +
+                                             in_quotes(effect.place->curve) + ", which plant " +
+                                             in_quotes(wanted.name) +
+                                             " does not have: expected one of: " + names);
+        continue;
+      }
+      file.effects.push_back(std::move(effect));
+    }
+  }
+
+  // What effects change of one entry of the scene; null: nothing.
+  const discrepancy::SceneState::Plant* changes_of(const ScenePlant& wanted) const {
+    const auto p = static_cast<std::size_t>(&wanted - scene_.plants.data());
+    return effects_ ? &effects_->state.plants[p] : nullptr;
+  }
+
   plant::BuildOptions options_for(const ScenePlant& wanted, const Pose& pose) const {
     const auto beside = wanted.file.parent_path();
     plant::BuildOptions options{
@@ -98,7 +132,12 @@ class Builder {
     return options;
   }
 
-  void add_file(const plant::PlantFile& file, const ScenePlant& wanted, const Pose& pose) {
+  void add_file(const plant::PlantFile& file, const ScenePlant& wanted, Pose pose) {
+    const discrepancy::SceneState::Plant* changes = changes_of(wanted);
+    if (changes && !(changes->offset.isZero(0.0) && changes->yaw == 0.0)) {
+      const Pose by = discrepancy::moved_plant(pose * file.root, *changes);
+      pose = {by * pose.position, (by.rotation * pose.rotation).normalized()};
+    }
     std::optional<plant::BuiltPlant> built =
         plant::build_plant(file, options_for(wanted, pose), diagnostics_);
     if (!built) return;
@@ -115,6 +154,7 @@ class Builder {
       made.info.blades.push_back(blade);
     }
     made.model = std::move(built->model);
+    if (changes) discrepancy::change_plant(made.model, *changes);
     plants.push_back(std::move(made));
   }
 
@@ -133,6 +173,7 @@ class Builder {
 
   const world::Scene& scene_;
   const SimulationOptions& options_;
+  const discrepancy::RunEffects* effects_;
   Diagnostics& diagnostics_;
   std::vector<std::string>& notes_;
 };
@@ -158,11 +199,53 @@ std::optional<plant::PlantFile> read_scene_plant(const ScenePlant& plant,
 
 std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
                                           const SimulationOptions& options,
+                                          const discrepancy::RunEffects* effects,
                                           Diagnostics& diagnostics,
                                           std::vector<std::string>& notes) {
-  Builder builder(scene, options, diagnostics, notes);
+  Builder builder(scene, options, effects, diagnostics, notes);
   for (const ScenePlant& wanted : scene.plants) builder.add(wanted);
   return std::move(builder.plants);
+}
+
+namespace {
+
+/// Plants as their files have them, each read once.
+class PlantFiles {
+ public:
+  explicit PlantFiles(const SimulationOptions& options) : options_(options) {}
+
+  const std::optional<plant::PlantFile>& of(const ScenePlant& wanted, Diagnostics& diagnostics) {
+    const auto known = files_.find(wanted.name);
+    if (known != files_.end()) return known->second;
+    const auto edited = options_.edited.find(wanted.name);
+    return files_[wanted.name] = edited != options_.edited.end()
+                                     ? std::optional(edited->second)
+                                     : read_scene_plant(wanted, diagnostics);
+  }
+
+ private:
+  const SimulationOptions& options_;
+  std::map<std::string, std::optional<plant::PlantFile>> files_;
+};
+
+}  // namespace
+
+void check_settings(const std::vector<world::Scene>& scenes, const SimulationOptions& options,
+                    Diagnostics& diagnostics) {
+  PlantFiles files(options);
+  for (const world::Scene& given : scenes) {
+    const world::Scene scene = given.vary.empty() ? given : world::drawn_scene(given);
+    cosserat::RodSettings rods;
+    coupling::CouplingSettings coupling;
+    apply_rod_settings(scene.rods, rods, diagnostics);
+    apply_coupling_settings(scene.coupling, coupling, diagnostics);
+    for (const ScenePlant& wanted : scene.plants) {
+      if (wanted.source == ScenePlant::Source::built_in || wanted.set.empty()) continue;
+      if (std::optional<plant::PlantFile> file = files.of(wanted, diagnostics))
+        apply_plant_overrides(*file, wanted.set, diagnostics);
+    }
+    if (diagnostics.has_errors()) return;
+  }
 }
 
 }  // namespace pedicel::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pedicel/app/run/simulation.h"
+#include "pedicel/discrepancy/scene/run_effects.h"
 
 namespace pedicel::app {
 
@@ -25,7 +26,8 @@ std::optional<plant::PlantFile> read_scene_plant(const world::ScenePlant& plant,
                                                  Diagnostics& diagnostics);
 
 /// Builds every plant of a scene: from plant files, MTG files and built-in reference plants, with
-/// the scene's `set:` overrides, repeated where it says so. Faults go to `diagnostics`; what is
+/// the scene's `set:` overrides and what its effects change (null: none), repeated where it says
+/// so. Faults go to `diagnostics`; what is
 /// worth knowing (an absent optional file) to `notes`.
 ///
 /// Overrides: detach.stretch, .bend, .force, .moment, .torsion (all fruits),
@@ -33,7 +35,14 @@ std::optional<plant::PlantFile> read_scene_plant(const world::ScenePlant& plant,
 /// with one of their own keep their ratio to it), sampling.connect, sampling.distance.
 std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
                                           const SimulationOptions& options,
+                                          const discrepancy::RunEffects* effects,
                                           Diagnostics& diagnostics,
                                           std::vector<std::string>& notes);
+
+/// Whether the settings of every scene are known keys with possible values, without building
+/// anything: an impossible one is found before the first of many runs. The scenes have the same
+/// plant files. Faults of the first scene that has some go to `diagnostics`.
+void check_settings(const std::vector<world::Scene>& scenes, const SimulationOptions& options,
+                    Diagnostics& diagnostics);
 
 }  // namespace pedicel::app

@@ -24,6 +24,7 @@
 namespace pedicel::app {
 
 struct SceneAssets;
+class GivingRobot;
 class WrenchSensor;
 class WrenchSensors;
 
@@ -80,9 +81,6 @@ class Simulation {
   /// What a user should know and that stops nothing, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Where an anchor of the scene is now (m, W); nothing where there is no such thing.
-  std::optional<Vec3> find(const world::Anchor& anchor) const;
-
   /// Robot joints, rods and rigid bodies, bit by bit.
   std::uint64_t state_hash() const;
 
@@ -97,6 +95,7 @@ class Simulation {
   world::SimWorld world_;
   std::unique_ptr<cosserat::RodSystem> rods_;
   std::unique_ptr<RobotControl> robot_;
+  std::unique_ptr<GivingRobot> giving_;  // null: no joint gives way
   std::unique_ptr<SceneLoads> loads_;
   std::unique_ptr<SceneTies> ties_;
   std::unique_ptr<Cutting> cutting_;

@@ -48,13 +48,16 @@ Wrench WrenchNoiseSource::next(double dt) {
 }
 
 WrenchSensor::WrenchSensor(const world::SceneWrench& scene, RobotControl& robot,
-                           const PlantStep& plants, const Vec3& gravity, std::uint64_t seed)
+                           const PlantStep& plants, const Vec3& gravity, std::uint64_t seed,
+                           const WrenchGauge& gauge)
     : scene_(scene),
       robot_(robot),
       plants_(plants),
       gravity_(gravity),
       link_(robot.description().link(scene.link)),
-      noise_(scene.noise, seed_of(seed, scene.name)) {
+      noise_(scene.noise, seed_of(seed, scene.name)),
+      gauge_(gauge) {
+  if (!scene.tared) tare_ = Wrench::Zero();
   if (link_ < 0)
     throw UsageError("wrench " + in_quotes(scene.name) + ": the robot has no link " +
                      in_quotes(scene.link));
@@ -72,7 +75,9 @@ void WrenchSensor::step(world::SimWorld& world) {
   }
   // The first sample at or after each multiple of the sampling time.
   const double due = std::floor(time * scene_.rate + 1.0e-6) / scene_.rate;
+  new_.clear();
   if (due > last_sample_ + 0.5 / scene_.rate) sample(time);
+  if (!tare_ && !untared_.empty() && time >= tare_time - 1.0e-9) tare();
 }
 
 void WrenchSensor::add_bodies(world::SimWorld& world, Vec3& force, Vec3& moment) const {
@@ -128,24 +133,34 @@ Wrench WrenchSensor::late(double time) const {
 }
 
 void WrenchSensor::sample(double time) {
-  Wrench value = late(time) + noise_.next(samples_ == 0 ? 0.0 : time - reading_time_);
-  if (scene_.tared && time <= tare_time + 1.0e-9) {
-    tare_ = (tare_ * tared_samples_ + value) / (tared_samples_ + 1);
-    ++tared_samples_;
-  }
-  reading_ = value - tare_;
-  reading_time_ = time;
+  const Sample taken{time, gauge_.gain * late(time) + gauge_.bias +
+                               noise_.next(samples_ == 0 ? 0.0 : time - taken_at_)};
+  taken_at_ = time;
   last_sample_ = std::floor(time * scene_.rate + 1.0e-6) / scene_.rate;
   ++samples_;
+  if (!tare_) return untared_.push_back(taken);
+  reading_ = {time, taken.value - *tare_};
+  new_.push_back(reading_);
+}
+
+void WrenchSensor::tare() {
+  Wrench sum = Wrench::Zero();
+  for (const Sample& one : untared_) sum += one.value;
+  tare_ = sum / static_cast<double>(untared_.size());
+  for (const Sample& one : untared_) new_.push_back({one.time, one.value - *tare_});
+  reading_ = new_.back();
+  untared_.clear();
 }
 
 WrenchSensors::WrenchSensors(const world::Scene& scene, RobotControl& robot,
                              const PlantStep& plants, world::SimWorld& world,
-                             Diagnostics& diagnostics)
+                             std::span<const WrenchGauge> gauges, Diagnostics& diagnostics)
     : world_(world) {
   for (const world::SceneWrench& one : scene.wrenches) try {
+      const auto index = static_cast<std::size_t>(&one - scene.wrenches.data());
       sensors_.emplace_back(one, robot, plants, scene.gravity,
-                            static_cast<std::uint64_t>(scene.seed));
+                            static_cast<std::uint64_t>(scene.seed),
+                            gauges.empty() ? WrenchGauge{} : gauges[index]);
     } catch (const UsageError& fault) {
       diagnostics.error(one.where, fault.what());
     }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "pedicel/app/run/place.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -52,6 +54,12 @@ void add_fruits(std::vector<Keypoint>& all, const Simulation& simulation, const 
     if (!state.fruit_gone[f]) {
       centre = cosserat::point_on(model, state, fruit.element, fruit.back);
       attachment = cosserat::start_of(model, state, fruit.element);
+    } else if (const auto fallen = fallen_fruit(simulation, plant, f); fallen && fallen->cut) {
+      // It still hangs on its stalk, which is a part of the body that was cut off.
+      centre = fallen->centre;
+      const Pose body = simulation.world().body_pose(fallen->body);
+      const auto carried = simulation.cutting().carried(plant, f);
+      attachment = body * carried->stalk_B;
     } else {
       const auto& detached = simulation.plant_step().detached();
       const auto found = std::ranges::find_if(detached, [&](const Detached& one) {

@@ -93,22 +93,27 @@ void Session::update() {
 }
 
 void Session::begin_pull(const PullPlace& place, const Vec3& target_W, bool by_command) {
-  core_.pulls.add(*snapshot(), history().size(), by_command);
+  core_.run_edits.add("pull", *snapshot(), history().size(), by_command);
   core_.control.begin_pull(place, target_W);
 }
 
+void Session::cut(const std::string& organ, double at) {
+  core_.run_edits.add("cut", *snapshot(), history().size(), true);
+  core_.control.cut(organ, at);
+}
+
 bool Session::can_undo() const {
-  return history().can_undo() || core_.pulls.has(*snapshot(), history().size());
+  return history().can_undo() || core_.run_edits.has(*snapshot(), history().size());
 }
 
 Result Session::undo() {
   end_gesture();
-  if (core_.pulls.has(*snapshot(), history().size())) {
-    const PullHistory::Pull pull = core_.pulls.take();
-    core_.control.take_back_to(pull.step);
+  if (core_.run_edits.has(*snapshot(), history().size())) {
+    const RunEdits::Edit edit = core_.run_edits.take();
+    core_.control.take_back_to(edit.step);
     // Of a pull by hand the log says nothing, so it says nothing of its end either.
-    if (pull.by_command) core_.editor.log().add("undo");
-    return finish({true, "pull"});
+    if (edit.by_command) core_.editor.log().add("undo");
+    return finish({true, edit.what});
   }
   if (!history().can_undo()) return {false, "nothing to undo"};
   return finish(core_.editor.undo());

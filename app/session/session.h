@@ -57,6 +57,8 @@ class Session {
   /// Begins a pull of a place by hand; control() moves and ends it. undo() takes it back: the run
   /// goes to the step where it began. `by_command`: the log has it.
   void begin_pull(const PullPlace& place, const Vec3& target_W, bool by_command = false);
+  /// Cuts a stem or a fruit's stalk of the running simulation, by command; undo() takes it back.
+  void cut(const std::string& organ, double at);
   RunControl& control() { return core_.control; }
   std::shared_ptr<const Snapshot> snapshot() const { return core_.control.snapshot(); }
   /// Takes what the threads have to tell into messages(); once a frame.

@@ -8,7 +8,7 @@
 #include "pedicel/app/session/document_editor.h"
 #include "pedicel/app/session/live/run_control.h"
 #include "pedicel/app/session/messages.h"
-#include "pedicel/app/session/pull_history.h"
+#include "pedicel/app/session/run_edits.h"
 
 namespace pedicel::app {
 
@@ -33,7 +33,7 @@ struct SessionCore {
   RunControl control;
   Autosave autosave;
   DocumentEditor editor;
-  PullHistory pulls;
+  RunEdits run_edits;
 };
 
 }  // namespace pedicel::app

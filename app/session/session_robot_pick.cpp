@@ -16,7 +16,8 @@ Result SessionRobot::pick(const std::string& organ, const std::optional<Vec3>& p
   const FruitPlace fruit = find_fruit(*now, organ);
   const robot::Trajectory program =
       pull_W ? pick_program(*now, fruit, *pull_W) : usual_pick(*now, fruit);
-  core_.pulls.add(*snapshot(), core_.editor.history().size(), true);  // undo takes it back
+  core_.run_edits.add("pull", *snapshot(), core_.editor.history().size(),
+                      true);  // undo takes it back
   const Result result = play(program, false);
   picked_ = Picked{organ, now->stage, now->step, now->time + program.times().back()};
   return result;

@@ -17,8 +17,9 @@ struct Act {
     no_forces,
     push,  ///< `name` a body; `numbers`: force (N, 3) for one step, at a point (m, 3)
     set,   ///< `name` "KEY=VALUE"
+    cut,   ///< `name` an organ; `numbers`: place at (1)
   };
-  static constexpr int kinds = 8;
+  static constexpr int kinds = 9;
 
   long step = 0;  ///< the steps done before it
   Kind kind = Kind::position;

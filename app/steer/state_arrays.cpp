@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pedicel/app/plants/plant_step.h"
+#include "pedicel/app/run/place.h"
 
 namespace pedicel::app {
 
@@ -143,21 +144,17 @@ void StateArrays::fill_moving_fruits(const Simulation& simulation, int world, in
   const cosserat::RodModel& model = simulation.rods().model(plant);
   const cosserat::RodState& state = simulation.rods().state(plant);
   const int first = layout_.first_fruit[plant], count = static_cast<int>(model.fruits.size());
-  const auto body_of = [&](int f) {
-    return state.fruit_gone[f] ? simulation.world().body_index(layout_.of(Rows::fruit)[first + f])
-                               : -1;
-  };
   each(Field::fruit_positions, world, first, count, [&](double* to, int f) {
-    const int body = body_of(f);
-    write(to, body >= 0 ? simulation.world().body_pose(body).position
-                        : cosserat::point_on(model, state, model.fruits[f].element,
-                                             model.fruits[f].back));
+    const auto fallen = fallen_fruit(simulation, plant, f);
+    write(to,
+          fallen ? fallen->centre
+                 : cosserat::point_on(model, state, model.fruits[f].element, model.fruits[f].back));
   });
   each(Field::fruit_velocities, world, first, count, [&](double* to, int f) {
-    const int body = body_of(f);
-    write(to, body >= 0 ? simulation.world().body_velocity(body)
-                        : cosserat::velocity_on(model, state, model.fruits[f].element,
-                                                model.fruits[f].back));
+    const auto fallen = fallen_fruit(simulation, plant, f);
+    write(to, fallen ? fallen->velocity
+                     : cosserat::velocity_on(model, state, model.fruits[f].element,
+                                             model.fruits[f].back));
   });
 }
 

@@ -120,6 +120,10 @@ void SteeredRun::carry_out(const Act& act) {
         throw UsageError("no body " + in_quotes(act.name) + ", expected one of the scene's");
       return simulation_->world().push_body(body, vec3_at(act.numbers, 0), vec3_at(act.numbers, 3));
     }
+    case Act::Kind::cut:
+      expect(act, 1, "a place");
+      expect_finite(act);
+      return simulation_->cutting().cut(act.name, act.numbers[0]);
     case Act::Kind::set: {
       const auto [key, value] = world::split_assignment(act.name);
       return change(key, value);

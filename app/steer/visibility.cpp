@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "pedicel/app/run/place.h"
 #include "pedicel/app/steer/state_layout.h"
 #include "pedicel/core/check.h"
 #include "pedicel/geometry/closest_point.h"
@@ -150,7 +151,7 @@ double visible_share(const Simulation& simulation, const std::string& fruit, con
   world::Anchor anchor;
   anchor.kind = world::Anchor::Kind::fruit;
   anchor.name = fruit;
-  const Vec3 centre = *simulation.find(anchor);
+  const Vec3 centre = *place_of(simulation, anchor);
   Obstacles obstacles(simulation, {eye_W, centre}, one.radius);
   const bool off = simulation.rods().state(found.plant).fruit_gone[found.fruit];
   if (off) obstacles.leave_out(fruit);
@@ -178,7 +179,7 @@ Vec3 camera_place(const Simulation& simulation, const std::string& camera) {
     names.push_back(one.name);
     if (!camera.empty() && one.name != camera) continue;
     if (one.follow.kind == world::Anchor::Kind::none) return one.eye;
-    return one.eye + simulation.find(one.follow).value_or(Vec3::Zero());
+    return one.eye + place_of(simulation, one.follow).value_or(Vec3::Zero());
   }
   throw UsageError("no camera " + in_quotes(camera) + ", expected one of: " + list_of(names));
 }

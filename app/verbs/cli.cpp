@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <thread>
 
@@ -40,6 +42,7 @@
 #include "pedicel/core/stop.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/io/output_check.h"
 #include "pedicel/io/output_folder.h"
 #include "pedicel/render/image.h"
 #include "pedicel/world/settings.h"
@@ -169,6 +172,16 @@ int play_verb(const RunArguments& a, const DesktopRequest& window) {
   return play_off_screen(request);
 }
 
+/// "frame_%05d.png" is a name for each of many.
+void check_picture_places(const DesktopRequest& window) {
+  if (!window.screenshot.empty()) io::check_output_file(window.screenshot);
+  if (window.record.empty()) return;
+  if (window.record.find('%') == std::string::npos)
+    io::check_output_file(window.record);
+  else
+    io::check_place_for_files(std::filesystem::absolute(window.record).parent_path());
+}
+
 /// The window, or a run off screen: with --headless, with what only a run can give, and where no
 /// window can be opened.
 int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
@@ -176,14 +189,17 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
   check_run_arguments(a);
   apply_verbosity(a);
   const bool picture = !window.screenshot.empty() || !window.record.empty();
-  if (is_playable(a.scene) && (picture || a.asks_for_run() || !open_desktop))
+  if (is_playable(a.scene) && (picture || a.asks_for_run() || !open_desktop)) {
+    check_picture_places(window);
     return play_verb(a, window);
+  }
   if (picture) check_picture_arguments(a);
   if (!window.record.empty() && a.scene.empty())
     throw UsageError("--record: no scene given, expected one to make a film of");
   if (!open_desktop || (a.asks_for_run() && !picture)) return run_verb(a, make_films);
   if (!window.screenshot.empty() && !window.screenshot.ends_with(".png"))
     throw UsageError("--screenshot " + window.screenshot + ": expected a name that ends in .png");
+  check_picture_places(window);
   window.file = a.scene;
   window.unit = unit_of_text(a.unit, "--unit");
   window.script = a.script;
@@ -308,6 +324,18 @@ int tell_verb(const CLI::App& app, const TellArguments& a) {
   return std::cout.flush() ? exit_ok : exit_unwritable;
 }
 
+/// The bounds of options let pass what is no number, since it is neither below nor above.
+void check_finite(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->get_type_name().starts_with("FLOAT")) continue;
+    for (const std::string& text : option->results()) {
+      if (!std::isfinite(std::strtod(text.c_str(), nullptr)))
+        throw UsageError(option->get_name() + " " + text + ": expected a finite number");
+    }
+  }
+  for (const CLI::App* verb : app.get_subcommands()) check_finite(*verb);
+}
+
 int guarded(const std::function<int()>& verb) {
   try {
     const int code = verb();
@@ -399,6 +427,8 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_ok : exit_usage;
   }
+  if (const int code = guarded([&] { return check_finite(app), static_cast<int>(exit_ok); }))
+    return code;
   if (!told.shell.empty() || told.man_page) return tell_verb(app, told);
   if (app.got_subcommand("sweep")) return guarded(sweep);
   if (*validate)

@@ -137,6 +137,13 @@ int run(DatasetArguments a, const CLI::App& verb) {
       a.cluster.wanted() ? make_data_set_as_tasks(options, verb, a.cluster, *inputs, whole)
                          : make_data_set(options);
   if (a.run.json) std::cout << to_json(options, result) << std::endl;
+  if (result.left_out > 0)
+    say(Verbosity::warnings, "%ld of %ld pictures are left out; labels/NUMBER.json says why",
+        result.left_out, options.count);
+  if (a.part < 0 && result.pictures == 0 && result.left_out > 0) {
+    say(Verbosity::errors, "error: nothing that was drawn can stand, expected a narrower vary");
+    return exit_unstable;
+  }
   say(Verbosity::lines, "%ld pictures (%ld of them new, in %.1f s), %ld annotations, written to %s",
       result.pictures, result.made, result.seconds, result.annotations,
       options.out.string().c_str());

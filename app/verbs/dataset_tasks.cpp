@@ -55,9 +55,12 @@ DataSetResult make_data_set_as_tasks(const DataSetOptions& options, const CLI::A
                                      const cluster::ClusterOptions& cluster,
                                      const FilesRead& inputs, bool& whole) {
   const Timer timer;
-  // Built once: what cannot be built is found before any task, and its files come to the list.
-  { const Simulation simulation(options.scene, options.simulation); }
-  take_data_set_folder(options);
+  // Built once: what cannot be built is found before any task, and its files come to the list. As
+  // the scene is without what varies: a draw that cannot stand is left out in its own turn.
+  world::Scene plain = options.scene;
+  plain.vary.clear();
+  { const Simulation simulation(plain, options.simulation); }
+  const io::FolderLock lock = take_data_set_folder(options);
   const long before = end_data_set(options).pictures;
   const cluster::Plan plan = plan_of_pictures(options, verb, inputs);
   const auto campaign = run_campaign(options.out, "", plan, cluster, options.quiet);

@@ -83,6 +83,7 @@ int run(DiagnoseArguments& a, const CLI::App& verb) {
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
   const SearchParts parts(a.tasks, a, a.folder("diagnosis_"), verb);
   options.parts = parts.parts();
+  if (!a.tasks.is_task()) a.check(a.folder("diagnosis_"), {"report.html", "verdict.json"});
   const discrepancy::Experiment experiment = load_all(a);
   options.seed = static_cast<std::uint64_t>(a.seed);
   options.time_limit = a.time_limit;
@@ -127,7 +128,7 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
       ->allow_extra_args(false);
   verb->add_option("--time-limit", a->time_limit,
                    "s after which the search ends, and what is known is written")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1.0e-3, 1.0e9));
   verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
   return [a, verb] {
     try {

@@ -11,6 +11,7 @@
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "pedicel/io/output_check.h"
 #include "pedicel/io/output_folder.h"
 
 namespace pedicel::app {
@@ -39,6 +40,11 @@ std::filesystem::path ExperimentArguments::folder(const std::string& prefix) con
   if (!measured.has_filename() || measured.extension() == ".yaml")
     measured = measured.parent_path();
   return std::filesystem::path("out") / (prefix + measured.filename().string());
+}
+
+void ExperimentArguments::check(const std::filesystem::path& folder,
+                                const std::vector<std::string>& files) const {
+  io::check_output_folder(folder, files);
 }
 
 void ExperimentArguments::write(

@@ -5,6 +5,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/data/experiment.h"
@@ -28,6 +29,9 @@ struct ExperimentArguments {
                                const discrepancy::Experiment& measured) const;
   /// The same before the experiment is read.
   std::filesystem::path folder(const std::string& prefix) const;
+  /// Whether `folder` could be written to, and none of the files is somebody else's, before what is
+  /// to go there is computed. Throws io::WriteError.
+  void check(const std::filesystem::path& folder, const std::vector<std::string>& files) const;
   /// io::write_folder(), and says what was replaced.
   void write(const std::filesystem::path& folder,
              const std::function<void(const std::filesystem::path&)>& write) const;

@@ -16,6 +16,7 @@
 #include "pedicel/discrepancy/import/experiment_import.h"
 #include "pedicel/discrepancy/import/recording_reader.h"
 #include "pedicel/discrepancy/import/world_frame.h"
+#include "pedicel/io/output_check.h"
 #include "pedicel/io/output_folder.h"
 #include "pedicel/plant/plant_file.h"
 
@@ -152,7 +153,26 @@ ImportRequest request_of(const ImportArguments& a, ImportNotes& notes) {
 
 }  // namespace
 
+namespace {
+
+/// What is not there is told before anything that is asked of it.
+void check_files_are_there(const ImportArguments& a) {
+  Diagnostics diagnostics;
+  for (const std::string& file : a.files) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+      diagnostics.error({file}, "is a folder, expected a recording");
+    else if (error)
+      diagnostics.error({file}, "cannot be read: " + error.message());
+  }
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+}
+
+}  // namespace
+
 int import_verb(const ImportArguments& a) {
+  check_files_are_there(a);
+  io::check_output_folder(a.out, {"experiment.yaml"});
   if (are_logs(a)) return import_log_verb(a);
   if (!a.scene.empty())
     throw UsageError("--scene: is for logs (MCAP), expected --plant beside recordings of points");

@@ -10,8 +10,11 @@
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/log_import/log_experiment.h"
 #include "pedicel/discrepancy/log_import/log_proposal.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/output_folder.h"
+#include "pedicel/io/unit_text.h"
+#include "pedicel/mcap/reader.h"
 #include "pedicel/rosbag/reader.h"
 
 namespace pedicel::app {
@@ -32,8 +35,8 @@ std::vector<LogContents> read_logs(const ImportArguments& a) {
     logs.push_back(discrepancy::read_log(file));
     if (!logs.back().whole)
       std::fprintf(stderr,
-                   "%s: warning: the file has no end (a run that was killed?); what was whole is "
-                   "read\n",
+                   "%s: warning: the file is cut off (a run that was killed, a copy that ended too "
+                   "soon?); what is whole before that is read\n",
                    printable(file).c_str());
   }
   return logs;
@@ -45,13 +48,11 @@ std::vector<LogMap::Trial> trials_of(const LogMap& map, const std::vector<LogCon
   std::vector<LogMap::Trial> trials;
   for (const LogContents& log : logs) {
     LogMap::Trial trial;
-    const std::string stem = log.file.stem().string();
     trial.log = log.file.filename().string();
-    trial.name = stem;
-    // Logs of several folders are often called the same.
-    const auto is_taken = [&](const LogMap::Trial& other) { return other.name == trial.name; };
-    for (int i = 2; std::ranges::any_of(trials, is_taken); ++i)
-      trial.name = stem + "_" + std::to_string(i);
+    trial.name = log.file.stem().string();
+    if (std::ranges::find(trials, trial.name, &LogMap::Trial::name) != trials.end())
+      throw UsageError("import: two logs give the trial " + in_quotes(trial.name) +
+                       ", expected logs of different names, or --map with trials");
     trials.push_back(trial);
   }
   return trials;
@@ -83,9 +84,23 @@ void write(const ImportArguments& a, const std::function<void(const fs::path&)>&
   if (!replaced.empty()) std::fprintf(stderr, "%s\n", replaced.c_str());
 }
 
+/// What was written must be an experiment; else nothing is. Faults name the place that it was
+/// meant for.
+void check_written(const fs::path& in, const fs::path& out) {
+  Diagnostics found, told;
+  if (discrepancy::read_scene_experiment(in, found) && !found.has_errors()) return;
+  for (Diagnostic one : found.all()) {
+    const fs::path inside = fs::path(one.where.file).lexically_relative(in);
+    if (!inside.empty() && *inside.begin() != "..") one.where.file = (out / inside).string();
+    if (one.severity == Severity::error) told.error(one.where, one.what + " (it is not written)");
+  }
+  throw InvalidFile(told);
+}
+
 int import_with(const ImportArguments& a, const LogMap& map, const LogScene& scene,
                 const std::vector<LogContents>& logs) {
   Diagnostics diagnostics;
+  discrepancy::check_places(map, scene, diagnostics);
   std::vector<discrepancy::LogTrial> trials;
   const std::vector<LogMap::Trial> wanted = trials_of(map, logs);
   for (std::size_t t = 0; t < wanted.size(); ++t) {
@@ -96,9 +111,22 @@ int import_with(const ImportArguments& a, const LogMap& map, const LogScene& sce
       if (!a.quiet) std::fprintf(stderr, "%s\n", printable(remark).c_str());
   }
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
-  write(a, [&](const fs::path& in) { discrepancy::write_log_experiment(in, map, scene, trials); });
+  write(a, [&](const fs::path& in) {
+    discrepancy::write_log_experiment(in, map, scene, trials);
+    check_written(in, a.out);
+  });
   std::fprintf(stderr, "written to %s\n", a.out.c_str());
   return validate_files({a.out}, {}, std::cerr);
+}
+
+/// A map that a person has changed is no proposal any more, also where a run of ours wrote it.
+void check_no_answers_are_lost(const ImportArguments& a, const std::string& proposed) {
+  const fs::path map = fs::path(a.out) / "map.yaml";
+  std::error_code none;
+  if (fs::exists(map, none) && io::read_file(map) != proposed)
+    throw io::WriteError(map.string() +
+                         ": is not as it is proposed from these logs (it was changed?), expected "
+                         "--map with it, or another folder (--out)");
 }
 
 int propose(const ImportArguments& a, const std::vector<LogContents>& logs) {
@@ -109,6 +137,7 @@ int propose(const ImportArguments& a, const std::vector<LogContents>& logs) {
   const LogScene scene = discrepancy::read_log_scene(a.scene);
   const std::string text =
       discrepancy::proposed_map(logs.front(), scene, relative_name(a.scene, a.out));
+  check_no_answers_are_lost(a, text);
   if (text.find(open_question) != std::string::npos) {
     write(a, [&](const fs::path& in) { io::write_file_atomically(in / "map.yaml", text); });
     std::fprintf(stderr,
@@ -128,11 +157,19 @@ int propose(const ImportArguments& a, const std::vector<LogContents>& logs) {
 
 }  // namespace
 
+namespace {
+
+/// By what it begins with, else by its name: then the reader says what is wrong with it.
+bool is_log(const std::string& file) {
+  const std::string ending = fs::path(file).extension().string();
+  return mcap::is_mcap(file) || rosbag::is_bag(file) || io::same_but_case(ending, ".mcap") ||
+         io::same_but_case(ending, ".bag");
+}
+
+}  // namespace
+
 bool are_logs(const ImportArguments& a) {
-  const auto logs =
-      static_cast<std::size_t>(std::ranges::count_if(a.files, [](const std::string& file) {
-        return mcap::is_mcap(file) || rosbag::is_bag(file);
-      }));
+  const auto logs = static_cast<std::size_t>(std::ranges::count_if(a.files, is_log));
   if (logs > 0 && logs < a.files.size())
     throw UsageError(
         "import: some files are logs (MCAP, bags) and some are not, expected one kind");

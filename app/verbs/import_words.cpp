@@ -26,13 +26,15 @@ void add_word_list(CLI::App& verb, const std::string& option, std::vector<std::s
 
 void add_frame_options(CLI::App& verb, ImportArguments& a) {
   verb.add_option("--units", a.units, "of lengths in the recordings: m, cm, mm or metres");
-  verb.add_option("--rate", a.rate, "of the recordings' frames, Hz")->check(CLI::PositiveNumber);
+  verb.add_option("--rate", a.rate, "of the recordings' frames, Hz")
+      ->check(CLI::Range(1.0e-9, 1.0e9));
   auto* up = verb.add_option("--up", a.up, "the axis of the recordings that points up")
                  ->check(CLI::IsMember({"x", "y", "z"}));
   verb.add_option("--axes", a.axes, "the recordings' axes along the world's x, y and z: x,-z,y")
       ->excludes(up);
   verb.add_option("--origin", a.origin, "the recordings' origin in the world, m (default: 0,0,0)");
-  verb.add_option("--scale", a.scale, "of points in pixels, m a pixel")->check(CLI::PositiveNumber);
+  verb.add_option("--scale", a.scale, "of points in pixels, m a pixel")
+      ->check(CLI::Range(1.0e-9, 1.0e9));
   verb.add_option("--origin-pixel", a.origin_pixel, "pixel of the recordings' origin: u,v");
   verb.add_option("--camera", a.camera,
                   "file of the camera that saw the pixels: position, orientation, focal, centre");
@@ -48,7 +50,7 @@ void add_place_options(CLI::App& verb, ImportArguments& a) {
   add_word_list(verb, "--hold", a.holds, "POINT=CURVE:AT, a point that leads the plant there");
   verb.add_option("--lead", a.lead, "CURVE:AT, where the machine of --force leads the plant");
   verb.add_option("--stiffness", a.stiffness, "of what leads, N/m (default: rigid)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1.0e-9, 1.0e9));
   add_word_list(
       verb, "--begin", a.begins,
       "[TRIAL=]S, when the trial begins on the recording's clock (default: first sample)");

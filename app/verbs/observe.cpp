@@ -14,6 +14,7 @@
 #include "pedicel/discrepancy/scene/scene_experiment.h"
 #include "pedicel/discrepancy/simulate/simulator.h"
 #include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/output_check.h"
 #include "pedicel/io/output_folder.h"
 #include "pedicel/io/yaml.h"
 #include "pedicel/plant/effect_reader.h"
@@ -163,11 +164,11 @@ void add_observe_options(CLI::App& observe, ObserveArguments& a) {
   observe.add_option("--out", a.out, "folder to write")->required();
   observe.add_option("--seed", a.seed, "of the noise");
   observe.add_option("--noise-position", a.noise_position, "standard deviation, m")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1.0e6));
   observe.add_option("--noise-force", a.noise_force, "standard deviation, N")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1.0e6));
   observe.add_option("--noise-moment", a.noise_moment, "standard deviation, N m")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1.0e6));
   observe
       .add_option("--noise-colour", a.noise_colour, "correlation with the sample before (AR(1))")
       ->check(CLI::Range(0.0, 0.999));
@@ -195,6 +196,7 @@ discrepancy::Experiment observed(const ObserveArguments& a, discrepancy::Experim
 
 int observe_verb(const ObserveArguments& a) {
   if (discrepancy::is_scene_experiment(a.like)) return observe_scene_verb(a);
+  io::check_output_folder(a.out, {"experiment.yaml", "plant.yaml"});
   const Experiment experiment = observed(a, read_experiment(a.like));
   stop_in_good_order();
   const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {

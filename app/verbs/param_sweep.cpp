@@ -1,5 +1,8 @@
 #include "pedicel/app/verbs/param_sweep.h"
 
+#include <algorithm>
+
+#include "pedicel/app/run/scene_plants.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/exit_code.h"
@@ -50,6 +53,11 @@ std::string line_of(const io::CsvTable& table, std::size_t row, const SceneResul
 io::CsvTable read_param_sweep(const std::filesystem::path& path) {
   Diagnostics diagnostics;
   io::CsvTable table = io::read_csv(path, {false, false}, diagnostics);
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    if (std::count(table.columns.begin(), table.columns.begin() + static_cast<long>(c),
+                   table.columns[c]) > 0)
+      diagnostics.error({table.file, 1, 0}, "column " + in_quotes(table.columns[c]) +
+                                                " appears twice, expected each key once");
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   return table;
 }
@@ -84,6 +92,9 @@ std::string param_sweep_csv(const world::Scene& scene, const io::CsvTable& table
 SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
                             const RunOptions& options) {
   const std::vector<world::Scene> scenes = scenes_of_rows(scene, table);
+  Diagnostics diagnostics;
+  check_settings(scenes, options.simulation, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   SceneResult all;
   all.folder = options.out;
   stop_in_good_order();

@@ -16,6 +16,7 @@
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/bounds.h"
+#include "pedicel/io/output_check.h"
 #include "pedicel/world/scene_reader.h"
 #include "pedicel/world/settings.h"
 
@@ -280,8 +281,55 @@ RunOptions run_options(const RunArguments& a) {
   return options;
 }
 
+namespace {
+
+bool is_same_place(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code none;
+  const auto place = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), none);
+  };
+  return place(one) == place(other);
+}
+
+/// What is written elsewhere than in the folder: before the run, and none in the place of another.
+void check_files_out(const RunArguments& a, const std::filesystem::path& out) {
+  const std::pair<const char*, const std::string*> outputs[] = {{"--log", &a.log},
+                                                                {"--events", &a.events},
+                                                                {"--gltf", &a.gltf},
+                                                                {"--save-state", &a.save_state}};
+  const std::pair<const char*, const std::string*> inputs[] = {{"the scene", &a.scene},
+                                                               {"--trajectory", &a.trajectory},
+                                                               {"--compare", &a.compare},
+                                                               {"--param-sweep", &a.param_sweep}};
+  for (const auto& [option, name] : outputs) {
+    if (name->empty()) continue;
+    for (const auto& [input, file] : inputs)
+      if (!file->empty() && is_same_place(*name, *file))
+        throw UsageError(std::string(option) + " " + *name + ": is the file of " + input +
+                         ", expected another name");
+    if (is_same_place(*name, out))
+      throw UsageError(std::string(option) + " " + *name +
+                       ": is the folder of the run (--out), expected a file's name");
+    const std::filesystem::path path = *name;
+    const bool is_the_runs = is_same_place(std::filesystem::absolute(path).parent_path(), out) &&
+                             std::ranges::count(files_of_a_run(), path.filename().string()) > 0;
+    const bool is_itself = (name == &a.log && path.filename() == "log.csv") ||
+                           (name == &a.events && path.filename() == "events.csv");
+    if (is_the_runs && !is_itself)
+      throw UsageError(std::string(option) + " " + *name +
+                       ": the run writes a file of its own there, expected another name");
+    io::check_output_file(path);
+  }
+}
+
+}  // namespace
+
 RunOptions options_of_run(const RunArguments& a) {
   RunOptions options = run_options(a);
+  if (!a.print_scene) {
+    check_files_out(a, options.out);
+    io::check_output_folder(options.out, files_of_a_run());
+  }
   if (is_lone_plant(a.scene))
     options.simulation.edited =
         options_of(open_document(a.scene, unit_of_text(a.unit, "--unit")), {}).edited;
@@ -291,7 +339,7 @@ RunOptions options_of_run(const RunArguments& a) {
 int end_of_run(const world::Scene& scene, const RunArguments& a, const RunOptions& options,
                const SceneResult& result) {
   if (a.json) std::cout << to_json(scene, result) << std::endl;
-  if (!a.quiet) say(Verbosity::lines, "written to %s", options.out.string().c_str());
+  if (!a.quiet) say(Verbosity::lines, "written to %s", printable(options.out.string()).c_str());
   return result.exit_code;
 }
 

@@ -44,7 +44,8 @@ world::Scene load_scene(const RunArguments& a);
 
 /// Throws UsageError for a size that is none, and InvalidFile for measured data that are none.
 RunOptions run_options(const RunArguments& a);
-/// With the plant, where that is all there is.
+/// With the plant, where that is all there is. Every place that is written to is looked at before
+/// anything is touched: throws io::WriteError, and UsageError where an output is an input.
 RunOptions options_of_run(const RunArguments& a);
 
 /// How much the program says from now on: --quiet, -v.

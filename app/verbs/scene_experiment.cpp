@@ -13,6 +13,7 @@
 #include "pedicel/discrepancy/scene_procedure/extended_scene.h"
 #include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/output_check.h"
 #include "pedicel/io/output_folder.h"
 #include "pedicel/io/yaml.h"
 
@@ -78,6 +79,7 @@ int observe_scene_verb(const ObserveArguments& a) {
   if (!a.plant.empty())
     throw UsageError("--plant: " + a.like + " has a whole scene, expected no single plant of it");
   const SceneExperiment like = read_whole(a.like, scene_of(a.model));
+  io::check_output_folder(a.out, {"experiment.yaml"});
   discrepancy::SceneVariant variant;
   for (const std::string& text : a.set) variant.effects.push_back(parse_effect(text, like));
   discrepancy::SceneObserveOptions options;
@@ -116,7 +118,7 @@ void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExper
     if (std::filesystem::exists(folder / "extended.plant.yaml"))
       verdict.extended_plant = "extended.plant.yaml";
     for (const std::string& left : extended.left)
-      diagnosis.text += "  extended.scene.yaml has no words for " + left + "\n";
+      diagnosis.text += "  extended.scene.yaml is without " + left + "\n";
   }
   io::write_file_atomically(folder / "findings.txt", diagnosis.text);
   io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
@@ -131,20 +133,25 @@ int diagnose_scene_verb(const ExperimentArguments& a, double time_limit) {
         return trial.use == discrepancy::Trial::Use::check;
       }))
     throw UsageError(a.experiment + ": every trial has use: check, expected one to be fitted");
-  discrepancy::SceneDiagnosisOptions options;
-  options.threads = a.thread_count();
-  options.time_limit = time_limit;
-  options.stop = &stop_requested;
-  ProgressLine progress;
-  options.progress = progress.callback(a.quiet);
-  discrepancy::SceneDiagnosis diagnosis = discrepancy::diagnose_scene(experiment, options);
-  progress.end(stop_requested);
-  throw_if_stopped();
   const std::filesystem::path folder =
       a.out.empty()
           ? std::filesystem::path("out") /
                 ("diagnosis_" + std::filesystem::absolute(experiment.folder).filename().string())
           : std::filesystem::path(a.out);
+  a.check(folder, {"report.html", "verdict.json", "findings.txt"});
+  discrepancy::SceneDiagnosisOptions options;
+  options.threads = a.thread_count();
+  options.time_limit = time_limit;
+  options.stop = &stop_requested;
+  // From now on a signal ends the search, and what is known is written.
+  stop_in_good_order();
+  bool stopped = false;
+  options.cut_short = [&stopped] { stopped = stop_requested.exchange(false); };
+  ProgressLine progress;
+  options.progress = progress.callback(a.quiet);
+  discrepancy::SceneDiagnosis diagnosis = discrepancy::diagnose_scene(experiment, options);
+  progress.end(stop_requested);
+  throw_if_stopped();
   a.write(folder, [&](const std::filesystem::path& in) {
     write_scene_diagnosis(in, experiment, diagnosis);
   });
@@ -153,7 +160,7 @@ int diagnose_scene_verb(const ExperimentArguments& a, double time_limit) {
   else
     std::printf("%swritten to %s\n", discrepancy::scene_card_text(diagnosis).c_str(),
                 folder.string().c_str());
-  return exit_code(diagnosis.verdict.outcome);
+  return stopped ? stop_exit_code() : exit_code(diagnosis.verdict.outcome);
 }
 
 }  // namespace pedicel::app

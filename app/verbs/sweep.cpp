@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "pedicel/app/report/sweep.h"
+#include "pedicel/app/run/scene_plants.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/verbs/cluster.h"
 #include "pedicel/app/verbs/effective_scene.h"
@@ -54,11 +55,20 @@ std::optional<world::SceneSweep> take_sweep(std::vector<std::string>& set) {
 }
 
 /// An impossible key or value is found before the first run.
-void check_values(const world::Scene& scene, const world::SceneSweep& sweep) {
+void check_all(const std::vector<world::Scene>& scenes, const RunOptions& options) {
+  Diagnostics diagnostics;
+  check_settings(scenes, options.simulation, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+}
+
+std::vector<world::Scene> scenes_of_values(const world::Scene& scene,
+                                           const world::SceneSweep& sweep) {
+  std::vector<world::Scene> scenes;
   for (const double value : sweep.values) {
-    world::Scene one = scene;
-    world::apply_override(one, sweep.key, io::exact_number(value), "--set ");
+    scenes.push_back(scene);
+    world::apply_override(scenes.back(), sweep.key, io::exact_number(value), "--set ");
   }
+  return scenes;
 }
 
 void check_arguments(const SweepArguments& a) {
@@ -89,10 +99,11 @@ int run(SweepArguments a, const CLI::App& verb) {
   if (sweep) {
     if (scene.sweep && scene.sweep->key != sweep->key)
       std::erase_if(scene.expectations, [](const auto& e) { return e.over_sweep(); });
-    check_values(scene, *sweep);
+    check_all(scenes_of_values(scene, *sweep), options);
     scene.sweep = sweep;
   } else {
     table = read_param_sweep(a.param_sweep);
+    check_all(scenes_of_rows(scene, *table), options);
   }
   if (a.print_scene) {
     std::cout << effective_scene(scene) << std::flush;

@@ -39,11 +39,12 @@ std::string row(const char* trials, const discrepancy::Errors& errors) {
 int run(const TransferArguments& a) {
   const plant::PlantFile extended = load_plant(a.extended);
   const discrepancy::Experiment experiment = load_experiment(a);
+  const std::filesystem::path folder = a.folder("transfer_", experiment);
+  a.check(folder, {"transfer.json"});
   discrepancy::TransferOptions options;
   const discrepancy::Transfer found = with_progress(
       a, options, [&](ProgressLine&) { return transfer(extended, experiment, options); });
   if (found.stopped) return stop_exit_code();
-  const std::filesystem::path folder = a.folder("transfer_", experiment);
   a.write(folder, [&](const std::filesystem::path& in) {
     io::write_file_atomically(in / "transfer.json", to_json(found) + "\n");
   });

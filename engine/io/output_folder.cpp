@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/output_check.h"
 
 namespace pedicel::io {
 
@@ -130,7 +131,43 @@ long remove_listed(const fs::path& folder, const std::vector<std::string>& lines
   return removed;
 }
 
+constexpr const char* taken_by_another =
+    "another run is writing there, expected another folder (--out)";
+
+void check_is_free(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  if (name.ends_with('/')) return;  // its files are asked for one by one
+  if (fs::exists(fs::symlink_status(folder / name, error)))
+    fail(folder / name,
+         "is there, and no list says that a run wrote it: expected another folder (--out), or this "
+         "one without it");
+}
+
+/// Before anything is taken away: what is there may only be what an earlier run wrote.
+void check_all_free(const fs::path& folder, const std::vector<std::string>& names,
+                    const std::vector<std::string>& earlier) {
+  for (const std::string& name : names)
+    if (std::ranges::find(earlier, name) == earlier.end()) check_is_free(folder, name);
+}
+
 }  // namespace
+
+void check_output_folder(const fs::path& folder, const std::vector<std::string>& names) {
+  std::error_code error;
+  const fs::file_status there = fs::status(folder, error);
+  if (error && there.type() != fs::file_type::not_found)
+    fail(folder, "cannot be created: " + error.message());
+  if (fs::exists(there) && !fs::is_directory(there))
+    fail(folder, std::string("cannot be created: ") + std::strerror(ENOTDIR));
+  check_place_for_files(folder);
+  const int list = ::open((folder / list_name).c_str(), O_RDONLY | O_CLOEXEC);
+  if (list < 0) return check_all_free(folder, names, {});
+  const bool taken = ::flock(list, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const std::vector<std::string> earlier = lines_of(list);
+  ::close(list);
+  if (taken) fail(folder, taken_by_another);
+  check_all_free(folder, names, earlier);
+}
 
 OutputFolder::OutputFolder(fs::path folder, const std::vector<std::string>& names)
     : folder_(std::move(folder)) {
@@ -142,9 +179,9 @@ OutputFolder::OutputFolder(fs::path folder, const std::vector<std::string>& name
   if (list_ < 0) fail(folder_, "cannot be written to: " + reason());
   try {
     if (::flock(list_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      fail(folder_, "another run is writing there, expected another folder (--out)");
+      fail(folder_, taken_by_another);
+    check_all_free(folder_, names, lines_of(list_));
     remove_earlier_run();
-    for (const std::string& name : names) check_free(name);
     append(list_head);
   } catch (...) {
     ::close(list_);
@@ -175,12 +212,7 @@ void OutputFolder::remove_earlier_run() {
 }
 
 void OutputFolder::check_free(const std::string& name) const {
-  std::error_code error;
-  if (name.ends_with('/')) return;  // its files are asked for one by one
-  if (fs::exists(fs::symlink_status(folder_ / name, error)))
-    fail(folder_ / name,
-         "is there, and no list says that a run wrote it: expected another folder (--out), or this "
-         "one without it");
+  check_is_free(folder_, name);
 }
 
 void OutputFolder::append(const std::string& line) {
@@ -205,7 +237,7 @@ class StagingFolder {
   }
   ~StagingFolder() {
     std::error_code error;
-    fs::remove_all(folder, error);
+    if (!keep) fs::remove_all(folder, error);
   }
   StagingFolder(const StagingFolder&) = delete;
   StagingFolder& operator=(const StagingFolder&) = delete;
@@ -219,24 +251,32 @@ class StagingFolder {
   }
 
   fs::path folder;
+  bool keep = false;
 };
 
 }  // namespace
 
 std::string write_folder(const fs::path& folder,
                          const std::function<void(const fs::path&)>& write) {
-  const StagingFolder staged(folder);
+  check_output_folder(folder);
+  StagingFolder staged(folder);
   write(staged.folder);
   const std::vector<std::string> names = staged.files();
-  OutputFolder output(folder, names);
-  for (const std::string& name : names) {
-    std::error_code error;
-    const fs::path target = output.file(name);
-    fs::create_directories(target.parent_path(), error);
-    if (!error) fs::rename(staged.folder / name, target, error);
-    if (error) fail(target, "cannot be written: " + error.message());
+  try {
+    OutputFolder output(folder, names);
+    for (const std::string& name : names) {
+      std::error_code error;
+      const fs::path target = output.file(name);
+      fs::create_directories(target.parent_path(), error);
+      if (!error) fs::rename(staged.folder / name, target, error);
+      if (error) fail(target, "cannot be written: " + error.message());
+    }
+    return output.replaced();
+  } catch (const WriteError& fault) {
+    staged.keep = true;  // it may have taken hours
+    throw WriteError(std::string(fault.what()) + "; what was to go there is in " +
+                     staged.folder.string());
   }
-  return output.replaced();
 }
 
 std::string name_of_file(const fs::path& path) {

@@ -44,7 +44,14 @@ class FileReader {
     Fields fields({head, record_head});
     const auto op = fields.number<Op>();
     const auto length = fields.number<std::uint64_t>();
-    if (length > size_ - at_ - record_head) return false;  // cut off
+    if (length > size_ - at_ - record_head) {
+      if (has_its_end())
+        fail("damaged: a record of " + std::to_string(length) + " bytes where " +
+             std::to_string(size_ - at_ - record_head) +
+             " are left, expected one that ends before the file does (mcap recover writes what is "
+             "whole)");
+      return false;  // cut off
+    }
     if (length > limits_.record)
       fail("a record of " + std::to_string(length) + " bytes, expected at most " +
            std::to_string(limits_.record));
@@ -60,6 +67,15 @@ class FileReader {
       simple(op, content_);
     at_ += record_head + length;
     return true;
+  }
+
+  /// Who is killed while writing leaves none.
+  bool has_its_end() {
+    if (size_ < 2 * magic.size()) return false;
+    std::string tail(magic.size(), '\0');
+    file_.clear();
+    file_.seekg(static_cast<std::streamoff>(size_ - magic.size()));
+    return file_.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == magic;
   }
 
   void chunk(std::string_view content) {
@@ -189,6 +205,16 @@ class FileReader {
 
 }  // namespace
 
+namespace {
+
+std::string why_not(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return "is a folder, expected an MCAP file";
+  return error ? error.message() : "expected an MCAP file that can be";
+}
+
+}  // namespace
+
 ReadEnd read(std::istream& file, const std::string& name,
              const std::function<void(const Message&)>& take, const ReaderLimits& limits) {
   return FileReader(file, name, take, limits).read();
@@ -198,7 +224,7 @@ ReadEnd read(const std::filesystem::path& path, const std::function<void(const M
              const ReaderLimits& limits) {
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path))
-    throw InvalidFile({path.string()}, "cannot be read, expected an MCAP file");
+    throw InvalidFile({path.string()}, "cannot be read: " + why_not(path));
   return read(file, path.string(), take, limits);
 }
 

@@ -1,14 +1,19 @@
 #include "pedicel/mcap/writer.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 #include <zstd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/output_check.h"
 
 namespace pedicel::mcap {
 
@@ -25,14 +30,23 @@ std::string compressed(const std::string& bytes) {
   return out;
 }
 
+std::string reason() {
+  return std::strerror(errno);
+}
+
 }  // namespace
 
 Writer::Writer(std::filesystem::path path, WriterOptions options)
     : path_(std::move(path)), options_(std::move(options)) {
   std::error_code none;
   if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), none);
-  file_.open(path_, std::ios::binary | std::ios::trunc);
-  if (!file_) throw io::WriteError(path_.string() + ": cannot be written: " + std::strerror(errno));
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  if (file_ < 0) throw io::WriteError(path_.string() + ": cannot be written: " + reason());
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(file_);
+    throw io::WriteError(path_.string() + ": " + io::other_run_writes);
+  }
+  if (::ftruncate(file_, 0) != 0) fail();
   put(magic);
   put(record(Op::header, Bytes().text(options_.profile).text(options_.library).all()));
 }
@@ -44,13 +58,31 @@ Writer::~Writer() {
   }
 }
 
+/// Handed to the system at once, so that a killed program leaves it.
 void Writer::put(std::string_view bytes) {
-  file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  // Handed to the system at once, so that a killed program leaves it.
-  file_.flush();
-  if (!file_) throw io::WriteError(path_.string() + ": cannot be written: " + std::strerror(errno));
+  for (std::string_view rest = bytes; !rest.empty();) {
+    const ssize_t n = ::write(file_, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail();
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
   offset_ += bytes.size();
   crc_ = crc_of(bytes, crc_);
+}
+
+void Writer::fail() {
+  std::string text = path_.string() + ": cannot be written: " + reason();
+  const std::filesystem::path part = path_.string() + ".part";
+  std::error_code error;
+  const bool kept = !chunks_.empty() && ::ftruncate(file_, static_cast<off_t>(offset_)) == 0;
+  if (kept) std::filesystem::rename(path_, part, error);
+  if (!kept || error)
+    std::filesystem::remove(path_, error);
+  else
+    text += "; what was whole is in " + part.string();
+  ::close(std::exchange(file_, -1));
+  closed_ = true;
+  throw io::WriteError(text);
 }
 
 std::uint16_t Writer::add_channel(const std::string& topic, const Schema& schema,
@@ -206,8 +238,8 @@ void Writer::close() {
   put(record(Op::data_end, Bytes().number(crc_).all()));
   put_summary();
   put(magic);
-  file_.close();
-  if (!file_) throw io::WriteError(path_.string() + ": cannot be written: " + std::strerror(errno));
+  if (::close(std::exchange(file_, -1)) != 0)
+    throw io::WriteError(path_.string() + ": cannot be written: " + reason());
 }
 
 }  // namespace pedicel::mcap

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -20,7 +19,9 @@ struct WriterOptions {
 /// end a summary. What a program that is killed leaves can be read up to the last whole chunk.
 class Writer {
  public:
-  /// Makes the file, and its folder. Throws io::WriteError, as all functions here.
+  /// Makes the file, and its folder. Throws io::WriteError, as all functions here, where another
+  /// writer has the file, too. What does not fit on a disk leaves what was whole under the name
+  /// with ".part", and nothing under the name itself.
   Writer(std::filesystem::path path, WriterOptions options);
   /// close(), without a word where that fails.
   ~Writer();
@@ -43,13 +44,14 @@ class Writer {
     std::map<std::uint16_t, std::uint64_t> indices;  // offset, by channel
   };
   void put(std::string_view bytes);
+  [[noreturn]] void fail();
   void end_chunk();
   void put_summary();
   std::string statistics() const;
 
   std::filesystem::path path_;
   WriterOptions options_;
-  std::ofstream file_;
+  int file_ = -1;  // file descriptor, locked
   std::uint64_t offset_ = 0;
   std::uint32_t crc_ = 0;  // of all that was written
   std::vector<Schema> schemas_;

@@ -98,6 +98,8 @@ void write_bytes(const std::filesystem::path& path, const std::vector<std::uint8
              static_cast<std::streamsize>(bytes.size()));
   if (!file.flush()) fail(std::strerror(errno));
   file.close();
+  // Renaming would put a plain file in the place of a device or a pipe.
+  if (std::filesystem::is_other(path)) fail("is a device or a pipe, expected a plain file");
   std::filesystem::rename(part, path, error);
   if (error) fail(error.message());
 }

@@ -192,7 +192,11 @@ class Mp4Writer : public VideoWriter {
 
   void place(const std::filesystem::path& film) const {
     std::error_code error, ignored;
-    std::filesystem::rename(film, path_, error);
+    // Renaming would put a plain file in the place of a device or a pipe.
+    if (std::filesystem::is_other(path_, ignored))
+      error = std::make_error_code(std::errc::not_supported);
+    else
+      std::filesystem::rename(film, path_, error);
     if (!error) return;
     std::filesystem::remove(film, ignored);
     throw OutputError(path_.string() + ": cannot be written: " + error.message());

@@ -10,6 +10,7 @@
 
 #include "pedicel/core/diagnostics.h"
 #include "pedicel/core/frames.h"
+#include "pedicel/io/yaml_piece.h"
 #include "pedicel/world/bodies.h"
 #include "pedicel/world/expectation.h"
 #include "pedicel/world/sensors.h"
@@ -194,6 +195,9 @@ struct Scene {
   std::vector<SceneTie> ties;
   std::optional<SceneWind> wind;
   std::vector<SceneCut> cuts;
+  /// What its robot, contacts, plants and instruments do beyond the plain model: read by whoever
+  /// knows effects.
+  std::vector<io::YamlPiece> effects;
   std::vector<SceneCamera> cameras;
   std::vector<SceneWrench> wrenches;
   SceneLook look;

@@ -89,7 +89,7 @@ SceneTie read_tie(const io::YamlNode& node) {
   tie.organ = map.text("organ");
   tie.at = map.number("at", io::fraction, 1.0);
   const auto to = map.optional("to"), offset = map.optional("offset");
-  if (to.has_value() == offset.has_value())
+  if (node.is_map() && to.has_value() == offset.has_value())
     map.error(
         "a tie: expected exactly one of to (m, in the world) and offset (m, from the tied "
         "place as drawn)");
@@ -108,8 +108,10 @@ SceneCut read_cut(const io::YamlNode& node) {
   cut.organ = map.text("organ");
   cut.at = map.number("at", io::fraction, cut.at);
   const bool by_tool = map.boolean("by_tool", false);
-  if (map.has("time") == by_tool)
+  const bool is_clear = map.has("time") != by_tool;
+  if (node.is_map() && !is_clear)
     map.error("a cut: expected exactly one of time (s) and by_tool: true");
+  if (!is_clear) cut.time = 0.0;  // what is asked of a tool is not asked then
   if (map.has("time")) cut.time = map.number("time", io::not_negative);
   cut.reach = map.number("reach", io::positive, cut.reach);
   map.finish();
@@ -119,7 +121,10 @@ SceneCut read_cut(const io::YamlNode& node) {
 SceneWind read_wind(const io::YamlNode& node) {
   SceneWind wind;
   io::YamlMap map(node, "wind");
+  const int before = node.diagnostics().error_count();
   wind.velocity = map.vector("velocity");
+  const bool is_read = node.diagnostics().error_count() == before && node.is_map();
+  if (!is_read) wind.velocity = Vec3::UnitX();
   if (wind.velocity.head<2>().isZero(0.0) || wind.velocity.norm() > fastest_wind)
     node.error("wind: velocity " + in_quotes(io::yaml_number(wind.velocity.norm())) +
                " m/s, expected one along the ground of at most " + io::yaml_number(fastest_wind));

@@ -47,10 +47,12 @@ void read_focal(io::YamlMap& map, SceneCamera& camera) {
   if (!node) return;
   if (map.has("fov")) node->error("focal: expected fov or focal, not both");
   std::vector<double> focal;
+  const int before = node->diagnostics().error_count();
   if (node->is_list())
     focal = node->numbers("focal", io::positive);
   else
     focal = {node->number("focal", io::positive)};
+  if (node->diagnostics().error_count() > before) return;
   if (focal.empty() || focal.size() > 2 || (focal.size() == 2 && focal[0] != focal[1]))
     return node->error("focal: expected one length in pixels, or two equal ones");
   camera.field_of_view = 2.0 * std::atan(0.5 * camera.size[1] / focal[0]);
@@ -70,6 +72,7 @@ void read_size(io::YamlMap& map, std::array<int, 2>& size) {
 
 SceneCamera read_camera(const io::YamlNode& node) {
   SceneCamera camera;
+  const int before = node.diagnostics().error_count();
   io::YamlMap map(node, "a camera");
   camera.name = map.text("name");
   read_size(map, camera.size);
@@ -85,7 +88,8 @@ SceneCamera read_camera(const io::YamlNode& node) {
   if (const auto words = map.optional("sensors")) camera.sensors = read_sensor_words(*words);
   camera.rate = map.number("rate", sensor_rates, camera.rate);
   read_described(map, "noise", camera.noise);
-  if (!((camera.eye - camera.target).norm() > 1e-6))
+  const bool is_read = node.diagnostics().error_count() == before;
+  if (is_read && !((camera.eye - camera.target).norm() > 1e-6))
     node.error("a camera: expected eye and target to be apart");
   map.finish();
   return camera;

@@ -101,6 +101,7 @@ std::string things(const Scene& scene, const std::filesystem::path& folder) {
   if (scene.wind) text += line("wind", fields::wind(*scene.wind));
   text += list("ties", scene.ties, fields::tie);
   text += list("cuts", scene.cuts, fields::cut);
+  text += list("effects", scene.effects, io::piece_text);
   text += list("cameras", scene.cameras, fields::camera);
   text += list("wrenches", scene.wrenches, fields::wrench) + fields::look(scene.look);
   text += list("pictures", scene.pictures, fields::picture) + video(scene.video);

@@ -198,15 +198,31 @@ void apply_override(Scene& scene, const std::string& key, const std::string& val
   }
 }
 
+namespace {
+
+/// What a drawn value is called in faults, which come when plants are built: the place that varies.
+void place_of_drawn(std::vector<Setting>& settings, const std::string& key,
+                    const SourcePosition& where) {
+  for (Setting& one : settings)
+    if (one.where.file == key && one.where.line == 0) one.where = where;
+}
+
+}  // namespace
+
 Scene drawn_scene(const Scene& scene) {
   Scene drawn = scene;
   Diagnostics diagnostics;
-  for (const auto& [key, text] : draw(scene.vary, static_cast<std::uint64_t>(scene.seed))) try {
+  for (const auto& [key, text] : draw(scene.vary, static_cast<std::uint64_t>(scene.seed))) {
+    const SourcePosition& where = std::ranges::find(scene.vary, key, &VariedNumber::key)->where;
+    try {
       apply_override(drawn, key, text);
     } catch (const UsageError& fault) {
-      const auto number = std::ranges::find(scene.vary, key, &VariedNumber::key);
-      diagnostics.error(number->where, std::string("vary: ") + fault.what());
+      diagnostics.error(where, std::string("vary: ") + fault.what());
     }
+    place_of_drawn(drawn.rods, key, where);
+    place_of_drawn(drawn.coupling, key, where);
+    for (ScenePlant& plant : drawn.plants) place_of_drawn(plant.set, key, where);
+  }
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   drawn.vary.clear();
   return drawn;

@@ -21,11 +21,13 @@ const std::vector<std::string>& distribution_words() {
 }
 
 void read_bounds(io::YamlMap& map, VariedNumber& one, bool required) {
+  const int before = map.node().diagnostics().error_count();
   one.low = -std::numeric_limits<double>::infinity();
   one.high = -one.low;
   if (required || map.has("low")) one.low = map.number("low", io::any_number);
   if (required || map.has("high")) one.high = map.number("high", io::any_number);
-  if (map.has("low") && map.has("high") && one.low > one.high)
+  const bool is_read = map.node().diagnostics().error_count() == before;
+  if (is_read && map.has("low") && map.has("high") && one.low > one.high)
     map.error("low is above high, expected low <= high");
 }
 

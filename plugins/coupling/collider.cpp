@@ -8,7 +8,11 @@ namespace pedicel::coupling {
 
 namespace {
 
+// The box of a turned box, by centre and half sizes: |R| times the halves is exact, and cheaper
+// than eight corners.
 geometry::Aabb moved(const geometry::Aabb& box, const Mat3& R, const Vec3& position) {
+  // A plane is infinite. Turned by numbers, infinity times zero would be no number, and what
+  // compares with that meets nothing.
   if (!box.sizes().allFinite()) {
     const double far = std::numeric_limits<double>::infinity();
     return {Vec3::Constant(-far), Vec3::Constant(far)};
@@ -23,8 +27,11 @@ geometry::Aabb moved(const geometry::Aabb& box, const Mat3& R, const Vec3& posit
 void refresh_box(Placement& placement, const geometry::Aabb& bounds) {
   placement.box_W = moved(bounds, placement.R_WC, placement.X_WC.position);
   if (!placement.is_moving || !bounds.sizes().allFinite()) return;
+  // Both poses, because plants are looked for on the way that they and the collider go within a
+  // step, and not only where it ends.
   placement.box_W.extend(moved(bounds, placement.R_WC_before, placement.X_WC_before.position));
   const double angle = placement.X_WC.rotation.angularDistance(placement.X_WC_before.rotation);
+  // From the origin of C, about which the pose turns.
   const double farthest = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).norm();
   placement.box_W.min().array() -= farthest * angle * angle / 8.0;
   placement.box_W.max().array() += farthest * angle * angle / 8.0;
@@ -34,6 +41,7 @@ void refresh_box(Placement& placement, const geometry::Aabb& bounds) {
 
 int ColliderSet::add(Collider collider, const Pose& X_WL) {
   if (!collider.shape) throw UsageError("collider '" + collider.name + "': has no shape");
+  // Misuse of the interface, so an exception: files have been checked with line and field before.
   if (collider.friction && !(*collider.friction >= 0.0 && *collider.friction <= 10.0))
     throw UsageError("collider '" + collider.name + "': friction = " +
                      std::to_string(*collider.friction) + ": must be between 0 and 10");
@@ -47,6 +55,8 @@ int ColliderSet::add(Collider collider, const Pose& X_WL) {
 
 void ColliderSet::put(int index, const Pose& X_WL) {
   Placement& placement = placements_[index];
+  // Without motion: put far away by a reset, a collider would else sweep through all plants in
+  // between, and drag them along by friction.
   placement.X_WC = placement.X_WC_before = X_WL * colliders_[index].X_LC;
   placement.R_WC = placement.R_WC_before = placement.X_WC.rotation.toRotationMatrix();
   placement.is_moving = false;
@@ -57,10 +67,14 @@ void ColliderSet::update(std::span<const Pose> X_WL) {
   PEDICEL_ASSERT(X_WL.size() == colliders_.size());
   for (int i = 0; i < size(); ++i) {
     Placement& placement = placements_[i];
+    // Before the new pose is taken. The two are the ends of this step's way: what a plant touches
+    // moves by their difference.
     placement.X_WC_before = placement.X_WC;
     placement.R_WC_before = placement.R_WC;
     placement.X_WC = X_WL[i] * colliders_[i].X_LC;
     placement.R_WC = placement.X_WC.rotation.toRotationMatrix();
+    // Bit by bit. A thing that rests is worth one look at its field for a whole run of elements,
+    // and one that moves by a little must not pass for it.
     placement.is_moving = placement.X_WC.position != placement.X_WC_before.position ||
                           placement.R_WC != placement.R_WC_before;
     refresh_box(placement, colliders_[i].shape->bounds());
@@ -80,6 +94,7 @@ void ColliderSet::press(int index, int drive, const Vec3& linear_W, const Vec3& 
 }
 
 Pose ColliderSet::link_pose(int index) const {
+  // From the collider back to its link: only placements are kept, so that the two never disagree.
   return placements_[index].X_WC * colliders_[index].X_LC.inverse();
 }
 

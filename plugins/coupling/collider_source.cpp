@@ -30,13 +30,19 @@ std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, cons
   return ignore_touching(model, state, every_collider);
 }
 
+// A pair is left out for good and not until it has parted: a stem in the ground parts and meets
+// with every sway, and would be thrown out of it.
 std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state,
                                                      int collider) {
+  // A step without motion, so that nothing is found by its way.
   begin_step(model, state, 0.0);
   std::vector<ContactPoint> found;
   find(model, state, 0.0, found);
+  // A drive's collider is touched in several places along a shape: by pair, so that each is said
+  // once. Ordered, so that the report is the same in each run.
   std::map<std::pair<int, int>, Overlap> overlaps;
   for (const ContactPoint& point : found) {
+    // What is nearer than the margin pushes already, and would be pushed away at the start.
     if (point.gap > settings_.margin) continue;
     if (collider != every_collider && point.collider != collider) continue;
     Overlap& overlap =
@@ -46,6 +52,8 @@ std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, cons
     overlap.collider = point.collider;
     overlap.depth = std::max(overlap.depth, -point.gap);
     const bool is_deep = point.gap < -point.radius;
+    // A pad may push out what it overlaps a little, since its joint gives way. Beyond the axis the
+    // distance field points to the other side, and the pad would pull the organ through.
     overlap.is_ignored |= placement(point.collider).drive < 0 || is_deep;
   }
   std::vector<Overlap> all;
@@ -53,12 +61,14 @@ std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, cons
     all.push_back(overlap);
     if (overlap.is_ignored) ignored_.push_back(pair);
   }
+  // Sorted for the binary search: the question is asked for each pair in each iteration.
   std::sort(ignored_.begin(), ignored_.end());
   return all;
 }
 
 void ColliderSource::change_settings(const CouplingSettings& settings) {
   std::string refusal = check(settings);
+  // The margin is in the boxes of the chunks, and in what was left out at the start.
   if (settings.margin != settings_.margin) refusal = "CouplingSettings.margin: must stay";
   if (!refusal.empty()) throw UsageError(refusal);
   settings_ = settings;
@@ -77,8 +87,11 @@ void ColliderSource::cover(double from, double to) {
   if (from == 0.0 && to == 1.0) return;
   for (int i = 0; i < colliders_.size(); ++i) {
     const Placement& whole = colliders_.placement(i);
+    // The box stays that of the whole way, which holds every part of it.
     Placement& part = covered_.emplace_back(whole);
     if (!whole.is_moving) continue;
+    // The part's motion is what friction is dragged by, so both ends are moved and not only the
+    // later one.
     part.X_WC_before = cosserat::between(whole.X_WC_before, whole.X_WC, from);
     part.X_WC = cosserat::between(whole.X_WC_before, whole.X_WC, to);
     part.R_WC_before = part.X_WC_before.rotation.toRotationMatrix();
@@ -87,7 +100,9 @@ void ColliderSource::cover(double from, double to) {
 }
 
 void ColliderSource::begin_step(const RodModel& model, const RodState& start, double) {
+  // By number of elements and shapes: a model that changes in constants keeps its runs.
   if (!chunks_.is_built_for(model)) chunks_.build(model, settings_.margin);
+  // Copied: find() is given iterates only, and each time wants the way from the start.
   start_position_ = start.position;
   start_orientation_ = start.orientation;
   chunks_.begin(start.position);
@@ -102,8 +117,10 @@ void ColliderSource::begin_drives() {
     cosserat::ContactDrive& drive = drives_[d];
     const double start = drive.start;
     drive.reference = start + to_ * (drive.reference - start);
+    // A drive makes its way evenly over the parts of a step, as colliders do.
     drive.aim = start + to_ * (drive.aim - start);
     if (from_ > 0.0) drive.start = drive_ends_[d].position;
+    // Until a plant says otherwise the joint gets where it was sent.
     drive_ends_[d] = {drive.aim, 0.0};
   }
 }
@@ -116,8 +133,13 @@ void ColliderSource::find(const RodModel& model, const RodState& state, double d
                           std::vector<ContactPoint>& found) {
   driven_.clear();
   if (colliders_.size() == 0) return;
+  // For callers who look for contacts before any step has begun.
   if (start_position_.size() != state.position.size()) begin_step(model, state, dt);
+  // Boxes around the way from the start to this iterate: what went through a thin link within the
+  // step is met, too.
   chunks_.extend(state.position);
+  // Three sieves, from coarse to fine. Most plants of a row are near nothing, and pay for the first
+  // one only.
   choose_colliders();
   if (near_.empty()) return;
   for (const ElementChunks::Chunk& chunk : chunks_.chunks()) {
@@ -150,6 +172,8 @@ void ColliderSource::choose_for(const ElementChunks::Chunk& chunk) {
   for (const int i : near_) {
     const Placement& at = placement(i);
     if (!at.box_W.intersects(chunk.way_W)) continue;
+    // Only for what rests: the way of a run is known in W, and in the frame of a moving collider it
+    // would be another one.
     if (!at.is_moving) {
       const Vec3 middle_C = at.R_WC.transpose() * (chunk.way_W.center() - at.X_WC.position);
       const double radius = 0.5 * chunk.way_W.sizes().norm();
@@ -163,6 +187,7 @@ void ColliderSource::choose_for(const ElementChunks::Chunk& chunk) {
 bool ColliderSource::place(const RodModel& model, const RodState& state, Placed& placed) const {
   const CollisionShape& shape = model.shapes[placed.index];
   const int e = shape.element;
+  // What came off is a body of its own and touches as such.
   if (!state.alive[e] || (shape.fruit >= 0 && state.fruit_gone[shape.fruit])) return false;
   const auto axis_of = [&](const Vec3& node, const Quat& orientation) -> Axis {
     const Vec3 axis = orientation * Vec3::UnitZ();
@@ -182,6 +207,8 @@ bool ColliderSource::place(const RodModel& model, const RodState& state, Placed&
 
 namespace {
 
+// Each end of the way is taken into the frame as it was at that time. In C the collider rests, and
+// the way of the capsule is the relative one.
 MovingCapsule in_collider(const CollisionShape& shape, const Placement& at, const Vec3& near_W,
                           const Vec3& far_W, const Vec3& near_before_W, const Vec3& far_before_W) {
   const Mat3 now = at.R_WC.transpose(), before = at.R_WC_before.transpose();
@@ -194,6 +221,8 @@ MovingCapsule in_collider(const CollisionShape& shape, const Placement& at, cons
 }
 
 // m: how far a drive may still move what it presses, at most, from where it is in this step.
+// A joint may still move its pads within the step. Contacts that are not listed cannot be met, and
+// the reach has to hold for the whole of that way.
 double farthest_travel(const cosserat::ContactDrive& drive, const Placement& at,
                        const MovingCapsule& capsule) {
   const double way =
@@ -203,8 +232,12 @@ double farthest_travel(const cosserat::ContactDrive& drive, const Placement& at,
 }
 
 // N/m. What a drive can press at all sinks in by half of the radius, not through to the other side.
+// A stalk is thinner than what a stiff motor would push into it with the usual spring. Beyond the
+// axis the field's gradient turns round, and the pads would pull.
 double least_stiffness(const cosserat::ContactDrive& drive, const cosserat::DrivenContact& driven,
                        const Vec3& way_W, double radius) {
+  // Where the pad goes along its own surface the lever is zero, but not the force. Half of the way
+  // keeps the stiffness finite.
   const double lever = std::max(std::abs(driven.lever), 0.5 * way_W.norm());
   return lever > 0.0 ? drive.hold / (lever * 0.5 * radius) : 0.0;
 }
@@ -219,8 +252,12 @@ void ColliderSource::touch(const RodModel& model, const Placed& placed, int coll
   const MovingCapsule capsule = in_collider(shape, at, placed.now.near_W, placed.now.far_W,
                                             placed.before.near_W, placed.before.far_W);
   Touch touch{placed.index, collider_index, shape, collider, at, {}};
+  // By the collider's smallest part, not by the capsule's length: a thin wire between two samples
+  // would not be seen.
   touch.search.samples = sample_count(shape.back_near - shape.back_far, collider.feature,
                                       settings_.samples_per_feature, settings_.most_samples);
+  // So little that what is found lies at most a tenth of the margin above the least gap, and enough
+  // to keep a stem that lies flat from jumping from end to end.
   touch.search.flat = 0.1 * settings_.margin;
   // What is farther apart than it moved in this step is not met in the next iteration either.
   touch.search.reach = settings_.margin + capsule.motion();
@@ -236,14 +273,18 @@ void ColliderSource::touch(const RodModel& model, const Placed& placed, int coll
 void ColliderSource::touch_along(const MovingCapsule& capsule, const Touch& touch,
                                  std::vector<ContactPoint>& found) {
   const double length = touch.shape.back_near - touch.shape.back_far;
+  // Places at least as dense as four radii: the pads then bear a thin stalk along its length, not
+  // in one point about which it turns.
   const double thinnest = std::min(capsule.radius_near, capsule.radius_far);
   const double feature = std::min(touch.collider.feature, 4.0 * thinnest);
   const int places = length > 0.0 ? sample_count(length, feature, settings_.samples_per_feature,
                                                  settings_.most_samples)
                                   : 1;
   SearchSettings one = touch.search;
+  // Each place is a sphere, looked at by itself. The nearest of all would be one that jumps.
   one.samples = 1;
   for (int i = 0; i < places; ++i) {
+    // In the middle of equal parts and never at the ends, which neighbouring segments share.
     const double along = (i + 0.5) / places;
     const auto between = [&](const auto& near, const auto& far) {
       return ((1.0 - along) * near + along * far);
@@ -270,15 +311,19 @@ void ColliderSource::add(const Touch& touch, const MovingCapsule& capsule,
   point.radius = nearest.radius;
   point.normal_W = at.R_WC * nearest.normal_C;
   point.gap = nearest.gap;
+  // From the axis by radius and gap against the normal: the point on the collider's surface.
   const Vec3 axis_C = (1.0 - nearest.fraction) * capsule.near_C + nearest.fraction * capsule.far_C;
   const Vec3 surface_C = axis_C - (nearest.gap + nearest.radius) * nearest.normal_C;
   // What turns a stem about its own axis takes its surface along: a pad that stands off by the gap
   // moves farther than that, by gap / radius.
   const Vec3 rubbed_C = at.drive >= 0 ? axis_C - nearest.radius * nearest.normal_C : surface_C;
+  // The rigid motion of one and the same point of the collider. The difference of two nearest
+  // places would count what rolls as dragged.
   if (at.is_moving)
     point.surface_motion_W = at.R_WC * rubbed_C + at.X_WC.position -
                              (at.R_WC_before * rubbed_C + at.X_WC_before.position);
   point.friction = touch.collider.friction.value_or(settings_.friction);
+  // Flesh is softer than a stem, and so much that the two cannot share one number.
   point.stiffness = shape.fruit >= 0 ? settings_.fruit_stiffness : settings_.contact_stiffness;
   point.margin = settings_.margin;
   point.give = at.give;
@@ -289,6 +334,8 @@ void ColliderSource::add(const Touch& touch, const MovingCapsule& capsule,
     if (at.drive >= 0)
       point.stiffness = std::max(point.stiffness,
                                  least_stiffness(drives_[at.drive], driven, way_W, point.radius));
+    // One for each contact of the call, also for those that nothing presses: the lists are read
+    // side by side, by number.
     driven_.push_back(driven);
   }
   found.push_back(point);

@@ -3,6 +3,10 @@
 namespace pedicel::coupling {
 
 std::vector<Parameter> parameters_of(CouplingSettings& s) {
+  // Files, the tuning panel, the manual and the checks all come from this list. Stiffness and
+  // margin belong together: what presses harder than stiffness times margin overlaps, and what is
+  // stiffer than needed costs iterations of a step. Lower bounds above zero keep divisions by a
+  // margin or a stiffness finite.
   return {
       {"contact_stiffness", "N/m", &s.contact_stiffness, 1.0, 1.0e9,
        "Stiffness of a stem's contact. A force F sinks in by F over it; choose it so that the "
@@ -30,12 +34,17 @@ std::vector<Parameter> parameters_of(CouplingSettings& s) {
 }
 
 std::string check(const CouplingSettings& settings) {
+  // The list points into the settings to read and to write. Checked is a copy, so that a check can
+  // take constant ones.
   CouplingSettings copy = settings;
   const auto refusal = check_parameters(parameters_of(copy));
+  // With the name of the struct, so that a caller in code finds the field as well as one with a
+  // file.
   return refusal ? "CouplingSettings." + *refusal : std::string();
 }
 
 cosserat::SelfContactSettings self_contact_settings(const CouplingSettings& settings) {
+  // The same numbers as against robots: a plant's surface does not know what touches it.
   return {settings.contact_stiffness, settings.fruit_stiffness, settings.friction, settings.margin};
 }
 

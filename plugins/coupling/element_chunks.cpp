@@ -11,10 +11,13 @@ using cosserat::CollisionShape;
 using cosserat::RodModel;
 using geometry::Aabb;
 
+// Few enough that a box is small beside the plant, and many enough that boxes cost little beside
+// shapes. A branch begins a new run, since its way leads away from the stem's.
 constexpr int most_elements = 8;
 constexpr int least_elements = 4;  // before a chunk may end where another branch begins
 
 // Comparisons that a NaN never wins: an iterate that has run away does not swallow its neighbours.
+// From child nodes only, without orientations: that is three comparisons an element and axis.
 Aabb box_around(const std::vector<Vec3>& position, int first, int last) {
   constexpr double far = std::numeric_limits<double>::max();
   double low[3] = {far, far, far}, high[3] = {-far, -far, -far};
@@ -38,10 +41,14 @@ Aabb widened(Aabb box, double reach) {
 }  // namespace
 
 void ElementChunks::build(const RodModel& model, double margin) {
+  // Runs are of neighbours in number. A chain's elements follow each other, so these are neighbours
+  // in space as well, and no tree of boxes has to be built.
   elements_ = model.elements.size();
   shapes_.resize(model.shapes.size());
   std::iota(shapes_.begin(), shapes_.end(), 0);
   const auto element_of = [&](int shape) { return model.shapes[shape].element; };
+  // Shapes in the order of their elements: a run then has one range of them. Stable, so that
+  // contacts are found in the same order in each run.
   std::stable_sort(shapes_.begin(), shapes_.end(),
                    [&](int a, int b) { return element_of(a) < element_of(b); });
   chunks_.clear();
@@ -59,14 +66,19 @@ void ElementChunks::build(const RodModel& model, double margin) {
     chunk.last = e + 1;
     for (; next_shape < shapes_.size() && element_of(shapes_[next_shape]) == e; ++next_shape) {
       const CollisionShape& shape = model.shapes[shapes_[next_shape]];
+      // Wherever the element turns, its shape stays within this of its node. That makes a box of
+      // nodes enough.
       chunk.reach = std::max({chunk.reach, margin + std::abs(shape.back_near) + shape.radius_near,
                               margin + std::abs(shape.back_far) + shape.radius_far});
     }
+    // An element without shapes leaves the range as it is, and a run without any is never looked
+    // into.
     chunk.last_shape = static_cast<int>(next_shape);
   }
 }
 
 void ElementChunks::begin(const std::vector<Vec3>& position) {
+  // Once a step. Iterates only add where they are.
   for (Chunk& chunk : chunks_)
     chunk.start_W = widened(box_around(position, chunk.first, chunk.last), chunk.reach);
 }
@@ -75,6 +87,8 @@ void ElementChunks::extend(const std::vector<Vec3>& position) {
   box_W_.setEmpty();
   for (Chunk& chunk : chunks_) {
     chunk.way_W = widened(box_around(position, chunk.first, chunk.last), chunk.reach);
+    // From the start anew and not from the last iterate: boxes would else grow with each iteration
+    // that ran away.
     chunk.way_W.extend(chunk.start_W);
     box_W_.extend(chunk.way_W);
   }

@@ -19,6 +19,8 @@ EffectDefinition define_asymmetry() {
   d.home = Home::joint;
   d.family = Family::nonlinearity;
   d.parameters = {{.name = "coefficient",
+                   // Below 1, so that the moment always grows with the bend: the slope of the added
+                   // part is at most 1.09 times the coefficient.
                    .bounds = {-0.9, 0.9},
                    .sentence = "how much stiffer far beyond k0, and softer towards the other side",
                    .vanishes = Vanishes::at_zero,
@@ -31,6 +33,8 @@ EffectDefinition define_asymmetry() {
                   {.name = "k0",
                    .unit = "1/m",
                    .bounds = io::positive,
+                   // Far below k0 the law is linear, and has no kink at zero: Newton's method needs
+                   // its slope there.
                    .sentence = "curvature from which on the sides differ",
                    .role = Role::shape,
                    .first = {1.0}}};
@@ -39,17 +43,23 @@ EffectDefinition define_asymmetry() {
       node.error("asymmetry has an axis of length 0, expected a direction [x, y, z]");
   };
   d.change = ModelChange{Stage::laws, [](ModelTarget& t) {
+                           // In the world as drawn, since people see a side of a plant and not a
+                           // frame of a joint.
                            const Vec3 axis = t.vector("axis").normalized();
                            bool twice = false;
                            t.each_law([&](int e, cosserat::JointLaw& law) {
                              twice = twice || law.term("asymmetry") != 0.0;
+                             // Into the element's own axes, which turn with the stem.
                              const Vec3 in_frame =
                                  t.model.elements[e].drawn_rotation.conjugate() * axis;
                              law.term("asymmetry", 0) = t.number("coefficient");
                              law.term("asymmetry", 1) = in_frame.x();
                              law.term("asymmetry", 2) = in_frame.y();
+                             // A joint knows a bend in radians. Curvature times the length it
+                             // stands for makes the law the same on every mesh.
                              law.term("asymmetry", 3) = t.number("k0") * t.joint_length(e);
                            });
+                           // The formula has room for one axis a joint.
                            if (twice) t.error("asymmetry twice on one curve, expected it once");
                          }};
   d.starts = [](const StartContext& c) {
@@ -63,6 +73,7 @@ EffectDefinition define_asymmetry() {
     return starts;
   };
   d.speaks_for = {{"frequency_by_amplitude", 4}, {"out_of_plane", 5}};
+  // Whatever is even in the bend does the same on both sides.
   d.tells_apart = "push as far to one side as to the other";
   return d;
 }

@@ -12,18 +12,25 @@ EffectDefinition define_attachment_compliance() {
   d.sentence = "a spring in series with the bending at a branch's junction";
   d.home = Home::joint;
   d.family = Family::softness;
+  // Which branch: each has a junction of its own.
   d.needs_place = true;
   d.parameters = {{.name = "stiffness",
                    .unit = "N m/rad",
                    .bounds = io::positive,
                    .sentence = "of the spring",
+                   // A stiff spring in series does nothing, so its unknown is a logarithm and the
+                   // effect vanishes at its far end.
                    .vanishes = Vanishes::at_infinity,
                    .first = {5.0}}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
                            const int curve = t.plant.curve_index(t.effect.place->curve);
+                           // The first span of a curve is the one at its junction: spans stand in
+                           // the order of growth.
                            for (const plant::RodPlaces::Span& span : t.places.spans)
                              if (span.curve == curve)
                                return t.soften(span.element, t.number("stiffness"));
+                           // A curve without elements of its own: its junction is the plant's first
+                           // joint.
                            t.soften(0, t.number("stiffness"));
                          }};
   d.starts = [](const StartContext& c) {
@@ -36,7 +43,10 @@ EffectDefinition define_attachment_compliance() {
     for (const plant::PlantCurve& curve : c.plant.curves)
       nearest = std::min(nearest, distance(curve));
     std::vector<Start> starts;
+    // In units of the stem's own stiffness: what counts as soft depends on the plant.
     const double k = c.scales.root_stiffness;
+    // A little softer than a rigid junction, and as soft as the stem. Between them a fit finds its
+    // way.
     for (const plant::PlantCurve& curve : c.plant.curves)
       if (distance(curve) > nearest + 1e-9)
         for (const double part : {10.0, 1.0})

@@ -19,19 +19,27 @@ EffectDefinition define_clamp_play() {
   d.parameters = {{.name = "angle",
                    .unit = "rad",
                    .bounds = io::not_negative,
+                   // To either side, so the whole play is twice that.
                    .sentence = "from the unloaded shape, from which on the root bears a moment",
                    .vanishes = Vanishes::at_zero,
                    .first = {0.02}}};
+  // After all laws, to see which others are there.
   d.change = ModelChange{Stage::last, [](ModelTarget& t) {
                            const double angle = t.number("angle");
+                           // A joint with a law takes other kernels. No play must keep the bits of
+                           // no effect.
                            if (angle == 0.0) return;
                            std::string_view beside;
                            t.model.laws.resize(t.model.elements.size());
                            for (int e = 0; e < t.model.size(); ++e) {
                              if (t.model.elements[e].parent >= 0) continue;
                              cosserat::JointLaw& law = t.model.laws[e];
+                             // By the list that the build makes of all formulas: a new law is
+                             // refused here without a line of its own.
                              for (const JointTerm& term : joint_terms)
                                if (law.terms_there() & term.bit) beside = term.effect;
+                             // Sliders and dashpots carry moment within the play, and the root
+                             // would not be free there.
                              if (!law.branches.empty()) beside = "a law with a memory";
                              law.term("clamp_play") = angle;
                            }
@@ -48,6 +56,7 @@ EffectDefinition define_clamp_play() {
   // Upright stems fall to either side of their play: which one no prediction says.
   d.is_candidate = false;
   d.tells_apart = "push the stem to and fro by little at the root: play gives way without a force";
+  // A play far below the bends of the trials does nothing that could be seen.
   d.has_threshold = true;
   return d;
 }

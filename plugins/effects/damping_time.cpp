@@ -8,12 +8,14 @@ EffectDefinition define_damping_time() {
   d.name = "damping_time";
   d.plain_name = "another internal damping";
   d.sentence = "multiplies the damping time of the plant";
+  // A factor and no value in seconds, since curves may have their own, and keep their ratios.
   d.home = Home::material;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
                    .sentence = "on the nominal value",
                    .vanishes = Vanishes::at_one,
                    .first = {1.0}}};
+  // Of every element, leaves included: the time is the material's.
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
                            for (cosserat::Element& element : t.model.elements)
                              element.damping_time *= t.number("factor");
@@ -21,12 +23,14 @@ EffectDefinition define_damping_time() {
   d.starts = [](const StartContext&) -> std::vector<Start> {
     // The prior is wide; it only keeps apart what some data leave entirely open (a free vibration
     // sees modulus over density alone).
+    // Bounds far wider than those of the modulus, since damping is what is known least of a plant.
     return {Start("damping_time").positive("factor", 1.0, 1.0 / 300.0, 300.0).prior(1.5, 1.0)};
   };
   d.speaks_for = {{"damping", 1}, {"loop_area_by_rate", 1}};
   d.material = &plant::MaterialValues::damping_time;
   d.known_to = &plant::MaterialKnowledge::damping_time;
   d.material_unit = "s";
+  // For the sentence of a verdict, which says what a factor means.
   d.less = "less damped";
   d.more = "more damped";
   return d;

@@ -8,6 +8,7 @@ EffectDefinition define_density() {
   d.name = "density";
   d.plain_name = "another density";
   d.sentence = "multiplies the density of the plant";
+  // A factor on all curves, so that those with a density of their own keep their ratios.
   d.home = Home::material;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
@@ -16,17 +17,20 @@ EffectDefinition define_density() {
                    .first = {1.0}}};
   d.change =
       ModelChange{Stage::constants, [](ModelTarget& t) {
+                    // Of the segments' own sections. Fruits and hung masses are stated in kg, and
+                    // stay.
                     t.scale_mass([&](const plant::RodPlaces::Span&) { return t.number("factor"); });
                   }};
   d.starts = [](const StartContext&) -> std::vector<Start> {
-    // The prior is wide; it only keeps apart what some data leave entirely open (a free vibration
-    // sees modulus over density alone).
+    // 10 %, far narrower than those of modulus and damping, since a plant is weighed. It also
+    // breaks the tie of a free swing, which sees modulus over density alone.
     return {Start("density").positive("factor", 1.0, 1.0 / 10.0, 10.0).prior(0.1, 1.0)};
   };
   d.speaks_for = {{"frequency", 2}};
   d.material = &plant::MaterialValues::density;
   d.known_to = &plant::MaterialKnowledge::density;
   d.material_unit = "kg/m3";
+  // For the sentence of a verdict, which says what a factor means.
   d.less = "lighter";
   d.more = "heavier";
   return d;

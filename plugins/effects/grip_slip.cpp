@@ -13,16 +13,21 @@ EffectDefinition define_grip_slip() {
   d.file = EffectFile::experiment;
   d.home = Home::grip;
   d.family = Family::grip;
+  // Of either sign: it slips towards the tip or towards the root.
   d.parameters = {{.name = "distance",
                    .unit = "m",
+                   // Along the curve only. What slips off sideways is no hold any more.
                    .sentence = "how much farther along its curve the held point is",
                    .vanishes = Vanishes::at_zero},
                   {.name = "time",
                    .unit = "s",
                    .bounds = io::not_negative,
                    .sentence = "from when on",
+                   // A moment, which a fit knows to a step at best. Intervals are widened by that.
                    .role = Role::time,
                    .first = {10.0}}};
+  // One slip at one time: friction lets go at once, and holds again. What slips all along is
+  // contact.
   d.change = GripChange{[](const plant::Effect& effect, GripState& grip) {
     grip.slip_distance = effect.number("distance");
     grip.slip_time = effect.number("time");
@@ -30,9 +35,13 @@ EffectDefinition define_grip_slip() {
   d.starts = [](const StartContext& c) {
     std::vector<Start> starts;
     // In the trial of that name (empty: in all), before `end`.
+    // In each trial by itself, and in all: a pad that is worn slips every time.
     const auto add = [&](const std::string& trial, double end) {
+      // A time has a valley as wide as what the plant still does after it. So starts are spread
+      // over the hold.
       for (const double part : {0.1, 0.25, 0.4, 0.55, 0.7, 0.85}) {
         Start start("grip_slip");
+        // A word cannot be moved by a fit, so each trial is a start.
         if (!trial.empty()) start.word("trial", trial);
         start.signed_number("distance", 0.01, 0.01, -0.1, 0.1)
             .signed_number("time", part * end, 0.2 * end, 0.0, end);
@@ -41,6 +50,7 @@ EffectDefinition define_grip_slip() {
     };
     if (c.holds.empty()) return starts;
     double first_end = 1e300;
+    // In all trials alike it can only be before the first of them lets go.
     for (const StartContext::Hold& hold : c.holds) first_end = std::min(first_end, hold.end);
     add("", first_end);
     for (const StartContext::Hold& hold : c.holds) add(hold.trial, hold.end);

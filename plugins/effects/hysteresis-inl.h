@@ -25,6 +25,8 @@ template <class T>
 HWY_INLINE Bent<T> approach(T h, T rate, T x) {
   const T one = number(x, 1.0), w = rate * x;
   // Where w is small the closed forms lose digits.
+  // Five terms at w below 0.01 are exact to rounding. The lanes compute both ways, and choose: a
+  // branch would split them.
   const auto short_way = w < number(x, 1.0e-2);
   const T far = choose(short_way, one, w);
   const T left = exponential(negative(w));
@@ -56,6 +58,8 @@ HWY_INLINE Bent<T> bouc_wen(T reach, T exponent, T y0, T dphi) {
   const T power = exponential((exponent - one) * logarithm(larger(share, tiny)));
   const T level = share * power, bend = exponent * power / reach;
   // Unloading, while y0 < 0: y rises by at most -y0. First its rate falls from 1 + level to 1.
+  // After a turn the spring is stiffer than K: y goes back and its own level helps. That is why
+  // loops have corners.
   const T below = larger(negative(y0), zero);
   const T steep = one + level;
   const T first = below / exponent;  // of the way to 0
@@ -141,6 +145,8 @@ HWY_INLINE BentTwice<T> add_hysteresis(const BentJoint<T>& joint, T share, T rea
                   share * joint.k2 * mul_add(a2 * a2, along.slope, a1 * a1 * across.slope);
   out.tangent12 = mul_add(k * s1 * s2 * a1 * a2, along.slope - across.slope, out.tangent12);
   // What both ways together pass `reach` by is given way to.
+  // Each way by itself keeps within its reach, their sum need not. Only the memory is cut, so that
+  // this step's moment stays the slope of its energy.
   const T end = root(mul_add(n1, n1, n2 * n2));
   const T kept = choose(end > reach, reach / choose(end > reach, end, one), one);
   return {kept * n1 / s1, kept * n2 / s2};

@@ -13,6 +13,7 @@ EffectDefinition define_hysteresis() {
       "exponent 1 is Dahl's";
   d.home = Home::joint;
   d.family = Family::memory;
+  // At each joint, as z is a moment. So it holds for one mesh as for another.
   d.parameters = {{.name = "moment",
                    .unit = "N m",
                    .bounds = io::positive,
@@ -20,6 +21,8 @@ EffectDefinition define_hysteresis() {
                    .role = Role::shape,
                    .first = {0.01}},
                   {.name = "exponent",
+                   // From 1 on: below it the right side would be infinitely steep at z = 0. Far
+                   // above it the law is a slider's.
                    .bounds = (io::Bounds{1.0, 100.0}),
                    .sentence = "how late z gives way",
                    .role = Role::shape,
@@ -31,17 +34,24 @@ EffectDefinition define_hysteresis() {
                    .first = {0.3}}};
   d.change = ModelChange{Stage::laws, [](ModelTarget& t) {
                            const double ratio = t.number("ratio");
+                           // No branch at all, so that a plant without it keeps the bits and the
+                           // speed of one without laws.
                            if (ratio == 0.0) return;
                            t.each_law([&](int, cosserat::JointLaw& law) {
+                             // z is of the whole stiffness K in the formula. The branch has the
+                             // share `ratio` of it, and so of the moment.
                              cosserat::add_hysteresis(law, ratio, ratio * t.number("moment"),
                                                       t.number("exponent"));
                            });
                          }};
   d.starts = [](const StartContext& c) {
     std::vector<Start> starts;
+    // The moment at the root in the largest bend of the trials: EI times curvature. Far above it
+    // nothing slips.
     const double largest = c.scales.root_stiffness * c.scales.length * c.scales.curvature;
     for (const double part : {0.1, 0.5})
       starts.push_back(Start("hysteresis")
+                           // Dahl's. An exponent is hardly seen in data, and would cost a number.
                            .fixed("exponent", {1.0})
                            .positive("moment", part * largest, 1e-4 * largest, 20 * largest)
                            .positive("ratio", 0.2, 1e-3, 0.95));
@@ -51,6 +61,7 @@ EffectDefinition define_hysteresis() {
                   {"drive_history", 3},
                   {"frequency_by_amplitude", 6},
                   {"damping_by_amplitude", 6}};
+  // A slider has no memory within its loop. This law has one for each turn.
   d.tells_apart = "push to and fro by less and less: loops within loops";
   return d;
 }

@@ -16,8 +16,10 @@ namespace HWY_NAMESPACE {
 /// moment grows with the bend up to there, and stays.
 template <class T>
 HWY_INLINE Radial<T> slip(T reach, T u) {
+  // Huber's potential in the bend: quadratic up to the limit, and straight beyond.
   const T bend = root(u);
   const auto slips = bend > reach;
+  // Lanes that do not slip compute along. They get numbers that no root or division trips over.
   const T safe_u = choose(slips, u, number(u, 1.0));
   const T safe_reach = choose(slips, reach, number(u, 1.0));
   const T g = choose(slips, safe_reach / root(safe_u), number(u, 1.0));

@@ -17,12 +17,17 @@ EffectDefinition define_marker_scale() {
                    .vanishes = Vanishes::at_one,
                    .first = {1.0}}};
   d.change = SensorChange{[](const plant::Effect& effect, SensorState& sensor) {
+    // About the world's origin, as a camera's calibration scales all that it sees. With frames that
+    // are turned it goes in any order.
     sensor.frame *= effect.number("factor");
   }};
   d.starts = [](const StartContext&) -> std::vector<Start> {
+    // A plant bends and hardly stretches, so lengths between markers tell a scale to a fraction of
+    // a per cent.
     return {Start("marker_scale").positive("factor", 1.001, 0.3, 3.0)};
   };
   d.speaks_for = {{"length_scale", 1}};
+  // The plant itself cannot: a smaller plant with another modulus swings alike.
   d.tells_apart = "measure the distance of two markers with a ruler";
   return d;
 }

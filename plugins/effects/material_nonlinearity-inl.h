@@ -22,11 +22,15 @@ struct material_nonlinearity {
   template <class T>
   static HWY_INLINE Radial<T> radial(T hardening, T u) {
     const T half = number(u, 0.5), one = number(u, 1.0);
+    // Beyond its peak a softening law would have a negative slope: the joint snaps, and a step has
+    // no least potential any more.
     const auto softens = hardening < number(u, 0.0);
     const T peak =
         choose(softens, one / (number(u, -3.0) * smaller(hardening, number(u, -1.0e-300))),
                number(u, std::numeric_limits<double>::infinity()));
     const auto beyond = u > peak;
+    // All lanes compute both ways. Those within get ones, since infinity less infinity is no
+    // number.
     const T safe_peak = choose(beyond, peak, one), safe_u = choose(beyond, u, one);
     const T bend = root(safe_peak), flat = number(u, 2.0 / 3.0) * bend / root(safe_u);
     const T flat_energy =
@@ -38,6 +42,7 @@ struct material_nonlinearity {
 
   template <class T>
   static HWY_INLINE void add(const T* numbers, const BentJoint<T>& joint, BendTerms<T>& out) {
+    // By the energy of the bend, so that both axes harden together.
     const T u = bend_measure(joint, joint.phi1, joint.phi2);
     Radial<T> beyond = radial(numbers[0], u);
     beyond.g = beyond.g - number(u, 1.0);  // what is linear of it is there

@@ -12,6 +12,7 @@ EffectDefinition define_material_nonlinearity() {
   d.home = Home::joint;
   d.family = Family::nonlinearity;
   d.parameters = {{.name = "coefficient",
+                   // Even in k: both sides of the stem are alike. What is not is `asymmetry`.
                    .sentence = "above 0 stiffens, below 0 softens",
                    .vanishes = Vanishes::at_zero},
                   {.name = "k0",
@@ -22,19 +23,25 @@ EffectDefinition define_material_nonlinearity() {
                    .first = {10.0}}};
   d.change = ModelChange{Stage::laws, [](ModelTarget& t) {
                            t.each_law([&](int e, cosserat::JointLaw& law) {
+                             // A bend in radians, so that the law is the same on every mesh.
                              const double bend = t.number("k0") * t.joint_length(e);
+                             // Coefficients add up, as the law is linear in them.
                              law.term("material_nonlinearity") +=
                                  t.number("coefficient") / (bend * bend);
                            });
                          }};
   d.starts = [](const StartContext& c) {
     std::vector<Start> starts;
+    // Either sign: over zero a fit would have to pass a model without the effect.
     for (const double b : {0.1, -0.1})
       starts.push_back(Start("material_nonlinearity")
+                           // Only coefficient over k0 squared is seen. With the largest curvature
+                           // of the trials as k0 the coefficient says what it does there.
                            .fixed("k0", {c.scales.curvature})
                            .signed_number("coefficient", b, 0.2, -20.0, 20.0));
     return starts;
   };
+  // Wide swings are faster where it hardens, and slower where it softens.
   d.speaks_for = {{"frequency_by_amplitude", 1}, {"damping_by_amplitude", 3}};
   return d;
 }

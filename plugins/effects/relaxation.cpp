@@ -3,6 +3,8 @@
 namespace pedicel::effects {
 
 // Stress that relaxes: a dashpot in series with a share of the stiffness (standard linear solid).
+// Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials. Of woody
+// branches the fraction is 0.3 to 0.5.
 EffectDefinition define_relaxation() {
   EffectDefinition d;
   d.name = "relaxation";
@@ -15,12 +17,17 @@ EffectDefinition define_relaxation() {
   d.starts = [](const StartContext& c) {
     std::vector<Start> starts;
     const double longest = c.scales.duration;
+    // `settled`: it has come to rest in its shape before the trial, and only changes relax.
+    // `unloaded`: what it bears at the start relaxes, too.
+    // Spread over the logarithm, from a fiftieth of the longest trial to nearly a half of it.
     for (const char* from : {"settled", "unloaded"})
       for (const double time : {0.02, 0.1, 0.4})
         starts.push_back(Start("relaxation")
                              .word("start", from)
                              .positive("fraction", 0.1, 1e-3, 0.95)
                              .positive("time", time * longest, 1e-3 * longest, longest));
+    // One start for what had hung: it differs by how it answers to the first load, and not by its
+    // time.
     starts.push_back(Start("relaxation")
                          .word("start", "hung")
                          .positive("fraction", 0.2, 1e-3, 0.95)
@@ -33,6 +40,7 @@ EffectDefinition define_relaxation() {
                   {"loop_area_by_rate", 2},
                   {"drive_history", 1}};
   d.tells_apart = "hold a push for minutes, and watch the recovery for as long";
+  // With a time as long as the trials it is creep, and is not told beside it.
   d.limits = {{"time", true, "creep"}};
   return d;
 }

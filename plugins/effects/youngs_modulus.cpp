@@ -8,6 +8,7 @@ EffectDefinition define_youngs_modulus() {
   d.name = "youngs_modulus";
   d.plain_name = "another modulus";
   d.sentence = "multiplies Young's modulus of the plant";
+  // A factor on all, so that curves with moduli of their own keep their ratios.
   d.home = Home::material;
   d.parameters = {{.name = "factor",
                    .bounds = io::positive,
@@ -16,6 +17,8 @@ EffectDefinition define_youngs_modulus() {
                    .first = {0.9}}};
   d.change = ModelChange{Stage::constants, [](ModelTarget& t) {
                            for (cosserat::Element& element : t.model.elements) {
+                             // Shear and twist with it: a modulus of shear is Young's over 2 (1 +
+                             // nu), and the file states Poisson's ratio nu apart.
                              element.stretch_stiffness *= t.number("factor");
                              element.bend_stiffness *= t.number("factor");
                            }
@@ -23,9 +26,11 @@ EffectDefinition define_youngs_modulus() {
   d.starts = [](const StartContext&) -> std::vector<Start> {
     // The prior is wide; it only keeps apart what some data leave entirely open (a free vibration
     // sees modulus over density alone).
+    // Moduli of living stems are known to a factor of ten.
     return {Start("youngs_modulus").positive("factor", 1.0, 1.0 / 10.0, 10.0).prior(1.5, 1.0)};
   };
   d.speaks_for = {{"frequency", 1}, {"force_scale", 2}};
+  // For the verdict, which tells the factor in pascals where the plant has one modulus.
   d.material = &plant::MaterialValues::youngs_modulus;
   d.known_to = &plant::MaterialKnowledge::youngs_modulus;
   d.material_unit = "Pa";

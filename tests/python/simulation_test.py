@@ -84,6 +84,24 @@ class SimulationTest(Case):
         with self.assertRaises(ValueError):
             positions[0, 0] = 1.0
 
+    def test_a_cut_falls_and_is_saved(self):
+        sim = pedicel.Simulation(self.scene)
+        sim.step(10)
+        hung = sim.fruit_positions[0].copy()
+        sim.cut("twig/stem", 0.4)
+        sim.step(30)
+        self.assertEqual([(e.organ, e.cause) for e in sim.events], [("twig/stem", "cut")])
+        self.assertLess(sim.fruit_positions[0, 2], hung[2] - 0.01, "it falls with the stem")
+        self.assertLess(sim.fruit_velocities[0, 2], -0.5)
+        with self.assertRaisesRegex(pedicel.UsageError, "has come off there already"):
+            sim.cut("twig/stem", 0.8)
+        state = sim.save()
+        sim.step(5)
+        later = sim.state_hash
+        sim.restore(state)
+        sim.step(5)
+        self.assertEqual(sim.state_hash, later)
+
     def test_views_keep_the_simulation(self):
         positions = pedicel.Simulation(self.scene).positions
         gc.collect()

@@ -38,18 +38,29 @@ function(pedicel_include_root NAME ROOT)
   set(folder ${folder} PARENT_SCOPE)
 endfunction()
 
-# pedicel_test(NAME SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT s])
+# pedicel_test(NAME SOURCES file... [APART file...] LIBRARIES target... [LABELS label...] [TIMEOUT s])
 #
-# One GoogleTest program per folder of tests; each of its cases is a ctest case.
+# One GoogleTest program per folder of tests; each of its cases is a ctest case. Most of a test's
+# compile time goes into headers, so four files are compiled as one where they agree; APART names
+# those that stay by themselves, since they use another's names otherwise. What takes a unit test's
+# time is in the libraries, so the compiler need not take much.
 function(pedicel_test NAME)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;APART;LIBRARIES;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  add_executable(${NAME} ${ARG_SOURCES})
+  add_executable(${NAME} ${ARG_SOURCES} ${ARG_APART})
+  if(PEDICEL_UNITY)
+    set_target_properties(${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+    set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    target_compile_options(${NAME} PRIVATE -Wno-shadow)  # of another file's constants
+  endif()
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND "unit" IN_LIST ARG_LABELS)
+    target_compile_options(${NAME} PRIVATE -O1)
+  endif()
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_BINARY_DIR}/include/tests)
   target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${NAME} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}

@@ -6,6 +6,7 @@
 #include "pedicel/app/session/session_films.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/world/settings.h"
 
 /// The simulation: its time, its speed, pulls by command.
 namespace pedicel::app {
@@ -26,6 +27,16 @@ double at_least_0(const Command& c, const char* argument, const char* unit) {
     throw UsageError(std::string(argument) + " " + io::format_number(value) + ", expected " + unit +
                      " from 0 on");
   return value;
+}
+
+/// s of simulated time, no longer than a scene may last.
+double time_of(const Command& c, const char* argument) {
+  const double time = at_least_0(c, argument, "s");
+  const double most = world::scene_bounds("duration").maximum;
+  if (time > most)
+    throw UsageError(std::string(argument) + " " + io::format_number(time) +
+                     ", expected s of at most " + io::format_number(most));
+  return time;
 }
 
 Result play_run(Session& session, const Command&) {
@@ -54,7 +65,7 @@ Result step_back(Session& session, const Command& c) {
 }
 
 Result go_to(Session& session, const Command& c) {
-  const double time = at_least_0(c, "time", "s");
+  const double time = time_of(c, "time");
   const auto now = session.snapshot();
   if (!now->assets) return {false, "go to: nothing is simulated yet"};
   session.control().go_to_step(std::lround(time / now->assets->scene.dt));
@@ -62,7 +73,7 @@ Result go_to(Session& session, const Command& c) {
 }
 
 Result run_on(Session& session, const Command& c) {
-  session.films().run_for(at_least_0(c, "duration", "s"));
+  session.films().run_for(time_of(c, "duration"));
   return {};
 }
 
@@ -91,6 +102,21 @@ Result pull_organ(Session& session, const Command& c) {
 
 Result end_pull(Session& session, const Command&) {
   session.control().end_pull();
+  return {};
+}
+
+Result cut_organ(Session& session, const Command& c) {
+  const std::string organ = c.word("organ");
+  const double at = c.number_or("at", 0.0);
+  const auto now = session.snapshot();
+  if (!(at >= 0.0 && at <= 1.0)) return {false, "cut: at, expected a fraction from 0 to 1"};
+  const std::optional<PullPlace> place = find_organ(*now, organ, at);
+  if (!place)
+    return {false, "cut: no organ \"" + organ +
+                       "\" in the simulation, expected one of: " + organ_names(*now)};
+  if (!now->plants[static_cast<std::size_t>(place->plant)].state.alive[place->element])
+    return {false, "cut: \"" + organ + "\" has come off there already"};
+  session.cut(organ, at);
   return {};
 }
 
@@ -141,6 +167,12 @@ std::vector<CommandDescription> run_commands() {
        "Pulls a place of a plant with a spring until release.",
        pull_organ},
       {"release", r, {}, "Ends the pull.", end_pull},
+      {"cut",
+       r,
+       {{"organ", Kind::word, true, "PLANT/STEM, or PLANT/FRUIT for its stalk"},
+        {"at", Kind::number, false, "fraction of the stem, from its foot (0)"}},
+       "Cuts a stem of the running plant; what it carried falls as one body.",
+       cut_organ},
       {"watch",
        r,
        {{"organ", Kind::word, true, "PLANT/STEM"}},

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/session.h"
 #include "pedicel/app/session/session_tuning.h"
@@ -36,19 +38,32 @@ int count_fruits(const Document& document) {
   return count;
 }
 
+/// At the step that is shown, which may be one before the last.
+std::optional<double> value_at(const RunLog::Series& series, double time) {
+  constexpr double same = 1.0e-9;  // s
+  const auto after = std::upper_bound(series.time.begin(), series.time.end(), time + same);
+  if (after == series.time.begin()) return std::nullopt;
+  return series.value[static_cast<std::size_t>(after - series.time.begin()) - 1];
+}
+
+double breaks_until(const Snapshot& now) {
+  if (!now.events) return 0.0;
+  return static_cast<double>(std::ranges::count_if(
+      *now.events, [&](const world::Event& event) { return event.time <= now.time + 1.0e-9; }));
+}
+
 /// Nothing where there is no such quantity.
 std::optional<double> measure(const std::string& name, const Document& document,
                               const Snapshot& now, const RunLog& log) {
   if (name == "time_s") return now.time;
-  if (name == "breaks") return now.events ? static_cast<double>(now.events->size()) : 0.0;
+  if (name == "breaks") return breaks_until(now);
   if (name == "plants") return static_cast<double>(document.plants.size());
   if (name == "stems") return count_curves(document);
   if (name == "fruits") return count_fruits(document);
   if (name == "pull_N") return now.pull.force_W.norm();
   if (name == "strain_1") return now.largest_strain;
   const auto series = log.series(name);
-  if (series.value.empty()) return std::nullopt;
-  return series.value.back();
+  return value_at(series, now.time);
 }
 
 Result undo_last(Session& session, const Command&) {

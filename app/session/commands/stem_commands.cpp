@@ -1,5 +1,6 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/document/document.h"
+#include "pedicel/app/session/document/scene_references.h"
 #include "pedicel/core/check.h"
 #include "pedicel/plant/plant_edit.h"
 #include "pedicel/plant/point_kind.h"
@@ -38,6 +39,7 @@ void delete_stem(Document& document, const Command& c) {
 
 void rename(Document& document, const Command& c) {
   plant::rename(edited(document, c), c.word("name"), c.word("new_name"));
+  rename_organ_references(document, c.word("plant"), c.word("name"), c.word("new_name"));
 }
 
 void move_point(Document& document, const Command& c) {

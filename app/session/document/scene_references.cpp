@@ -26,6 +26,24 @@ bool means(const world::Expectation& e, const std::string& name) {
          (name == "robot" && !e.link.empty());
 }
 
+/// "plants.truss.detach.stretch", "bodies.tray.position.x": what is swept or varied.
+bool key_means(const std::string& key, const std::string& name) {
+  for (const char* list : {"plants.", "bodies.", "cameras."})
+    if (key.starts_with(list + name + ".")) return true;
+  return name == "robot" && key.starts_with("robot.");
+}
+
+long keys_that_mean(const world::Scene& scene, const std::string& name) {
+  return std::ranges::count_if(scene.vary,
+                               [&](const auto& one) { return key_means(one.key, name); }) +
+         (scene.sweep && key_means(scene.sweep->key, name) ? 1 : 0);
+}
+
+/// By its tool a robot cuts; its links carry force sensors.
+bool cut_means(const world::SceneCut& cut, const std::string& name) {
+  return means(cut.organ, name) || (name == "robot" && !cut.time);
+}
+
 bool programme_means(const world::Scene& scene, const std::string& name) {
   return scene.robot && std::ranges::any_of(scene.robot->waypoints, [&](const auto& waypoint) {
            return means(waypoint.at, name);
@@ -48,6 +66,16 @@ bool has_fruit(const Document& document, const std::string& fruit) {
   const std::string name = fruit.substr(slash + 1);
   return !plant->file || std::ranges::any_of(plant->file->fruits,
                                              [&](const auto& one) { return one.name == name; });
+}
+
+/// "truss/stem", "truss/fruit_1"
+bool has_organ(const Document& document, const std::string& organ) {
+  if (has_fruit(document, organ)) return true;
+  const std::size_t slash = organ.find('/');
+  const DocumentPlant* plant = find_plant(document, organ.substr(0, slash));
+  return plant && slash != std::string::npos &&
+         std::ranges::any_of(plant->file->curves,
+                             [&](const auto& one) { return one.name == organ.substr(slash + 1); });
 }
 
 bool has_body(const Document& document, const std::string& body) {
@@ -79,10 +107,20 @@ void rename(std::string& said, const std::string& name, const std::string& to) {
   if (means(said, name)) said = to + said.substr(name.size());
 }
 
-void rename_settings(Document& document, const std::string& name, const std::string& to) {
-  const std::string start = "plants." + name + ".";
-  for (auto& [key, value] : document.settings)
-    if (key.starts_with(start)) key = "plants." + to + "." + key.substr(start.size());
+const char* list_of(ThingKind kind) {
+  return kind == ThingKind::plant ? "plants." : kind == ThingKind::body ? "bodies." : "cameras.";
+}
+
+/// In keys: of settings, and of what is varied and swept.
+void rename_keys(Document& document, world::Scene& scene, ThingKind kind, const std::string& name,
+                 const std::string& to) {
+  const std::string start = list_of(kind) + name + ".";
+  const auto rename_in = [&](std::string& key) {
+    if (key.starts_with(start)) key = list_of(kind) + to + "." + key.substr(start.size());
+  };
+  for (auto& [key, value] : document.settings) rename_in(key);
+  for (auto& one : scene.vary) rename_in(one.key);
+  if (scene.sweep) rename_in(scene.sweep->key);
 }
 
 }  // namespace
@@ -102,6 +140,13 @@ std::vector<std::string> broken_references(const Document& document) {
   for (const auto& camera : scene.cameras) look(camera.follow);
   for (const auto& load : scene.loads)
     if (!has_fruit(document, load.target)) add(load.target);
+  for (const auto& tie : scene.ties)
+    if (!has_organ(document, tie.organ)) add(tie.organ);
+  for (const auto& cut : scene.cuts) {
+    if (!has_organ(document, cut.organ)) add(cut.organ);
+    if (!cut.time && !scene.robot) add("robot");
+  }
+  if (!scene.wrenches.empty() && !scene.robot) add("robot");
   for (const auto& e : scene.expectations) {
     if (!e.fruit.empty() && !has_fruit(document, e.fruit)) add(e.fruit);
     if (!e.plant.empty() && !find_plant(document, e.plant)) add(e.plant);
@@ -122,7 +167,16 @@ std::string references_to(const Document& document, const std::string& name) {
       std::ranges::count_if(scene.expectations, [&](const auto& e) { return means(e, name); });
   const auto cameras = std::ranges::count_if(
       scene.cameras, [&](const auto& camera) { return means(camera.follow, name); });
+  const auto ties =
+      std::ranges::count_if(scene.ties, [&](const auto& tie) { return means(tie.organ, name); });
+  const auto cuts =
+      std::ranges::count_if(scene.cuts, [&](const auto& cut) { return cut_means(cut, name); });
   if (loads) add(counted(loads, "load"));
+  if (ties) add(counted(ties, "tie"));
+  if (cuts) add(counted(cuts, "cut"));
+  if (name == "robot" && !scene.wrenches.empty())
+    add(counted(std::ssize(scene.wrenches), "force sensor"));
+  if (const long keys = keys_that_mean(scene, name)) add(counted(keys, "varied key"));
   if (expectations) add(counted(expectations, "expectation"));
   if (cameras) add(counted(cameras, "camera") + " that follow" + (cameras == 1 ? "s" : "") + " it");
   return text;
@@ -132,7 +186,15 @@ void clear_references(Document& document, const std::string& name) {
   world::Scene& scene = document.edit_scene();
   if (programme_means(scene, name)) scene.robot->waypoints.clear();
   std::erase_if(scene.loads, [&](const auto& load) { return means(load.target, name); });
+  std::erase_if(scene.ties, [&](const auto& tie) { return means(tie.organ, name); });
+  std::erase_if(scene.cuts, [&](const auto& cut) { return cut_means(cut, name); });
+  if (name == "robot") scene.wrenches.clear();
   std::erase_if(scene.expectations, [&](const auto& e) { return means(e, name); });
+  std::erase_if(scene.vary, [&](const auto& one) { return key_means(one.key, name); });
+  if (scene.sweep && key_means(scene.sweep->key, name)) {
+    scene.sweep.reset();
+    std::erase_if(scene.expectations, [](const auto& e) { return e.over_sweep(); });
+  }
   for (auto& camera : scene.cameras)
     if (means(camera.follow, name)) camera.follow = {};
   std::erase_if(document.settings,
@@ -151,6 +213,7 @@ void rename_references(Document& document, ThingKind kind, const std::string& na
   if (scene.robot)
     for (auto& waypoint : scene.robot->waypoints) anchor(waypoint.at);
   for (auto& camera : scene.cameras) anchor(camera.follow);
+  rename_keys(document, scene, kind, name, to);
   if (kind == ThingKind::camera) {
     for (auto& picture : scene.pictures)
       if (picture.camera == name) picture.camera = to;
@@ -163,7 +226,33 @@ void rename_references(Document& document, ThingKind kind, const std::string& na
   }
   if (kind == ThingKind::body) return;
   for (auto& load : scene.loads) rename(load.target, name, to);
-  rename_settings(document, name, to);
+  for (auto& tie : scene.ties) rename(tie.organ, name, to);
+  for (auto& cut : scene.cuts) rename(cut.organ, name, to);
+}
+
+void rename_organ_references(Document& document, const std::string& plant, const std::string& name,
+                             const std::string& to) {
+  const auto renamed = [&](std::string& said) {
+    const std::size_t slash = said.find('/');
+    if (slash == std::string::npos || said.substr(slash + 1) != name) return false;
+    const DocumentPlant* of = find_plant(document, said.substr(0, slash));
+    if (!of || of->entry.name != plant) return false;
+    said = said.substr(0, slash + 1) + to;
+    return true;
+  };
+  world::Scene scene = *document.scene;
+  bool any = false;
+  const auto anchor = [&](Anchor& a) {
+    if (a.kind == Anchor::Kind::fruit) any |= renamed(a.name);
+  };
+  if (scene.robot)
+    for (auto& waypoint : scene.robot->waypoints) anchor(waypoint.at);
+  for (auto& camera : scene.cameras) anchor(camera.follow);
+  for (auto& e : scene.expectations) any |= renamed(e.fruit);
+  for (auto& load : scene.loads) any |= renamed(load.target);
+  for (auto& tie : scene.ties) any |= renamed(tie.organ);
+  for (auto& cut : scene.cuts) any |= renamed(cut.organ);
+  if (any) document.edit_scene() = std::move(scene);
 }
 
 }  // namespace pedicel::app

@@ -6,7 +6,7 @@
 #include "pedicel/app/session/document/document.h"
 
 /// What a scene says of things by their names: the robot's program goes to a fruit, a load pulls
-/// it, an expectation is about it, a camera follows it.
+/// it, an expectation is about it, a camera follows it, a tie holds it, a cut takes it off.
 namespace pedicel::app {
 
 /// Names that the scene speaks of and the document has not (any more): "truss/fruit_5", "tray".
@@ -25,5 +25,8 @@ enum class ThingKind { plant, body, camera };
 /// Says a new name wherever the scene says the old one.
 void rename_references(Document& document, ThingKind kind, const std::string& name,
                        const std::string& to);
+/// The same of a plant's stem or fruit, in every plant of its grid.
+void rename_organ_references(Document& document, const std::string& plant, const std::string& name,
+                             const std::string& to);
 
 }  // namespace pedicel::app

@@ -68,6 +68,14 @@ void RunControl::end_pull() {
   impl_->thread.ask([](RunPlayer& player) { player.act([](LiveRun& run) { run.pull().end(); }); });
 }
 
+void RunControl::cut(const std::string& organ, double at) {
+  impl_->thread.ask([organ, at](RunPlayer& player) {
+    player.act([organ, at](LiveRun& run) {
+      if (run.simulation().cutting().can_cut(organ, at)) run.simulation().cutting().cut(organ, at);
+    });
+  });
+}
+
 void RunControl::move_robot(const Eigen::VectorXd& q) {
   impl_->thread.ask([q](RunPlayer& player) {
     player.act([q](LiveRun& run) {

@@ -67,6 +67,9 @@ class RunControl {
   void begin_pull(const PullPlace& place, const Vec3& target_W);
   void move_pull(const Vec3& target_W);
   void end_pull();
+  /// Cuts a stem at a fraction of its length from its foot, or a fruit's stalk (Cutting::cut).
+  /// Nothing happens where that has come off by then.
+  void cut(const std::string& organ, double at);
 
   /// Moves the joints there, each at its speed limit or a little less; q: rad or m, one a degree of
   /// freedom.

@@ -46,11 +46,10 @@ std::shared_ptr<Snapshot> SnapshotMaker::again(const Snapshot& before) {
 }
 
 void SnapshotMaker::add_events(const Simulation& simulation) {
-  const auto& detached = simulation.plant_step().detached();
-  if (events_ && events_->size() == detached.size()) return;
-  std::vector<world::Event> events;
-  for (const Detached& one : detached) events.push_back(to_event(one));
-  events_ = std::make_shared<const std::vector<world::Event>>(std::move(events));
+  const std::size_t count =
+      simulation.plant_step().detached().size() + simulation.cutting().events().size();
+  if (events_ && events_->size() == count) return;
+  events_ = std::make_shared<const std::vector<world::Event>>(events_of(simulation));
   models_.clear();  // what has lost a fruit is lighter
 }
 

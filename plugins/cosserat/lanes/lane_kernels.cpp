@@ -1,5 +1,7 @@
 #include "pedicel/cosserat/lanes/lane_kernels.h"
 
+#include <memory>
+
 // Compiled once for each of these instruction sets; a processor without AVX2 takes the portable
 // one.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -12,10 +14,15 @@
 
 #include "pedicel/cosserat/lanes/lane_element-inl.h"
 #include "pedicel/cosserat/lanes/lane_elimination-inl.h"
+#include "pedicel/cosserat/lanes/lane_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
+
+HWY_INLINE int parent_row(const Pack& pack, int row) {
+  return pack.loops ? pack.begin + 1 + pack.loops->parents()[row - pack.begin - 1] : row - 1;
+}
 
 // ---- Terms of a step ----------------------------------------------------------------------------
 
@@ -83,7 +90,8 @@ HWY_INLINE V prepare_row(const RowArrays& rows, const Pack& pack, int row, int l
          lane);
   store(drag / (h * h), term.inertia_scale + lane);
   if (extended || pack.viscous) {
-    prepare_viscous(rows, pack, row, lane, load_pose(rows.start[row - 1], lane), now, h);
+    prepare_viscous(rows, pack, row, lane, load_pose(rows.start[parent_row(pack, row)], lane), now,
+                    h);
     if constexpr (extended)
       prepare_joint(rows, pack, row, lane, load3(rows.strain[row].bend, lane));
   }
@@ -149,8 +157,9 @@ HWY_INLINE Blocks linearised(const RowArrays& rows, const Pack& pack, int row, i
                              V& energy) {
   if constexpr (extended)
     if (pack.windy) set_axis(rows, pack, row, lane, rows.axis_share);
-  const Strained s = strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[row - 1], lane),
-                                      load_pose(rows.iterate[row], lane));
+  const Strained s =
+      strain<extended>(rows, pack, row, lane, load_pose(rows.iterate[parent_row(pack, row)], lane),
+                       load_pose(rows.iterate[row], lane));
   energy = energy + s.energy;
   return blocks_of<extended>(rows, pack, row, lane, s);
 }
@@ -227,6 +236,62 @@ void linearise_pack(const RowArrays& rows, Pack& pack) {
   }
 }
 
+// All blocks first, because elements are not eliminated in the order of their rows.
+template <bool extended>
+HWY_INLINE V linearise_loops(const RowArrays& rows, const Pack& pack, int lane, LoopWork& work) {
+  const LoopShape& shape = *pack.loops;
+  const int carrier = shape.size();
+  for (int e = 0; e <= carrier; ++e)
+    for (Lanes& x : work.diagonal[e]) store(set(0.0), x + lane);
+  V energy = set(0.0);
+  for (int e = 0; e < carrier; ++e) {
+    const int row = pack.begin + 1 + e, parent = shape.parents()[e];
+    const Blocks blocks = linearised<extended>(rows, pack, row, lane, energy);
+    Block block = blocks.own;
+    fetch_sources(rows, pack, row + sources_ahead);
+    fetch_ahead(rows, lane);
+    add_sources_of(rows, row, lane, block);
+    add_block(block, work.diagonal[e], lane);
+    share_of_parent(blocks, block);
+    add_block(block, work.diagonal[parent < 0 ? carrier : parent], lane);
+    const LoopShape::Place place = shape.couplings()[e];
+    put_coupling(blocks, place, work.entry[place.entry], lane);
+  }
+  for (std::size_t w = 0; w < shape.welds().size(); ++w) {
+    const auto [a, b] = shape.welds()[w];
+    const Welded weld = welded(rows, pack, static_cast<int>(w), lane);
+    energy = energy + weld.energy;
+    add_weld(weld, -1.0, work.diagonal[a < 0 ? carrier : a], lane);
+    add_weld(weld, 1.0, work.diagonal[b < 0 ? carrier : b], lane);
+    const LoopShape::Place place = shape.weld_couplings()[w];
+    put_coupling(weld, place, work.entry[place.entry], lane);
+  }
+  return energy;
+}
+
+template <bool extended>
+void eliminate_loops_pack(const RowArrays& rows, Pack& pack) {
+  LoopWork& work = loop_work();
+  const LoopShape& shape = *pack.loops;
+  LoopFactorRow* factors = rows.loop_factor + pack.first_loop_factor;
+  for (int lane = 0; lane < lane_count; lane += width) {
+    store(linearise_loops<extended>(rows, pack, lane, work), pack.energy_before + lane);
+    V healthy = set(1.0);
+    const LoopShape::Target* target = shape.targets().data();
+    for (const LoopShape::Column& column : shape.columns())
+      healthy =
+          hn::Min(healthy, eliminate_column(shape, column, target, work, factors,
+                                            rows.factor[pack.begin + 1 + column.element], lane));
+    store(healthy, pack.healthy + lane);
+    for (int i = 0; i < block_size; ++i)
+      store(load(work.diagonal[shape.size()][i] + lane), pack.branch[i] + lane);
+  }
+}
+
+void EliminateLoops(const RowArrays& rows, Pack& pack) {
+  pack.extended ? eliminate_loops_pack<true>(rows, pack) : eliminate_loops_pack<false>(rows, pack);
+}
+
 void LineariseAndEliminate(const RowArrays& rows, Pack& pack) {
   pack.extended ? eliminate_pack<true>(rows, pack) : eliminate_pack<false>(rows, pack);
 }
@@ -283,6 +348,27 @@ void Substitute(const RowArrays& rows, Pack& pack) {
         store(parent[i], factor.right[i] + lane);
       }
       measure(parent, load(rows.element[row].length + lane), largest);
+    }
+    report(largest, pack, lane);
+  }
+}
+
+void SubstituteLoops(const RowArrays& rows, Pack& pack) {
+  const auto& columns = pack.loops->columns();
+  for (int lane = 0; lane < lane_count; lane += width) {
+    Largest largest{set(0.0), set(0.0), set(0.0)};
+    for (auto column = columns.rbegin(); column != columns.rend(); ++column) {
+      const int row = pack.begin + 1 + column->element;
+      fetch_ahead(rows, lane);
+      V x[6];
+      substitute_column(rows, pack, *column, lane, x);
+      const V alive = load(rows.element[row].alive + lane);
+#pragma GCC unroll 6
+      for (int i = 0; i < 6; ++i) {
+        x[i] = alive * x[i];
+        store(x[i], rows.factor[row].right[i] + lane);
+      }
+      measure(x, load(rows.element[row].length + lane), largest);
     }
     report(largest, pack, lane);
   }
@@ -371,10 +457,13 @@ void move_rows(const RowArrays& rows, Pack& pack, int first, int end, bool keep)
       moved.orientation = select(moves, turned, base.orientation);
       store_pose(moved, rows.iterate[row], lane);
       if constexpr (measured) {
+        if (pack.loops) parent = load_pose(rows.iterate[parent_row(pack, row)], lane);
         energy = energy + strain<extended>(rows, pack, row, lane, parent, moved).energy;
         parent = moved;
       }
     }
+    if constexpr (measured)
+      if (pack.loops) energy = energy + energy_of_welds(rows, pack, lane);
     if constexpr (measured) store(energy, pack.energy + lane);
   }
 }
@@ -395,9 +484,11 @@ void evaluate_pack(const RowArrays& rows, const Pack& pack, double* sums) {
     Pose parent = load_pose(rows.iterate[pack.begin], lane);
     for (int row = pack.begin + 1; row < pack.end; ++row) {
       const Pose own = load_pose(rows.iterate[row], lane);
+      if (pack.loops) parent = load_pose(rows.iterate[parent_row(pack, row)], lane);
       energy = energy + strain<extended>(rows, pack, row, lane, parent, own).energy;
       parent = own;
     }
+    if (pack.loops) energy = energy + energy_of_welds(rows, pack, lane);
     store(energy, sums + lane);
   }
 }
@@ -417,9 +508,10 @@ void Finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
       const Q turn = times_conjugate(past.orientation, pose.orientation);
       store3(inverse_step * log_map(turn).phi, end[row].angular_velocity, lane);
       if (pack.branches > 0)
-        finish_joint(
-            rows, pack, row, lane,
-            bend_of(rows.element[row], lane, load_pose(rows.iterate[row - 1], lane), pose).phi);
+        finish_joint(rows, pack, row, lane,
+                     bend_of(rows.element[row], lane,
+                             load_pose(rows.iterate[parent_row(pack, row)], lane), pose)
+                         .phi);
     }
   }
 }
@@ -434,6 +526,8 @@ namespace pedicel::cosserat {
 HWY_EXPORT(Prepare);
 HWY_EXPORT(LineariseAndEliminate);
 HWY_EXPORT(EliminateFromClamp);
+HWY_EXPORT(EliminateLoops);
+HWY_EXPORT(SubstituteLoops);
 HWY_EXPORT(SolveLast);
 HWY_EXPORT(SubstituteToClamp);
 HWY_EXPORT(Linearise);
@@ -451,6 +545,12 @@ void linearise_and_eliminate(const RowArrays& rows, Pack& pack) {
 }
 void eliminate_from_clamp(const RowArrays& rows, Pack& pack) {
   HWY_DYNAMIC_DISPATCH(EliminateFromClamp)(rows, pack);
+}
+void eliminate_loops(const RowArrays& rows, Pack& pack) {
+  HWY_DYNAMIC_DISPATCH(EliminateLoops)(rows, pack);
+}
+void substitute_loops(const RowArrays& rows, Pack& pack) {
+  HWY_DYNAMIC_DISPATCH(SubstituteLoops)(rows, pack);
 }
 void solve_last(const RowArrays& rows, Pack& pack) {
   HWY_DYNAMIC_DISPATCH(SolveLast)(rows, pack);
@@ -475,6 +575,11 @@ void evaluate(const RowArrays& rows, const Pack& pack, Lanes& energy) {
 }
 void finish(const RowArrays& rows, const Pack& pack, RateRow* end) {
   HWY_DYNAMIC_DISPATCH(Finish)(rows, pack, end);
+}
+
+LoopWork& loop_work() {
+  static thread_local const auto work = std::make_unique<LoopWork>();
+  return *work;
 }
 
 std::vector<std::string> available_instruction_sets() {

@@ -34,6 +34,13 @@ void solve_last(const RowArrays& rows, Pack& pack);
 /// From there to everyone's in the pack. Sets `turn`, `shift`, `change`.
 void substitute_to_clamp(const RowArrays& rows, Pack& pack);
 
+/// As linearise_and_eliminate(), of a pack of loop parts: each into what carries it, in the order
+/// of its LoopShape.
+void eliminate_loops(const RowArrays& rows, Pack& pack);
+
+/// From the changes of what carries them to everyone's. Sets `turn`, `shift`, `change`.
+void substitute_loops(const RowArrays& rows, Pack& pack);
+
 /// Gradient and Hessian alone, left in `blocks`. Sets `energy_before`.
 void linearise(const RowArrays& rows, Pack& pack);
 

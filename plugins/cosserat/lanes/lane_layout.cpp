@@ -11,8 +11,16 @@ namespace {
 // them fill lanes side by side.
 constexpr int large_plant = 800, few_stems = lane_count / 2;
 
+// By element, the part with loops that it lies in; -1: none.
+std::vector<int> part_of_elements(const RodModel& model, const std::vector<LoopPart>& parts) {
+  std::vector<int> part(model.size(), -1);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const int e : parts[i].elements) part[e] = static_cast<int>(i);
+  return part;
+}
+
 // The child that an element's chain goes on to; -1: none.
-std::vector<int> next_of_chains(const RodModel& model) {
+std::vector<int> next_of_chains(const RodModel& model, const std::vector<int>& part) {
   const int n = model.size();
   std::vector<int> height(n, 1);  // elements on the longest path
   std::vector<int> next(n, -1);
@@ -23,6 +31,7 @@ std::vector<int> next_of_chains(const RodModel& model) {
     const int p = model.elements[e].parent;
     if (p < 0) continue;
     height[p] = std::max(height[p], height[e] + 1);
+    if (part[e] >= 0 || part[p] >= 0) continue;
     // Of equal ones the first child goes on: it is the last to come by here.
     if (next[p] < 0 || rank(p, e) >= rank(p, next[p])) next[p] = e;
   }
@@ -45,7 +54,8 @@ void set_levels(std::vector<Chain>& chains) {
 }
 
 // In the order of their first elements; parents are indices here.
-std::vector<Chain> chains_of(const RodModel& model, const std::vector<int>& next) {
+std::vector<Chain> chains_of(const RodModel& model, const std::vector<int>& next,
+                             const std::vector<LoopPart>& parts, const std::vector<int>& part) {
   std::vector<int> chain_of(model.size(), -1);
   std::vector<Chain> chains;
   for (int e = 0; e < model.size(); ++e) {
@@ -54,10 +64,15 @@ std::vector<Chain> chains_of(const RodModel& model, const std::vector<int>& next
     Chain chain;
     chain.parent = p < 0 ? -1 : chain_of[p];
     chain.from = p;
-    for (int i = e; i >= 0; i = next[i]) {
-      chain_of[i] = static_cast<int>(chains.size());
-      chain.elements.push_back(i);
+    if (part[e] >= 0) {
+      const LoopPart& loops = parts[part[e]];
+      if (loops.elements.front() != e) continue;
+      chain.elements = loops.elements;
+      chain.loops = &loops.shape;
+      chain.welds = loops.welds;
     }
+    for (int i = e; i >= 0 && part[e] < 0; i = next[i]) chain.elements.push_back(i);
+    for (const int i : chain.elements) chain_of[i] = static_cast<int>(chains.size());
     chains.push_back(std::move(chain));
   }
   set_levels(chains);
@@ -75,7 +90,7 @@ void cut_few_stems(const RodModel& model, const std::vector<Chain>& chains,
     ++of_level[chain.level];
   }
   for (const Chain& chain : chains) {
-    if (of_level[chain.level] > few_stems) continue;
+    if (chain.loops || of_level[chain.level] > few_stems) continue;
     int carried = 0;
     for (std::size_t i = 0; i < chain.elements.size(); ++i) {
       const int here = on[chain.elements[i]];
@@ -88,12 +103,13 @@ void cut_few_stems(const RodModel& model, const std::vector<Chain>& chains,
   }
 }
 
-// A chain ends where something starts only if it was cut there.
+// A path goes on at its end only if it was cut there.
 void mark_first_pieces(std::vector<Chain>& chains) {
   for (const Chain& chain : chains) {
-    if (chain.parent < 0) continue;
+    if (chain.parent < 0 || chain.loops) continue;
     Chain& parent = chains[chain.parent];
-    if (parent.parent < 0 && parent.elements.size() > 1 && starts_at_end_of(chain, parent))
+    if (!parent.loops && parent.parent < 0 && parent.elements.size() > 1 &&
+        starts_at_end_of(chain, parent))
       parent.from_clamp = true;
   }
   set_levels(chains);
@@ -104,18 +120,32 @@ void mark_first_pieces(std::vector<Chain>& chains) {
 LaneLayout::LaneLayout(std::span<const RodModel* const> plants, bool keep_blocks) {
   std::vector<bool> keeps;
   for (const RodModel* const plant : plants) {
-    std::vector<int> next = next_of_chains(*plant);
-    std::vector<Chain> chains = chains_of(*plant, next);
-    keeps.push_back(keep_blocks || !plant->welds.empty());
+    std::optional<std::vector<LoopPart>> parts;
+    if (!keep_blocks) parts = loop_parts(*plant);
+    keeps.push_back(!parts);
+    if (!parts) parts.emplace();
+    const std::vector<int> part = part_of_elements(*plant, *parts);
+    std::vector<int> next = next_of_chains(*plant, part);
+    std::vector<Chain> chains = chains_of(*plant, next, *parts, part);
     if (plant->size() >= large_plant) {
       cut_few_stems(*plant, chains, next);
-      chains = chains_of(*plant, next);
+      chains = chains_of(*plant, next, *parts, part);
       if (!keeps.back()) mark_first_pieces(chains);
     }
+    for (Chain& chain : chains)
+      if (chain.loops) chain.loops = shared(*chain.loops);
     slots_.emplace_back(plant->elements.size());
     add_chains(std::move(chains));
   }
   pack(keeps);
+}
+
+// The one of the layout that is the same: there are as many as sorts of leaves.
+const LoopShape* LaneLayout::shared(LoopShape shape) {
+  for (const auto& known : shapes_)
+    if (*known == shape) return known.get();
+  shapes_.push_back(std::make_shared<const LoopShape>(std::move(shape)));
+  return shapes_.back().get();
 }
 
 // Those of the next plant.
@@ -167,16 +197,20 @@ void LaneLayout::pack(const std::vector<bool>& keeps) {
   std::vector<int> chains(chains_.size());
   std::iota(chains.begin(), chains.end(), 0);
   const auto kept = [&](int c) { return static_cast<bool>(keeps[chains_[c].plant]); };
+  const auto number = [&](const LoopShape* loops) {  // no address decides where things stand
+    const auto of_same = [&](const auto& shape) { return shape.get() == loops; };
+    return loops ? std::ranges::find_if(shapes_, of_same) - shapes_.begin() : -1;
+  };
   const auto key = [&](int c) {
     const Chain& chain = chains_[c];
-    return std::tuple(chain.level, kept(c), !chain.from_clamp,
+    return std::tuple(chain.level, kept(c), !chain.from_clamp, number(chain.loops),
                       -static_cast<int>(chain.elements.size()), c);
   };
   std::sort(chains.begin(), chains.end(), [&](int a, int b) { return key(a) < key(b); });
   const auto side_by_side = [&](int c, int first) {
     const Chain &a = chains_[c], &b = chains_[first];
     return a.level == b.level && kept(c) == kept(first) && a.from_clamp == b.from_clamp &&
-           (!a.from_clamp || a.elements.size() == b.elements.size());
+           a.loops == b.loops && (!a.from_clamp || a.elements.size() == b.elements.size());
   };
   for (std::size_t i = 0; i < chains.size();) {
     const int first = chains[i], begin = rows();
@@ -200,6 +234,7 @@ void LaneLayout::pack(const std::vector<bool>& keeps) {
       }
     }
     keeps_blocks_.push_back(kept(first));
+    loops_.push_back(chains_[first].loops);
     first_row_.push_back(begin);
     end_row_.push_back(rows());
   }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "pedicel/cosserat/lanes/lanes.h"
+#include "pedicel/cosserat/lanes/loop_shape.h"
 #include "pedicel/cosserat/model/rod_model.h"
 
 namespace pedicel::cosserat {
@@ -32,6 +34,9 @@ struct Chain {
   int from = -1;              // that chain's element
   int level = 0;              // 0: nothing branches off; else one more than the highest branch
   bool from_clamp = false;    // a cut stem's first piece: eliminated from the clamp outward
+  // Where it is no path, but a part with loops: its shape, and its welds in the model.
+  const LoopShape* loops = nullptr;
+  std::vector<int> welds;
   int pack = -1, lane = 0;
 };
 
@@ -39,6 +44,9 @@ struct Chain {
 /// by side in packs of up to eight; a plant of one stem and five equal branches thus fills six
 /// lanes, and a row of equal plants fills all. What an element gets does not depend on its place
 /// here, and how a plant is cut depends on nothing but the plant.
+///
+/// A part with loops (LoopPart), such as a leaf, is a chain too, and stands beside others of its
+/// shape. A plant with a part that is too large is solved by a block system.
 class LaneLayout {
  public:
   /// With `keep_blocks` no plant is eliminated row by row.
@@ -58,8 +66,14 @@ class LaneLayout {
   int packs() const { return static_cast<int>(keeps_blocks_.size()); }
   int first_row(int pack) const { return first_row_[pack]; }
   int end_row(int pack) const { return end_row_[pack]; }
-  /// Packs of plants with loops hold nothing else: they are not eliminated row by row.
+  /// Packs of plants that a block system solves hold nothing else: they are not eliminated row by
+  /// row.
   bool keeps_blocks(int pack) const { return keeps_blocks_[pack]; }
+  bool plant_keeps_blocks(int plant) const {
+    return !lanes_of_plant_[plant].empty() && keeps_blocks(lanes_of_plant_[plant].front().pack);
+  }
+  /// nullptr: the pack's rows are paths.
+  const LoopShape* loops(int pack) const { return loops_[pack]; }
   /// The chains of such packs have all the same length.
   bool from_clamp(int pack) const { return last_row_task_[pack] >= 0; }
 
@@ -81,6 +95,7 @@ class LaneLayout {
 
  private:
   void add_chains(std::vector<Chain> chains);
+  const LoopShape* shared(LoopShape shape);
   void pack(const std::vector<bool>& keeps);
 
   std::vector<Chain> chains_;
@@ -90,6 +105,8 @@ class LaneLayout {
   std::vector<std::array<int, lane_count>> elements_;  // by row
   std::vector<int> first_row_, end_row_;               // by pack
   std::vector<bool> keeps_blocks_;
+  std::vector<const LoopShape*> loops_;  // by pack
+  std::vector<std::shared_ptr<const LoopShape>> shapes_;
   std::vector<int> last_row_task_;     // by pack; -1: it has none
   std::vector<int> packs_from_clamp_;  // in order
 };

@@ -5,6 +5,8 @@
 
 namespace pedicel::cosserat {
 
+class LoopShape;
+
 /// Structure of arrays for the direct solver: a row holds eight elements side by side, one a lane,
 /// and the kernels of lane_kernels.h work on whole rows. Which element stands where: lane_layout.h.
 /// A number of a row is a `Lanes`; a vector quantity is one `Lanes` a component.
@@ -129,6 +131,16 @@ struct alignas(64) BlocksRow {
   Lanes on_parent[6];  ///< what the parent's gets
 };
 
+/// Constants of eight welds (Weld; SI units). Where there is none, they are zero.
+struct alignas(64) WeldRow {
+  Lanes position_stiffness, bend_stiffness[3], rest_rotation[4];
+};
+
+/// W = D^-1 L^-1 coupling of one entry of the factor of eight loop parts, by columns.
+struct alignas(64) LoopFactorRow {
+  float values[36][lane_count];
+};
+
 /// What goes into one element's block from outside its row: a branch that starts at it, or springs
 /// and contacts. `values` are block_size numbers, `stride` apart.
 struct BlockSource {
@@ -150,6 +162,8 @@ struct BlockSource {
 ///
 /// Kernels go down or up these rows, with all eight lanes in one vector. A lane that is shorter
 /// than the pack, or empty, computes along without effect (ElementRow::alive).
+///
+/// A pack of loop parts has in each lane the elements of one, and row `begin` what carries them.
 struct alignas(64) Pack {
   // How each lane's plant steps. x' = (x - (past_now x_n - past_before x_{n-1})) / effective_step.
   Lanes past_now, past_before, effective_step;
@@ -173,6 +187,9 @@ struct alignas(64) Pack {
   unsigned terms = 0;                    // JointTerm::bit of those that some joint in it has
   int branches = 0, sliders = 0;         // of its joints at most
   bool hysteretic = false;               // some slider in it gives way little by little
+  // Loop parts, one a lane: rows have the parents that the shape says. nullptr: the row above.
+  const LoopShape* loops = nullptr;
+  int first_weld = 0, first_loop_factor = 0;  // their rows
 };
 
 /// Where the rows are; indices are rows.
@@ -196,7 +213,9 @@ struct RowArrays {
   const ExtensionRow* extension = nullptr;
   ExtensionTermRow* extension_term = nullptr;
   const JointTermRow* joint_term = nullptr;  // where some plant has any
-  BranchRow* law_branch = nullptr;           // `law_branches` a row
+  const WeldRow* weld = nullptr;             // of loop parts
+  LoopFactorRow* loop_factor = nullptr;
+  BranchRow* law_branch = nullptr;  // `law_branches` a row
   int law_branches = 0;
   double axis_share = 1.0;              // 1, by which ExtensionTermRow::axis follows the iterate
   double gravity[3] = {0.0, 0.0, 0.0};  // m/s2, W

@@ -70,6 +70,7 @@ double Attachments::sum(const RodModel& model, const RodState& state,
     if (state.alive[one.element]) energy += tie(state, one, blocks);
   for (const Support& one : model.supports)
     if (state.alive[one.element]) energy += support(state, one, blocks);
+  if (!welds_) return energy;
   for (const Weld& one : model.welds)
     if (state.alive[one.a] && state.alive[one.b]) energy += weld(state, one, blocks);
   return energy;

@@ -24,6 +24,9 @@ double tension(const RodState& state, const Tie& tie);
 /// Loads, ties, supports and welds of one plant as terms of the incremental potential of a step.
 class Attachments {
  public:
+  /// `welds`: whether they are among them; else the rows have them.
+  explicit Attachments(bool welds = true) : welds_(welds) {}
+
   /// The step starts at `start`: there loads have done no work.
   void prepare(const RodState& start, std::span<const Load> loads, std::span<const Tie> ties);
 
@@ -42,6 +45,7 @@ class Attachments {
   double support(const RodState& state, const Support& support, DiagonalBlocks* blocks) const;
   double weld(const RodState& state, const Weld& weld, DiagonalBlocks* blocks) const;
 
+  bool welds_ = true;
   const RodState* start_ = nullptr;
   std::span<const Load> loads_;
   std::span<const Tie> ties_;

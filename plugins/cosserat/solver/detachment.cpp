@@ -9,6 +9,9 @@ namespace pedicel::cosserat {
 namespace {
 
 // What the joint under a fruit carries against each of its thresholds.
+// Thresholds are looked at once a step, after the solver, and never within Newton's iterations. The
+// step then minimises one smooth potential, and a stalk cannot break at an iterate that the plant
+// never reaches. What breaks bears its load for the rest of that step.
 struct Margins {
   double stretch, bend, force, moment, torsion;  // as in DetachEvent
   double used = 0.0;                             // largest ratio to a threshold
@@ -16,17 +19,24 @@ struct Margins {
 };
 
 Margins margins(const RodModel& model, const RodState& state, const Fruit& fruit) {
+  // Strains are from the unloaded shape, as the paper's are. A stalk that hangs under its own fruit
+  // has therefore used a part of its limit before anything pulls.
   const Strain strain = strain_of(model, state, fruit.element);
   const JointLoad load = joint_load(model, state, fruit.element);
   Margins m{strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
             load.moment.head<2>().norm(), std::abs(load.moment.z())};
   if (fruit.law) {
+    // A scale that was left out is infinite: its ratio is 0, and it takes no part. The sum reaches
+    // 1 where the stalk breaks, so that laws and thresholds report the same kind of number.
     m.used = std::pow(m.force / fruit.law->force, fruit.law->exponents[0]) +
              std::pow(m.moment / fruit.law->moment, fruit.law->exponents[1]) +
              std::pow(m.torsion / fruit.law->torsion, fruit.law->exponents[2]);
     m.cause = "law";
     return m;
   }
+  // Thresholds are one by one: the largest ratio counts, and names the cause. Strains stand before
+  // loads, and only a larger ratio replaces an earlier one, so that a tie keeps the paper's own
+  // criterion.
   const Thresholds& t = fruit.thresholds;
   const std::array<std::pair<double, const char*>, 5> ratios = {
       std::pair(m.stretch / t.stretch, "stretch"), std::pair(m.bend / t.bend, "bend"),
@@ -41,7 +51,15 @@ Margins margins(const RodModel& model, const RodState& state, const Fruit& fruit
 }
 
 bool is_tip(const RodModel& model, const RodState& state, const Fruit& fruit) {
+  // The stub goes along only where nothing else needs the element. Otherwise the plant would lose a
+  // segment that still carries a twig, a leaf's weld or the far half of its own length.
   if (fruit.back > 0.5 * model.elements[fruit.element].length) return false;
+  // Another fruit there stays on the plant, and so does what it hangs on.
+  for (std::size_t f = 0; f < model.fruits.size(); ++f)
+    if (&model.fruits[f] != &fruit && model.fruits[f].element == fruit.element &&
+        !state.fruit_gone[f])
+      return false;
+  // Children come after their parents in a model, so nothing before the element can hang on it.
   for (int e = fruit.element + 1; e < model.size(); ++e)
     if (model.elements[e].parent == fruit.element && state.alive[e]) return false;
   for (const Weld& weld : model.welds)
@@ -63,13 +81,18 @@ DetachEvent record(const RodModel& model, const RodState& state, int index, cons
   event.moment = m.moment;
   event.torsion = m.torsion;
   const Vec3 axis = q * Vec3::UnitZ();
+  // Without a sign: a stalk that hangs straight down and one that stands straight up are both at 0.
+  // Rounding may push the cosine of either above 1, whose arc cosine is no number.
   event.angle = std::acos(std::clamp(std::abs(axis.z()), 0.0, 1.0));
+  // All that the rigid body starts from is read before the fruit is taken off: take_off() moves the
+  // element's centre of mass, and the velocities of the state are those of that centre.
   event.position_W = point_on(model, state, fruit.element, fruit.back);
   event.orientation = q;
   event.velocity_W = velocity_on(model, state, fruit.element, fruit.back);
   event.angular_velocity_W = q * state.angular_velocity[fruit.element];
   event.mass = fruit_mass(fruit);
   if (!is_tip(model, state, fruit)) return event;
+  // The element's mass holds its fruit already, as all hung masses are lumped into it.
   event.mass = element.mass;
   event.stub_length = element.length - fruit.back;
   event.stub_radius = 0.5 * (element.radius_near + element.radius_far);
@@ -78,6 +101,9 @@ DetachEvent record(const RodModel& model, const RodState& state, int index, cons
 
 // The segment lost a fruit: its centre of mass moves, and with it the velocity that the state
 // holds.
+// Only the reference point changes, and no motion: the axis lies along E's third axis, so the shift
+// of the centre is along it, and omega (E) crossed with the shift is what the new centre moves
+// faster.
 void lighten(RodModel& model, RodState& state, int e) {
   const Quat q = state.orientation[e];
   const Vec3 omega = state.angular_velocity[e];
@@ -109,6 +135,8 @@ void take_off(RodModel& model, RodState& state, int fruit) {
 CutOff cut(const RodModel& model, RodState& state, int element) {
   CutOff off;
   std::vector<char> carried(model.elements.size(), 0);
+  // One pass is enough, because a parent always stands before its children. The pass marks dead
+  // elements, too: what hangs on one that fell off earlier must not be taken for a part that stays.
   for (int e = element; e < model.size(); ++e) {
     const int parent = model.elements[e].parent;
     carried[e] = e == element || (parent >= 0 && carried[parent]);
@@ -126,10 +154,14 @@ CutOff cut(const RodModel& model, RodState& state, int element) {
   }
   off.centre_W /= off.mass;
   off.velocity_W = momentum / off.mass;
+  // The rigid body gets the velocity and the spin that keep linear and angular momentum. Averaging
+  // the segments' rates would lose what the part swings with about its own centre.
   Vec3 spin = Vec3::Zero();  // N m s, about the centre
   Mat3 inertia = Mat3::Zero();
   for (const int e : off.elements) {
     const Element& one = model.elements[e];
+    // Inertias and rates of the state are in E, each in its own segment's axes. They are summed in
+    // W. The second term is the parallel-axis theorem.
     const Mat3 r = state.orientation[e].toRotationMatrix();
     const Vec3 arm = centre_of(e) - off.centre_W;
     inertia += r * one.inertia.asDiagonal() * r.transpose() +
@@ -152,6 +184,8 @@ void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events) 
   for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
     if (state.fruit_gone[f] || !state.alive[model.fruits[f].element]) continue;
     const Margins m = margins(model, state, model.fruits[f]);
+    // Recorded first, then taken off: the record is of the joint that broke, and after take_off()
+    // there is no joint. Fruits are taken in the order of the file, so a run repeats to the bit.
     if (m.used < 1.0) continue;
     events.push_back(record(model, state, f, m));
     take_off(model, state, f);

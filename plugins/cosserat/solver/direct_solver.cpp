@@ -11,6 +11,7 @@ namespace {
 
 // Makes `iterate` what it will be but for where the elements are, which the rows write. It has no
 // velocities.
+// The vectors keep their memory from step to step: resize() allocates in the first step only.
 void follow(const RodState& state, RodState& iterate) {
   iterate.position.resize(state.position.size());
   iterate.orientation.resize(state.orientation.size());
@@ -24,6 +25,8 @@ void follow(const RodState& state, RodState& iterate) {
 // The k-th of so many equal parts of its way.
 Clamp part_of(const Clamp& whole, int k, int parts) {
   const auto at = [&](int i) {
+    // The last part ends exactly where the whole does. Interpolated at 1 it would be off by
+    // rounding, and the next step would begin from another clamp than the scene set.
     return i == parts ? whole.now : between(whole.before, whole.now, i / double(parts));
   };
   return {whole.first_element, at(k), at(k + 1)};
@@ -31,8 +34,9 @@ Clamp part_of(const Clamp& whole, int k, int parts) {
 
 }  // namespace
 
-DirectSolver::Plant::Plant(const RodModel& model) : extras(model.size()) {
-  if (!model.welds.empty()) loops = std::make_unique<BlockSystem>(model);
+DirectSolver::Plant::Plant(const RodModel& model, bool by_blocks)
+    : attachments(by_blocks), extras(model.size()) {
+  if (by_blocks) loops = std::make_unique<BlockSystem>(model);
 }
 
 Pressing DirectSolver::Plant::pressing() const {
@@ -49,7 +53,10 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
   // All that a step needs is made here: step() must not allocate.
   plants_.reserve(models.size());
   for (const RodModel* model : models) {
-    plants_.emplace_back(*model);
+    const int index = static_cast<int>(plants_.size());
+    plants_.emplace_back(*model, rows_.store.layout.plant_keeps_blocks(index));
+    // One plant whose loops are not in lanes makes all take the road that waits between elimination
+    // and substitution.
     any_loops_ = any_loops_ || plants_.back().loops;
   }
   states_.resize(plants_.size());
@@ -61,6 +68,8 @@ DirectSolver::DirectSolver(const RodSettings& settings, std::span<const RodModel
 
 // Without history the next step is of first order, which needs no past.
 void DirectSolver::reset(int plant) {
+  // Friction's springs go, too. They are stretches against a surface that the new state never
+  // touched, and would pull the plant towards a place that it was not at.
   plants_[plant].contacts.forget();
   plants_[plant].has_history = false;
   plants_[plant].control.reset();
@@ -74,6 +83,8 @@ StepReport DirectSolver::step(const RodModel& model, RodState& state, const Step
 
 void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravity,
                         ThreadPool& pool) {
+  // The order of events in a step is: read, guess, solve, take again in substeps, write. Everything
+  // before end() works on copies in the rows, and the states of the caller stand still.
   begin(steps, dt, gravity, pool);
   solve(steps, dt, pool);
   // No state has been written yet, so that a step can be taken again from where it began. Substeps
@@ -89,6 +100,8 @@ void DirectSolver::step(std::span<PlantStep> steps, double dt, const Vec3& gravi
 
 // Contact is the work of one thread, unless a single plant has all of them to itself.
 void DirectSolver::lend(ThreadPool* pool, int index, const PlantStep& step) {
+  // Sources search with the same threads as the terms. With several plants at work these take the
+  // threads already, one each, and nobody is lent the pool.
   plants_[index].contacts.use(pool);
   for (ContactSource* source : step.contacts) source->use(pool);
 }
@@ -110,10 +123,13 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     const bool first_order = settings_.integrator == Integrator::backward_euler ||
                              !plant.has_history ||
                              !IterationControl::suits_second_order(dt, before);
+    // Must outlive the span below, which only points to it.
     const Clamp root = own_clamp(*step.state);
     rows_.states.set_scheme(p, dt, first_order ? 0.0 : before,
                             step.clamps.empty() ? std::span(&root, 1) : step.clamps,
                             plant.control.continues_acceleration());
+    // Drift and gusts are functions of the time at the step's end, which is made from `time` and
+    // dt: the state's own time is raised in end() only.
     rows_.extensions.begin_step(p, *step.model, step.state->time, dt, settling_, step.air);
     begin_memory(p, *step.model, *step.state);
     // What touches a plant looks at its iterate as a state. All others are solved in rows alone.
@@ -125,12 +141,15 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
     plant.iterate_is_here = plant.contacts_are_here = false;
     plant.control.begin_step();
   }
+  // All plants are active for the guess. The iteration takes them out one by one.
   std::fill(working_.begin(), working_.end(), 1);
   rows_.store.set_active(working_);
   rows_.states.prepare(pool, states_, unchanged_);
   for_each_plant(
       steps, pool, [&](int p) { return plants_[p].touched; },
       [&](int p) {
+        // Sources begin their step on the state and not on the guess: what they measure of motion,
+        // such as the way that friction has been dragged, is from where the plant stood.
         follow(*steps[p].state, plants_[p].iterate);
         plants_[p].attachments.prepare(*steps[p].state, steps[p].loads, steps[p].ties);
         for (ContactSource* source : steps[p].contacts)
@@ -143,6 +162,8 @@ void DirectSolver::begin(std::span<PlantStep> steps, double dt, const Vec3& grav
 void DirectSolver::begin_memory(int index, const RodModel& model, RodState& state) const {
   if (model.laws.empty()) return;
   const std::size_t joints = model.laws.size();
+  // Both sizes are compared: a state that was saved under other laws has a memory of another
+  // length, and its entries would be taken for those of other branches.
   if (state.joint_bias.size() == joints &&
       state.joint_memory.size() == joints * rows_.extensions.branches(index))
     return;
@@ -154,6 +175,7 @@ void DirectSolver::begin_memory(int index, const RodModel& model, RodState& stat
 // from where the step starts if the potential is lower there: what turns fast cannot be continued
 // along straight lines, and few iterations would leave the strain of that in the rods as energy.
 void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
+  // The list is free until the line search, and step() must not allocate another one.
   std::vector<char>& fast = searching_;
   for (int p = 0; p < size(); ++p) fast[p] = IterationControl::is_fast(rows_.elimination.change(p));
   if (std::ranges::find(fast, 1) == fast.end()) return;
@@ -167,6 +189,9 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
   for (int p = 0; p < size(); ++p) {
     if (!fast[p]) continue;
     Plant& plant = plants_[p];
+    // Supports, ties and loads count beside the rods. A clamp or a tie that moved leaves the step's
+    // start with all of the stretch, and then the guess is the better start although the rods
+    // prefer none.
     const auto attached = [&](const RodState& state) {
       return plant.touched ? plant.attachments.potential(*steps[p].model, state) : 0.0;
     };
@@ -182,6 +207,8 @@ void DirectSolver::choose_start(std::span<PlantStep> steps, ThreadPool& pool) {
 void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const Vec3& gravity) {
   Plant& plant = plants_[index];
   if (!plant.substepper) plant.substepper = std::make_unique<DirectSolver>(settings_, *step.model);
+  // It has rows of its own. Taken in these rows, a substep of one plant would overwrite the step of
+  // its neighbours, which stand in the same packs and are not written out yet.
   DirectSolver& solver = *plant.substepper;
   Plant& alone = solver.plants_.front();
   solver.settings_ = settings_;
@@ -194,6 +221,8 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
   // The contacts go along, for what friction remembers of the step before.
   std::swap(alone.contacts, plant.contacts);
   RodState& state = *step.state;
+  // Kept to put the state back where a substep fails. The iterate is not needed any more: this
+  // plant's step in the rows is given up.
   plant.iterate = state;
   constexpr int substeps = IterationControl::substeps;
   // What moves the plant, its clamp and what touches it, does an equal share in each substep.
@@ -201,11 +230,15 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
   std::vector<Clamp> clamps(step.clamps.begin(), step.clamps.end());
   step.report = {};
   for (int k = 0; k < substeps; ++k) {
+    // Colliders stand at their end-of-step poses. Without this the first substep would meet the
+    // whole motion, and nothing would be gained.
     for (ContactSource* source : step.contacts)
       source->cover(k / double(substeps), (k + 1) / double(substeps));
     state.root = k + 1 == substeps ? to : between(from, to, (k + 1) / double(substeps));
     for (std::size_t i = 0; i < clamps.size(); ++i)
       clamps[i] = part_of(step.clamps[i], k, substeps);
+    // From the second substep on the rows of the substepper hold the state that it wrote itself.
+    // `clamps` is empty for a plant of one tree, whose clamp is then read from `root` as set above.
     PlantStep part{step.model, step.state, step.loads, step.contacts, k == 0,
                    k == 0,     {},         clamps,     step.ties,     step.air};
     solver.step({&part, 1}, dt / substeps, gravity);
@@ -214,11 +247,13 @@ void DirectSolver::take_in_substeps(int index, PlantStep& step, double dt, const
     part.report.iterations += step.report.iterations;
     if (part.report.element < 0) part.report.element = step.report.element;
     step.report = part.report;
+    // Both substeps or none, as a step that fails without substeps leaves its state as it was.
     if (part.report.errors & not_finite) {
       state = plant.iterate;
       break;
     }
     // Forces are means over the step.
+    // Impulses are what must be right: a robot gets force times dt of the whole step.
     alone.contacts.add_to(solver.forces_, 1.0 / substeps);
   }
   for (ContactSource* source : step.contacts) source->cover(0.0, 1.0);
@@ -239,6 +274,8 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
     Plant& plant = plants_[p];
     RodState& state = *steps[p].state;
     StepReport& report = steps[p].report;
+    // The past in the rows is that of a whole step. After substeps it is of another plant position
+    // and another length, so BDF2 would differentiate across the gap.
     plant.has_history = !plant.substepped;
     // What came off is not written any more, so that rows and state differ: it is read again.
     plant.stands_in_rows = states_[p] && std::ranges::find(state.alive, 0) == state.alive.end();
@@ -254,6 +291,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
       return;
     }
     // Finding the element takes all changes of a plant, so only where somebody will ask for it.
+    // Before end_step(): the changes stand in scratch that is reused from there on.
     if (report.errors != none) report.element = rows_.elimination.largest_change(p, state.size());
     plant.contacts.finish(*steps[p].model, state);
     report.contacts = plant.contacts.carrying();
@@ -263,6 +301,7 @@ void DirectSolver::end(std::span<PlantStep> steps, double dt, ThreadPool& pool) 
     state.previous_dt = plant.control.ends_roughly(plant.pressing(), converged) ? 0.0 : dt;
     state.time += dt;
   });
+  // Last of all: it swaps the rows, and everything above still reads the step by its old names.
   rows_.states.end_step();
 }
 

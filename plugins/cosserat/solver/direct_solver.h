@@ -73,12 +73,13 @@ class DirectSolver : public RodSolver {
 
  private:
   struct Plant {
-    explicit Plant(const RodModel& model);
+    /// `by_blocks`: a block system solves it.
+    Plant(const RodModel& model, bool by_blocks);
 
     Attachments attachments;
     ContactTerms contacts;
     DiagonalBlocks extras;
-    std::unique_ptr<BlockSystem> loops;  // where the plant has welds
+    std::unique_ptr<BlockSystem> loops;  // where its parts with loops are large
     bool touched = false;                // by loads, supports, welds or contact sources
     RodState iterate;                    // where touched
     bool iterate_is_here = false;        // where the line search ended

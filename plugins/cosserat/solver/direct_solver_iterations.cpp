@@ -26,6 +26,8 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
     // The potential is computed in the same pass as the move where any plant is searched.
     bool measured = false;
     for (int p = 0; p < size(); ++p) {
+      // Plants that are done share packs with those that are not. Their lanes are computed along,
+      // and a share of 0 keeps them to the bit where they ended.
       rows_.search.set_share(p, working_[p] ? 1.0 : 0.0);
       iterates_[p] = working_[p] && plants_[p].touched ? &plants_[p].iterate : nullptr;
       measured =
@@ -44,11 +46,15 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
     } else {
       rows_.search.solve_and_move(pool, measured, iterates_);
     }
+    // Search first, then the contacts where it ended: validate_contacts() starts from the share
+    // that the search took, and only shortens it.
     search(steps, measured, pool);
     validate_contacts(steps, dt, pool);
     for (int p = 0; p < size(); ++p) {
       if (!working_[p]) continue;
       Plant& plant = plants_[p];
+      // Asked for every plant, although the stop flag alone would end it: is_done() counts the
+      // iteration and sets the report.
       const bool done = plant.control.is_done(plant.pressing(), settings_, steps[p].report);
       if (done || (settling_ && stop_requested)) working_[p] = 0;  // settle() throws
     }
@@ -58,6 +64,8 @@ void DirectSolver::solve(std::span<PlantStep> steps, double dt, ThreadPool& pool
 // Contacts are found anew in every iteration, unless the search did so or they can be followed.
 void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, ThreadPool& pool) {
   const auto wanted = [&](int p) { return working_[p] && plants_[p].touched; };
+  // The search has often written the iterate where it ended. Writing it twice would be a fetch of
+  // all the plant's rows for nothing.
   for (int p = 0; p < size(); ++p)
     iterates_[p] = wanted(p) && !plants_[p].iterate_is_here ? &plants_[p].iterate : nullptr;
   if (std::any_of(iterates_.begin(), iterates_.end(), [](const RodState* s) { return s; }))
@@ -69,6 +77,8 @@ void DirectSolver::linearise_touched(std::span<PlantStep> steps, double dt, Thre
     plant.contacts_are_here = false;
     // Loads and supports are few, and made anew in every iteration.
     plant.extras.clear();
+    // Loads and contacts are not in the rows, so their share of the potential is kept beside it: a
+    // line search that did not see them would climb into a contact.
     const double pressed = plant.contacts.energy();
     plant.presses = pressed > 0.0;
     plant.extra_energy = plant.attachments.linearise(model, plant.iterate, plant.extras) + pressed;
@@ -89,9 +99,13 @@ void DirectSolver::hand_over_blocks() {
     stay = stay && only_contacts_ && plants_[p].contacts.blocks_stay();
   }
   if (any && stay) return;
+  // All are taken out, also those of plants that are done: a row keeps one chain of pointers for
+  // all of its lanes, and one lane's cannot be cut out of it.
   rows_.elimination.clear_extras();
   for (int p = 0; p < size(); ++p) {
     if (!wanted(p) || plants_[p].loops) continue;
+    // A plant with loops takes its blocks from solve_loops(). In the rows, too, they would count
+    // twice.
     rows_.elimination.add_extras(p, plants_[p].extras.packed());
     rows_.elimination.add_extras(p, plants_[p].contacts.blocks());
   }
@@ -100,6 +114,7 @@ void DirectSolver::hand_over_blocks() {
 // At the iterate: normals, places and planes of all contacts, old ones and new.
 void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
   Plant& plant = plants_[index];
+  // The step's start goes along, because friction measures its stretch from there.
   plant.contacts.find(*step.model, *step.state, plant.iterate, dt, step.contacts);
   plant.control.contacts_were_found();
 }
@@ -108,6 +123,8 @@ void DirectSolver::find_contacts(int index, const PlantStep& step, double dt) {
 // things outside are found again: their normals may turn at once, as at an edge.
 bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
   Plant& plant = plants_[index];
+  // Asked first and in every iteration: the call adds up how far the plant went since contacts were
+  // found.
   if (!plant.control.may_follow_contacts(settings_) ||
       !std::all_of(step.contacts.begin(), step.contacts.end(),
                    [](const ContactSource* s) { return s->is_within_plant(); }))
@@ -120,6 +137,8 @@ bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
 void DirectSolver::solve_loops(int index, const RodModel& model) {
   Plant& plant = plants_[index];
   BlockSystem& system = *plant.loops;
+  // Rods come from the rows, so that welded plants keep the very equations of all others. Only the
+  // solution is another one.
   rows_.elimination.copy_blocks(index, system);
   for (const DiagonalBlocks::Entry& entry : plant.extras.entries()) {
     system.diagonal(entry.element) += entry.diagonal;
@@ -130,6 +149,8 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
     const int element = blocks.elements[i];
     if (element >= 0) blocks.values[i].add_to(system.diagonal(element), system.right_side(element));
   }
+  // Only the block between the two elements. What a weld adds to their diagonal blocks is among the
+  // extras already.
   for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
     system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
   // Without a solution the energy is no number, which ends the plant's step in start_search().
@@ -142,6 +163,8 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
 // The whole of Newton's change has been made. So the first try of most plants is computed already;
 // those that try less at once, and those that failed, move again.
 void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool& pool) {
+  // All at once: other threads have made these numbers, and the loop below would wait for each of
+  // them.
   rows_.search.fetch_results();
   for (int p = 0; p < size(); ++p)
     if (working_[p]) start_search(p, *steps[p].model, steps[p].report);
@@ -153,6 +176,8 @@ void DirectSolver::search(std::span<PlantStep> steps, bool measured, ThreadPool&
   for (bool first = true; any(searching_); first = false) {
     if (!first) {
       rows_.store.set_active(searching_);
+      // The move starts again from where the iteration began, with the halved share. Halving from
+      // the last try would add up rounding, and never come back to the start at a share of 0.
       rows_.search.move(pool, false, true, iterates_);
     }
     for_each_plant(
@@ -173,8 +198,12 @@ void DirectSolver::start_search(int index, const RodModel& model, StepReport& re
     iterates_[index] = nullptr;
     return;
   }
+  // The energy before is where the Hessian was made. Compared with any later one the test would
+  // allow a step that climbs from where it began.
   plant.control.begin_search(rows_.elimination.change(index), energy);
   const double share = plant.control.share();
+  // The move made the whole change already. This share takes effect with the next move, and that is
+  // why such plants skip the first round of search().
   if (share < 1.0) rows_.search.set_share(index, share);
   searching_[index] = plant.control.is_searched(!plant.contacts.only_with_itself());
   // The change is taken without a search. Whether contact presses still decides when to stop.
@@ -199,6 +228,8 @@ void DirectSolver::try_share(int index, const RodModel& model, StepReport& repor
     plant.iterate_is_here = plant.touched;
     return;
   }
+  // At the share 0 the loop goes round once more: the rows have to be moved back, and accepts()
+  // then ends it.
   if (!plant.control.halve_share()) report.errors |= line_search_failed;
   rows_.search.set_share(index, plant.control.share());
 }

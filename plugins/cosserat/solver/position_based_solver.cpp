@@ -10,6 +10,7 @@ namespace pedicel::cosserat {
 
 PositionBasedSolver::PositionBasedSolver(const RodSettings& settings, const RodModel& model)
     : settings_(settings), projections_(model) {
+  // Room for a shape between two fingers: a step must not allocate.
   const std::size_t contacts = 2 * model.shapes.size();
   found_.reserve(contacts);
   contacts_.reserve(contacts);
@@ -19,14 +20,24 @@ PositionBasedSolver::PositionBasedSolver(const RodSettings& settings, const RodM
 StepReport PositionBasedSolver::step(const RodModel& model, RodState& state,
                                      const StepInput& input) {
   StepReport report;
+  // The whole step is undone where a number is no number any more, whichever substep made it.
   remember(state);
+  // Once a step and not once a sub-step: colliders stand at their end-of-step poses, and their way
+  // is followed over the whole step. Each sub-step takes its share of the motion in the sweep.
   for (ContactSource* source : input.contacts) source->begin_step(model, state, input.dt);
+  // Once a step as well: fruits come off between steps only, so masses do not change within one.
+  // The nodes' velocities that it sets are carried from sub-step to sub-step by the bodies; the
+  // state's own are written over in each, and not read again.
   share_masses(model, state);
   const int substeps = std::max(1, settings_.substeps);
   h_ = input.dt / substeps;
   for (int s = 0; s < substeps; ++s) {
+    // The order is the paper's: predict, find contacts, project, and take velocities from the
+    // difference.
     gather_loads(model, state, input);
     predict(model, state);
+    // Before contacts: the multipliers of a sub-step start at zero, as the compliance belongs to
+    // what they add up to in it.
     projections_.begin(h_);
     find_contacts(model, state, input);
     for (int i = 0; i < settings_.iterations; ++i)
@@ -34,9 +45,13 @@ StepReport PositionBasedSolver::step(const RodModel& model, RodState& state,
     update_velocities(model, state);
   }
   report.iterations = substeps * settings_.iterations;
+  // No `not_converged` here: a few sweeps never converge, and the paper lives with that. The last
+  // correction says how far away they were.
   report.last_change = projections_.change().size;
   report.element = projections_.change().element;
   const auto finite = [](const Vec3& p) { return p.allFinite(); };
+  // Orientations are normalised and their corrections clamped, so what is lost shows in positions
+  // and velocities.
   if (!std::all_of(state.position.begin(), state.position.end(), finite) ||
       !std::all_of(state.velocity.begin(), state.velocity.end(), finite)) {
     report.errors |= not_finite;
@@ -69,11 +84,19 @@ void PositionBasedSolver::share_masses(const RodModel& model, const RodState& st
   for (int e = 0; e < model.size(); ++e) {
     const Element& element = model.elements[e];
     if (!state.alive[e]) continue;
+    // Lever rule: the mass goes to the two nodes so that its centre stays. A fruit that hangs
+    // beyond the segment's end would want a negative mass at the other node, and is held to the
+    // end.
     const double near = std::clamp(element.com_back / element.length, 0.0, 1.0);
     bodies[e].node_mass += (1.0 - near) * element.mass;
+    // At the clamp the share is lost to it: the clamp's node does not move, whatever its mass.
     if (element.parent >= 0) bodies[element.parent].node_mass += near * element.mass;
+    // The method moves nodes, while the state keeps velocities of centres of mass. The way back is
+    // at the end of update_velocities().
     bodies[e].velocity = velocity_on(model, state, e, 0.0);
   }
+  // Inverses after all sums: a node's mass is whole only when its children have added theirs. What
+  // came off has an inverse of zero, and nothing moves it.
   for (int e = 0; e < model.size(); ++e) {
     Body& body = bodies[e];
     body.inverse_mass = body.node_mass > 0.0 ? 1.0 / body.node_mass : 0.0;
@@ -86,12 +109,16 @@ void PositionBasedSolver::gather_loads(const RodModel& model, const RodState& st
                                        const StepInput& input) {
   std::vector<Body>& bodies = projections_.bodies();
   for (Body& body : bodies) {
+    // On nodes, as the masses are: what a segment weighs is then right, and so is its moment about
+    // either node.
     body.force = body.node_mass * input.gravity;
     body.moment.setZero();
   }
   for (const Load& load : input.loads) {
     if (!state.alive[load.element]) continue;
     const Element& element = model.elements[load.element];
+    // The same lever rule as for masses, so that a force off the nodes turns the segment as it
+    // should.
     const double near = load.back / element.length;
     bodies[load.element].force += (1.0 - near) * load.force_W;
     bodies[load.element].moment += load.moment_W;
@@ -103,18 +130,24 @@ void PositionBasedSolver::predict(const RodModel& model, RodState& state) {
   std::vector<Body>& bodies = projections_.bodies();
   for (int e = 0; e < model.size(); ++e) {
     Body& body = bodies[e];
+    // Kept before anything moves: velocities are differences from here, and friction's slide is,
+    // too.
     body.position = state.position[e];
     body.orientation = state.orientation[e];
     if (!state.alive[e]) continue;
     const Element& element = model.elements[e];
+    // Implicit: explicit damping with a long sub-step would turn the velocity round.
     const double kept = 1.0 / (1.0 + h_ * element.mass_damping);
     body.velocity = kept * (body.velocity + h_ * body.inverse_mass * body.force);
     state.position[e] += h_ * body.velocity;
 
     const Vec3& omega = state.angular_velocity[e];
+    // Euler's equations in E, where the inertia is diagonal and constant.
     const Vec3 gyroscopic = omega.cross(element.inertia.cwiseProduct(omega));
     const Vec3 moment = state.orientation[e].conjugate() * body.moment - gyroscopic;
     const Vec3 next = kept * (omega + h_ * body.inverse_inertia.cwiseProduct(moment));
+    // Clamped as the corrections are, so that a light segment that spins fast does not overflow.
+    // Normalised, since products of quaternions drift.
     state.orientation[e] =
         (state.orientation[e] * exp_map(clamped(h_ * next, largest_turn))).normalized();
   }
@@ -134,7 +167,10 @@ void PositionBasedSolver::find_contacts(const RodModel& model, const RodState& s
       const Vec3& near = parent < 0 ? state.root.position : bodies[parent].position;
       Contact contact;
       contact.point = point;
+      // Where the touching place was when the sub-step began. Friction wants the way from there.
       contact.place = (1.0 - t) * bodies[e].position + t * near;
+      // Where the plane was found. Within the sub-step the gap is linear from here, as no contact
+      // is looked for between sweeps.
       contact.found_at = point_on(model, state, e, point.back);
       contacts_.push_back(contact);
     }
@@ -146,11 +182,15 @@ void PositionBasedSolver::update_velocities(const RodModel& model, RodState& sta
   for (int e = 0; e < model.size(); ++e) {
     if (!state.alive[e]) continue;
     Body& body = bodies[e];
+    // From where the sweeps ended and not from the prediction: that is how corrections become
+    // impulses.
     body.velocity = (state.position[e] - body.position) / h_;
     body.spin = log_map(body.orientation.conjugate() * state.orientation[e]) / h_;
   }
   for (int e = 0; e < model.size(); ++e) {
     if (!state.alive[e] || model.elements[e].damping_time <= 0.0) continue;
+    // After all velocities are known, since a joint's rate takes the parent's; from the root
+    // outward.
     projections_.damp(model, state, e);
   }
   for (int e = 0; e < model.size(); ++e) {
@@ -169,13 +209,18 @@ void PositionBasedSolver::report_contacts(const RodModel& model, const RodState&
     const ContactPoint& point = contact.point;
     const int e = model.shapes[point.shape].element;
     const Vec3 place = point_on(model, state, e, point.back);
+    // The plane's gap where the plant ended, not where the contact was found.
     const double gap = point.gap + point.normal_W.dot(place - contact.found_at);
     report.deepest = std::max(report.deepest, -gap);
+    // Contacts never pull: a multiplier of zero is one that was found and not needed.
     if (!(contact.normal > 0.0)) continue;
     ContactForce force;
     force.point = point;
     force.point.gap = gap;
+    // On the surface. The projection works on the centreline, and only the report shows where it
+    // touched.
     force.place_W = place - point.radius * point.normal_W;
+    // A multiplier is mass times way. Over h squared it is a force; of the last sub-step only.
     force.normal = contact.normal / (h_ * h_);
     force.tangential_W = contact.tangential / (h_ * h_);
     force.slipping = contact.slipping;

@@ -20,21 +20,29 @@ struct Share {
 };
 
 // How many plants each bed takes, in order, and whose it is.
+// One bed for all would run out of the cache between two phases of a step; one bed a plant would
+// leave seven of eight lanes empty. The sizes below are between the two.
 std::vector<Share> share_out(const std::vector<int>& elements, int threads) {
   const int plants = static_cast<int>(elements.size());
   const int total = std::accumulate(elements.begin(), elements.end(), 0);
   const int largest = *std::max_element(elements.begin(), elements.end());
+  // Equal plants fill whole packs with their stems. They are worth dividing earlier, since a
+  // division at a multiple of eight plants leaves no lane empty.
   const bool equal = std::count(elements.begin(), elements.end(), largest) == plants;
   const int together = threads * (equal ? equal_undivided : undivided);
   // A multiple of the number of threads, so that none waits for the last bed.
   const int rounds = total <= together ? 1 : total / (threads * bed_size);
   const double share = static_cast<double>(total) / (threads * rounds);
+  // One bed, and then the threads share its packs. A plant larger than a share cannot be one
+  // thread's without all others waiting for it.
   if (largest > share || total < bed_size) return {{plants, 0}};
   std::vector<Share> shares;
   if (equal && rounds > 1) {  // all lanes are full but in a thread's last bed
     const int in_lanes = lane_count * largest;
     const int full = lane_count * std::max(1, static_cast<int>(std::lround(share / in_lanes)));
     for (int thread = 0; thread < threads; ++thread) {
+      // By thread and not by turns, so that a thread's plants lie side by side, and so do their
+      // states.
       int left = plants / threads + (thread < plants % threads ? 1 : 0);
       for (; left > 0; left -= full) shares.push_back({std::min(left, full), thread});
     }
@@ -42,6 +50,8 @@ std::vector<Share> share_out(const std::vector<int>& elements, int threads) {
   }
   int filled = 0;
   for (const int count : elements) {
+    // Compared with the sum so far and not with this bed alone: what one bed took too much the next
+    // one takes less, and the number of beds comes out as planned.
     if (filled >= share * static_cast<double>(shares.size()))
       shares.push_back({0, static_cast<int>(shares.size()) % threads});
     ++shares.back().plants;
@@ -57,6 +67,8 @@ RodSystem::RodSystem(const RodSettings& settings, int threads)
 
 int RodSystem::add_plant(RodModel model) {
   Plant plant;
+  // The state before the model is moved from. Beds and canopy hold pointers into `plants_`, which
+  // may have moved with this plant: they are made again by the next step.
   plant.state = drawn_state(model);
   if (settings_.solver == SolverKind::position_based) plant.solver = make_solver(settings_, model);
   plant.model = std::move(model);
@@ -67,12 +79,15 @@ int RodSystem::add_plant(RodModel model) {
 }
 
 void RodSystem::add_contact_source(int plant, std::unique_ptr<ContactSource> source) {
+  // Steps take plain pointers in a span, and must not allocate to make one.
   plants_[plant].source_pointers.push_back(source.get());
   plants_[plant].sources.push_back(std::move(source));
 }
 
 void RodSystem::step(double dt, const Vec3& gravity) {
   if (plants_.empty()) return;  // a world of robots and bodies alone
+  // Plants that touch are solved as one, and beds would be of no use: each one's Newton would have
+  // to wait for the others' contacts.
   if (touching_) {
     step_canopy(dt, gravity);
   } else if (settings_.solver == SolverKind::direct) {
@@ -80,6 +95,9 @@ void RodSystem::step(double dt, const Vec3& gravity) {
     if (beds_.size() == 1)
       step_bed(beds_[0], dt, gravity, &pool_);
     else
+      // A bed is stepped by the same thread in every step, whose cache has it still. Handing beds
+      // out to whoever is free would balance better and move the memory to and fro. No bed looks at
+      // another one, so the bits do not depend on the order.
       pool_.for_each(pool_.threads(), [&](int thread) {
         for (Bed& bed : beds_)
           if (bed.thread == thread) step_bed(bed, dt, gravity, nullptr);
@@ -91,9 +109,13 @@ void RodSystem::step(double dt, const Vec3& gravity) {
                                         {dt, gravity, plant.loads, plant.source_pointers});
     });
   }
+  // In one thread and in the order of plants: what comes off makes bodies in the world, whose order
+  // must not depend on threads.
   for (Plant& plant : plants_) {
     plant.detached.clear();
     detach(plant.model, plant.state, plant.detached);
+    // Both flags go down here and nowhere else: an edit between two steps holds until a step has
+    // read it. What came off changes model and state, so both are read again.
     plant.model_changed = plant.state_changed = !plant.detached.empty();
   }
 }
@@ -114,6 +136,8 @@ DirectSolver::PlantStep RodSystem::step_of(Plant& plant) {
 void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
   if (settings_.solver != SolverKind::direct)
     throw UsageError("RodSystem::let_plants_touch: position-based solver, must be the direct one");
+  // A running canopy keeps what its contacts remember. A new one is made with these settings
+  // anyway.
   if (canopy_) canopy_->change_settings(settings);
   touching_ = settings;
   beds_.clear();
@@ -121,6 +145,7 @@ void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
 
 void RodSystem::step_canopy(double dt, const Vec3& gravity) {
   steps_.clear();
+  // Filled in each step: the flags, loads and spans are of this step only.
   for (Plant& plant : plants_) steps_.push_back(step_of(plant));
   if (!canopy_) canopy_ = std::make_unique<Canopy>(settings_, *touching_, steps_, pool_.threads());
   canopy_->step(steps_, dt, gravity, pool_);
@@ -132,6 +157,7 @@ void RodSystem::make_beds() {
   std::vector<int> elements;
   for (const Plant& plant : plants_) elements.push_back(plant.model.size());
   // The beds of a thread share the memory that a step needs.
+  // On pages of 4 kB a large plant's rows miss the address cache at each of them.
   const bool is_large = std::accumulate(elements.begin(), elements.end(), 0) >= large;
   std::vector<std::shared_ptr<RowScratch>> scratch;
   for (int thread = 0; thread < threads; ++thread)
@@ -145,6 +171,8 @@ void RodSystem::make_beds() {
     std::vector<const RodModel*> models;
     for (int i = 0; i < share.plants; ++i, ++next) {
       plants_[next].bed = static_cast<int>(beds_.size()) - 1;
+      // New rows are empty. Without this a plant added beside running ones would be solved beside
+      // plants of zeros.
       plants_[next].model_changed = plants_[next].state_changed = true;
       models.push_back(&plants_[next].model);
     }
@@ -164,6 +192,8 @@ void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* p
   if (pool)
     bed.solver->step(bed.steps, dt, gravity, *pool);
   else
+    // A thread that works alone has memory to wait for, and asks meanwhile for that of its next
+    // bed.
     bed.solver->step(bed.steps, dt, gravity, what_follows(bed));
   for (std::size_t i = 0; i < bed.steps.size(); ++i)
     plants_[bed.first + i].report = bed.steps[i].report;
@@ -174,6 +204,7 @@ void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* p
 FetchAhead* RodSystem::what_follows(const Bed& bed) {
   const auto count = beds_.size();
   auto after = static_cast<std::size_t>(&bed - beds_.data());
+  // Ends for certain: after a round it is at the bed itself, whose thread is its own.
   do after = (after + 1) % count;
   while (beds_[after].thread != bed.thread);
   const Bed& next = beds_[after];
@@ -182,6 +213,7 @@ FetchAhead* RodSystem::what_follows(const Bed& bed) {
   ahead.clear();
   next.solver->add_to(ahead);
   for (std::size_t i = 0; i < next.steps.size(); ++i) {
+    // The vectors that a step reads, and no more: each line asked for pushes another one out.
     const RodState& state = plants_[next.first + i].state;
     ahead.add(state.position);
     ahead.add(state.orientation);
@@ -193,6 +225,7 @@ FetchAhead* RodSystem::what_follows(const Bed& bed) {
 }
 
 const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
+  // Beds are made by the first step, and a picture may be wanted before it.
   static const std::vector<ContactForce> none;
   if (plants_[plant].solver) return plants_[plant].solver->contact_forces();
   if (canopy_) return canopy_->contact_forces(plant);
@@ -202,9 +235,12 @@ const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
 }
 
 void RodSystem::set_state(int plant, const RodState& state) {
+  // The clamp is taken to have stood where it is: a jump of the root would else be a velocity of
+  // the clamp, and shake the plant.
   edit_state(plant) = state;
   plants_[plant].state.previous_dt = 0.0;
   plants_[plant].state.previous_root = state.root;
+  // Whichever solver has the plant: friction's springs and BDF2's past are of the old state.
   if (plants_[plant].solver) plants_[plant].solver->reset();
   if (canopy_) canopy_->reset();
   if (beds_.empty() || settings_.solver != SolverKind::direct) return;
@@ -214,10 +250,14 @@ void RodSystem::set_state(int plant, const RodState& state) {
 
 void RodSystem::change_constants(int plant, RodModel model) {
   Plant& held = plants_[plant];
+  // The rows, the contact lists and the friction memory are all by element and shape. Another shape
+  // under them would be read with the old numbers.
   if (!differs_in_constants_only(held.model, model))
     throw UsageError("RodSystem::change_constants: \"" + model.name +
                      "\" has another shape than \"" + held.model.name +
                      "\", which is running: must have the same");
+  // The new model was made whole, with all its fruits' masses. Those that have fallen are taken out
+  // again before the centres of mass are compared.
   for (std::size_t f = 0; f < model.fruits.size(); ++f)
     if (held.state.fruit_gone[f])
       lump_inertia(model, model.fruits[f].element, held.state.fruit_gone);
@@ -229,6 +269,7 @@ void RodSystem::change_constants(int plant, RodModel model) {
   }
   held.model = std::move(model);
   held.model_changed = held.state_changed = true;
+  // With other constants the past is that of another plant, and the next step is of first order.
   held.state.previous_dt = 0.0;
 }
 
@@ -247,10 +288,13 @@ void RodSystem::add_to(StateHash& hash) const {
     for (int e = 0; e < plant.state.size(); ++e) {
       hash.add(plant.state.position[e]);
       hash.add(plant.state.orientation[e]);
+      // Rates stand beside poses: two runs that agree in poses at one time may part in the next
+      // step.
       hash.add(plant.state.velocity[e]);
       hash.add(plant.state.angular_velocity[e]);
       hash.add(static_cast<std::uint64_t>(plant.state.alive[e]));
     }
+    // What joints remember is state as well: two plants of one pose may go on differently.
     for (const Vec3& z : plant.state.joint_memory) hash.add(z);
   }
 }

@@ -32,6 +32,7 @@ class RowScratch {
   Rows<TermRow> term{memory};
   Rows<FactorRow> factor{memory};
   Rows<BlocksRow> blocks{memory};
+  Rows<LoopFactorRow> loop_factor{memory};
 };
 
 }  // namespace pedicel::cosserat

@@ -60,6 +60,7 @@ class RowStates {
     bool operator==(const Scheme&) const = default;
   };
 
+  void read_welds(const RodModel& model, const Chain& chain);
   bool has_states(int pack, std::span<const char> unchanged) const;
   void read_states(int pack, std::span<const RodState* const> states);
   void read_element(const RodState& state, int plant, int element, Slot slot);

@@ -38,15 +38,25 @@ BranchRow no_branch() {
   return row;
 }
 
+WeldRow no_weld() {
+  WeldRow row{};
+  for (double& w : row.rest_rotation[3]) w = 1.0;
+  return row;
+}
+
+// What an element of a part with loops takes, where one of a tree takes 1.
+constexpr double loop_cost = 2.0;
+
 // Elements, the grain size: waking a thread takes as long as a step of fewer.
-constexpr int grain_size = 400;
+constexpr int grain_elements = 400;
 
 TaskGraph graph_of(const LaneLayout& layout, std::span<const RodModel* const> plants, int threads) {
   std::vector<double> rows(layout.tasks(), 1.0);
-  for (int p = 0; p < layout.packs(); ++p) rows[p] = layout.end_row(p) - layout.first_row(p);
+  for (int p = 0; p < layout.packs(); ++p)
+    rows[p] = (layout.loops(p) ? loop_cost : 1.0) * (layout.end_row(p) - layout.first_row(p));
   int elements = 0;
   for (const RodModel* const plant : plants) elements += plant->size();
-  return {layout.needs(), rows, std::clamp(elements / grain_size, 1, threads)};
+  return {layout.needs(), rows, std::clamp(elements / grain_elements, 1, threads)};
 }
 
 }  // namespace
@@ -80,9 +90,10 @@ RowStore::RowStore(std::span<const RodModel* const> plants, int threads, bool ke
   grow(scratch->rate);
   grow(scratch->term);
   grow(scratch->factor);
-  const auto has_loops = [](const RodModel* model) { return !model->welds.empty(); };
-  if (keep_blocks || std::ranges::any_of(plants, has_loops)) grow(scratch->blocks);
+  for (std::size_t p = 0; p < plants.size(); ++p)
+    if (layout.plant_keeps_blocks(static_cast<int>(p))) grow(scratch->blocks);
   make_packs();
+  make_loops();
   join_chains();
 }
 
@@ -96,6 +107,21 @@ void RowStore::make_packs() {
     std::fill(std::begin(packs[p].past_now), std::end(packs[p].past_now), 1.0);
     std::fill(std::begin(packs[p].modulus), std::end(packs[p].modulus), 1.0);
   }
+}
+
+void RowStore::make_loops() {
+  std::size_t welds = 0, factors = 0;
+  for (int p = 0; p < layout.packs(); ++p) {
+    const LoopShape* const loops = layout.loops(p);
+    packs[p].loops = loops;
+    if (!loops) continue;
+    packs[p].first_weld = static_cast<int>(welds);
+    packs[p].first_loop_factor = static_cast<int>(factors);
+    welds += loops->welds().size();
+    factors += loops->entries().size();
+  }
+  weld.assign(welds, no_weld());
+  if (scratch->loop_factor.size() < factors) scratch->loop_factor.resize(factors);
 }
 
 // From the last chain to the first, so that the sources of a row are taken in their order.
@@ -130,6 +156,8 @@ RowArrays RowStore::arrays() {
   rows.term = scratch->term.data();
   rows.factor = scratch->factor.data();
   rows.blocks = scratch->blocks.data();
+  rows.weld = weld.data();
+  rows.loop_factor = scratch->loop_factor.data();
   rows.first_branch = first_branch.data();
   rows.branches = branches.data();
   rows.extension = extension.data();

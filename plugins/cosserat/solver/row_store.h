@@ -97,6 +97,7 @@ struct RowStore {
   std::vector<BranchRow> law_branch;     // `law_branches_a_row` a row
   std::vector<JointTermRow> joint_term;  // empty unless some joint has a term
   int law_branches_a_row = 0;
+  std::vector<WeldRow> weld;  // of loop parts, Pack::first_weld
 
   // Packs that are eliminated into elements of others, by row: BlockSource lists.
   std::vector<int> first_branch;
@@ -112,6 +113,7 @@ struct RowStore {
 
  private:
   void make_packs();
+  void make_loops();
   void join_chains();
 
   std::vector<char> active_plants_, active_;  // set_active(); by pack

@@ -21,7 +21,11 @@ using Loads = std::vector<Vec6>;
 // Statics of a tree, leaves first: each joint carries what acts beyond it. `outer` holds the outer
 // force and the outer moment about the child node of each element.
 Loads carried(const RodModel& model, const Loads& outer) {
+  // Moments are about each element's child node. Carried to the parent's they gain the force's
+  // lever, which is the way from that node to this one.
   Loads loads = outer;
+  // Children come after their parents, so the order backwards is leaves first, and each element is
+  // complete when it is added to its parent.
   for (int e = model.size() - 1; e >= 0; --e) {
     const Vec3 lever = model.elements[e].drawn_position - model.drawn_start(e);
     loads[e].tail<3>() += lever.cross(loads[e].head<3>());
@@ -35,6 +39,7 @@ Loads weights(const RodModel& model, const Vec3& gravity) {
   Loads outer(model.elements.size());
   for (int e = 0; e < model.size(); ++e) {
     const Element& element = model.elements[e];
+    // From the child node back to the centre of mass, where the weight acts.
     const Vec3 arm = -element.com_back * (element.drawn_rotation * Vec3::UnitZ());
     outer[e] << element.mass * gravity, arm.cross(element.mass * gravity);
   }
@@ -56,6 +61,8 @@ Vec3 drawn_strain(const RodModel& model, int e) {
 
 // Displacement and rotation (W) of every element under `outer`, were the drawn shape unloaded: the
 // linear solution, the one of least elastic energy. Nothing where a part of the plant is not held.
+// Castigliano: with linear springs the true loads are those of least elastic energy. Any other
+// choice would leave the plant drawn up against its own supports when gravity is taken away.
 std::optional<Loads> displacements(const RodModel& model, const Loads& outer) {
   RodModel unloaded = model;
   for (int e = 0; e < model.size(); ++e) {
@@ -63,6 +70,8 @@ std::optional<Loads> displacements(const RodModel& model, const Loads& outer) {
     element.rest_strain = drawn_strain(model, e);
     element.rest_rotation = rotation_before(model, e).conjugate() * element.drawn_rotation;
   }
+  // At an unstrained shape the exact Hessian is the linear stiffness, with supports and welds in
+  // it.
   BlockSystem system(unloaded);
   add_exact_hessian(unloaded, drawn_state(unloaded), Vec3::Zero(), {}, system);
   for (int e = 0; e < model.size(); ++e) system.right_side(e) = outer[e];
@@ -73,6 +82,8 @@ std::optional<Loads> displacements(const RodModel& model, const Loads& outer) {
 }
 
 // The moment (E) that a joint bent by phi carries.
+// Of the energy 1/2 phi.K phi, by a small turn of the element and not by phi itself: the two differ
+// by the right Jacobian of the rotation, which is 1 only where the joint is hardly bent.
 Vec3 moment_of(const Vec3& stiffness, const Vec3& phi) {
   return inverse_right_jacobian(phi).transpose() * stiffness.cwiseProduct(phi);
 }
@@ -81,6 +92,8 @@ Vec3 moment_of(const Vec3& stiffness, const Vec3& phi) {
 // the answer is the one that grows from the unbent joint. Nothing where there is none below the
 // largest bend.
 std::optional<Vec3> bend_under(const Vec3& stiffness, const Vec3& moment) {
+  // In one go Newton may land on a bend beyond a half turn that carries the same moment. Eight
+  // steps are short enough to stay on the branch that grows from zero.
   constexpr int steps = 8, iterations = 20;
   constexpr double nudge = 1.0e-6;  // rad
   Vec3 phi = Vec3::Zero();
@@ -90,6 +103,8 @@ std::optional<Vec3> bend_under(const Vec3& stiffness, const Vec3& moment) {
       Mat3 slope;
       for (int k = 0; k < 3; ++k) {
         const Vec3 d = nudge * Vec3::Unit(k);
+        // By differences: the slope in closed form would be the derivative of a Jacobian, and this
+        // is made once at set-up and not in every step.
         slope.col(k) =
             (moment_of(stiffness, phi + d) - moment_of(stiffness, phi - d)) / (2 * nudge);
       }
@@ -99,6 +114,8 @@ std::optional<Vec3> bend_under(const Vec3& stiffness, const Vec3& moment) {
       if (!(phi.norm() < largest_bend)) return std::nullopt;
     }
   }
+  // Written so that a NaN fails, too. The bound is on what is left, since a loop that ran out says
+  // nothing.
   if (!((moment_of(stiffness, phi) - moment).norm() <= 1.0e-12 * (1.0 + moment.norm())))
     return std::nullopt;
   return phi;
@@ -110,12 +127,15 @@ std::optional<Quat> rest_rotation(const Quat& before, const Quat& rotation, cons
                                   const Vec3& moment) {
   const std::optional<Vec3> phi = bend_under(stiffness, rotation.conjugate() * moment);
   if (!phi) return std::nullopt;
+  // phi turns the rest rotation into the drawn one from the right: q = q_parent rest exp(phi).
   return (before.conjugate() * rotation * exp_map(-*phi)).normalized();
 }
 
 // The moment (W) with which a rotational spring in the axes of `rotation` opposes a small turn (W);
 // a spring that is free about an axis is left unloaded.
 Vec3 moment_under(const Vec3& stiffness, const Quat& rotation, const Vec3& turn) {
+  // The moment is turned into a rest rotation by inverting the spring's law, and a spring without
+  // stiffness about an axis has no inverse.
   if (stiffness.minCoeff() <= 0.0) return Vec3::Zero();
   return rotation * stiffness.cwiseProduct(rotation.conjugate() * turn);
 }
@@ -133,10 +153,13 @@ bool load_support(const RodModel& model, const Loads& moved, Support& support, L
   const Vec3 shift = own.head<3>() + turn.cross(arm);
   const Vec3 force = -support.position_stiffness * shift;
   const Vec3 moment = moment_under(support.rotation_stiffness, element.drawn_rotation, turn);
+  // The spring's other end goes against the displacement, so that stretched to the drawn shape it
+  // carries just this force.
   support.position = element.drawn_position + arm - shift;
   support.rotation = element.drawn_rotation;
   outer[support.element].head<3>() += force;
   outer[support.element].tail<3>() += arm.cross(force) - moment;
+  // Exactly zero: nothing to solve, and the rest rotation keeps the bits of the drawn one.
   if (moment.isZero(0.0)) return true;
   const auto rest =
       rest_rotation(Quat::Identity(), element.drawn_rotation, support.rotation_stiffness, moment);
@@ -148,6 +171,8 @@ bool load_support(const RodModel& model, const Loads& moved, Support& support, L
 // are welded to another one are moved by that.
 void open_welds(RodModel& model, const Loads& moved) {
   const std::vector<int> first = first_of_welded(model);
+  // The first of those that are welded in one place stays where it was drawn, and the others open
+  // against it: only differences load a weld.
   for (int e = 0; e < model.size(); ++e)
     if (first[e] != e)
       model.elements[e].drawn_position =
@@ -162,6 +187,8 @@ bool load_weld(const RodModel& model, const Loads& moved, Weld& weld, Loads& out
                                    (moved[weld.b] - moved[weld.a]).tail<3>());
   weld.rest_rotation = (a.drawn_rotation.conjugate() * b.drawn_rotation).normalized();
   Vec6 pull;
+  // In equal parts and against each other: a weld is inner, and must not add to what holds the
+  // plant.
   pull << force, moment;
   outer[weld.a] += pull;
   outer[weld.b] -= pull;
@@ -177,6 +204,7 @@ int load_redundants(RodModel& model, Loads& outer) {
   if (model.supports.empty() && model.welds.empty()) return -1;
   const std::optional<Loads> moved = displacements(model, outer);
   if (!moved) return 0;  // so soft somewhere that rounding leaves nothing of it
+  // Before the welds are loaded: a weld's force is its stiffness times the gap that this makes.
   open_welds(model, *moved);
   for (Support& support : model.supports)
     if (!load_support(model, *moved, support, outer)) return support.element;
@@ -193,6 +221,9 @@ Standing stand_as_drawn(RodModel& model, const Vec3& gravity) {
   standing.element = load_redundants(model, outer);
   standing.solvable = standing.element < 0;
   if (!standing.solvable) return standing;
+  // By now `outer` holds weights and all that supports and welds do. The tree that is left is
+  // statically determinate, so the pass balances it exactly, whatever the linear solution was off
+  // by.
   const Loads loads = carried(model, outer);
   for (int e = 0; e < model.size(); ++e) {
     throw_if_stopped();
@@ -206,6 +237,7 @@ Standing stand_as_drawn(RodModel& model, const Vec3& gravity) {
       return standing;
     }
     element.rest_rotation = *rest;
+    // Rest is the drawn strain less compliance times load, the load in the element's own axes.
     element.rest_strain =
         drawn_strain(model, e) - (element.drawn_rotation.conjugate() * Vec3(loads[e].head<3>()))
                                      .cwiseQuotient(element.stretch_stiffness);
@@ -221,6 +253,8 @@ Standing stand_as_drawn(RodModel& model, const Vec3& gravity) {
 Residual settled_from(const RodModel& drawn, const RodModel& standing, const Vec3& gravity) {
   RodState state = drawn_state(standing);
   Residual residual;
+  // Measured against the drawing and not against the standing shape: open_welds() may have moved
+  // nodes, and that is part of what is wrong.
   residual.settled = settle(standing, state, gravity).errors == 0;
   double squares = 0.0;
   for (int e = 0; e < drawn.size(); ++e) {

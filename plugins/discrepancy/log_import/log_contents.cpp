@@ -31,8 +31,9 @@ class LogReader {
   LogContents read(const std::filesystem::path& file) {
     out_.file = file;
     const auto use = [&](const mcap::Message& message) { take(message); };
-    const mcap::ReadEnd end =
-        rosbag::is_bag(file) ? rosbag::read(file, use) : mcap::read(file, use);
+    // By what it begins with, else by its name: then the reader says what is wrong with it.
+    const bool bag = rosbag::is_bag(file) || (file.extension() == ".bag" && !mcap::is_mcap(file));
+    const mcap::ReadEnd end = bag ? rosbag::read(file, use) : mcap::read(file, use);
     out_.whole = end.whole;
     out_.simulated = end.library.starts_with("pedicel ");
     return std::move(out_);

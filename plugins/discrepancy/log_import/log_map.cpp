@@ -55,7 +55,8 @@ LogMap::Marker read_marker(const YamlNode& node) {
   if (marker.is_frame == map.has("topic")) node.error("expected one of frame and topic");
   marker.source = marker.is_frame ? map.text("frame") : map.text("topic", "");
   if (map.has("link")) {
-    marker.text = "link: " + yaml_word(map.text("link")) +
+    marker.link = map.text("link");
+    marker.text = "link: " + yaml_word(marker.link) +
                   ", offset: " + vector_text(map.vector("offset", Vec3::Zero()));
   } else {
     marker.plant = map.text("plant", "");
@@ -64,7 +65,8 @@ LogMap::Marker read_marker(const YamlNode& node) {
       marker.fruit = map.text("fruit");
       marker.text += "fruit: " + yaml_word(marker.fruit);
     } else {
-      marker.text += "curve: " + yaml_word(map.text("curve"));
+      marker.curve = map.text("curve");
+      marker.text += "curve: " + yaml_word(marker.curve);
       marker.text += ", at: " + io::exact_number(map.number("at", {0.0, 1.0}));
     }
   }

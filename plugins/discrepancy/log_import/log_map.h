@@ -20,10 +20,10 @@ struct LogMap {
   };
   struct Marker {
     std::string name;
-    std::string source;     ///< a frame, or a topic of poses or points
-    bool is_frame = false;  ///< which of both
-    std::string text;       ///< the marker's other keys, as the experiment says them
-    std::string fruit;      ///< of those; empty: none
+    std::string source;              ///< a frame, or a topic of poses or points
+    bool is_frame = false;           ///< which of both
+    std::string text;                ///< the marker's other keys, as the experiment says them
+    std::string link, fruit, curve;  ///< of those; empty: none
     std::string plant;
     SourcePosition where;
   };

@@ -19,6 +19,10 @@ struct LogTrial {
   std::vector<std::string> remarks;  ///< what was left out, a sentence each
 };
 
+/// What the map says of the scene must be there: links, plants, curves, fruits. Faults go to the
+/// diagnostics.
+void check_places(const LogMap& map, const LogScene& scene, Diagnostics& diagnostics);
+
 /// Faults (a topic that is not there, joints that are not the robot's, nothing between `from` and
 /// `to`) go to the diagnostics, with their place in the map.
 LogTrial trial_of_log(const LogContents& log, const LogMap& map, const LogMap::Trial& trial,

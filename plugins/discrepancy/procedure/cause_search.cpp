@@ -12,6 +12,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 // The base with the effects of `both` that stand behind those of `first`, from their numbers there.
+// Its numbers begin beside the first cause and not at the cause's own starts, because only there
+// the data have told what is left for it.
 Hypothesis without_first(const Hypothesis& base, const Hypothesis& first, const Hypothesis& both) {
   const int effects = static_cast<int>(first.effects.size());
   Hypothesis second;
@@ -31,6 +33,8 @@ bool has_a_size(const FitSummary& model, int first) {
   for (int p = 0; p < model.hypothesis.size(); ++p) {
     const FreeParameter& free = model.hypothesis.free[p];
     const bool size = free.effect >= first && free.vanishes != Vanishes::never && free.prior <= 0.0;
+    // A logarithm that is open by one is a factor of e. What has no size of its own follows
+    // whatever is left.
     if (size && free.logarithmic && model.standard_error[p] > 1.0) return false;
   }
   return true;
@@ -45,6 +49,7 @@ RefitOptions CauseSearch::refit_options(double from, double to, const std::strin
                      state_.options.stop,
                      state_.options.parts};
   refit.progress = [this, from, to, what](double share) {
+    // Shares of the whole diagnosis: each stage fills its part of one bar.
     state_.log.say(what, from + share * (to - from));
   };
   return refit;
@@ -61,6 +66,7 @@ void CauseSearch::search() {
     if (state_.result.ranking[i].whole)
       state_.log.fit(text("Evidence %.5g", state_.result.ranking[i].evidence),
                      state_.result.ranking[i].fit, state_.setup->samples());
+  // Below that no cause is worth a name. The ranking stays, for the report.
   if (state_.result.ranking.empty() ||
       state_.result.ranking.front().evidence < state_.settings().levels.worth_naming)
     return;
@@ -85,6 +91,8 @@ bool CauseSearch::one_force_does_more() {
                                text(", leaves %.2g %% of what is wrong", 100.0 * left);
   state_.log.note("One force is asked for: " + sentence + ".");
   const MissingForce& force = force_.find(0.72);
+  // One force must leave a third of what the best cause leaves. A free course over time follows
+  // much of anything.
   if (!force.found || force.fit.why == "not run" ||
       1.0 - force.share > state_.settings().evidence.left_by_force * left)
     return false;
@@ -99,6 +107,8 @@ void CauseSearch::extend() {
          !state_.stopped()) {
     const std::vector<Direction> directions = look_again();
     state_.log.directions(directions, state_.result.after);
+    // An alarm whose strongest direction could not bring what a further cause must is not worth a
+    // dozen refits.
     if (!state_.result.after.raised || check_.leaves_little(state_.result.after)) return;
     if (check_.explained_by_junctions(state_.result.after, state_.result.best)) {
       state_.result.after.raised = false;
@@ -136,6 +146,8 @@ std::vector<Direction> CauseSearch::look_again() {
   if (state_.base_misses_the_data()) {
     state_.correct_at(state_.result.best);
     Evaluator evaluator = state_.setup->evaluator();
+    // Refitted, because the correction moved with the model: the fits before and after are to the
+    // same predictions.
     state_.result.best = state_.findings.chain.back().fit =
         refit(evaluator, state_.result.best, state_.fit_options());
   }
@@ -146,6 +158,8 @@ std::vector<Direction> CauseSearch::look_again() {
 }
 
 // The held-out trials may ask for what those fitted to hardly show: that is no finding.
+// Each of the four is a way in which a second cause was found that was not there: too little
+// evidence, less than solvers differ by, nothing on held-out trials, and no size.
 bool CauseSearch::is_worth_more(const Candidate& next) const {
   return next.evidence >= state_.settings().levels.worth_naming &&
          next.gain >= least_gain_beside(state_.findings.chain, state_.settings()) &&
@@ -166,6 +180,8 @@ bool CauseSearch::is_of_another_kind(const Candidate& next) const {
 // starts; from where it stands beside the first one it does. Then the first one must bring as much
 // beside it as any other cause, or is none.
 bool CauseSearch::eliminates_first(const Candidate& next) {
+  // Of three causes any two might stand in for the third. Only the first one was found without the
+  // others.
   if (state_.findings.chain.size() != 1 || state_.stopped()) return false;
   const auto known = std::ranges::find(state_.result.ranking, next.cause, &Candidate::cause);
   // Not tried alone in the first round, so there is no place for it in the order.
@@ -177,6 +193,7 @@ bool CauseSearch::eliminates_first(const Candidate& next) {
       fit(evaluator,
           without_first(state_.result.base.hypothesis, first.hypothesis, next.fit.hypothesis),
           state_.fit_options());
+  // By what both together leave, the best that is known: so the two gains are in one unit.
   const double dispersion = std::max(1.0, 2.0 * next.fit.cost / state_.setup->samples());
   alone.gain = (state_.result.base.cost - alone.fit.cost) / dispersion;
   const double brought = (alone.fit.cost - next.fit.cost) / dispersion;
@@ -189,6 +206,7 @@ bool CauseSearch::eliminates_first(const Candidate& next) {
   alone.whole = alone.fine = true;
   std::vector<Candidate> ranking = state_.result.ranking;
   ranking[known - state_.result.ranking.begin()] = std::move(alone);
+  // All again, as the new fit changes the least cost, and with it the unit of all gains.
   weigh(ranking, state_.result.base, state_.setup->samples(),
         dispersion_of(ranking, state_.result.base, state_.setup->samples()), state_.settings());
   if (ranking.front().cause != next.cause) return false;

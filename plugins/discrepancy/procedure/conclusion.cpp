@@ -20,6 +20,7 @@ double deviations(const Findings& findings, const FitSummary& model, const FitSu
                   const std::string& name) {
   const int p = model.hypothesis.factor_on(name);
   // By ratio: half and twice are equally far from nominal.
+  // The unknown of a factor is its logarithm, and so is the unit of its standard error.
   const double u = std::log(model.hypothesis.value(p)), error = model.standard_error[p];
   const int shifted = base.hypothesis.factor_on(name);
   const double shift = shifted >= 0 && shifted < findings.parameter_shift.size()
@@ -27,6 +28,8 @@ double deviations(const Findings& findings, const FitSummary& model, const FitSu
                                  std::abs(findings.parameter_shift[shifted])
                            : 0.0;
   const Levels& levels = findings.settings->levels;
+  // Three reasons why a factor may not be at 1 although nothing is wrong add up: noise, what our
+  // correction leaves, and what two honest solvers differ by.
   const bool may_be_nominal =
       std::abs(u) < levels.needed_deviations * error + shift + levels.least_factor_change;
   // Zero stands for none, since no needed factor is exactly at 1.
@@ -42,6 +45,8 @@ double known_to(const Findings& findings, const std::string& name) {
     if (known && known->known_to)
       widest = std::max(widest, (material.known_to.*known->known_to).value_or(0.0));
   };
+  // The widest that any part states: a factor is on all of them, and a curve that is hardly known
+  // may explain it.
   look(plant.material);
   for (const plant::PlantCurve& curve : plant.curves) look(curve.material);
   return widest > 0.0 ? widest : findings.settings->levels.known_to;
@@ -58,6 +63,8 @@ NamedCause parameter_cause(const Findings& findings, const FitSummary& model,
   const int p = model.hypothesis.factor_on(name);
   NamedCause cause;
   cause.name = name;
+  // A factor and no modulus: the plant may have curves with moduli of their own, and the factor is
+  // on all.
   cause.parameters["factor"] = {findings.estimate(model, p)};
   cause.evidence = evidence;
   cause.because =
@@ -72,11 +79,14 @@ void keep_likely(const std::string& parameter, const Levels& levels, Verdict& ve
   const double best = verdict.causes.front().evidence;
   std::erase_if(verdict.causes, [&](const NamedCause& other) {
     const double behind = best - other.evidence;
+    // The plain parameter is the simplest thing to say, so a law must be worth a name beside it.
+    // Between laws the odds of any two models count.
     const bool loses = behind > (other.name == parameter ? levels.worth_naming : levels.clear_odds);
     if (loses) verdict.competing.push_back({other.name, behind});
     return loses;
   });
   const auto lost = std::ranges::find(verdict.competing, parameter, &CompetingModel::name);
+  // Told, because the reader would ask for it: a softer plant is what everybody tries first.
   if (lost != verdict.competing.end())
     verdict.causes.front().because += " Another " + parameter + " alone would explain the data " +
                                       text("%.3g nats worse.", lost->behind);
@@ -90,17 +100,22 @@ void conclude_parameters(const Findings& findings, Diagnosis& diagnosis) {
   for (const std::string& name : needed.names) {
     const double off = deviations(findings, needed.model, diagnosis.base, name);
     if (off == 0.0) continue;
+    // Real, and yet within what the file says of itself: then it is no error of the file.
     const bool found = leaves_what_is_known(findings, needed.model, name);
     (found ? verdict.causes : verdict.details)
         .push_back(parameter_cause(findings, diagnosis.base, name, 0.5 * off * off));
   }
   // Nothing far out: the model is as good as the data.
+  // Details alone do not make a finding.
   verdict.outcome = verdict.causes.empty() ? Outcome::adequate : Outcome::named;
+  // Two parameters that are off leave nothing that could stand for both.
   if (verdict.causes.size() != 1) {
     diagnosis.best = diagnosis.base;  // nothing to be better than
     return;
   }
   // Those that stand in for it are weighed against it.
+  // Half the square of its deviations is what its absence would cost. `behind` is against the same
+  // model, so the difference is the other one's evidence.
   const double evidence = verdict.causes.front().evidence;
   for (const auto& [instead, behind] : needed.instead) {
     const std::string& name = instead.hypothesis.name;
@@ -139,6 +154,8 @@ int more_numbers(const Candidate& competitor, const Candidate& best) {
 // A competing model that has the best one as a special case, and needs more parameters to do no
 // better than by chance, is no other explanation: a wind of no speed is drag. Nor is one whose fit
 // turned into the best one. (What would win without one of the trials does better there.)
+// A general law always fits at least as well as its special case. Without this rule no special case
+// could ever be named alone.
 bool contains(const Candidate& competitor, const Candidate& best, bool turns) {
   // It has turned into the best one.
   if (competitor.limit_of == best.cause) return true;
@@ -167,6 +184,8 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
   if (findings.fit_trials.size() < 3) return false;
   const double chance =
       is_special_case(best, competitor) ? gain_by_chance(more_numbers(competitor, best)) : 0.0;
+  // To first order: the residuals of a trial stand together, so its part is taken out of both costs
+  // without a refit.
   const double all = competitor.fit.cost - best.fit.cost;
   Eigen::Index row = 0;
   for (const int t : findings.fit_trials) {
@@ -174,6 +193,7 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
     const double here = 0.5 * (competitor.fit.residual.segment(row, size).squaredNorm() -
                                best.fit.residual.segment(row, size).squaredNorm());
     // Clearly ahead without it: then one trial alone has decided.
+    // Beyond the margin: of many trials some would always turn the order by chance.
     if (all - here < -findings.settings->levels.clear_margin - chance) return true;
     row += size;
   }
@@ -183,6 +203,8 @@ bool wins_without_a_trial(const Findings& findings, const Candidate& competitor,
 // Whether something is left that what was found should have explained.
 void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
+  // The test after the last cause found nothing that noise does not do. Then what is left is noise,
+  // however large it looks as a share.
   if (!diagnosis.after.raised) return;
   // Noise costs half a unit a sample in every model, so only what is above it can be explained.
   const double excess_before = diagnosis.base.cost - 0.5 * findings.samples();
@@ -192,6 +214,7 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
       text("%.2g %% of what the refitted model left above the noise", 100.0 * std::max(left, 0.0));
   // Everything that was found together, since the remainder is what all of it leaves.
   double gain = 0.0;
+  // A loss on held-out trials is judged by itself, and does not make what is left more important.
   for (const Candidate& found : findings.chain)
     gain += found.gain + std::max(0.0, found.held_out.gain);
   // What the strongest direction would still gain, or a cause of what none looks for.
@@ -204,6 +227,8 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
   // much.
   const bool much =
       left > levels.remainder_share && findings.excess(diagnosis.best) > levels.small_excess;
+  // Little is left, and no direction would gain much of it: the cause was right, and its model is a
+  // little off.
   if (!much && missed <= levels.missed_share * gain) {
     // As little as noise alone leaves is nothing that is left.
     if (left <= 0.0) verdict.remainder.clear();
@@ -219,6 +244,7 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
   const Candidate& best = diagnosis.ranking.front();
   // Our model errors scale with the gain.
   const DiagnosisSettings& settings = *findings.settings;
+  // Up to a bound: a large gain must not make a tie of everything.
   const double margin =
       settings.levels.clear_odds +
       std::min(settings.evidence.margin_share * best.gain, settings.evidence.most_margin);
@@ -226,6 +252,7 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
     const Candidate& competitor = diagnosis.ranking[i];
     const double behind = best.evidence - competitor.evidence;
     // In order: what follows was not fitted, or explains less than nothing.
+    // Sorted: whole fits first, by evidence.
     if (!competitor.whole || competitor.evidence < 0.0) break;
     const bool turns = wins_without_a_trial(findings, competitor, best);
     const bool beaten =
@@ -253,6 +280,7 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
 // The first cause must gain more than the same change backwards in time or at other markers.
 void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
   const Eigen::VectorXd& without = diagnosis.base.residual;
+  // The first alone: its change is the difference of two fits to the same samples.
   const Eigen::VectorXd& with = findings.chain.front().fit.residual;
   // Fitted to other trials, or not at all: nothing to compare.
   if (without.size() != with.size() || with.size() == 0) return;
@@ -260,6 +288,7 @@ void show_decoys(const Findings& findings, Diagnosis& diagnosis) {
       decoys_of(*findings.data, findings.fit_trials, without, Eigen::VectorXd(without - with),
                 findings.settings->evidence.too_alike);
   Verdict& verdict = diagnosis.verdict;
+  // Told in any case: how much better a cause is than nonsense of its own size.
   verdict.causes.front().because +=
       text(" Decoys of it gain less: %.3g nats backwards in time, %.3g at other markers,",
            decoys.reversed, decoys.exchanged) +
@@ -296,6 +325,8 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   for (std::size_t c = 0; c < findings.chain.size(); ++c)
     verdict.causes.push_back(findings.named(findings.chain[c], diagnosis.best,
                                             base_effects + static_cast<int>(c), verdict.fit));
+  // The order matters: competing models first, since what is left and the decoys take the name away
+  // from all of them.
   verdict.outcome = Outcome::named;
   // Each of these may only lower the verdict: named, then ambiguous, then unknown.
   weigh_competing_models(findings, diagnosis, base_effects);
@@ -304,6 +335,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   show_trials_left_out(findings, verdict.causes.front());
   // What does nothing for trials that it was not fitted to is no cause. The first of several was
   // judged while the others were missing there.
+  // With all causes where there are several: trials held out show all of them at once.
   const HeldOut& held_out =
       findings.chain.size() > 1 ? findings.held_out : findings.chain.front().held_out;
   if (verdict.outcome == Outcome::named && !held_out.carries_over(findings.settings->evidence)) {
@@ -314,6 +346,8 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
 
 // The residual's own scatter, over the noise: of an RMS over as many samples.
 double scatter(const Findings& findings, const std::vector<int>& trials) {
+  // The mean square of n normal numbers has the variance 2 / n, and its root half of that
+  // deviation.
   return interval95 / std::sqrt(2.0 * std::max(1, findings.data->samples(trials)));
 }
 
@@ -343,6 +377,7 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
   const Errors& check = diagnosis.verdict.check;
   // Without something above the noise to gain, a gain would divide by nothing.
   if (!check.refitted) return;
+  // Chance moves the error of some hundred samples by 5 %.
   diagnosis.verdict.refit_misleads =
       *check.refitted > findings.settings->levels.held_out_worse * *check.nominal;
   const double noise = scatter(findings, diagnosis.check_trials);
@@ -356,6 +391,7 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis) {
 
 void conclude(const Findings& findings, Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
+  // No alarm and no cause: all that may be off is in the numbers of the plain model.
   if (!diagnosis.before.raised && findings.chain.empty()) {
     conclude_parameters(findings, diagnosis);
   } else if (findings.chain.empty() && !diagnosis.before.residual_power.shows() &&
@@ -384,6 +420,7 @@ void name_nothing(Verdict& verdict) {
   std::string names;
   for (const NamedCause& cause : verdict.causes)
     names += (names.empty() ? "" : " with ") + cause.name;
+  // Moved and not left: what stands under `causes` is believed, also by scripts.
   verdict.nearest = std::move(verdict.causes);
   verdict.causes.clear();
   verdict.details.clear();
@@ -395,6 +432,8 @@ void name_nothing(Verdict& verdict) {
 void conclude_outliers(Diagnosis& diagnosis) {
   const Admission& admission = diagnosis.admission;
   const Levels& levels = diagnosis.settings.levels;
+  // As a number and as a share: a short record has a few by chance, and a swing that starts within
+  // a sample makes some.
   if (admission.outliers <
       std::max<double>(levels.outlier_count, levels.outlier_share * admission.points))
     return;
@@ -420,6 +459,7 @@ void conclude_detachment(Diagnosis& diagnosis) {
   if (!strength.needs_law()) return;
   Verdict& verdict = diagnosis.verdict;
   const std::string sentence = strength.sentence();
+  // The law rests on loads of a model that does not explain the data: it is said, and not named.
   if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) {
     verdict.remainder += (verdict.remainder.empty() ? "" : ". ") + sentence;
     return;
@@ -445,6 +485,8 @@ void conclude_detachment(Diagnosis& diagnosis) {
   cause.evidence = strength.evidence;
   verdict.causes.push_back(cause);
   verdict.outcome = Outcome::named;
+  // Without free numbers, since it was fitted to events and not to samples. So the extended plant
+  // has it, and the fit's unknowns stay as they are.
   diagnosis.best.hypothesis.effects.push_back(effect);
 }
 
@@ -455,6 +497,7 @@ void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
     const FreeParameter& free = fit.hypothesis.free[p];
     const std::string& effect = fit.hypothesis.effects[free.effect].name;
     const effects::EffectDefinition* known = effects::find_effect(effect);
+    // Curves with moduli of their own have no single value to tell.
     if (!known || !known->material || !(material.*known->material)) continue;
     const double value = *(material.*known->material);
     Estimate estimate = findings.estimate(fit, p);
@@ -475,7 +518,11 @@ void report_detectable_limits(const std::vector<Cause>& causes, Diagnosis& diagn
       if (direction.cause != cause.name) continue;
       // The start that says most: the strongest, and of thresholds the highest that is seen.
       const double size = length(direction);
+      // The level that noise reaches, and what our own error may add to it: below that nothing is
+      // seen.
       const double seen = diagnosis.before.level + std::abs(direction.systematic);
+      // A start of a linear cause is better the more it changes. Of a threshold the weakest start
+      // that is still seen is the limit itself.
       const double worth = !direction.has_threshold ? size : size < seen ? 0.0 : 1.0 / size;
       if (worth < best) continue;
       best = worth;

@@ -18,6 +18,8 @@ struct Explained {
 
 // The model with a parameter at its nominal value, or without the effect; nothing where it has
 // neither.
+// Taken out and not set to nothing: the numbers of an effect that does nothing are open, and a
+// refit would run off along them.
 std::optional<Hypothesis> less(const Hypothesis& model, const std::string& cause) {
   Hypothesis rest = model;
   if (const int p = model.factor_on(cause); p >= 0) {
@@ -32,6 +34,7 @@ std::optional<Hypothesis> less(const Hypothesis& model, const std::string& cause
   const int effect = static_cast<int>(std::distance(found, model.effects.rend())) - 1;
   rest.effects.erase(rest.effects.begin() + effect);
   std::erase_if(rest.free, [&](const FreeParameter& free) { return free.effect == effect; });
+  // Free numbers know their effect by its place in the list, which has moved.
   for (FreeParameter& free : rest.free) free.effect -= free.effect > effect ? 1 : 0;
   return rest;
 }
@@ -40,6 +43,8 @@ std::optional<Hypothesis> less(const Hypothesis& model, const std::string& cause
 void hold_what_is_no_cause(const std::vector<NamedCause>& causes, Hypothesis& model) {
   for (const char* name : Shift::names) {
     const int p = model.factor_on(name);
+    // Free, a modulus would take up what a weak segment did, and the segment's share would be
+    // nearly nothing.
     if (p >= 0 && std::ranges::find(causes, name, &NamedCause::name) == causes.end())
       model.free.erase(model.free.begin() + p);
   }
@@ -48,11 +53,15 @@ void hold_what_is_no_cause(const std::vector<NamedCause>& causes, Hypothesis& mo
 // The others stay what they are: where they are, and at half to twice their size. A weak stretch
 // that may grow along the whole stem would be the modulus by another name.
 void keep_what_others_are(Hypothesis& model) {
+  // Sizes may adapt, since causes overlap: held fixed, each share would count the overlap, and
+  // their sum would be above 1.
   const Hypothesis half = model.shrunk(0.5), twice = model.shrunk(2.0);
   for (int p = model.size() - 1; p >= 0; --p) {
     FreeParameter& free = model.free[p];
+    // Our own error is no cause, and is free to be whatever it is in each of the models.
     if (model.effects[free.effect].name == mesh_error) continue;
     const double a = half.value(p), b = twice.value(p);
+    // Places, times and shapes stay: moved, they would make of a cause another one.
     if (free.vanishes == Vanishes::never || a == b) {
       model.free.erase(model.free.begin() + p);
       continue;
@@ -68,6 +77,7 @@ Hypothesis refitted_to(Evaluator& evaluator, const Hypothesis& start, const FitO
 
 const FitSummary* alternative(const Findings& findings, const Diagnosis& diagnosis,
                               const std::string& cause) {
+  // A cause that competes is in no common model. Its share is taken in its own fit.
   for (const Candidate& candidate : diagnosis.ranking)
     if (candidate.cause == cause) return &candidate.fit;
   for (const NeededParameters::Instead& other : findings.needed.instead)
@@ -83,11 +93,14 @@ class Misfit {
     options_.trials = std::move(trials);
     if (options_.trials.empty()) return;
     const double samples = evaluator_.data().samples(options_.trials);
+    // J of the nominal model less what noise alone would be. So the share of all causes together is
+    // 1 where they leave noise.
     above_noise_ = of(Hypothesis{}) - samples;
     // The sum of as many squares of noise scatters by itself.
     is_seen_ = above_noise_ > interval95 * std::sqrt(2.0 * samples);
   }
   std::optional<double> share(const Explained& explained) {
+    // A share of nothing is no number.
     if (!is_seen_) return {};
     return (of(explained.without) - of(explained.with)) / above_noise_;
   }
@@ -107,11 +120,14 @@ class Misfit {
 class VectorRms {
  public:
   void add(const Eigen::MatrixXd& measured, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    // Markers, forces and moments are vectors. Their size does not depend on how the axes are laid.
     const Eigen::Index columns = std::min({measured.cols(), a.cols(), b.cols()});
     for (Eigen::Index c = 0; c + 2 < columns; c += 3)
       for (Eigen::Index i = 0; i < measured.rows(); ++i) {
         // Of the axes that were measured.
         const auto seen = measured.block<1, 3>(i, c).array().isFinite();
+        // An axis that was not measured counts as no change: the number is of what a reader can
+        // find in the data.
         const double far =
             seen.select(a.block<1, 3>(i, c) - b.block<1, 3>(i, c), 0.0).squaredNorm();
         if (!seen.any() || !std::isfinite(far)) continue;
@@ -131,6 +147,7 @@ class VectorRms {
 Change change_of(Evaluator& evaluator, const Explained& explained, FitOptions options) {
   const Experiment& experiment = evaluator.data().experiment();
   options.trials.resize(experiment.trials.size());
+  // All trials, held out ones as well. Nothing is fitted here.
   for (int t = 0; t < static_cast<int>(options.trials.size()); ++t) options.trials[t] = t;
   const std::vector<Hypothesis> models{explained.with, explained.without};
   const auto predicted = evaluator.predictions(models, options);
@@ -145,10 +162,12 @@ Change change_of(Evaluator& evaluator, const Explained& explained, FitOptions op
     moment.add(trial.wrench.value.rightCols(3), with.wrench.rightCols(3),
                without.wrench.rightCols(3));
   }
+  // A force of the hand and one at the root are one kind: both are what an instrument reads in N.
   return {markers.value(), force.value(), moment.value()};
 }
 
 double most(const NamedCause& cause) {
+  // What shows in either kind of trial is no detail. Below any share where there is none.
   return std::max(cause.share.fit.value_or(-1.0), cause.share.check.value_or(-1.0));
 }
 
@@ -159,6 +178,7 @@ void sort_by_share(std::vector<NamedCause>& causes) {
 
 // Beside what explains most, a small thing is no cause.
 void set_details_apart(const Levels& levels, Verdict& verdict) {
+  // The first stays whatever its share: a verdict that is named names something.
   const auto first = verdict.causes.begin() + 1;
   const auto small = std::stable_partition(first, verdict.causes.end(), [&](const NamedCause& c) {
     return most(c) >= levels.least_share || !c.share.fit;
@@ -173,6 +193,8 @@ void set_details_apart(const Levels& levels, Verdict& verdict) {
 void settle_ambiguity(const Levels& levels, std::vector<NamedCause>& parameters, Verdict& verdict) {
   sort_by_share(parameters);
   const double best = std::ranges::max(verdict.causes, {}, most).share.fit.value_or(1.0);
+  // The data cannot tell which of the causes it is, and none of them matters beside a modulus that
+  // is off.
   if (!parameters.empty() && best < levels.least_share && most(parameters.front()) > best) {
     std::swap(parameters, verdict.causes);
     verdict.outcome = Outcome::named;
@@ -186,6 +208,8 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
                  Diagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   const bool is_ambiguous = verdict.outcome == Outcome::ambiguous;
+  // Under `unknown` nothing is believed, and shares of what is not believed would be read as
+  // findings.
   if (verdict.causes.empty() || (verdict.outcome != Outcome::named && !is_ambiguous)) return;
   const Levels& levels = findings.settings->levels;
 
@@ -193,17 +217,22 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
   std::vector<NamedCause> parameters;
   if (!findings.chain.empty()) {
     // The noise was read anew since the best model was fitted.
+    // Else its cost would be in the old noise units, and a parameter would seem needed that is not.
     const FitSummary best = refit(evaluator, diagnosis.best, options);
     needed = needed_parameters(evaluator, best, {}, options);
     parameters = parameters_off(findings, needed, best);
+    // Beside causes of which one is right they wait: settle_ambiguity() says on which side they
+    // stand.
     if (!is_ambiguous) std::ranges::move(parameters, std::back_inserter(verdict.causes));
   }
 
+  // Names only are looked at. A copy, because the causes get their shares while the list is read.
   std::vector<NamedCause> others = verdict.causes;
   std::ranges::copy(parameters, std::back_inserter(others));
   std::vector<Explained> all;
   const auto explain = [&](NamedCause& cause) {
     const FitSummary* model = &needed.model;
+    // First in the model with all causes, where one is taken out and the others stay.
     std::optional<Hypothesis> rest = less(model->hypothesis, cause.name);
     if (!rest) {
       model = alternative(findings, diagnosis, cause.name);
@@ -218,7 +247,9 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
   if (is_ambiguous) std::ranges::for_each(parameters, explain);
 
   Misfit fitted(evaluator, options, diagnosis.fit_trials);
+  // Refits above saw the fitted trials only, so this share is honest.
   Misfit held_out(evaluator, options, diagnosis.check_trials);
+  // Only now may the list be sorted: until here each entry points into it.
   for (const Explained& one : all) {
     one.cause->share = {fitted.share(one), held_out.share(one)};
     one.cause->change = change_of(evaluator, one, options);

@@ -1,6 +1,6 @@
 #include "pedicel/discrepancy/scene/arm.h"
 
-#include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/discrepancy/scene/state_changes.h"
 #include "pedicel/geometry/mesh_distance.h"
 #include "pedicel/robot/inertial_sum.h"
 #include "pedicel/robot/shape_field.h"
@@ -9,33 +9,9 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-robot::RobotDescription with_tool(const SceneExperiment& experiment, const SceneState& state) {
-  robot::RobotDescription robot = experiment.robot;
-  if (!experiment.scene.robot) return robot;
-  const int tool = tool_link(*experiment.scene.robot, robot);
-  for (robot::Joint& joint : robot.joints) {
-    if (joint.child != tool) continue;
-    // In the axes of the carrying link.
-    joint.X_PJ.position += state.tool_offset;
-    joint.X_PJ.rotation = Quat(Eigen::AngleAxisd(state.tool_rotation.norm(),
-                                                 state.tool_rotation.norm() > 0.0
-                                                     ? Vec3(state.tool_rotation.normalized())
-                                                     : Vec3(Vec3::UnitX()))) *
-                          joint.X_PJ.rotation;
-  }
-  return robot;
-}
-
-robot::Inertial with_mass(const robot::Inertial& link, double mass, const Vec3& centre) {
-  robot::Inertial sum;
-  sum.mass = link.mass + mass;
-  sum.com_L = (link.mass * link.com_L + mass * centre) / sum.mass;
-  const auto about = [&](double m, const Vec3& p) -> Mat3 {
-    const Mat3 s = skew(p - sum.com_L);
-    return -m * s * s;
-  };
-  sum.inertia = link.inertia + about(link.mass, link.com_L) + about(mass, centre);
-  return sum;
+robot::RobotDescription changed(const SceneExperiment& experiment, const SceneState& state) {
+  if (!experiment.scene.robot) return experiment.robot;
+  return with_tool(experiment.robot, tool_link(*experiment.scene.robot, experiment.robot), state);
 }
 
 }  // namespace
@@ -46,13 +22,9 @@ int tool_link(const world::SceneRobot& scene, const robot::RobotDescription& rob
 }
 
 Arm::Arm(const SceneExperiment& experiment, const SceneState& state)
-    : description_(with_tool(experiment, state)),
+    : description_(changed(experiment, state)),
       model_(description_, experiment.scene.robot ? experiment.scene.robot->base : Pose{}) {
   tool_ = experiment.scene.robot ? tool_link(*experiment.scene.robot, description_) : 0;
-  for (const robot::Link& link : description_.links) inertials_.push_back(link.inertial);
-  if (state.payload > 0.0)
-    inertials_[static_cast<std::size_t>(tool_)] =
-        with_mass(inertials_[static_cast<std::size_t>(tool_)], state.payload, state.payload_centre);
   beyond_.resize(description_.links.size());
   // Parents come before their children.
   for (auto element = model_.elements().rbegin(); element != model_.elements().rend(); ++element) {
@@ -100,7 +72,7 @@ Eigen::Matrix<double, 6, 1> Arm::own_wrench(int link, const JointPath::Point& mo
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   for (const int beyond : beyond_[own]) {
     const auto b = static_cast<std::size_t>(beyond);
-    const robot::Inertial& body = inertials_[b];
+    const robot::Inertial& body = description_.links[b].inertial;
     const Vec3 arm = poses[b].rotation * body.com_L;
     const Vec3 w = twists[b].angular, dw = all[b].angular;
     const Vec3 acceleration = all[b].linear + dw.cross(arm) + w.cross(w.cross(arm));

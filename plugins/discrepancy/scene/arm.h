@@ -17,15 +17,12 @@ class Arm {
   Arm(const SceneExperiment& experiment, const SceneState& state);
 
   const robot::KinematicModel& model() const { return model_; }
+  /// With the payload in its tool.
   const robot::RobotDescription& description() const { return description_; }
   const Eigen::VectorXd& start() const { return start_; }
   int tool() const { return tool_; }
   /// Links that move with a link: itself and all beyond it.
   const std::vector<int>& beyond(int link) const { return beyond_[static_cast<std::size_t>(link)]; }
-  /// A link and the payload, as one.
-  const robot::Inertial& inertial(int link) const {
-    return inertials_[static_cast<std::size_t>(link)];
-  }
 
   /// N and N m in the link's frame, about its origin: weight and inertia of the link and all
   /// beyond it, as they pull at what carries it, at poses of the model at q.
@@ -35,7 +32,6 @@ class Arm {
  private:
   robot::RobotDescription description_;
   robot::KinematicModel model_;
-  std::vector<robot::Inertial> inertials_;
   std::vector<std::vector<int>> beyond_;
   Eigen::VectorXd start_;
   int tool_ = 0;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pedicel/discrepancy/scene/giving_joints.h"
+#include "pedicel/discrepancy/scene/state_changes.h"
 #include "pedicel/robot/robot.h"
 #include "pedicel/robot/trajectory.h"
 #include "pedicel/world/sim_world.h"
@@ -10,17 +10,6 @@
 namespace pedicel::discrepancy {
 
 namespace {
-
-robot::RobotDescription with_friction(const Arm& arm, const SceneState& state) {
-  robot::RobotDescription robot = laden(arm);
-  for (int dof = 0; dof < arm.model().dofs(); ++dof) {
-    robot::Joint& joint = robot.joints[static_cast<std::size_t>(
-        robot.joint(arm.model().joint_names()[static_cast<std::size_t>(dof)]))];
-    joint.friction += state.coulomb[dof];
-    joint.damping += state.viscous[dof];
-  }
-  return robot;
-}
 
 robot::Trajectory commands_of(const SceneTrial& trial, const Arm& arm) {
   std::vector<Eigen::VectorXd> rows;
@@ -38,7 +27,7 @@ robot::Trajectory commands_of(const SceneTrial& trial, const Arm& arm) {
 
 JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
                   const SceneState& state, const Arm& arm, double dt, double until) {
-  const robot::RobotDescription description = with_friction(arm, state);
+  const robot::RobotDescription description = with_friction(arm.description(), state);
   world::WorldSettings settings;
   settings.dt = dt;
   settings.gravity = experiment.scene.gravity;

@@ -8,13 +8,6 @@ namespace {
 constexpr double speed_share = 0.55, place_share = 0.276;
 }  // namespace
 
-robot::RobotDescription laden(const Arm& arm) {
-  robot::RobotDescription robot = arm.description();
-  for (std::size_t l = 0; l < robot.links.size(); ++l)
-    robot.links[l].inertial = arm.inertial(static_cast<int>(l));
-  return robot;
-}
-
 GivingJoints::GivingJoints(const Arm& arm, const SceneState& state, double dt)
     : dt_(dt), stiffness_(state.joint_stiffness) {
   const long dofs = arm.model().dofs();
@@ -23,7 +16,7 @@ GivingJoints::GivingJoints(const Arm& arm, const SceneState& state, double dt)
   compliance_.setZero(dofs, dofs);
   if (!give()) return;
   damping_ = state.joint_damping_time * stiffness_;
-  dynamics_.emplace(laden(arm), arm.model());
+  dynamics_.emplace(arm.description(), arm.model());
 }
 
 void GivingJoints::begin_step(const Eigen::VectorXd& q) {

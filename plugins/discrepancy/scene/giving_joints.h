@@ -38,7 +38,4 @@ class GivingJoints {
   std::optional<robot::Dynamics> dynamics_;
 };
 
-/// The robot with what the state adds to its links.
-robot::RobotDescription laden(const Arm& arm);
-
 }  // namespace pedicel::discrepancy

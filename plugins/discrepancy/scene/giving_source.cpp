@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pedicel/cosserat/contact/self_contact.h"
+
 namespace pedicel::discrepancy {
 
 namespace {
@@ -34,9 +36,13 @@ void GivingSource::find(const cosserat::RodModel& model, const cosserat::RodStat
 void GivingSource::remember(std::span<const cosserat::ContactForce> forces) {
   std::swap(pushed_, pushed_before_);
   std::ranges::fill(pushed_, Vec3::Zero());
-  for (const cosserat::ContactForce& force : forces)
-    pushed_[static_cast<std::size_t>(force.point.collider)] -=
+  for (const cosserat::ContactForce& force : forces) {
+    const int collider = force.point.collider;
+    if (cosserat::is_self_contact(collider) || collider >= static_cast<int>(pushed_.size()))
+      continue;
+    pushed_[static_cast<std::size_t>(collider)] -=
         force.normal * force.point.normal_W + force.tangential_W;
+  }
 }
 
 void GivingSource::give_way(const cosserat::RodModel& model, const cosserat::RodState& state,
@@ -57,6 +63,7 @@ void GivingSource::give_way(const cosserat::RodModel& model, const cosserat::Rod
   const double along = n.dot(give * n);
   const double across = (flat * give * flat).trace();
   point.give = std::max(along, least_share * across);
+  if (collider >= pushed_.size()) return;
   const Vec3& pushed = pushed_[collider];
   const Vec3& before = pushed_before_[collider];
   point.gap += point.give * n.dot(pushed);

@@ -9,6 +9,10 @@
 
 namespace pedicel::discrepancy {
 
+/// m, from which an arm that gives way looks for contacts: it may come back to a plant that leaves
+/// it.
+inline constexpr double reach_back = 2.0e-3;
+
 /// Where the links of an arm are that gives way between encoders and links, and how far that is.
 struct GivingArm {
   const Arm* arm = nullptr;
@@ -34,6 +38,8 @@ class GivingSource : public cosserat::ContactSource {
   void ignore_touching(const cosserat::RodModel& model, const cosserat::RodState& state) {
     inner_.ignore_touching(model, state);
   }
+  /// As if nothing gave way.
+  coupling::ColliderSource& inner() { return inner_; }
   void cover(double from, double to) override {
     share_ = to - from;
     inner_.cover(from, to);

@@ -24,7 +24,7 @@ std::vector<std::string> known_of(const std::string& parameter, const SceneExper
   if (parameter == "camera") return name_list(experiment.cameras);
   if (parameter == "link") return name_list(experiment.robot.links);
   if (parameter == "marker") return name_list(experiment.markers);
-  if (parameter == "joint") return joint_names(experiment.robot);
+  if (parameter == "joint" && !experiment.robot.links.empty()) return joint_names(experiment.robot);
   if (parameter == "trial") return name_list(experiment.trials);
   return {};
 }

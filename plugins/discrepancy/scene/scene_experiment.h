@@ -110,7 +110,8 @@ struct SceneExperiment {
   std::vector<Camera> cameras;
   std::vector<WrenchSensor> wrenches;
   SceneNoise noise;
-  std::vector<plant::Effect> effects;  ///< known in every trial
+  std::vector<plant::Effect> scene_effects;  ///< known in every trial: of the scene's file
+  std::vector<plant::Effect> effects;        ///< likewise, of the experiment's
   std::vector<SceneTrial> trials;
 
   int plant_index(const std::string& name) const;  ///< -1 where there is none

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "pedicel/discrepancy/scene/camera.h"
+#include "pedicel/discrepancy/scene/run_effects.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_tables.h"
 #include "pedicel/io/yaml.h"
@@ -59,6 +60,7 @@ class SceneReader {
     if (const auto noise = map.optional("noise")) read_noise(*noise);
     if (const auto trials = map.required("trials")) read_trials(*trials);
     // Afterwards, because they may name trials.
+    out_.scene_effects = scene_file_effects(out_, diagnostics_);
     out_.effects = read_effects(map);
     map.finish();
     return std::move(out_);
@@ -409,7 +411,12 @@ class SceneReader {
                    const SceneTrial& trial) {
     const Samples& lead = trial.follows_commands ? trial.commands : trial.joints;
     if (lead.size() == 0) {
-      if (std::filesystem::exists(folder / driver))
+      // Rows that could not be read were told one by one.
+      const std::string file = (folder / driver).string();
+      const bool is_told = std::ranges::any_of(diagnostics_.all(), [&](const Diagnostic& one) {
+        return one.severity == Severity::error && one.where.file == file;
+      });
+      if (!is_told && std::filesystem::exists(folder / driver))
         diagnostics_.error({(folder / driver).string(), 1, 1},
                            "the table has no rows, expected where the joints are");
       return;

@@ -8,6 +8,7 @@
 #include "pedicel/coupling/contact_report.h"
 #include "pedicel/discrepancy/scene/giving_joints.h"
 #include "pedicel/discrepancy/scene/giving_source.h"
+#include "pedicel/discrepancy/scene/state_changes.h"
 #include "pedicel/discrepancy/simulate/equilibrium.h"
 #include "pedicel/geometry/shapes.h"
 
@@ -19,7 +20,6 @@ constexpr int body_of_robot = 0, body_of_scene = 1;
 /// N/m, of what a link holds; and times the stiffness of the held segment's joint.
 constexpr double hold_stiffness = 1.0e6, hold_turning = 100.0;
 constexpr int curve_places = 200;
-constexpr double reach_back = 2.0e-3;  // m, from which an arm that gives way looks for contacts
 
 // As for trials of plants (trial_run.cpp), but for contact, whose iterations end where they find
 // no better place.
@@ -44,7 +44,6 @@ class SceneRun {
         report_(colliders_),
         joints_(*member.arm, *member.state, numerics.dt) {
     settings_ = member.state->coupling;
-    // An arm that gives way may come back to a plant that leaves it.
     arm_.gives = joints_.give();
     settings_.margin = arm_.gives ? std::max(numerics.margin, reach_back) : numerics.margin;
     arm_.arm = member.arm;
@@ -94,7 +93,7 @@ class SceneRun {
     colliders_.update(poses_);
   }
 
-  /// Takes hold of organs and lets them go, as was recorded up to `t`, and moves what is held.
+  /// Takes hold of organs and lets them go, as was recorded up to `t`.
   void grasp(cosserat::RodSystem& rods, double t) {
     for (; next_event_ < trial_.events.size() && trial_.events[next_event_].time <= t;
          ++next_event_) {
@@ -104,6 +103,10 @@ class SceneRun {
         std::erase_if(held_, [&](const Held& held) { return held.what == event.what; });
       changed_ = changed_ || event.event == "grasped" || event.event == "released";
     }
+  }
+
+  /// Moves what is held to where its links are now.
+  void carry(cosserat::RodSystem& rods) {
     if (held_.empty() && !changed_) return;
     changed_ = !held_.empty();
     for (std::size_t p = 0; p < models_.size(); ++p) {
@@ -328,16 +331,7 @@ class SceneRun {
       }
       cosserat::RodModel model = makers_[p]->make(masses_of(p), own).model;
       const SceneState::Plant& state = member_.state->plants[p];
-      for (cosserat::Fruit& fruit : model.fruits) {
-        fruit.density *= state.fruit_mass;
-        for (double* limit :
-             {&fruit.thresholds.stretch, &fruit.thresholds.bend, &fruit.thresholds.force,
-              &fruit.thresholds.moment, &fruit.thresholds.torsion})
-          *limit *= state.threshold;
-      }
-      if (state.fruit_mass != 1.0)
-        for (const cosserat::Fruit& fruit : model.fruits)
-          cosserat::lump_inertia(model, fruit.element);
+      change_plant(model, state);
       move_supports(model, state);
       models_.push_back(std::move(model));
     }
@@ -357,14 +351,8 @@ class SceneRun {
     }
   }
 
-  // Where the plant stands in place of where it was built: about the vertical through its root.
-  static Pose moved(const cosserat::RodModel& model, const SceneState::Plant& state) {
-    const Quat turn(Eigen::AngleAxisd(state.yaw, Vec3::UnitZ()));
-    return {model.root.position + state.offset - turn * model.root.position, turn};
-  }
-
   static void move_supports(cosserat::RodModel& model, const SceneState::Plant& state) {
-    const Pose by = moved(model, state);
+    const Pose by = moved_plant(model.root.position, state);
     for (cosserat::Support& support : model.supports) {
       support.position = by * support.position;
       support.rotation = by.rotation * support.rotation;
@@ -373,7 +361,7 @@ class SceneRun {
 
   cosserat::RodState first_state(std::size_t p) const {
     cosserat::RodState state = cosserat::drawn_state(models_[p]);
-    const Pose by = moved(models_[p], member_.state->plants[p]);
+    const Pose by = moved_plant(models_[p].root.position, member_.state->plants[p]);
     state.root = state.previous_root = by * models_[p].root;
     for (int e = 0; e < state.size(); ++e) {
       state.position[e] = by * state.position[e];
@@ -474,6 +462,7 @@ std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, cons
       // Within reach of the pose in which it was grasped.
       variant->grasp(rods, t - numerics.dt);
       variant->move(t);
+      variant->carry(rods);
       variant->push(rods, t);
     }
     rods.step(numerics.dt, experiment.scene.gravity);

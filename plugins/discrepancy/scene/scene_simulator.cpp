@@ -112,7 +112,8 @@ struct SceneSimulator::Impl {
     Prepared out;
     out.state = nominal;
     std::vector<plant::Effect> all;
-    for (const auto* list : {&experiment.effects, &trial.effects, &request.variant->effects})
+    for (const auto* list : {&experiment.scene_effects, &experiment.effects, &trial.effects,
+                             &request.variant->effects})
       for (const plant::Effect& effect : *list) {
         const auto only = effect.words.find("trial");
         if (only != effect.words.end() && only->second != trial.name) continue;

@@ -5,11 +5,13 @@
 
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_simulator.h"
+#include "pedicel/discrepancy/simulate/variant_plant.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/text_file.h"
 #include "pedicel/plant/plant_file.h"
+#include "pedicel/robot/kinematics.h"
 #include "pedicel/world/scene_writer.h"
 
 namespace pedicel::discrepancy {
@@ -20,43 +22,16 @@ namespace fs = std::filesystem;
 
 constexpr double log_rate = 250.0;  // Hz
 
-void set(std::vector<world::Setting>& settings, const std::string& key, const std::string& text) {
-  for (world::Setting& one : settings)
-    if (one.key == key) {
-      one.text = text;
-      return;
-    }
-  settings.push_back({key, text, {}});
-}
-
-Pose moved(const Pose& pose, const Vec3& root, const SceneState::Plant& state) {
-  const Quat turn(Eigen::AngleAxisd(state.yaw, Vec3::UnitZ()));
-  const Vec3 root_W = pose * root;
-  return {root_W + state.offset + turn * (pose.position - root_W),
-          (turn * pose.rotation).normalized()};
-}
-
-void multiply(std::optional<double>& limit, double factor) {
-  if (limit) *limit *= factor;
-}
-
 class Writer {
  public:
   Writer(const fs::path& folder, const SceneExperiment& experiment,
          const std::vector<plant::Effect>& effects)
-      : folder_(folder),
-        experiment_(experiment),
-        effects_(effects),
-        scene_(experiment.scene),
-        nominal_(nominal_state(experiment)),
-        state_(nominal_) {
-    for (const plant::Effect& effect : effects_) apply_scene_effect(effect, experiment, state_);
-  }
+      : folder_(folder), experiment_(experiment), effects_(effects), scene_(experiment.scene) {}
 
   ExtendedScene run(int trial) {
-    set_contact();
+    for (const auto* list : {&experiment_.effects, &effects_})
+      for (const plant::Effect& effect : *list) take(effect);
     for (std::size_t p = 0; p < experiment_.plants.size(); ++p) set_plant(p);
-    set_arm();
     if (!differs_) return out_;
     follow(trial);
     keep_robot();
@@ -68,53 +43,57 @@ class Writer {
   }
 
  private:
-  void set_contact() {
-    const auto number = [&](const std::string& key, double value, double before) {
-      if (value == before) return;
-      set(scene_.coupling, key, io::exact_number(value));
-      differs_ = true;
-    };
-    number("friction", state_.coupling.friction, nominal_.coupling.friction);
-    number("contact_stiffness", state_.coupling.contact_stiffness,
-           nominal_.coupling.contact_stiffness);
-    number("fruit_stiffness", state_.coupling.fruit_stiffness, nominal_.coupling.fruit_stiffness);
-    if (state_.joint_stiffness > 0.0) {
-      set(scene_.coupling, "direction", "two_way");
-      differs_ = true;
+  void take(const plant::Effect& effect) {
+    if (!find_scene_effect(effect.name)) {
+      // Of a plant's model: in its file (set_plant()). What is left is about measured data.
+      if (is_of_experiment(effect)) out_.left.push_back(effect.name);
+      return;
     }
-    if (!state_.friction_of_link.empty()) out_.left.push_back("contact_friction of one link");
+    if (effect.words.contains("camera") || of_a_camera(effect.name)) {
+      out_.left.push_back(effect.name);
+      return;
+    }
+    scene_.effects.push_back({plant::effect_text(effect), {}});
+    differs_ = true;
+    if (effect.name == "wrench_bias" || effect.name == "wrench_gain") add_sensors();
+  }
+
+  static bool of_a_camera(const std::string& name) {
+    return name == "camera_pose" || name == "camera_focal" || name == "lens_distortion";
+  }
+
+  // Sensors whose effects the scene has write what the experiment's measured.
+  void add_sensors() {
+    for (const WrenchSensor& sensor : experiment_.wrenches) {
+      const bool known = std::ranges::any_of(
+          scene_.wrenches, [&](const world::SceneWrench& one) { return one.name == sensor.name; });
+      if (known) continue;
+      world::SceneWrench own;
+      own.name = sensor.name;
+      own.link = experiment_.robot.links[static_cast<std::size_t>(sensor.link)].name;
+      own.tared = sensor.tared;
+      scene_.wrenches.push_back(own);
+    }
   }
 
   void set_plant(std::size_t p) {
     const ScenePlantFile& own = experiment_.plants[p];
-    const SceneState::Plant& state = state_.plants[p];
     plant::PlantFile file = own.file;
-    bool changed = state.fruit_mass != 1.0 || state.threshold != 1.0;
-    for (plant::PlantFruit& fruit : file.fruits) {
-      fruit.density *= state.fruit_mass;
-      for (std::optional<double>* limit :
-           {&fruit.detach.stretch, &fruit.detach.bend, &fruit.detach.force, &fruit.detach.moment,
-            &fruit.detach.torsion})
-        multiply(*limit, state.threshold);
-    }
-    for (plant::Effect effect : effects_) {
-      const effects::EffectDefinition* known = effects::find_effect(effect.name);
-      if (!known || known->file != effects::EffectFile::plant) continue;
-      const auto named = effect.words.find("plant");
-      if (named != effect.words.end() && named->second != own.name) continue;
-      effect.words.erase("plant");
-      file.effects.push_back(effect);
-      changed = true;
-    }
+    bool changed = false;
+    for (const auto* list : {&experiment_.effects, &effects_})
+      for (plant::Effect effect : *list) {
+        const effects::EffectDefinition* known = effects::find_effect(effect.name);
+        if (!known || known->file != effects::EffectFile::plant) continue;
+        const auto named = effect.words.find("plant");
+        if (named != effect.words.end() && named->second != own.name) continue;
+        effect.words.erase("plant");
+        file.effects.push_back(effect);
+        changed = true;
+      }
     world::ScenePlant* in_scene = nullptr;
     for (world::ScenePlant& plant : scene_.plants)
       if (plant.name == own.name) in_scene = &plant;
-    if (!in_scene) return;
-    if (state.yaw != 0.0 || !state.offset.isZero(0.0)) {
-      in_scene->pose = moved(in_scene->pose, file.root, state);
-      differs_ = true;
-    }
-    if (!changed) return;
+    if (!in_scene || !changed) return;
     const fs::path name = experiment_.plants.size() > 1 ? "extended." + own.name + ".plant.yaml"
                                                         : "extended.plant.yaml";
     plant::write_plant_file(folder_ / name, file);
@@ -122,41 +101,51 @@ class Writer {
     differs_ = true;
   }
 
-  // Where the links are is the joints' business; what hangs on them is the URDF's.
-  void set_arm() {
-    if (!state_.tool_offset.isZero(0.0) || !state_.tool_rotation.isZero(0.0))
-      out_.left.push_back("tool_pose");
-    if (state_.payload > 0.0) out_.left.push_back("payload");
-    if (!state_.coulomb.isZero(0.0) || !state_.viscous.isZero(0.0))
-      out_.left.push_back("joint_friction");
-    if (state_.tracking_lag > 0.0) out_.left.push_back("tracking_lag");
-    differs_ = differs_ || !state_.joint_offset.isZero(0.0) || state_.robot_delay != 0.0;
-  }
-
-  // The trial's own readings, with the encoders' zeros and the log's delay put right.
+  // The trial's own log, smoothed: what is off about it is among the effects.
   void follow(int trial) {
     if (trial < 0) return;
     const SceneTrial& own = experiment_.trials[static_cast<std::size_t>(trial)];
-    if (own.joints.size() == 0) return;
-    const JointPath path = path_of(experiment_, own);
-    std::vector<std::string> names;
-    for (const std::string& joint : joint_names(experiment_.robot)) names.push_back(joint);
+    const Samples& log = own.follows_commands ? own.commands : own.joints;
+    if (log.size() == 0) return;
+    const std::vector<std::string> names = joint_names(experiment_.robot);
     std::string text = "time_s";
     for (const std::string& name : names) text += "," + name;
     text += "\n";
-    for (double t = 0.0; t <= own.joints.time.back() + 0.5 / log_rate; t += 1.0 / log_rate) {
-      const Eigen::VectorXd q = path.at(t + state_.robot_delay).q + state_.joint_offset;
+    const auto add = [&](double t, const Eigen::VectorXd& q) {
       text += io::exact_number(t);
       for (long j = 0; j < q.size(); ++j) text += "," + io::exact_number(q[j]);
       text += "\n";
+    };
+    Eigen::VectorXd first = start_of_arm();
+    if (own.follows_commands) {
+      Eigen::VectorXd q = first;
+      for (int r = 0; r < log.size(); ++r) {
+        for (std::size_t c = 0; c < own.command_columns.size(); ++c)
+          if (const double value = log.value(r, static_cast<long>(c)); std::isfinite(value))
+            q[own.command_columns[c]] = value;
+        if (r == 0) first = q;
+        add(log.time[static_cast<std::size_t>(r)], q);
+      }
+    } else {
+      const JointPath path = path_of(experiment_, own);
+      first = path.at(0.0).q;
+      for (double t = 0.0; t <= log.time.back() + 0.5 / log_rate; t += 1.0 / log_rate)
+        add(t, path.at(t).q);
     }
     io::write_file_atomically(folder_ / "extended.joints.csv", text);
     scene_.robot->trajectory = folder_ / "extended.joints.csv";
-    const Eigen::VectorXd first = path.at(state_.robot_delay).q + state_.joint_offset;
+    scene_.robot->waypoints.clear();
     for (std::size_t j = 0; j < names.size(); ++j)
-      if (scene_.robot->joints.contains(names[j]))
-        scene_.robot->joints[names[j]] = first[static_cast<long>(j)];
+      scene_.robot->joints[names[j]] = first[static_cast<long>(j)];
     scene_.duration = own.duration();
+  }
+
+  Eigen::VectorXd start_of_arm() const {
+    const robot::KinematicModel model(experiment_.robot);
+    Eigen::VectorXd start = model.neutral();
+    for (const auto& [joint, value] : scene_.robot->joints)
+      if (const int dof = model.joint_index(joint); dof >= 0) start[dof] = value;
+    return start;
   }
 
   // A robot without meshes lies beside the scene; one with meshes stays where it is.
@@ -176,7 +165,6 @@ class Writer {
   const SceneExperiment& experiment_;
   const std::vector<plant::Effect>& effects_;
   world::Scene scene_;
-  SceneState nominal_, state_;
   bool differs_ = false;
   ExtendedScene out_;
 };

@@ -10,12 +10,13 @@ namespace pedicel::discrepancy {
 
 struct ExtendedScene {
   std::string file;               ///< name of the scene's file; empty: nothing in it would differ
-  std::vector<std::string> left;  ///< effects that a scene has no words for
+  std::vector<std::string> left;  ///< effects of instruments that a run of the scene does not have
 };
 
-/// The scene as its numbers should be: effects of plants, contact and coupling stand in
-/// extended.scene.yaml and the plant files beside it, which run like any other scene. The arm goes
-/// through the joints of `trial` as they were read. What is the instruments' alone is left out.
+/// The scene as it should be: effects of contact, arm and sensors stand among the `effects:` of
+/// extended.scene.yaml, those of plants in the plant files beside it. It runs like any other scene.
+/// The arm goes through the joints of `trial` as they were read, or gets its commands. What cameras
+/// do is left out.
 ExtendedScene write_extended_scene(const std::filesystem::path& folder,
                                    const SceneExperiment& experiment,
                                    const std::vector<plant::Effect>& effects, int trial);

@@ -14,6 +14,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+// The search has found the valley. A finer mesh only moves its bottom a little, and each iteration
+// takes a simulation for each number.
 constexpr int polishing = 3;  // iterations with the finer mesh
 
 bool healthy(const std::vector<SceneReadings>& readings) {
@@ -26,15 +28,26 @@ class Procedure {
       : experiment_(experiment),
         options_(options),
         data_(experiment),
+        // The simulator that judges. The search has a coarser one of its own, so that no number of
+        // a verdict comes from a coarse mesh.
         fine_(experiment, options.numerics, options.threads, options.stop) {}
 
   SceneDiagnosis run() {
+    // First of all, as this shows whether the scene can be simulated to its end. Nothing else is
+    // worth trying before that.
     tell("simulating the scene as the files say", 0.0);
     out_.nominal = predictions_of(fine_, {});
     if (!healthy(out_.nominal)) return failed();
+    // Contacts begin a step earlier or later with other noise of the encoders. Without that
+    // uncertainty a few samples about each touch would weigh more than all others.
     widen_noise(fine_, data_, {});
+    // After the noise, because the split goes by the misfits.
     split_scene_trials(experiment_, misfits(), out_.fit_trials, out_.check_trials);
     search();
+    if (stopped() && options_.cut_short) {
+      options_.cut_short();
+      cut_ = true;
+    }
     polish();
     finish();
     return std::move(out_);
@@ -42,6 +55,7 @@ class Procedure {
 
  private:
   SceneDiagnosis failed() {
+    // Stopped, nothing is known of the numbers.
     out_.verdict.outcome = stopped() ? Outcome::unknown : Outcome::numerical;
     out_.verdict.partial = stopped();
     out_.verdict.remainder = "the scene as its files say cannot be simulated to its end";
@@ -62,25 +76,34 @@ class Procedure {
   // With a coarser mesh and step, whose own error counts as noise.
   void search() {
     SceneNumerics coarse = options_.search;
+    // Never finer than what judges: an experiment may ask for less than the search's default.
     coarse.distance = std::max(coarse.distance, options_.numerics.distance);
     coarse.dt = std::max(coarse.dt, options_.numerics.dt);
-    SceneSimulator simulator(experiment_, coarse, options_.threads, options_.stop);
+    // A search that is cut short ends its simulations, as at the time limit: half of one says what
+    // is not so.
+    SceneSimulator simulator(experiment_, coarse, options_.threads,
+                             options_.cut_short ? nullptr : options_.stop);
     SceneDataSet data(experiment_);
+    // The finer predictions are at hand: what the coarse ones are off by is known, sample by
+    // sample, and counts as noise there.
     widen_noise(simulator, data, {}, out_.nominal);
     SceneEvaluator evaluator(simulator, data);
     SceneSearchOptions how;
     how.trials = out_.fit_trials;
     how.check = out_.check_trials;
     how.threads = options_.threads;
+    // Late is no error: what is known so far is concluded, and the verdict says `partial`.
     how.stop = [this] { return stopped() || late(); };
     how.progress = [this](const std::string& what, double share) {
       tell(what, 0.05 + 0.75 * share);
     };
     out_.findings = search_scene(evaluator, how);
+    // The simulator goes with this function, and its count with it.
     more_ += simulator.simulations();
   }
 
   // The model that is told, and its rivals, with the finer mesh.
+  // Only few iterations, and from where the search ended: which cause it is has been decided.
   void polish() {
     SceneFindings& found = out_.findings;
     SceneEvaluator evaluator(fine_, data_);
@@ -92,9 +115,13 @@ class Procedure {
       fit = fit_scene(evaluator, fit.model, how);
     };
     tell("refitting with a finer mesh", 0.85);
+    // Where the baseline alone explains some trials, it was fitted to these. A refit to all would
+    // spread what is wrong in the others over them.
     const bool keep_baseline = !found.clean.empty();
     if (found.explained()) {
       // Where the noise of predictions is, depends on the model.
+      // Touches are elsewhere in time by now. Misfits of all models are then taken with this one's
+      // noise, so that they can be compared.
       widen_noise(fine_, data_, {found.candidates.front().fit.model.effects});
       refit(found.candidates.front().fit);
     } else if (!keep_baseline) {
@@ -102,16 +129,21 @@ class Procedure {
     }
     out_.model = found.model().model.effects;
     out_.extended = predictions_of(fine_, {out_.model});
+    // Without a cause there is one model, and it is simulated once.
     out_.refitted =
         found.explained() ? predictions_of(fine_, {found.baseline.model.effects}) : out_.extended;
   }
 
   void finish() {
     tell("writing down what was found", 0.97);
+    // With predictions of the fine simulator throughout, since these numbers are shown.
     conclude_scene(fine_, data_, out_);
+    // Of the refitted model and not of the extended one: a symptom is what the data show beside
+    // what everybody would fit.
     out_.verdict.symptoms = scene_symptoms(experiment_, data_, out_.refitted);
     out_.verdict.partial = out_.findings.partial;
     out_.text = findings_text(out_.findings, experiment_);
+    // Last, so that what the conclusion simulated counts, too.
     set_cost();
   }
 
@@ -121,7 +153,9 @@ class Procedure {
   }
   bool stopped() const { return options_.stop && *options_.stop; }
   bool late() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit;
+    // A steady clock, which nobody sets back.
+    return cut_ ||
+           std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit;
   }
   void tell(const std::string& what, double share) const {
     if (options_.progress) options_.progress(what, share);
@@ -132,7 +166,8 @@ class Procedure {
   Clock::time_point begin_ = Clock::now();
   SceneDataSet data_;
   SceneSimulator fine_;
-  long more_ = 0;  // simulations beside
+  long more_ = 0;     // simulations beside
+  bool cut_ = false;  // by a stop that was taken back
   SceneDiagnosis out_;
 };
 
@@ -144,12 +179,17 @@ void split_scene_trials(const SceneExperiment& experiment, const std::vector<dou
   for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
     const Trial::Use use = experiment.trials[t].use;
     stated = stated || use != Trial::Use::unset;
+    // Trials without a word are fitted, also where others have one.
     (use == Trial::Use::check ? check : fit).push_back(static_cast<int>(t));
   }
+  // Of two trials one alone would be left to fit, and a cause that acts in the other would never be
+  // seen.
   if (stated || fit.size() < 3) return;
   std::vector<int> order = fit;
   std::ranges::stable_sort(order, std::ranges::greater{},
                            [&](int t) { return misfit[static_cast<std::size_t>(t)]; });
+  // The second largest: the largest is where a cause shows best, and is needed for the fit. One
+  // with no misfit would test nothing.
   check = {order[1]};
   std::erase(fit, order[1]);
 }

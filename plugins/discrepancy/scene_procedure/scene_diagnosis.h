@@ -19,6 +19,9 @@ struct SceneDiagnosisOptions {
   double time_limit = std::numeric_limits<double>::infinity();  ///< s
   std::function<void(const std::string&, double)> progress;
   const std::atomic<bool>* stop = nullptr;
+  /// Called where a stop has ended the search; it takes the stop back, and what is known is written
+  /// down as at the time limit. Empty: a stop ends everything.
+  std::function<void()> cut_short;
 };
 
 /// What was found out of a measured scene.

@@ -10,12 +10,16 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// As for plants without a robot: all symptoms of an experiment together then show by chance in less
+// than 1 % of cases.
 constexpr double shows_at = 5.0;     // standard errors
 constexpr double still = 0.15;       // s, in which nothing is expected to have moved
 constexpr double clear_push = 10.0;  // noise units, of a force that is a touch
 constexpr double light_push = 0.08;  // of the largest, likewise: an arm's own inertia is below
-constexpr double width = 0.012;      // s, to either side, over which forces are smoothed
-constexpr double firm_push = 0.4;    // of the largest force: there its ratio is told
+// Short beside a touch, and long beside the samples of a force sensor: noise would else cross the
+// threshold before the tool does.
+constexpr double width = 0.012;    // s, to either side, over which forces are smoothed
+constexpr double firm_push = 0.4;  // of the largest force: there its ratio is told
 
 SymptomNumber symptom(const std::string& name, const std::string& of, double value, double error,
                       const std::string& unit, std::vector<std::string> speaks_for) {
@@ -25,6 +29,7 @@ SymptomNumber symptom(const std::string& name, const std::string& of, double val
   out.value = value;
   out.error = error;
   out.unit = unit;
+  // Without an error nothing is known of chance, and nothing shows.
   out.shows = error > 0.0 && std::abs(value) > shows_at * error;
   out.speaks_for = std::move(speaks_for);
   return out;
@@ -32,15 +37,20 @@ SymptomNumber symptom(const std::string& name, const std::string& of, double val
 
 /// Columns of a table over time, without what weight and inertia of the tool give: the prediction's
 /// own course at its own rest stands for them.
+/// Measured and predicted go through the same reading, with its threshold, its smoothing and its
+/// own rest. What the reading gets wrong is then alike on both sides and cancels.
 struct Push {
   std::vector<double> time, normal, across;  // s, N, N
 };
 
 void smooth(const std::vector<double>& time, std::vector<double>& x) {
+  // A copy: a running mean must not read what it has written.
   const std::vector<double> given = x;
   std::size_t first = 0, last = 0;
   double sum = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
+    // Two ends that only move forward, so that the whole takes one pass. At the ends of a record
+    // the window is shorter and not padded: zeros would bend the course there.
     for (; last < x.size() && time[last] <= time[i] + width; ++last) sum += given[last];
     for (; time[first] < time[i] - width; ++first) sum -= given[first];
     x[i] = sum / static_cast<double>(last - first);
@@ -54,6 +64,7 @@ Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench, dou
   int count = 0;
   for (long r = 0; r < wrench.rows() && time[static_cast<std::size_t>(r)] < time.front() + still;
        ++r)
+    // The mean while nothing has moved yet: weight of the tool, and the sensor's zero.
     if (wrench.row(r).head<3>().allFinite()) {
       rest += wrench.row(r).head<3>().transpose();
       ++count;
@@ -63,17 +74,24 @@ Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench, dou
   Vec3 most = Vec3::Zero();
   for (long r = 0; r < wrench.rows(); ++r) {
     const Vec3 f = wrench.row(r).head<3>().transpose() - rest;
+    // The sensor's own axes say nothing of the contact, and its normal is not measured. A push is
+    // strongest along it, while friction stays below it.
     if (f.allFinite() && f.norm() > most.norm()) most = f;
   }
+  // Nothing pushes at all: any direction will do, as its course is zero.
   const Vec3 n = most.norm() > 0.0 ? Vec3(most.normalized()) : Vec3(Vec3::UnitX());
   for (long r = 0; r < wrench.rows(); ++r) {
     const Vec3 f = wrench.row(r).head<3>().transpose() - rest;
     if (!f.allFinite()) continue;
     out.time.push_back(time[static_cast<std::size_t>(r)]);
     out.normal.push_back(n.dot(f));
+    // A length is never negative, so noise makes it larger: by its variance in each of the two
+    // directions across. That is taken off before the root.
     const double across = (f - n * n.dot(f)).squaredNorm();
     out.across.push_back(std::sqrt(std::max(0.0, across - 2.0 * noise * noise)));
   }
+  // After the lengths: components that turn would cancel in a mean, and a contact that slips to and
+  // fro would look frictionless.
   smooth(out.time, out.normal);
   smooth(out.time, out.across);
   return out;
@@ -86,10 +104,13 @@ double largest(const Push& push) {
 // The first and the last time at which a push of some size is there; NaN where there is none.
 std::pair<double, double> touch(const Push& push, double least) {
   double first = std::nan(""), last = std::nan("");
+  // Two samples, three apart: one alone may be a spike.
   for (std::size_t i = 0; i + 3 < push.time.size(); ++i) {
     const bool there = std::hypot(push.normal[i], push.across[i]) > least &&
                        std::hypot(push.normal[i + 3], push.across[i + 3]) > least;
     if (!there) continue;
+    // The first and the last of all touches. What lies between does not matter: a tool that bounces
+    // has touched.
     if (std::isnan(first)) first = push.time[i];
     last = push.time[i + 3];
   }
@@ -106,6 +127,8 @@ class Symptoms {
     for (std::size_t t = 0; t < experiment_.trials.size() && t < predicted_.size(); ++t) {
       const SceneTrial& trial = experiment_.trials[t];
       const SceneReadings& model = predicted_[t];
+      // A simulation that broke down says nothing after that, and touches would be compared with
+      // none.
       if (!model.healthy) continue;
       for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
         if (trial.wrenches[w].size() > 0) contact(trial, trial.wrenches[w], model.wrenches[w], w);
@@ -115,6 +138,7 @@ class Symptoms {
       standing(trial, model);
     }
     std::ranges::stable_sort(found_, [](const SymptomNumber& a, const SymptomNumber& b) {
+      // By significance, as the numbers have different units.
       return std::abs(a.value) / a.error > std::abs(b.value) / b.error;
     });
     // Of each kind the clearest trial.
@@ -126,14 +150,19 @@ class Symptoms {
   }
 
  private:
+  // What a wrist feels is what the tool touches with, so all about contact is read from its wrench.
   void contact(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
                std::size_t sensor) {
+    // As stated, or as the samples scatter at rest.
     const double noise = data_.deviation(SceneChannel::force);
     const Push measured = push_of(samples.time, samples.value, noise),
                told = push_of(samples.time, model, 0.0);
+    // One threshold for both, from the measured side. With one for each, a model that pushes half
+    // as hard would touch at the same time.
     const double least = std::max(clear_push * noise, light_push * largest(measured));
     const auto [begin, end] = touch(measured, least);
     const auto [begin_told, end_told] = touch(told, least);
+    // A time is known to the sample, and to the window of the smoothing.
     const double sample = samples.size() > 1
                               ? (samples.time.back() - samples.time.front()) / (samples.size() - 1)
                               : 0.0;
@@ -146,6 +175,8 @@ class Symptoms {
                                (a > b ? "later" : "earlier") + " than simulated, at " +
                                io::format_number(a, 3) + " s.";
     };
+    // Both are told, because a robot that is late shifts them in the same way, and a plant that
+    // stands elsewhere against each other.
     tell("touch_onset", begin, begin_told, "begins to touch");
     tell("touch_end", end, end_told, "lets go");
     friction(trial, measured, told, noise);
@@ -159,17 +190,22 @@ class Symptoms {
       double normal = 0.0, across = 0.0;
       int count = 0;
       for (std::size_t i = 0; i < push.time.size(); ++i) {
+        // Of a light push the ratio is one of two noises. Firm is relative to its own largest, so
+        // that a model with another stiffness is read over the same part of the push.
         if (push.normal[i] < firm_push * most || most < 2.0 * clear_push * noise) continue;
         normal += push.normal[i];
         across += push.across[i];
         ++count;
       }
+      // Noise of a sum of `count` readings, over the sum of the normal forces.
       error = count > 0 ? noise * std::sqrt(static_cast<double>(count)) / normal : 0.0;
       return count > 0 ? across / normal : std::nan("");
     };
     double error = 0.0, none = 0.0;
     const double a = ratio(measured, error), b = ratio(told, none);
     if (std::isnan(a) || std::isnan(b)) return;
+    // A floor of 0.01, so that a long push does not make a difference of next to nothing
+    // significant.
     found_.push_back(symptom("friction_ratio", trial.name, a - b, std::max(error, 0.01), "1",
                              {"contact_friction", "wrench_gain"}));
     found_.back().sentence = "In " + trial.name + " the tangential force is " +
@@ -191,10 +227,14 @@ class Symptoms {
         ratios.push_back(push.across[i] / push.normal[i]);
         times.push_back(push.time[i]);
       }
+    // The 95th percentile of fewer is one sample.
     if (ratios.size() < 20) return std::nan("");
     std::vector<double> sorted = ratios;
     std::ranges::sort(sorted);
+    // What the ratio is at most, but for spikes. While a contact sticks the ratio rises, and when
+    // it slips it stays: that is Coulomb's law.
     const double high = sorted[sorted.size() * 95 / 100];
+    // Three in a row, so that noise alone does not begin to slip.
     for (std::size_t i = 0; i + 2 < ratios.size(); ++i)
       if (ratios[i] > 0.95 * high && ratios[i + 1] > 0.95 * high && ratios[i + 2] > 0.95 * high)
         return times[i];
@@ -209,15 +249,18 @@ class Symptoms {
     for (long r = 0; r < samples.size() &&
                      samples.time[static_cast<std::size_t>(r)] < samples.time.front() + still;
          ++r) {
+      // Unlike the pushes this is not taken off: here the rest itself is asked for.
       const Eigen::RowVectorXd d = samples.value.row(r) - model.row(r);
       if (!d.allFinite()) continue;
       off += d.transpose();
       ++count;
     }
+    // Too few to average, and no error could be told of them.
     if (count < 3) return;
     off /= count;
     const std::string name = experiment_.wrenches[sensor].name;
     const double root = std::sqrt(static_cast<double>(count));
+    // The root of three: the length of a vector of three noises.
     found_.push_back(symptom("wrench_at_rest", trial.name, off.head<3>().norm(),
                              1.7 * data_.deviation(SceneChannel::force) / root, "N",
                              {"wrench_bias", "payload", "wrench_gain"}));
@@ -233,10 +276,14 @@ class Symptoms {
   }
 
   // The shift in time of a marker on the arm that takes most of its residual.
+  // Markers on the arm and not on the plant: a plant answers late by itself, while an arm is where
+  // its log says, but for its clock.
   void lag(const SceneTrial& trial, const SceneReadings& model) {
     double top = 0.0, bottom = 0.0;
     for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
       if (experiment_.markers[m].plant >= 0 || trial.markers.size() < 3) continue;
+      // A delay d makes a residual of -d times the speed, to first order. The rest is a line
+      // through the origin by least squares, over all coordinates at once.
       for (long c = 3 * static_cast<long>(m); c < 3 * static_cast<long>(m) + 3; ++c)
         for (long r = 1; r + 1 < trial.markers.size(); ++r) {
           const auto i = static_cast<std::size_t>(r);
@@ -250,6 +297,8 @@ class Symptoms {
     }
     if (bottom <= 0.0) return;
     const double shift = top / bottom;
+    // With a floor of 0.2 ms, so that a long record does not make a lag of next to nothing
+    // significant.
     found_.push_back(symptom("robot_lag", trial.name, -shift,
                              data_.deviation(SceneChannel::position) / std::sqrt(bottom) + 2.0e-4,
                              "s", {"robot_latency", "latency"}));
@@ -259,6 +308,8 @@ class Symptoms {
   }
 
   // Image residual as a small motion of the camera: two shifts, a turn and a scale.
+  // In the image and not in space: which motion of a camera makes them is a question of the fit,
+  // and not of what is seen.
   void image(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
              const Camera& camera) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
@@ -266,16 +317,19 @@ class Symptoms {
     int count = 0;
     for (long r = 0; r < samples.size(); ++r)
       for (long m = 0; 2 * m + 1 < samples.value.cols(); ++m) {
+        // About the centre of the lens, so that turn and scale do not make shifts.
         const Eigen::Vector2d at = model.row(r).segment<2>(2 * m).transpose() - camera.centre;
         const Eigen::Vector2d off =
             (samples.value.row(r) - model.row(r)).segment<2>(2 * m).transpose();
         if (!at.allFinite() || !off.allFinite()) continue;
         Eigen::Matrix<double, 2, 4> j;
+        // Derivatives of a small similarity: shift x, shift y, turn by a radian, and scale by one.
         j << 1, 0, -at.y(), at.x(), 0, 1, at.x(), at.y();
         normal += j.transpose() * j;
         right += j.transpose() * off;
         ++count;
       }
+    // Four numbers need more than four places, and places along one stem lie nearly on a line.
     if (count < 10) return;
     const Eigen::Vector4d fit = normal.ldlt().solve(right);
     const double error =
@@ -295,6 +349,7 @@ class Symptoms {
     for (long r = 0;
          r < trial.markers.size() && trial.markers.time[static_cast<std::size_t>(r)] < still; ++r)
       for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
+        // Markers on the arm are the business of lag().
         if (experiment_.markers[m].plant < 0) continue;
         const Vec3 d = (trial.markers.value.row(r) - model.markers.row(r))
                            .segment<3>(3 * static_cast<long>(m))
@@ -304,6 +359,8 @@ class Symptoms {
         ++count;
       }
     if (count < 3) return;
+    // A mean over markers: a bend moves them differently and averages out less than a shift, which
+    // is common to all.
     const Vec3 mean = sum / count;
     found_.push_back(symptom(
         "plant_shift", trial.name, mean.norm(),

@@ -15,14 +15,20 @@ constexpr std::size_t most_nearest = 3;
 
 Estimate estimate_of(const SceneFitResult& fit, int p) {
   const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+  // The interval is made in the unknown: a factor's is one by ratio and stays above zero.
   const double u = free.to_unknown(fit.model.value(p)), error = ninety_five * fit.standard_error[p];
   return {fit.model.value(p), free.to_value(u - error), free.to_value(u + error), free.unit};
 }
 
+// Sums of squares and of samples, so that kinds of readings and trials can be added before a root
+// is taken. A mean of roots would give a short trial the weight of a long one.
 struct Misfit {
   double square = 0.0;
   int count = 0;
+  // 1 is noise alone. Without samples nothing speaks against the model.
   double over_noise() const { return std::sqrt(count > 0 ? square / count : 1.0); }
+  // Each sample of noise costs 1 on average in every model, so only what is above that can be
+  // shared out.
   double beyond() const { return std::max(0.0, square - count); }
 };
 
@@ -37,11 +43,14 @@ class Conclusion {
         v_(diagnosis.verdict) {}
 
   void run() {
+    // Findings have no `bad_data` and no `numerical`: these end a diagnosis before anything is
+    // searched.
     using Of = SceneFindings::Outcome;
     v_.outcome = found_.outcome == Of::adequate    ? Outcome::adequate
                  : found_.outcome == Of::named     ? Outcome::named
                  : found_.outcome == Of::ambiguous ? Outcome::ambiguous
                                                    : Outcome::unknown;
+    // What follows these three only sorts what they have written, and adds words.
     set_errors();
     set_parameters();
     add_causes();
@@ -50,6 +59,8 @@ class Conclusion {
       std::ranges::stable_sort(v_.causes, std::ranges::greater{},
                                [](const NamedCause& one) { return one.share.fit.value_or(0.0); });
     // A material's number alone is a finding, too.
+    // The search counts causes only. A plant that is softer than its file says is no cause, but a
+    // user has to change the file.
     if (v_.outcome == Outcome::adequate && !v_.causes.empty()) v_.outcome = Outcome::named;
     if (v_.outcome == Outcome::unknown) tell_unknown();
     if (v_.outcome == Outcome::ambiguous) tell_next();
@@ -59,7 +70,10 @@ class Conclusion {
   Misfit misfit(const std::vector<SceneReadings>& readings, const std::vector<int>& trials) const {
     Misfit all;
     for (const int t : trials) {
+      // A diagnosis that was stopped may lack predictions of some trials.
       if (static_cast<std::size_t>(t) >= readings.size()) continue;
+      // By kind of reading. All count alike in noise units, which is the only unit that they have
+      // in common.
       for (const SceneDataSet::Sum& one : data_.sums(t, readings[static_cast<std::size_t>(t)])) {
         all.square += one.square;
         all.count += one.count;
@@ -79,12 +93,16 @@ class Conclusion {
     };
     v_.fit = of(d_.fit_trials);
     v_.check = of(d_.check_trials);
+    // Gains are told of held-out trials only: on fitted ones more numbers always gain.
     const Errors& judged = d_.check_trials.empty() ? v_.fit : v_.check;
     const auto gain = [&](double before) {
+      // Within 5 % of the noise there is nothing to gain, and the quotient would be one of chances.
       return before > 1.05 ? std::optional((before - *judged.extended) / (before - 1.0))
                            : std::nullopt;
     };
     if (!judged.nominal || d_.check_trials.empty()) return;
+    // Without a cause, refitted and extended are one model, and a gain of 0 would say that a cause
+    // failed.
     if (found_.explained()) v_.gain = gain(*judged.refitted);
     v_.gain_over_nominal = gain(*judged.nominal);
   }
@@ -94,9 +112,12 @@ class Conclusion {
     const SceneFitResult& model = found_.model();
     for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
       const int p = model.model.factor_on(name);
+      // A fit that was stopped before its first step has no errors yet.
       if (p < 0 || p >= model.standard_error.size()) continue;
       const Estimate factor = estimate_of(model, p);
       const effects::EffectDefinition* known = effects::find_effect(name);
+      // A factor is on all plants of a scene. With two files there are two moduli, and no single
+      // number to tell.
       const bool one = experiment_.plants.size() == 1 && known && known->material &&
                        experiment_.plants.front().file.material.*(known->material);
       if (!one) {
@@ -114,6 +135,8 @@ class Conclusion {
     if (found_.explained()) {
       for (const std::string& name : all.front().names)
         v_.causes.push_back(cause_of(all.front(), name));
+      // Under `ambiguous` all that may be it stand side by side. What is common to two rivals is
+      // named once, with the numbers of the better one.
       for (const std::size_t r : found_.rivals) {
         const SceneCandidate& rival = all[r];
         for (const std::string& name : rival.names)
@@ -122,12 +145,15 @@ class Conclusion {
             v_.causes.push_back(cause_of(rival, name));
       }
     } else if (found_.outcome == SceneFindings::Outcome::unknown) {
+      // Three, since the list is read by people who look for an idea. `competing` has all.
       for (std::size_t i = 0; i < std::min(most_nearest, all.size()); ++i) {
+        // By the cause that was added last: those before it stand in a candidate of their own.
         v_.nearest.push_back(cause_of(all[i], all[i].names.back()));
         v_.nearest.back().against =
             "it leaves " + io::format_number(all[i].excess, 3) + " noise units beyond the noise";
       }
     }
+    // Behind the best, in nats. Where nothing explains the data there is no best to be behind.
     for (std::size_t i = found_.explained() ? 1 : 0; i < all.size(); ++i)
       v_.competing.push_back(
           {joined_names(all[i].names), found_.explained() ? all[i].cost - all.front().cost : 0.0});
@@ -138,8 +164,12 @@ class Conclusion {
     const SceneFitResult& fit = candidate.fit;
     NamedCause cause;
     cause.name = name;
+    // Half a sum of squares is a log likelihood. The candidate's cost has the price of its numbers
+    // in it.
     cause.evidence = 0.5 * found_.baseline.sum.square - candidate.cost;
     std::vector<plant::Effect> without;
+    // The others keep their numbers: a change is what this cause makes in the model that is told,
+    // and nothing else.
     for (const plant::Effect& effect : fit.model.effects)
       if (effect.name != name) without.push_back(effect);
     for (int p = 0; p < fit.model.size(); ++p) {
@@ -147,6 +177,7 @@ class Conclusion {
       const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
       if (effect.name != name || p >= fit.standard_error.size()) continue;
       cause.parameters[free.name].push_back(estimate_of(fit, p));
+      // Which link, which camera: part of what was found, as much as its numbers.
       cause.words = effect.words;
     }
     const SceneEffectDefinition* known = find_scene_effect(name);
@@ -157,13 +188,17 @@ class Conclusion {
                     ": with it the misfit beyond the noise falls from " + before + " to " + left +
                     " noise units";
     // What is left without it: the baseline, where it is the only one.
+    // A share compares fits, since the others would take over a part of what is taken out. These
+    // fits exist already, so no new one is made.
     const bool alone = candidate.names.size() == 1;
     const SceneCandidate* other = nullptr;
     for (const SceneCandidate& one : found_.candidates)
       if (!alone && one.names.size() == 1 && one.names.front() != name &&
           std::ranges::find(candidate.names, one.names.front()) != candidate.names.end())
         other = &one;
+    // For the model that is told: predictions of the others were never made.
     if (&candidate == &found_.candidates.front()) {
+      // No fit without it exists. Held numbers give the largest share that it can have.
       set_share(cause, alone   ? d_.refitted
                        : other ? predict(other->fit.model.effects)
                                : predict(without));
@@ -173,6 +208,8 @@ class Conclusion {
   }
 
   // A number of the material, beside the causes.
+  // It stands in the model that is told as a free number of the baseline, and not as a candidate of
+  // the search.
   NamedCause material_cause(const std::string& name) {
     const SceneFitResult& model = found_.model();
     NamedCause cause;
@@ -182,7 +219,10 @@ class Conclusion {
     std::vector<plant::Effect> without;
     for (const plant::Effect& effect : d_.model)
       if (effect.name != name) without.push_back(effect);
+    // Not how much misfit it takes: a swing sees a ratio of numbers, and each of them takes all of
+    // it.
     cause.because = "the fitted factor leaves what is known of the file's own number";
+    // Simulated once, for the share and for the change.
     const std::vector<SceneReadings> left = predict(without);
     set_share(cause, left);
     set_change(cause, without, &left);
@@ -190,6 +230,7 @@ class Conclusion {
   }
 
   std::vector<SceneReadings> predict(const std::vector<plant::Effect>& effects) {
+    // All trials side by side, as the simulator likes it.
     SceneVariant variant{effects};
     std::vector<SceneSimulator::Request> requests;
     requests.reserve(experiment_.trials.size());
@@ -199,10 +240,15 @@ class Conclusion {
   }
 
   void set_share(NamedCause& cause, const std::vector<SceneReadings>& without) const {
+    // The misfit of the files' own model is the whole of which a share is told, so that shares of
+    // several causes can be compared.
     const auto share = [&](const std::vector<int>& trials) -> std::optional<double> {
       if (trials.empty()) return std::nullopt;
       const double nominal = misfit(d_.nominal, trials).beyond();
+      // A share of nothing is no number.
       if (nominal <= 0.0) return std::nullopt;
+      // A trial that fails without the cause has a misfit that says nothing but "far", and would
+      // make a share of thousands.
       return std::clamp(
           (misfit(without, trials).square - misfit(d_.extended, trials).square) / nominal, -1.0,
           1.0);
@@ -210,11 +256,14 @@ class Conclusion {
     cause.share = {share(d_.fit_trials), share(d_.check_trials)};
   }
 
+  // In units of the instruments, beside shares: a reader has a ruler and a scale, and no noise
+  // units.
   void set_change(NamedCause& cause, const std::vector<plant::Effect>& without,
                   const std::vector<SceneReadings>* known = nullptr) {
     const std::vector<SceneReadings> left = known ? *known : predict(without);
     double square[4] = {}, count[4] = {};
     const auto add = [&](int kind, double d) {
+      // What a camera does not see is NaN in both models or in one of them.
       if (!std::isfinite(d)) return;
       square[kind] += d * d;
       count[kind] += 1.0;
@@ -222,6 +271,7 @@ class Conclusion {
     for (std::size_t t = 0; t < left.size(); ++t) {
       const SceneReadings &a = d_.extended[t], &b = left[t];
       for (long i = 0; i < a.markers.size(); ++i) add(0, a.markers.data()[i] - b.markers.data()[i]);
+      // A wrench has three forces and then three moments.
       for (std::size_t w = 0; w < a.wrenches.size(); ++w)
         for (long c = 0; c < a.wrenches[w].cols(); ++c)
           for (long r = 0; r < a.wrenches[w].rows(); ++r)
@@ -232,8 +282,11 @@ class Conclusion {
     }
     const auto rms = [&](int kind, double per) -> std::optional<double> {
       if (count[kind] == 0.0) return std::nullopt;
+      // Squares were summed by component. Times the components of a vector this is the RMS of its
+      // length, which does not depend on the axes.
       return std::sqrt(per * square[kind] / count[kind]);
     };
+    // Pixels have two components, all others three.
     cause.change.marker = rms(0, 3.0);
     cause.change.force = rms(1, 3.0);
     cause.change.moment = rms(2, 3.0);
@@ -241,7 +294,10 @@ class Conclusion {
   }
 
   void tell_unknown() {
+    // What the refitted model leaves, since no other one is believed.
     const std::string left = io::format_number(found_.baseline_excess, 3);
+    // No force at one place of a plant: then it may be something that acts on the arm, or in
+    // several places.
     if (!found_.outside.found) {
       v_.remainder = left +
                      " noise units are left beyond the noise; no known cause and no force at one "
@@ -251,6 +307,8 @@ class Conclusion {
     const OutsideForce& force = found_.outside;
     OutsideAction action;
     action.position = force.position;
+    // The sentence leaves out the name where there is one plant. It is filled in after the sentence
+    // was made, so that the file has it in any case.
     if (experiment_.plants.size() > 1)
       action.plant = experiment_.plants[static_cast<std::size_t>(force.plant)].name;
     action.place = force.place;
@@ -266,6 +324,7 @@ class Conclusion {
     if (action.plant.empty() && !experiment_.plants.empty())
       action.plant = experiment_.plants.front().name;
     v_.unknown = action;
+    // Something outside is seen by eye sooner than by any further fit.
     v_.next_experiment = "Look at " + force.place.curve + " there while the trial is repeated";
   }
 
@@ -273,6 +332,8 @@ class Conclusion {
     for (const NamedCause& cause : v_.causes)
       if (const SceneEffectDefinition* known = find_scene_effect(cause.name))
         v_.next_experiment += (v_.next_experiment.empty() ? "" : "; or ") + known->tells_apart;
+    // Amplitude tells most look-alikes apart: contact, friction and soft joints grow with it in
+    // different ways.
     if (v_.next_experiment.empty())
       v_.next_experiment = "repeat the trial with the largest residual at twice its size";
   }

@@ -33,6 +33,8 @@ struct Look {
 constexpr int all_starts = std::numeric_limits<int>::max();
 
 // The better of two fits, by what fits minimise: what is known beforehand counts.
+// By cost alone a fit that runs a density far from what plants have would win against one that
+// keeps to it.
 void keep_better(FitSummary& best, FitSummary&& found) {
   if (best.why == "not run" || objective(found) < objective(best)) best = std::move(found);
 }
@@ -46,6 +48,8 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   // swing.
   options.horizon = budget.candidate_horizon;
   options.iterations = std::min(budget.first_iterations, options.iterations);
+  // Steps that gain less than a nat are given up: this is a ranking, and ranks are hundreds of nats
+  // apart where the base is far from the data.
   options.least_step = budget.rough_step;
   for (const Hypothesis& start : starts)
     keep_better(best, fit(evaluator, start, options, base.jacobian));
@@ -57,6 +61,7 @@ std::vector<int> first_by(const std::vector<double>& value, int count) {
   std::vector<int> order(value.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   std::ranges::stable_sort(order, [&](int a, int b) { return value[a] > value[b]; });
+  // Stable and by index: ties keep the order of the list of causes, whatever threads did.
   order.resize(std::min(static_cast<std::size_t>(count), order.size()));
   return order;
 }
@@ -66,6 +71,8 @@ struct Limits {
   const Budget* budget;
   double least = std::numeric_limits<double>::infinity();  // of those
   double base = 0.0;
+  // A fit is given up by how far it is behind in what can be gained at all, and never within
+  // `lost_by` nats, where a few more iterations may change the order.
   double at(double share) const {
     // Where nobody gains much yet, being behind tells nothing.
     if (base - least < budget->large_gain) return std::numeric_limits<double>::infinity();
@@ -97,6 +104,8 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
   const double most = limits.at(budget.lost_early);
   std::vector<FitSummary> found;
   std::vector<double> closeness;
+  // One simulation each before any derivative is taken. A fit from a start takes as many as it has
+  // numbers, in each iteration.
   const Scan scanned = scan(evaluator, starts, options);
   for (const Hypothesis& start : by_cost(starts, scanned)) {
     found.push_back(fit(evaluator, start, few, base.jacobian));
@@ -107,6 +116,7 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
   // Nor does a start go on that is as far behind the best start of its own cause.
   Limits own = limits;
   own.base = base.cost;
+  // Against the best of all causes first, and then against the cause's own best start.
   for (const FitSummary& one : found) own.least = std::min(own.least, one.cost);
   FitSummary best;
   for (const int i : first_by(closeness, look.leading)) {
@@ -115,6 +125,8 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
   }
   const std::array growing_horizons{0.5 * budget.candidate_horizon, budget.candidate_horizon, 1.0};
   // Dear, so only for a cause that may still win.
+  // A start that does worse than no cause at all is out of phase: in a long record its swing slips
+  // by whole periods, and each is a valley of its own. Over a short part it is not.
   if (best.cost <= most && scanned.cost[scanned.best] >= base.cost)
     keep_better(best, fit_growing(evaluator, starts[scanned.best], options, growing_horizons));
   return best;
@@ -130,6 +142,8 @@ void share_out(std::vector<Evaluator>& workers, int count, const RefitOptions& o
   std::atomic<int> next{0}, done{0};
   pool.for_each(static_cast<int>(workers.size()), [&](int worker) {
     for (int i = next++; i < count; i = next++) {
+      // Tasks that were not begun leave their candidates as "not run". Who asks takes these out
+      // later.
       if (options.stop && *options.stop) return;
       task(workers[worker], i);
       if (options.progress)
@@ -150,11 +164,14 @@ class Refits {
         directions_(directions),
         options_(options),
         budget_(options.fit.settings->budget),
+        // Of every cause the strongest of its directions. Scores are taken once about the base, and
+        // are all there is to go by before the first fit.
         score_(score_statistics(causes, directions)),
         samples_(workers.fine.front().data().samples(options.fit.trials)),
         candidates_(causes.size()) {}
 
   std::vector<Candidate> run() {
+    if (candidates_.empty()) return {};
     for (std::size_t i = 0; i < causes_.size(); ++i) candidates_[i].cause = causes_[i].name;
     // A base that misses the data is a bad place to be linear about: then short fits rank, else
     // scores do.
@@ -162,6 +179,8 @@ class Refits {
       fit_first_parts();
     else
       set_score_gains();
+    // Twice, by gain and by score: what either of them believes in gets a whole fit. A short record
+    // may hide a slow cause, and a score a strong one.
     choose_whole(score_);
     const std::string foremost_cause = std::ranges::max(candidates_, {}, &Candidate::gain).cause;
     for (Candidate& candidate : candidates_)
@@ -174,6 +193,8 @@ class Refits {
       if (candidates_[i].whole) whole.push_back(static_cast<int>(i));
     // A few iterations tell who is behind; only the leaders are worth the rest.
     std::ranges::stable_sort(whole, std::greater(), [&](int i) { return candidates_[i].gain; });
+    // The foremost are few and run first, without limits. All others then have a mark to be
+    // measured by, and most can be left early.
     const auto others =
         whole.begin() + std::min<std::ptrdiff_t>(budget_.foremost, std::ssize(whole));
     std::vector<int> first(whole.begin(), others), behind(others, whole.end());
@@ -183,6 +204,8 @@ class Refits {
     Limits limits{&budget_, base_.cost, base_.cost};
     for (const int i : first) limits.least = std::min(limits.least, candidates_[i].fit.cost);
     fit_whole(behind, limits, 0.4, 0.75);
+    // After all whole fits, since it starts from one of them, and before the leaders are chosen,
+    // since it may make one.
     extend_special_cases();
     const std::vector<int> near = leading(whole, budget_.lost_early);
     refit_coarse(near, budget_.whole_iterations, 0.75);
@@ -191,6 +214,7 @@ class Refits {
     std::erase_if(moving, [&](int i) { return candidates_[i].fit.converged; });
     refit_coarse(moving, options_.fit.iterations, 0.8);
     // Stopped before it was its turn: no candidate, rather than one with a cost of zero.
+    // Positions in the list are those of the causes up to here. Only now may candidates leave it.
     std::erase_if(candidates_, [](const Candidate& c) { return c.fit.why == "not run"; });
     std::vector<Candidate*> all;
     for (Candidate& candidate : candidates_)
@@ -212,10 +236,13 @@ class Refits {
     fitted_first_ = true;
     FitOptions early = options_.fit;
     early.horizon = budget_.candidate_horizon;
+    // The base over the same part of the records. Its cost over the whole would make every short
+    // fit look like a gain.
     const double early_cost =
         0.5 * coarse_.front().residuals(std::span(&base_.hypothesis, 1), early).squaredNorm();
     std::vector<std::size_t> starts(causes_.size(), 1);
     // A second start for those that the linear model believes in.
+    // Starts are dear here: all causes are tried, most of them in vain.
     for (const int i : first_by(score_, budget_.whole_candidates)) starts[i] = 2;
     std::vector<int> all(causes_.size());
     std::iota(all.begin(), all.end(), 0);
@@ -235,6 +262,7 @@ class Refits {
   // So that no worker waits for one long task at the end.
   void longest_first(std::vector<int>& chosen) const {
     const auto work = [&](int i) {
+      // About what a fit takes: a simulation for each of its numbers, from each of its starts.
       return causes_[i].starts.size() * (base_.hypothesis.size() + causes_[i].starts[0].size());
     };
     std::ranges::stable_sort(chosen, [&](int a, int b) { return work(a) > work(b); });
@@ -255,6 +283,7 @@ class Refits {
       candidates_[i].gain = 0.5 * score_[i] * score_[i];
       candidates_[i].fit.hypothesis = base_.hypothesis;
       candidates_[i].fit.hypothesis.add(causes_[i].starts.front());
+      // Not "not run": it has been judged, and stands at the end of the ranking as such.
       candidates_[i].fit.why = "not fitted: its directions score too little";
     }
   }
@@ -274,6 +303,8 @@ class Refits {
       return share_out(coarse_, count, options_, from, to,
                        [&](Evaluator& evaluator, int c) { task(evaluator, chosen[c]); });
     if (options_.progress) options_.progress(from);
+    // Fits that others do come back in the order of the list, as they would have been made here, so
+    // that a diagnosis is the same however it was shared out.
     std::vector<FitSummary> fits = fits_by(options_.parts, stage, count, [&](int c) {
       task(coarse_.front(), chosen[c]);
       return candidates_[chosen[c]].fit;
@@ -291,6 +322,7 @@ class Refits {
 
   void fit_whole(Evaluator& evaluator, int i, const Limits& limits) {
     const bool placed = has_place(causes_[i].starts.front());
+    // A place has to be moved along a narrow valley, each step of which is short.
     const FitOptions few = rough((placed ? 2 : 1) * budget_.whole_iterations);
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
@@ -310,6 +342,7 @@ class Refits {
                              placed ? Look{budget_.place_iterations, all_starts}
                                     : Look{budget_.size_iterations, budget_.size_starts},
                              limits);
+    // Sliding and twins refine a fit. They are dear, and do not save one that is lost.
     if (candidate.fit.cost > limits.at(budget_.lost_early) && back.empty()) return;
     candidate.fit = slide_along(evaluator, std::move(candidate.fit), few);
     // An anisotropy turned by a right angle says nearly the same; behind a ridge it may be better.
@@ -354,6 +387,8 @@ class Refits {
     std::vector<Hypothesis> found;
     Scan scanned;
     for (std::size_t i = 0; i < starts.size(); ++i) {
+      // The special case's own numbers are projected out of the change: what they could do by
+      // themselves is no gain of the general case.
       const auto residual = residuals.col(static_cast<Eigen::Index>(i));
       const Eigen::VectorXd change = projected_out(special.jacobian, residual - special.residual);
       const double gain =
@@ -366,6 +401,7 @@ class Refits {
   }
 
   Candidate* whole_one(const std::string& cause) {
+    // A short fit of a special case is no start: it would carry its errors over to the general one.
     for (Candidate& candidate : candidates_)
       if (candidate.cause == cause && candidate.whole && candidate.fit.why != "not run")
         return &candidate;
@@ -374,6 +410,7 @@ class Refits {
 
   // Whether it is too far behind the best one for the rest of its iterations to matter.
   bool is_lost(const Candidate& candidate, double early_or_late) const {
+    // A converged fit will get no better, and is held to the narrow limit at once.
     const double share = candidate.fit.converged ? budget_.lost_share : early_or_late;
     return candidate.fit.why == "not run" ||
            candidate.fit.cost >
@@ -407,6 +444,8 @@ class Refits {
   // Whether it may be near once the fine simulator has its say.
   bool could_be_near(const Candidate& candidate) const {
     const Candidate& best = candidates_.front();
+    // The coarse simulator is off by a share of what a cause explains, so nearness is also asked
+    // for as a share of the best gain.
     return is_near_the_best(candidate) ||
            best.evidence - candidate.evidence <= budget_.near_share * best.gain;
   }
@@ -427,6 +466,8 @@ class Refits {
       if (open.empty()) return;
       share_out(fine_, static_cast<int>(open.size()), options_, done(0.85), 1.0,
                 [&](Evaluator& evaluator, int i) {
+                  // Asked before the fit: afterwards the order may be another one, and then the
+                  // loop comes round again.
                   const bool to_the_end = is_near_the_best(*open[i]);
                   FitOptions options = options_.fit;
                   // A few iterations tell whether it comes near; most do not.
@@ -443,6 +484,8 @@ class Refits {
 
   void start_with_fine(Evaluator& evaluator, Candidate& candidate) const {
     const auto cause = std::ranges::find(causes_, candidate.cause, &Cause::name);
+    // A threshold just beyond the sharpest bend does nothing, and that bend is another one on a
+    // finer mesh. So it is looked for again before the fit goes on.
     candidate.fit.hypothesis =
         with_threshold_by(evaluator, candidate.fit.hypothesis, *cause, options_.fit);
   }
@@ -466,6 +509,8 @@ class Refits {
     FitOptions check = options_.fit;
     check.trials = options_.check_trials;
     if (kept_.empty()) {
+      // With the fine simulator for all: the base is compared with fits of both kinds, and is made
+      // once.
       base_held_out_ = held_out_model(fine_.front(), base_, check);
       // All keys before the threads begin: a map may not grow under them.
       for (const Candidate* candidate : changed) kept_[candidate->cause] = {};

@@ -27,8 +27,13 @@ std::vector<int> further_sizes(const Hypothesis& model) {
 }
 
 // Logarithm of the density at zero of some unknowns after the data over that before them.
+// Savage and Dickey's ratio: it is the evidence of the model without these numbers over that with
+// them, and takes no second fit. It holds where the numbers without them have the same prior, as
+// here.
 double density_ratio(const FitSummary& model, const Eigen::MatrixXd& information,
                      const std::vector<int>& unknowns) {
+  // The covariance of all, of which the part of the asked ones is then taken: that integrates the
+  // others out. The part of the information would hold them fixed.
   const Eigen::MatrixXd covariance =
       information.llt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
   const Eigen::VectorXd u = model.hypothesis.unknowns();
@@ -38,6 +43,7 @@ double density_ratio(const FitSummary& model, const Eigen::MatrixXd& information
   double before = 0.0;
   for (int i = 0; i < n; ++i) {
     away[i] = u[unknowns[i]];
+    // A prior of this width, normal about zero, is what the number was worth before any data.
     before += 2.0 * std::log(model.hypothesis.free[unknowns[i]].width());
     for (int j = 0; j < n; ++j) after(i, j) = covariance(unknowns[i], unknowns[j]);
   }
@@ -75,6 +81,7 @@ bool ends_at(const Candidate& candidate, const effects::Limit& limit,
              const DiagnosisSettings& settings) {
   const Hypothesis& model = candidate.fit.hypothesis;
   const int p = index_of(model, candidate.cause, limit.parameter);
+  // The cause has it fixed, and a fixed number cannot have run into its limit.
   if (p < 0) return false;
   const double bound = (limit.high ? model.high() : model.low())[p];
   return std::abs(model.unknowns()[p] - bound) < settings.evidence.limit_reach;
@@ -90,6 +97,8 @@ void find_limits(std::vector<Candidate>& candidates, const DiagnosisSettings& se
         if (to.cause != limit.becomes || !from.whole || !to.whole ||
             !ends_at(from, limit, settings))
           continue;
+        // By what the data say, and not by evidence: prices of numbers would decide between a cause
+        // and its own limit.
         const double less = said_by_data(to) - said_by_data(from);
         const bool goes_on = index_of(to.fit.hypothesis, to.cause, limit.parameter) >= 0;
         // Worse without it: then it was no mere limit.
@@ -103,6 +112,7 @@ void find_limits(std::vector<Candidate>& candidates, const DiagnosisSettings& se
 
 }  // namespace
 
+// Gains on fitted and held-out trials are both log likelihoods, and add up.
 double said_by_data(const Candidate& candidate) {
   return candidate.gain + candidate.held_out.gain;
 }
@@ -122,6 +132,7 @@ double least_gain_beside(const std::vector<Candidate>& found, const DiagnosisSet
 
 double least_cost(const std::vector<Candidate>& candidates, const FitSummary& base) {
   double least = base.cost;
+  // The least that any model leaves is the best that is known of the noise and of our own errors.
   for (const Candidate& candidate : candidates)
     if (candidate.whole && candidate.fit.why != "not run")
       least = std::min(least, candidate.fit.cost);
@@ -136,10 +147,14 @@ double dispersion_of(const std::vector<Candidate>& candidates, const FitSummary&
 
 void weigh(std::vector<Candidate>& candidates, const FitSummary& base, int samples,
            double dispersion, const DiagnosisSettings& settings) {
+  // The base's own numbers have a price, too, and one that a cause changes: what it makes uncertain
+  // becomes cheaper. So the difference counts, not the price of the added ones.
   const double cost = cost_of_numbers(base, dispersion);
   for (Candidate& candidate : candidates) {
     if (candidate.whole) {
       candidate.gain = (base.cost - candidate.fit.cost) / dispersion;
+      // A prior of one in so many for each: the more causes were tried, the easier it is that one
+      // fits by chance.
       candidate.evidence = candidate.gain - (cost_of_numbers(candidate.fit, dispersion) - cost) -
                            std::log(static_cast<double>(candidates.size())) +
                            candidate.held_out.gain;
@@ -168,6 +183,8 @@ double cost_of_numbers(const FitSummary& model, double dispersion) {
           2);
   }
   // Laplace: half the logarithm of how much the data narrow the prior down.
+  // In units of the prior's width each number has a prior of 1. Then the determinant of 1 + J^T J
+  // is what the data narrow it down by, and no unit is left in it.
   const Eigen::MatrixXd scaled = model.jacobian * width.asDiagonal() / std::sqrt(dispersion);
   const Eigen::MatrixXd narrowed = Eigen::MatrixXd::Identity(n, n) + scaled.transpose() * scaled;
   const Eigen::VectorXd values =

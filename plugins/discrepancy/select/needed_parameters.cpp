@@ -13,6 +13,8 @@ namespace {
 // At its nominal value for good.
 Hypothesis without(const Hypothesis& model, int parameter) {
   Hypothesis less = model;
+  // A factor of 1 is what the file says. Held there, it is no number any more, and the others make
+  // up for it as far as they can.
   less.set_value(parameter, 1.0);
   less.free.erase(less.free.begin() + parameter);
   return less;
@@ -27,6 +29,8 @@ bool is_refuted(Evaluator& evaluator, const NeededParameters& needed, FitOptions
   options.trials = check;
   const std::vector<Hypothesis> models{nominal, needed.model.hypothesis};
   const Scan found = scan(evaluator, models, options);
+  // Both as they are, without a refit to these trials: a refit would let the parameter explain them
+  // whatever it is.
   return found.cost[1] - found.cost[0] > options.settings->levels.clear_odds;
 }
 
@@ -41,6 +45,7 @@ std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& mode
   const int from = base.hypothesis.factor_on(other);
   if (from < 0) return {};
   Hypothesis instead = without(model.hypothesis, needed);
+  // As the base had it, with its bounds and what is known of it beforehand.
   instead.free.push_back(base.hypothesis.free[from]);
   // A free swing knows only the ratio of stiffness to mass.
   instead.set_value(instead.size() - 1, 1.0 / model.hypothesis.value(needed));
@@ -74,6 +79,7 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
                                    const std::vector<Cause>& causes, const FitOptions& options,
                                    const std::vector<int>& check) {
   const double deviations = options.settings->levels.needed_deviations;
+  // Of a number that is off by so many deviations the cost rises by half their square.
   const double needed_cost = 0.5 * deviations * deviations;
   NeededParameters needed;
   needed.model = base;
@@ -81,6 +87,8 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
   for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
     const int p = needed.model.hypothesis.factor_on(name);
     if (p < 0) continue;
+    // Refitted and not judged by standard errors: of two that do nearly the same, both have wide
+    // ones, and yet one of them is needed.
     FitSummary found = fit(evaluator, without(needed.model.hypothesis, p), options);
     // Backward elimination: what can be nominal is nominal from then on.
     if (found.cost - needed.model.cost > needed_cost)
@@ -92,6 +100,8 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
   const auto ask = [&](const std::vector<Hypothesis>& starts) {
     if (starts.empty()) return;
     FitSummary found = fit(evaluator, starts[scan(evaluator, starts, options).best], options);
+    // With what is known beforehand: a density that must be half of what plants have explains a
+    // swing, and is no explanation.
     const double behind = objective(found) - objective(needed.model);
     if (behind < options.settings->levels.clear_odds)
       needed.instead.push_back({std::move(found), behind});

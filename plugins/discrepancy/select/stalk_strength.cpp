@@ -13,7 +13,11 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Three and no more: a dozen breaks cannot tell an exponent of 2 from one of 2.3. An exponent that
+// is chosen from a list costs the logarithm of its length. A free one would cost half the logarithm
+// of the number of stalks.
 constexpr std::array exponents{1.0, 2.0, 3.0};
+// Times of steps are multiples of dt, and breaks are read from a file.
 constexpr double rounding = 1.0e-9;  // s
 
 double below(double deviations) {
@@ -26,17 +30,26 @@ bool is_broken(const StalkLoads& stalk) {
 
 // `borne`: the largest load before the window; `reached`: up to the break. What cannot be costs
 // much, not all: one break that was recorded wrongly must not refute a law.
+// Strength is log-normal about 1, in units of what the stalk bears: it is positive, and half and
+// twice are equally far. The probability of a break is that of a strength between what was borne
+// and what was reached; that of a stalk that held is that of a larger one than it bore.
 double log_likelihood(double borne, double reached, bool broke, double scatter,
                       const Evidence& weights) {
   const auto share = [&](double load) {
+    // Without a load there is no logarithm, and nothing breaks.
     return load > 0.0 ? below(std::log(load) / scatter) : 0.0;
   };
   const double probability = broke ? share(reached) - share(borne) : 1.0 - share(borne);
+  // Bounded from below: a logarithm of zero would leave the fit nowhere to go, and no other break
+  // could outweigh it.
   return std::log(std::max(probability, weights.impossible_break));
 }
 
 // Of a stalk's loads those that are the largest under some law: no other one is larger in force,
 // moment and torsion alike.
+// The Pareto front of the three loads. A law is monotonous in each of them, so its largest load is
+// on the front, whatever its scales and exponent are. Fits look at laws a thousand times, and a
+// trial has as many rows.
 std::vector<StalkNumbers> largest(const StalkLoads& stalk, double until) {
   const auto exceeds = [](const StalkNumbers& a, const StalkNumbers& b) {
     return a[stalk_force] >= b[stalk_force] && a[stalk_moment] >= b[stalk_moment] &&
@@ -45,6 +58,7 @@ std::vector<StalkNumbers> largest(const StalkLoads& stalk, double until) {
   std::vector<StalkNumbers> front;
   for (std::size_t row = 0; row < stalk.load.size() && stalk.time[row] <= until + rounding; ++row) {
     const StalkNumbers& load = stalk.load[row];
+    // An equal one counts as exceeded, so that a load that is held does not fill the front.
     if (std::ranges::any_of(front, [&](const auto& other) { return exceeds(other, load); }))
       continue;
     std::erase_if(front, [&](const auto& other) { return exceeds(load, other); });
@@ -53,12 +67,15 @@ std::vector<StalkNumbers> largest(const StalkLoads& stalk, double until) {
   return front;
 }
 
+// All that a fit needs of a stalk, without its trial.
 struct Reading {
   std::vector<StalkNumbers> borne, reached;
   bool broke = false;
 };
 
 Reading read(const StalkLoads& stalk, double window) {
+  // The window is the time between two looks: the break was some time in it. A stalk that held came
+  // off at infinity, and both are its whole trial.
   return {largest(stalk, stalk.came_off - window), largest(stalk, stalk.came_off),
           is_broken(stalk)};
 }
@@ -75,10 +92,13 @@ double log_likelihood(const BreakLaw& law, const Reading& reading, const Evidenc
 }
 
 // The unknowns are logarithms: of the scatter, then of the scales that take part.
+// Logarithms keep all of them positive without bounds, and make a factor of two one step
+// everywhere.
 class Likelihood : public ceres::FirstOrderFunction {
  public:
   Likelihood(const BreakLaw& start, std::vector<Reading> readings, const Evidence& weights)
       : start_(start), readings_(std::move(readings)), weights_(weights) {
+    // An infinite scale takes no part, and a law with fewer terms has fewer numbers to pay for.
     for (int i = 0; i < stalk_load_count; ++i)
       if (std::isfinite(start.scale[i])) terms_.push_back(i);
   }
@@ -95,6 +115,8 @@ class Likelihood : public ceres::FirstOrderFunction {
 
   BreakLaw law(const double* u) const {
     BreakLaw law = start_;
+    // Our own loads err by some per cent. Without that floor a few breaks that lie on one law by
+    // chance would make it certain.
     law.scatter = std::hypot(std::exp(u[0]), weights_.stalk_scatter);
     for (std::size_t k = 0; k < terms_.size(); ++k) law.scale[terms_[k]] = std::exp(u[k + 1]);
     return law;
@@ -107,7 +129,10 @@ class Likelihood : public ceres::FirstOrderFunction {
     // Keeps a scale that no break asks for, and a scatter that none bounds, within reason.
     double far = 0.0;
     const Eigen::VectorXd from = unknowns();
+    // Weak: a factor of e^4 costs half a nat. It only closes directions in which the likelihood is
+    // flat.
     for (int i = 0; i < NumParameters(); ++i) far += std::pow((u[i] - from[i]) / 4.0, 2);
+    // Ceres minimises, so the sign is turned.
     return 0.5 * far - sum;
   }
 
@@ -117,6 +142,8 @@ class Likelihood : public ceres::FirstOrderFunction {
     Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(u, NumParameters());
     for (int i = 0; i < NumParameters(); ++i) {
       const double middle = at[i];
+      // Differences: a likelihood of a maximum over a front has kinks where another load becomes
+      // the largest, and a formula for the slope would have to know of them.
       at[i] = middle + step;
       const double above = value(at.data());
       at[i] = middle - step;
@@ -126,6 +153,7 @@ class Likelihood : public ceres::FirstOrderFunction {
     return true;
   }
 
+  // Of a logarithm. Smaller ones drown in the difference of two error functions.
   static constexpr double step = 1.0e-4;
 
  private:
@@ -144,16 +172,19 @@ Maximum maximise(const Likelihood& likelihood) {
   Maximum found{likelihood.unknowns(), 0.0};
   ceres::GradientProblemSolver::Options options;
   options.logging_type = ceres::SILENT;
+  // Far more than a few unknowns take. The bound is for kinks, on which it may go to and fro.
   options.max_num_iterations = 100;
   // A copy is the problem's own.
   const ceres::GradientProblem problem(new Likelihood(likelihood));
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(options, problem, found.unknowns.data(), &summary);
+  // Computed again and not taken from the summary, since the last step may have been refused.
   found.cost = likelihood.value(found.unknowns.data());
   return found;
 }
 
 double median(std::vector<double> values) {
+  // The median: one stalk that came off by a knock does not move the start.
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
   return values[values.size() / 2];
 }
@@ -164,6 +195,7 @@ class LawFit {
   LawFit(std::vector<Reading> readings, const Evidence& weights)
       : readings_(std::move(readings)), weights_(weights) {
     for (int i = 0; i < stalk_load_count; ++i) {
+      // With a scale of 1 and nothing else the law's load is the load itself.
       BreakLaw alone;  // of the largest ratio
       alone.scale[i] = 1.0;
       std::vector<double> at_break;
@@ -180,12 +212,16 @@ class LawFit {
     int count = 0;
     for (int i = 0; i < 3; ++i)
       if (terms >> i & 1) {
+        // No stalk that broke bore any of it: the scale would be anything.
         if (typical_[stalk_force + i] <= 0.0) return {};
         start.scale[stalk_force + i] = typical_[stalk_force + i];
         ++count;
       }
     std::optional<FittedLaw> best;
     // Which of the terms carries most is not known beforehand.
+    // Each term once as the one that carries, 1.2 times its typical load, and once as one that
+    // matters little, at 3 times. A fit of three terms has as many valleys.
+    // Narrow and wide: from a wide scatter a fit may find a law, from a narrow one it sharpens it.
     for (int first = 0; first < std::max(1, count == 1 ? 1 : 1 << count); ++first)
       for (const double scatter : {0.05, 0.3}) {
         BreakLaw from = start;
@@ -193,6 +229,7 @@ class LawFit {
         for (int i = 0, k = 0; i < 3; ++i)
           if (terms >> i & 1) from.scale[stalk_force + i] *= (first >> k++ & 1) ? 3.0 : 1.2;
         const FittedLaw found = fit(from);
+        // By evidence, which for one set of terms is the likelihood but for a constant.
         if (!best || found.evidence > best->evidence) best = found;
       }
     return best;
@@ -203,13 +240,18 @@ class LawFit {
     const Maximum found = maximise(likelihood);
     FittedLaw fitted;
     fitted.law = likelihood.law(found.unknowns.data());
+    // Without the weak prior of the fit: models are compared by what they say of the events alone.
     for (const Reading& reading : readings_)
       fitted.likelihood += log_likelihood(fitted.law, reading, weights_);
     // Which exponent is one more choice among them.
     const double choices = likelihood.terms().size() > 1 ? std::log(double(exponents.size())) : 0.0;
+    // BIC (Schwarz 1978), with a stalk as a sample: breaks are the events, and rows of a trial are
+    // not independent.
     fitted.evidence = fitted.likelihood - choices -
                       0.5 * likelihood.NumParameters() * std::log(double(readings_.size()));
     set_errors(likelihood, found.unknowns, fitted);
+    // The likelihood takes each break as being anywhere in its window by itself. What is common to
+    // all breaks, such as a camera that always sees late, does not average out.
     for (const int term : likelihood.terms())
       fitted.error[term] = std::hypot(fitted.error[term], timing_error(fitted.law));
     return fitted;
@@ -218,8 +260,11 @@ class LawFit {
   /// Absent where no stalk that broke bore anything.
   std::optional<FittedLaw> best() const {
     std::optional<FittedLaw> best;
+    // Seven sets of force, moment and torsion, as bits.
     for (int terms = 1; terms < 8; ++terms)
       for (const double exponent : exponents) {
+        // A power of two: one bit. Of one term any exponent gives the same law, and it is counted
+        // once.
         const bool alone = (terms & (terms - 1)) == 0;
         if (alone && exponent != 2.0) continue;  // of one term it says nothing
         const std::optional<FittedLaw> found = fit(terms, exponent);
@@ -233,6 +278,7 @@ class LawFit {
   static void set_errors(const Likelihood& likelihood, const Eigen::VectorXd& at,
                          FittedLaw& fitted) {
     const int n = likelihood.NumParameters();
+    // Longer than the step of the gradient, whose own noise would else be all of the curvature.
     constexpr double step = 1.0e-2;
     Eigen::MatrixXd hessian(n, n);
     Eigen::VectorXd above(n), below_it(n);
@@ -245,6 +291,8 @@ class LawFit {
       likelihood.Evaluate(u.data(), &cost, below_it.data());
       hessian.col(i) = (above - below_it) / (2.0 * step);
     }
+    // Differences leave it a little unsymmetric. Directions that are flat get no error from here,
+    // and none is told of a scale that the data do not see.
     const Eigen::MatrixXd covariance =
         (0.5 * (hessian + hessian.transpose())).completeOrthogonalDecomposition().pseudoInverse();
     for (std::size_t k = 0; k < likelihood.terms().size(); ++k)
@@ -262,6 +310,7 @@ class LawFit {
       sum += 0.5 * std::log(most(law, reading.reached) / borne);
       ++count;
     }
+    // An even distribution of half-width a has the deviation a / sqrt(3).
     return count > 0 ? sum / count / std::sqrt(3.0) : 0.0;
   }
 
@@ -277,6 +326,8 @@ struct Against {
 };
 
 // Thresholds are known, and our loads right, to a common factor.
+// The plant file's thresholds are the model to beat, and not a model without any: they are what a
+// simulation would go on with.
 struct ThresholdModel {
   const Evidence* weights;
   double scatter, factor = 1.0;
@@ -284,6 +335,8 @@ struct ThresholdModel {
     return log_likelihood(factor * one.borne, factor * one.reached, one.broke, scatter, *weights);
   }
   double likelihood(const std::vector<Against>& all) const {
+    // A prior and no free number: thresholds that are 10 % off together are no finding. So a law
+    // must explain more than a common factor does.
     double sum = -0.5 * std::pow(std::log(factor) / weights->threshold_error, 2);
     for (const Against& one : all) sum += likelihood(one);
     return sum;
@@ -294,6 +347,8 @@ struct ThresholdModel {
 ThresholdModel likeliest(const std::vector<Against>& all, const Evidence& weights) {
   ThresholdModel best{&weights, weights.stalk_scatter};
   double most = best.likelihood(all);
+  // A grid, since there are two numbers only: it cannot end in a wrong valley, and it is what a law
+  // is compared with.
   for (double scatter = weights.stalk_scatter; scatter < 3.0; scatter *= 1.1)
     for (double factor = 0.7; factor < 1.45; factor *= 1.01) {
       const ThresholdModel tried{&weights, scatter, factor};
@@ -304,6 +359,8 @@ ThresholdModel likeliest(const std::vector<Against>& all, const Evidence& weight
 }
 
 // Each stalk by what the others say, with the terms and the exponent of the law found.
+// Each stalk by itself is left out, because a law with as many scales as breaks follows all of
+// them. Terms and exponent stay, so that each fit is short; the evidence has paid for their choice.
 double foretold_by_others(const BreakLaw& law, const std::vector<Reading>& readings,
                           const std::vector<Against>& thresholds, const Evidence& weights) {
   double gain = 0.0;
@@ -312,6 +369,8 @@ double foretold_by_others(const BreakLaw& law, const std::vector<Reading>& readi
     others.erase(others.begin() + i);
     std::vector<Against> without = thresholds;
     without.erase(without.begin() + i);
+    // Both sides are fitted to the same others: the thresholds, too, have a scatter and a factor
+    // that must not have seen the stalk.
     gain += log_likelihood(LawFit(others, weights).fit(law).law, readings[i], weights) -
             likeliest(without, weights).likelihood(thresholds[i]);
   }
@@ -320,12 +379,16 @@ double foretold_by_others(const BreakLaw& law, const std::vector<Reading>& readi
 
 }  // namespace
 
+// The p-norm of the ratios. Its value is linear in the load at fixed ratios, so strengths of
+// different laws are in one unit, and the sum to the p-th power of the effect's own law is 1
+// exactly where this is 1.
 double BreakLaw::load(const StalkNumbers& given) const {
   double result = 0.0;
   if (std::isinf(exponent)) {
     for (int i = 0; i < stalk_load_count; ++i) result = std::max(result, given[i] / scale[i]);
     return result;
   }
+  // Strains take part in thresholds only: the effect has no scale for them.
   for (const int i : {stalk_force, stalk_moment, stalk_torsion})
     result += std::pow(given[i] / scale[i], exponent);
   return std::pow(result, 1.0 / exponent);
@@ -342,11 +405,13 @@ BreakLaw break_law_of(const plant::PlantFile& plant, const plant::PlantFruit& fr
   BreakLaw law;
   const std::array limits{fruit.detach.stretch, fruit.detach.bend, fruit.detach.force,
                           fruit.detach.moment, fruit.detach.torsion};
+  // What the file leaves out stays infinite, and never breaks anything.
   for (int i = 0; i < stalk_load_count; ++i)
     if (limits[i]) law.scale[i] = *limits[i];
   for (const plant::Effect& effect : plant.effects) {
     const bool meant = !effect.place || effect.place->curve == fruit.place.curve;
     if (effect.name != "detachment_law" || !meant) continue;
+    // A law takes the place of all thresholds of its fruits, as it does in a simulation.
     law = BreakLaw();
     const std::array names{"force", "moment", "torsion"};
     for (int i = 0; i < 3; ++i)
@@ -360,10 +425,14 @@ BreakLaw break_law_of(const plant::PlantFile& plant, const plant::PlantFruit& fr
 }
 
 bool StalkStrength::needs_law() const {
+  // Both: evidence may come from one group of breaks, and foretelling alone may be a small gain by
+  // chance.
   return law && evidence > levels.outside_evidence && foretold > 0.0;
 }
 
 std::string StalkStrength::sentence() const {
+  // Of those that broke only. What held says nothing in this sentence of how far the thresholds are
+  // off.
   double least = std::numeric_limits<double>::infinity(), largest_load = 0.0;
   for (std::size_t i = 0; i < stalks.size(); ++i) {
     if (!is_broken(stalks[i])) continue;
@@ -371,6 +440,7 @@ std::string StalkStrength::sentence() const {
     least = std::min(least, load);
     largest_load = std::max(largest_load, load);
   }
+  // No threshold in the file, or none that these loads touch.
   if (largest_load == 0.0)
     return text("%g fruits came off, and by the plant file's thresholds none does.", broken);
   return text("%g fruits came off at %.2g", broken, least) +
@@ -408,14 +478,17 @@ StalkStrength judge_strength(std::vector<StalkLoads> stalks, std::vector<BreakLa
                        threshold.most(stalk, stalk.came_off), is_broken(stalk)});
     if (is_broken(stalk)) ++strength.broken;
   }
+  // A law has up to four numbers.
   if (strength.broken < settings.levels.broken_stalks) return strength;
   const ThresholdModel thresholds_at_best = likeliest(against, settings.evidence);
   strength.scatter = thresholds_at_best.scatter;
+  // One free number, the scatter. The factor has paid by its prior.
   const double without =
       thresholds_at_best.likelihood(against) - 0.5 * std::log(double(readings.size()));
   strength.law = LawFit(readings, settings.evidence).best();
   if (!strength.law) return strength;
   strength.evidence = strength.law->evidence - without;
+  // Only where it may be named: this takes a fit for each stalk.
   if (strength.evidence > settings.levels.outside_evidence)
     strength.foretold = foretold_by_others(strength.law->law, readings, against, settings.evidence);
   return strength;

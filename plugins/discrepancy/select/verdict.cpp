@@ -13,9 +13,13 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Ordered, so that keys stand in the file as the page of the manual lists them, and two verdicts
+// can be compared line by line.
 using Json = nlohmann::ordered_json;
 
 Json number(double value) {
+  // JSON has neither infinity nor NaN. An open end of an interval is null, and so is what was not
+  // measured: a reader must not take either for a zero.
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 Json number(const std::optional<double>& value) {
@@ -31,6 +35,8 @@ Json to_json(const Estimate& estimate) {
 
 // A vector's components stand in lists.
 Json to_json(const std::vector<Estimate>& estimates) {
+  // A single number stays a number. Readers that look for `value` of a modulus need not unpack a
+  // list.
   if (estimates.size() == 1) return to_json(estimates.front());
   Json value = Json::array(), low = Json::array(), high = Json::array();
   for (const Estimate& estimate : estimates) {
@@ -41,23 +47,30 @@ Json to_json(const std::vector<Estimate>& estimates) {
   return {{"value", value}, {"low", low}, {"high", high}, {"unit", estimates.front().unit}};
 }
 
+// Every size carries its unit, because changes of markers, forces and pixels stand side by side.
 Json sized(double value, const std::string& unit) {
   return {{"value", number(value)}, {"unit", unit}};
 }
 
 Json to_json(const NamedCause& cause) {
+  // An object even where it is empty: null would say that nobody looked.
   Json parameters = Json::object();
   for (const auto& [name, estimates] : cause.parameters) parameters[name] = to_json(estimates);
   Json json = {{"name", cause.name}, {"parameters", parameters}};
+  // The key is always there, also without a place: a reader can tell "everywhere" from "forgotten".
   json["where"] = nullptr;
   if (cause.where) json["where"] = {{"curve", cause.where->curve}, {"at", cause.where->at}};
+  // Words that say where are part of `where`, whatever kind of thing they name.
   for (const char* key : {"plant", "fruit", "link", "joint", "camera", "wrench", "marker"})
     if (const auto word = cause.words.find(key); word != cause.words.end())
       json["where"][key] = word->second;
+  // All words once more beside it, since some say no place: in which trial a grip slipped, from
+  // which shape a relaxation counts.
   for (const auto& [key, word] : cause.words) json[key] = word;
   json["because"] = cause.because;
   json["evidence"] = number(cause.evidence);
   json["share"] = {{"fit", number(cause.share.fit)}, {"check", number(cause.share.check)}};
+  // Only what was measured. A change of 0 N would say that a force was looked at.
   json["change"] = Json::object();
   if (cause.change.marker) json["change"]["marker"] = sized(*cause.change.marker, "m");
   if (cause.change.force) json["change"]["force"] = sized(*cause.change.force, "N");
@@ -91,6 +104,8 @@ Json to_json(const Vec3& vector) {
   return {number(vector.x()), number(vector.y()), number(vector.z())};
 }
 
+// The place stands twice, in the world and on a curve: the one is for a hand, the other for a
+// model.
 Json to_json(const OutsideAction& action) {
   return {{"position", to_json(action.position)},  {"plant", action.plant},
           {"curve", action.place.curve},           {"at", number(action.place.at)},
@@ -106,6 +121,7 @@ Json to_json(const Errors& errors) {
 
 std::string short_number(double value) {
   char text[32];
+  // Three digits: more than the intervals of a fit leave, and few enough to be read in a sentence.
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
 }
@@ -113,6 +129,7 @@ std::string short_number(double value) {
 }  // namespace
 
 std::string to_string(Outcome outcome) {
+  // Without a default, so that the compiler names what a new outcome forgets.
   switch (outcome) {
     case Outcome::adequate:
       return "adequate";
@@ -131,6 +148,7 @@ std::string to_string(Outcome outcome) {
 }
 
 int exit_code(Outcome outcome) {
+  // The order of the enumeration is that of the exit codes 10 to 14, which scripts rely on.
   return outcome == Outcome::adequate ? exit_ok : exit_cause_named - 1 + static_cast<int>(outcome);
 }
 
@@ -153,12 +171,14 @@ std::string to_json(const Verdict& verdict) {
                {"causes", to_json(verdict.causes)},
                {"details", to_json(verdict.details)},
                {"nearest", to_json(verdict.nearest)},
+               // `rivals` is the format's word for the competing models of the code.
                {"rivals", competing},
                {"parameters", parameters},
                {"ratios", ratios},
                {"error",
                 {{"fit", to_json(verdict.fit)},
                  {"check", to_json(verdict.check)},
+                 // 1 is noise alone, and that is the best that any model can do.
                  {"unit", "rms residual over the noise floor"}}},
                {"gain", number(verdict.gain)},
                {"gain_over_nominal", number(verdict.gain_over_nominal)},
@@ -170,14 +190,20 @@ std::string to_json(const Verdict& verdict) {
                {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
                {"simulations", verdict.simulations},
                {"seconds", number(verdict.seconds)}};
+  // Absent where they do not apply: the manual says so of these keys, in place of null.
   if (verdict.unknown) json["unknown"] = to_json(*verdict.unknown);
+  // Only a scene has one.
   if (!verdict.extended_scene.empty()) json["extended_scene"] = verdict.extended_scene;
   if (!verdict.symptoms.empty()) json["symptoms"] = to_json(verdict.symptoms);
+  // Said only where it is so, since a reader that does not know the key must not take a whole
+  // verdict for a part.
   if (verdict.partial) json["partial"] = true;
   return json.dump(2);
 }
 
 std::string said_name(const NamedCause& cause) {
+  // Both names: the plain one is for people, and the one in brackets is what a file or a search
+  // takes.
   return (cause.plain.empty() ? effects::plain_name(cause.name) : cause.plain) + " (" + cause.name +
          ")";
 }
@@ -186,6 +212,8 @@ namespace {
 
 // "-x", or "(0.7, 0.7, 0)" where it is along no axis.
 std::string direction_text(const Vec3& direction) {
+  // A force found in data is not known to a degree. Three decimals of a direction would promise
+  // that.
   constexpr double near = 0.94;  // within 20 degrees
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(direction[axis]) > near)
@@ -197,8 +225,13 @@ std::string direction_text(const Vec3& direction) {
 
 }  // namespace
 
+// "Holds", and not "pushes": a force with a course of its own is mostly a string, a hand or another
+// plant, and the direction says where it is drawn to.
 std::string outside_sentence(const OutsideAction& action) {
+  // To millimetres, and times to hundredths of a second: places are tried 45 mm apart, and refined
+  // little beyond that.
   const auto rounded = [](double x) { return short_number(std::round(1000.0 * x) / 1000.0); };
+  // Where there is one plant only, its name says nothing.
   return "Something holds " + action.place.curve +
          (action.plant.empty() ? "" : " of " + action.plant) + " at (" +
          rounded(action.position.x()) + ", " + rounded(action.position.y()) + ", " +
@@ -208,12 +241,16 @@ std::string outside_sentence(const OutsideAction& action) {
 }
 
 std::string share_removed(double gain) {
+  // A gain may be a little above 1, where the model does by chance better than the noise. "101 %"
+  // would be no share.
   return gain > 0.995 ? "all" : short_number(100.0 * gain) + " %";
 }
 
 namespace {
 
 std::string percent(double share) {
+  // For the same reason. Shares of several causes need not add up to 1, since one may stand in for
+  // another.
   return short_number(100.0 * std::min(share, 1.0)) + " %";
 }
 
@@ -221,15 +258,23 @@ std::string percent(double share) {
 std::string said(const NamedCause& cause) {
   const effects::EffectDefinition* known = effects::find_effect(cause.name);
   const auto factor = cause.parameters.find("factor");
+  // A number of the material is said as what it means, softer or heavier. "youngs_modulus, factor
+  // 0.72" is for the file.
   if (known && known->material && factor != cause.parameters.end()) {
+    // The value alone: its interval is in the file, and a sentence with both is not read to its
+    // end.
     const double times = factor->second.front().value;
     const std::string& word = times < 1.0 ? known->less : known->more;
+    // Beyond twice as much, per cent are read wrongly: "250 % stiffer" is 3.5 times for some and
+    // 2.5 times for others.
     return "the plant is " +
            (times < 2.0 ? short_number(100.0 * std::abs(times - 1.0)) + " % " + word
                         : short_number(times) + " times as much " + word) +
            " than the file says (" + cause.name + ")";
   }
+  // What sits at the root has only one place to be, and need not say it.
   std::string place;
+  // A marker is a better place than a number along a curve: people see it.
   if (const auto marker = cause.words.find("marker"); marker != cause.words.end())
     place = " at " + marker->second;
   else if (cause.where && known && known->home != effects::Home::base)
@@ -237,6 +282,8 @@ std::string said(const NamedCause& cause) {
   return said_name(cause) + place;
 }
 
+// In mm and N, as people measure: shares say how much of a misfit, which is nothing to hold a ruler
+// to.
 std::string changed(const NamedCause& cause) {
   std::string text;
   if (cause.change.marker) text = short_number(1.0e3 * *cause.change.marker) + " mm";
@@ -251,12 +298,17 @@ std::string capital(std::string sentence) {
 }
 
 // What explains most in words of size, then what stands beside it.
+// The first sentence is the one that is read. So it has the largest cause, its size and its share,
+// and all else comes after it.
 std::string named(const Verdict& verdict, const std::string& names, const std::string& gain) {
   const NamedCause& first = verdict.causes.front();
   // Without a misfit to share, or for a law of breaking, there is nothing but the name.
+  // A law of breaking changes when fruits come off, and no sample of a marker: it has no share of a
+  // misfit.
   if (!first.share.fit) return "The data show " + names + (gain.empty() ? "" : "; " + gain) + ".";
   std::string text = capital(said(first)) + ": this explains " + percent(*first.share.fit) +
                      " of the misfit" + (gain.empty() ? "" : "; " + gain) + ".";
+  // In the order of their shares, as they were sorted.
   for (std::size_t c = 1; c < verdict.causes.size(); ++c) {
     const NamedCause& other = verdict.causes[c];
     text += " Beside it " + said(other) +
@@ -265,6 +317,8 @@ std::string named(const Verdict& verdict, const std::string& names, const std::s
   return text;
 }
 
+// Said although too small to matter: a reader who knows of the thing would else think that it was
+// missed.
 std::string details(const Verdict& verdict) {
   std::string text;
   for (const NamedCause& cause : verdict.details) {
@@ -275,7 +329,9 @@ std::string details(const Verdict& verdict) {
 }
 
 // A refit that does worse than the file where it was not fitted is the first thing to know.
+// Both numbers are told, since a reader may want to keep the file's own constants.
 std::string refit_that_misleads(const Verdict& verdict) {
+  // Only on held-out trials can it be seen. On those that were fitted a refit is never worse.
   if (!verdict.refit_misleads) return "";
   return "Refitted to some trials the model is worse in the held-out ones than as the file says (" +
          short_number(*verdict.check.refitted) + " times the noise in place of " +
@@ -286,13 +342,17 @@ std::string finding(const Verdict& verdict) {
   std::string names;
   for (const NamedCause& cause : verdict.causes) {
     const bool last = &cause == &verdict.causes.back();
+    // Several causes are there together; of several explanations one is right.
     const std::string joint = verdict.outcome == Outcome::ambiguous ? " or " : " and ";
     names += (names.empty() ? "" : last ? joint : ", ") + said_name(cause);
   }
+  // On trials held out, because on those that were fitted more numbers always remove more.
   const std::string gain = verdict.gain ? "it removes " + share_removed(*verdict.gain) +
                                               " of the error above the noise on held-out trials"
                                         : "";
   switch (verdict.outcome) {
+    // Not "nothing is wrong": only what these data could show was looked for, and `could_hide` says
+    // what they could not.
     case Outcome::adequate:
       return "The model explains these data down to their noise." + details(verdict);
     case Outcome::named:
@@ -302,7 +362,10 @@ std::string finding(const Verdict& verdict) {
              details(verdict);
     case Outcome::unknown: {
       std::string beside;
+      // Something unknown may stand beside known things that are certain. These are still of use.
       for (const NamedCause& cause : verdict.causes) beside += " Beside it " + said(cause) + ".";
+      // A model that misses something it cannot name is wrong by an unknown amount wherever it was
+      // not measured.
       return "Something is missing that none of the known causes explains." +
              (verdict.unknown ? " " + outside_sentence(*verdict.unknown) : "") + beside +
              " Do not extrapolate.";
@@ -318,8 +381,11 @@ std::string finding(const Verdict& verdict) {
 }  // namespace
 
 std::string headline(const Verdict& verdict) {
+  // Before the finding: it says that the refitted numbers must not be used.
   const std::string first = refit_that_misleads(verdict);
   if (!verdict.partial) return first + finding(verdict);
+  // Cut short, `unknown` only says that nothing was concluded yet. The usual sentence would claim
+  // that all known causes were tried in vain.
   return "Cut short, so this is what is known: " + first +
          (verdict.outcome == Outcome::unknown ? verdict.remainder + "." : finding(verdict));
 }

@@ -23,6 +23,8 @@ struct FreeSwing {
 };
 
 // The channel that swings most of the trial's longest free stretch that is evenly sampled.
+// One channel is enough: all markers swing at the plant's own frequencies, and the one that swings
+// most tells them best.
 std::optional<FreeSwing> free_swing(const SymptomContext& context, int t) {
   const Trial& trial = context.trial(t);
   const std::vector<double>& time = trial.markers.time;
@@ -31,12 +33,15 @@ std::optional<FreeSwing> free_swing(const SymptomContext& context, int t) {
   double most = 0.0;
   for (const Span& span : spans_of(trial)) {
     if (!span.free) continue;
+    // After the jump itself, whose sample may be of either side.
     const auto from = std::ranges::lower_bound(time, span.from + 1e-9) - time.begin();
     const auto to = std::ranges::lower_bound(time, span.to - 1e-9) - time.begin();
     const auto n = to - from;
     if (n < least_samples) continue;
     const double dt = (time[to - 1] - time[from]) / static_cast<double>(n - 1);
     bool even = true;
+    // A fit of oscillations counts samples and not seconds, and so does the filter of the noise.
+    // Two per cent are let pass, as time stamps are rounded.
     for (auto i = from + 1; i < to; ++i)
       even = even && std::abs(time[i] - time[i - 1] - dt) < 0.02 * dt;
     if (!even) continue;
@@ -45,8 +50,11 @@ std::optional<FreeSwing> free_swing(const SymptomContext& context, int t) {
       Series simulated = predicted.col(c).segment(from, n);
       const double spread = (simulated.array() - simulated.mean()).matrix().squaredNorm();
       const auto missing = std::ranges::count_if(measured, [](double x) { return std::isnan(x); });
+      // By the simulated motion, since a marker that was measured wrongly may scatter most.
       if (spread <= most || missing > n / 4) continue;
       most = spread;
+      // Gaps on both sides: what a fit gets wrong because of a gap is then the same for both, and
+      // cancels in the difference.
       for (Eigen::Index i = 0; i < n; ++i)
         if (std::isnan(measured[i])) simulated[i] = measured[i];
       best = {t, c, dt, std::move(measured), std::move(simulated)};
@@ -57,6 +65,7 @@ std::optional<FreeSwing> free_swing(const SymptomContext& context, int t) {
 }
 
 /// The same fit of both sides.
+/// Never the model's own modes against a fit: both are fits to the same samples by the same code.
 struct Pair {
   OscillationFit measured, simulated;
 };
@@ -64,19 +73,26 @@ struct Pair {
 // Whether a mode is there, over the record as a whole: an amplitude at its start alone may be an
 // extrapolation of nothing.
 bool stands_out(const OscillationFit& fit, int mode, const FreeSwing& swing, const Noise& noise) {
+  // One mode over the whole record, as it stands beside the others in the fit.
   OscillationFit alone;
   alone.modes = {fit.modes[mode]};
   const Series values = values_of(alone, swing.measured.size(), swing.dt);
+  // Three conditions. In all it is beyond noise, at its largest it is more than one sample's noise,
+  // and it swings at all.
   return values.norm() > least_amplitude * noise.std &&
          values.lpNorm<Eigen::Infinity>() > noise.std && fit.modes[mode].damping_ratio() < 0.5;
 }
 
 std::optional<Pair> fit_both(const FreeSwing& swing, const Noise& noise,
                              std::span<const Oscillation> start) {
+  // The simulated side first, which has no noise: from there the measured one starts in the right
+  // valley.
   const auto simulated = fit_oscillations(swing.simulated, swing.dt, noise, start);
   if (!simulated) return std::nullopt;
+  // With the same noise: it only weighs the samples, and both must be weighed alike.
   auto measured = fit_oscillations(swing.measured, swing.dt, noise, simulated->modes);
   if (!measured) return std::nullopt;
+  // A short record tells a frequency and hardly a damping.
   for (int m = 0; m < static_cast<int>(start.size()); ++m)
     if (!stands_out(*simulated, m, swing, noise) || !stands_out(*measured, m, swing, noise) ||
         measured->damping_error(m) > worst_damping)
@@ -91,10 +107,12 @@ FreeSwing part(const FreeSwing& swing, Eigen::Index from, Eigen::Index samples) 
 
 Measured frequency_change(const Pair& pair) {
   const double f = pair.simulated.modes[0].frequency();
+  // The error is that of the measured side alone: the simulated one has no noise.
   return {pair.measured.modes[0].frequency() / f - 1.0, pair.measured.frequency_error(0) / f};
 }
 
 Measured damping_change(const Pair& pair) {
+  // A difference and no ratio, as a model may have hardly any damping.
   return {pair.measured.modes[0].damping_ratio() - pair.simulated.modes[0].damping_ratio(),
           pair.measured.damping_error(0)};
 }
@@ -103,6 +121,7 @@ std::string hertz(const OscillationFit& fit) {
   return short_number(fit.modes[0].frequency()) + " Hz";
 }
 
+// The series as it was fitted, with its gaps: who doubts the numbers looks here first.
 SymptomPlot swing_plot(const SymptomContext& context, const FreeSwing& swing) {
   const std::string& marker = context.experiment.markers[swing.column / 3].name;
   SymptomPlot plot{
@@ -121,9 +140,12 @@ SymptomPlot swing_plot(const SymptomContext& context, const FreeSwing& swing) {
 void add_main_mode(const SymptomContext& context, const FreeSwing& swing, const Pair& pair,
                    std::vector<Symptom>& out) {
   const std::string& trial = context.trial(swing.trial).name;
+  // As a share for the frequency, whose square is a stiffness, and as a difference for the damping.
   const Measured f = frequency_change(pair), z = damping_change(pair);
   Symptom frequency = make_symptom("frequency", trial, 100.0 * f.value, 100.0 * f.error);
   frequency.unit = "%";
+  // In per cent. Our own error is of that size: the first frequency of a beam of 20 elements is off
+  // by 0.13 %.
   frequency.least = 0.1;
   frequency.sentence = "Left alone in " + named_trial(trial) + " the plant swings at " +
                        hertz(pair.measured) + ", the model at " + hertz(pair.simulated) + " (" +
@@ -141,12 +163,15 @@ void add_main_mode(const SymptomContext& context, const FreeSwing& swing, const 
   out.push_back(std::move(damping));
 }
 
+// Both sides in one plot: what the model's own nonlinearity does is no finding, and is to be seen
+// beside it.
 SymptomPlot amplitude_plot(const std::string& title, const std::string& label, const Pair& large,
                            const Pair& small, double (*number)(const Oscillation&)) {
   SymptomPlot plot{title,
                    "amplitude at the start of the half record (mm)",
                    label,
                    {{"measured", {}, {}, true}, {"simulated", {}, {}, true}}};
+  // By amplitude from the left, as the axis runs.
   for (const Pair* pair : {&small, &large})
     for (int side = 0; side < 2; ++side) {
       const Oscillation& o = (side == 0 ? pair->measured : pair->simulated).modes[0];
@@ -157,23 +182,31 @@ SymptomPlot amplitude_plot(const std::string& title, const std::string& label, c
 }
 
 // The first half of a record swings widely, the second a little.
+// Two halves of one swing, and not two trials: everything else, the grip and the load above all, is
+// the same in both.
 void add_by_amplitude(const SymptomContext& context, const FreeSwing& swing, const Pair& whole,
                       std::vector<Symptom>& out) {
   const Eigen::Index half = swing.measured.size() / 2;
+  // A half needs periods of its own for a frequency of its own.
   const double periods = half * swing.dt * whole.simulated.modes[0].frequency();
   if (half < least_samples || periods < least_periods) return;
   const Noise& noise = context.data.position_noise();
+  // Each half is compared with the model's same half: what an exponential does to a fit of a law
+  // that is none is then in both.
   const auto large = fit_both(part(swing, 0, half), noise, whole.simulated.modes);
   const auto small = fit_both(part(swing, half, half), noise, whole.simulated.modes);
+  // A swing that dies out within the first half leaves none to compare with.
   if (!large || !small) return;
   const std::string& trial = context.trial(swing.trial).name;
   const auto difference = [&](const std::string& name, Measured a, Measured b, double scale) {
+    // The halves share no sample, so their errors are independent.
     return make_symptom(name, trial, scale * (a.value - b.value),
                         scale * std::hypot(a.error, b.error));
   };
   Symptom f = difference("frequency_by_amplitude", frequency_change(*large),
                          frequency_change(*small), 100.0);
   f.unit = "%";
+  // In per cent: twice what counts for one frequency, since it is a difference of two.
   f.least = 0.2;
   f.sentence =
       "In " + named_trial(trial) + " the plant's frequency changes from wide to narrow swings by " +
@@ -184,6 +217,7 @@ void add_by_amplitude(const SymptomContext& context, const FreeSwing& swing, con
   Symptom z =
       difference("damping_by_amplitude", damping_change(*large), damping_change(*small), 1.0);
   z.unit = "1";
+  // Twice that of one damping ratio, for the same reason.
   z.least = 2e-3;
   z.sentence = "In " + named_trial(trial) +
                " wide swings are damped more than narrow ones by a damping ratio " +
@@ -200,21 +234,28 @@ void add_by_amplitude(const SymptomContext& context, const FreeSwing& swing, con
 void add_second_mode(const SymptomContext& context, const FreeSwing& swing, const Pair& whole,
                      std::vector<Symptom>& out) {
   const Noise& noise = context.data.position_noise();
+  // Looked for in what the first mode leaves of the simulated side, where no noise makes a peak.
   const Series left =
       swing.simulated - values_of(whole.simulated, swing.simulated.size(), swing.dt);
   const auto higher = higher_oscillation(left, swing.dt, whole.simulated.modes[0].w);
   if (!higher) return;
+  // Both are fitted together from here on: the first mode alone had taken a part of the second.
   const Oscillation start[] = {whole.simulated.modes[0], *higher};
   const auto both = fit_both(swing, noise, start);
   if (!both) return;
   const auto ratio = [](const OscillationFit& fit) {
+    // A ratio, because it tells laws apart whatever their size is. With mass it falls as 1 over the
+    // frequency, with stiffness it rises with it.
     return fit.modes[1].damping_ratio() / fit.modes[0].damping_ratio();
   };
+  // The error of a quotient, to first order. Both modes are of one fit, but their frequencies are
+  // far apart, and their errors hardly correlated.
   const double z1 = both->measured.modes[0].damping_ratio();
   const double r = ratio(both->measured), model = ratio(both->simulated);
   const double error =
       std::hypot(both->measured.damping_error(1), r * both->measured.damping_error(0)) /
       std::abs(z1);
+  // Turned round, so that a ratio to no damping at all ends here.
   if (!(error < 0.5 * std::max(std::abs(r), std::abs(model)))) return;
   const std::string& trial = context.trial(swing.trial).name;
   Symptom symptom = make_symptom("damping_by_mode", trial, r - model, error);
@@ -236,11 +277,14 @@ void add_oscillation_symptoms(const SymptomContext& context, std::vector<Symptom
   for (int t = 0; t < context.trials(); ++t) {
     if (!context.usable(t)) continue;
     const auto swing = free_swing(context, t);
+    // A plant that is moved throughout is nowhere left to itself.
     if (!swing) continue;
+    // A trial whose model does not swing has nothing to be compared.
     const auto start = main_oscillation(swing->simulated, swing->dt);
     if (!start) continue;
     const auto whole = fit_both(*swing, context.data.position_noise(), std::span(&*start, 1));
     if (!whole) continue;
+    // The main mode first. What the others tell is beside it, and needs it.
     add_main_mode(context, *swing, *whole, out);
     add_by_amplitude(context, *swing, *whole, out);
     add_second_mode(context, *swing, *whole, out);

@@ -8,6 +8,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 // Samples after which noise of any correlation that the model allows has forgotten its past.
+// Impulse responses of an autoregressive process never end. They are cut here.
 constexpr int memory = 400;
 
 // Of the scaled information: below it an unknown is left open.
@@ -31,6 +32,8 @@ Projection::Projection(int unknowns)
 void Projection::add(const Series& residual, const Eigen::MatrixXd& regressors, const Noise& noise,
                      Constant constant) {
   Series r = residual;
+  // A gap on one side is a gap on both: the filter must start afresh at the same sample for all
+  // columns, or they would not be whitened alike.
   for (Eigen::Index i = 0; i < r.size(); ++i)
     if (!regressors.row(i).allFinite()) r[i] = std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd white = whiten(r, noise);
@@ -40,15 +43,22 @@ void Projection::add(const Series& residual, const Eigen::MatrixXd& regressors, 
     return whiten(column, noise);
   };
   Eigen::MatrixXd x(regressors.rows(), regressors.cols());
+  // Aitken: residual and regressors go through the same filter. Then ordinary least squares of the
+  // results has the least error, and its covariance is right.
   for (Eigen::Index c = 0; c < x.cols(); ++c) x.col(c) = with_gaps(regressors.col(c));
   if (constant == Constant::free) {
+    // A constant is no constant any more once it is whitened: after each gap the filter starts
+    // afresh, and makes another number of it.
     const Eigen::VectorXd one = with_gaps(Series::Ones(r.size()));
     take_out(one, white);
     for (auto column : x.colwise()) take_out(one, column);
+    // It has taken one degree of freedom with it.
     --samples_;
   }
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     if (!std::isfinite(white[i])) continue;
+    // Channels are added up and never kept: an experiment has many, and a projection has few
+    // unknowns.
     information_ += x.row(i).transpose() * x.row(i);
     right_ += x.row(i).transpose() * white[i];
     squares_ += white[i] * white[i];
@@ -58,7 +68,10 @@ void Projection::add(const Series& residual, const Eigen::MatrixXd& regressors, 
 
 bool Projection::solve(Result& result) const {
   const Eigen::VectorXd size = information_.diagonal().cwiseSqrt();
+  // A regressor that is zero everywhere leaves its unknown open.
   if (size.size() == 0 || !(size.minCoeff() > 0.0) || samples_ <= size.size()) return false;
+  // Unknowns are of different units, seconds and shares. Scaled to a diagonal of 1 the eigenvalues
+  // say how far the columns are alike, and nothing of units.
   const Eigen::VectorXd scale = size.cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information_ * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
@@ -69,8 +82,11 @@ bool Projection::solve(Result& result) const {
   result.covariance = scale.asDiagonal() * inverse * scale.asDiagonal();
   result.value = result.covariance * right_;
   const double part = result.value.dot(right_);
+  // The part of the whitened sum of squares that the regressors take.
   result.explained = squares_ > 0.0 ? part / squares_ : 0.0;
   const auto freedom = static_cast<double>(samples_ - size.size());
+  // Not used to widen errors here. Who calls knows whether scatter is noise or another fault of the
+  // model.
   result.scatter = std::sqrt(std::max(0.0, squares_ - part) / freedom);
   result.samples = samples_;
   return true;
@@ -83,8 +99,10 @@ Measured Projection::Result::component(int i) const {
 Measured Projection::Result::length(int first, int count) const {
   const Eigen::VectorXd part = value.segment(first, count);
   const double size = part.norm();
+  // Of no length there is no direction, and all of them count.
   if (size == 0.0) return {0.0, std::sqrt(covariance.block(first, first, count, count).trace())};
   const Eigen::VectorXd along = part / size;
+  // To first order only the error along the vector changes its length.
   return {size, std::sqrt(along.dot(covariance.block(first, first, count, count) * along))};
 }
 
@@ -101,6 +119,8 @@ double projected_std(const Eigen::VectorXd& weights, const Noise& noise) {
   const Eigen::Index past = order > 0 ? memory : 0;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(past + weights.size());
   x.tail(weights.size()) = weights;
+  // Backwards in time, from the last weight: each innovation acts on all samples after it. The rows
+  // before the first weight stand for the innovations before the record.
   for (Eigen::Index j = x.size() - 1; j >= 0; --j)
     for (int k = 0; k < order && j + 1 + k < x.size(); ++k)
       x[j] += noise.weights.back()[k] * x[j + 1 + k];
@@ -117,6 +137,7 @@ std::vector<double> autocorrelation(const Noise& noise, int lags) {
   std::vector<double> result(lags + 1, 0.0);
   for (int lag = 0; lag <= lags; ++lag)
     for (int i = 0; i < memory; ++i) result[lag] += response[i] * response[i + lag];
+  // Downwards, so that the first one is divided last, by itself.
   for (int lag = lags; lag >= 0; --lag) result[lag] /= result[0];
   return result;
 }

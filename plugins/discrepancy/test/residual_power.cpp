@@ -10,9 +10,12 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// What is below is rounding of the derivatives, and no shape.
 constexpr double least_shape = 1.0e-8;  // of the largest one's square
 
 /// One trial's markers in a vector over the trials' entries.
+/// Markers stand first among a trial's entries, column by column. Forces come after them and are
+/// left out: they do not move in shapes.
 struct Block {
   int trial = 0;
   Eigen::Index first = 0, rows = 0, channels = 0;
@@ -41,6 +44,8 @@ struct Shapes {
   int count = 0;  // of motion
 };
 
+// What the model's own numbers do to the markers spans how the plant can move. It takes no modes,
+// and holds for large bends, too.
 Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& blocks, int most) {
   const Eigen::Index channels = blocks.front().channels;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(channels, channels);
@@ -49,13 +54,16 @@ Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& bloc
     if (!(square > 0.0)) continue;
     for (const Block& block : blocks) {
       const auto part = block.of(jacobian.col(p).data());
+      // Each derivative counts alike, whatever its unit is.
       covariance += part.transpose() * part / square;
     }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
   const auto moving =
       (eigen.eigenvalues().array() > least_shape * eigen.eigenvalues()[channels - 1]).count();
+  // A third at most: across the shapes enough directions must be left to tell the noise.
   const int count = static_cast<int>(std::min<Eigen::Index>(moving, channels / 3));
+  // Eigenvalues come in ascending order, and the largest are wanted first.
   return {eigen.eigenvectors().rowwise().reverse(), std::min(most, count)};
 }
 
@@ -63,6 +71,7 @@ Shapes shapes_of(const Eigen::MatrixXd& jacobian, const std::vector<Block>& bloc
 /// with a cosine and a sine of unit length, which are chi-square with two degrees of freedom for
 /// noise.
 Eigen::MatrixXd periodograms(const Eigen::MatrixXd& series) {
+  // Without the mean and without the highest one, which have one degree of freedom in place of two.
   const Eigen::Index n = series.rows(), frequencies = (n - 1) / 2;
   Eigen::MatrixXd power(frequencies, series.cols());
   Eigen::FFT<double> transform;
@@ -70,6 +79,7 @@ Eigen::MatrixXd periodograms(const Eigen::MatrixXd& series) {
   for (Eigen::Index c = 0; c < series.cols(); ++c) {
     const Eigen::VectorXd column = series.col(c);
     transform.fwd(waves, column);
+    // So scaled that unit white noise has a mean of 2 at each frequency.
     power.col(c) = waves.segment(1, frequencies).cwiseAbs2() * 2.0 / static_cast<double>(n);
   }
   return power;
@@ -77,6 +87,9 @@ Eigen::MatrixXd periodograms(const Eigen::MatrixXd& series) {
 
 /// The ratio of two means of squares with n and m degrees of freedom, as a standard normal.
 double deviations_of(double ratio, double n, double m) {
+  // Wilson and Hilferty: the cube root of a chi-square over its degrees is nearly normal, with mean
+  // 1 - 2/(9n) and variance 2/(9n). Far out in the tail, at six deviations, it is still good, where
+  // tables of F end.
   const double a = 2.0 / (9.0 * n), b = 2.0 / (9.0 * m), root = std::cbrt(ratio);
   return ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a);
 }
@@ -88,6 +101,8 @@ struct Powers {
   double duration = 0.0;  // s
 
   Eigen::Index at(double hz) const {
+    // By frequency and not by index: trials of different length have other grids, and are compared
+    // in one band.
     return std::clamp<Eigen::Index>(std::lround(hz * duration) - 1, 0, along.size() - 1);
   }
 };
@@ -99,6 +114,8 @@ double deviations(std::span<const Powers> trials, double low_hz, double high_hz,
   double along = 0.0, across = 0.0, own = 0.0, n = 0.0, m = 0.0;
   for (const Powers& powers : trials) {
     const Eigen::Index first = powers.at(low_hz), count = powers.at(high_hz) - first + 1;
+    // The noise is read around the band, since the whitening may be a little wrong and the level is
+    // then another one at other frequencies. In the ratio it cancels.
     const Eigen::Index low = std::max<Eigen::Index>(0, first - neighbourhood);
     const Eigen::Index high =
         std::min<Eigen::Index>(powers.across.size(), first + count + neighbourhood);
@@ -108,6 +125,8 @@ double deviations(std::span<const Powers> trials, double low_hz, double high_hz,
     n += 2.0 * powers.shapes * static_cast<double>(count);
     m += 2.0 * powers.others * static_cast<double>(high - low);
   }
+  // Amplitudes, as our own error may be in phase with what is there, and then adds as it is and not
+  // in squares.
   const double found = std::sqrt(along) - accuracy.own_amplitude * std::sqrt(own);
   if (found <= 0.0 || !(across > 0.0)) return 0.0;
   return deviations_of(found * found / n / (across / m), n, m);
@@ -149,6 +168,7 @@ ResidualPower residual_power(const DataSet& data, std::span<const int> trials,
   const Eigen::Index channels = blocks.front().channels;
   const bool same =
       std::ranges::all_of(blocks, [&](const Block& block) { return block.channels == channels; });
+  // Trials with other markers have other shapes.
   if (channels < 3 || !same) return strongest;
   // An outlier has power at all frequencies.
   const double limit = settings.levels.winsorised_at;
@@ -156,10 +176,12 @@ ResidualPower residual_power(const DataSet& data, std::span<const int> trials,
   const Shapes shapes = shapes_of(model.jacobian, blocks, accuracy.motion_shapes);
   if (shapes.count < 1) return strongest;
   std::vector<Powers> all;
+  // Shorter, the neighbourhood would be the whole spectrum.
   for (const Block& block : blocks)
     if (block.rows >= 4 * accuracy.power_neighbourhood)
       all.push_back(powers_of(block, shapes, residual, numerical));
   const auto look_at = [&](std::span<const Powers> some) {
+    // Bands are laid on the finest grid.
     const Powers& longest = *std::ranges::max_element(
         some, {}, [](const Powers& powers) { return powers.along.size(); });
     const auto look = [&](Eigen::Index first, Eigen::Index count) {
@@ -171,6 +193,8 @@ ResidualPower residual_power(const DataSet& data, std::span<const int> trials,
                      high};
     };
     const Eigen::Index frequencies = longest.along.size();
+    // Single frequencies for what swings, octaves for what is spread. Overlapping bands find the
+    // same thing twice, which costs nothing: the level is far beyond their number.
     for (Eigen::Index f = 0; f < frequencies; ++f) look(f, 1);
     for (Eigen::Index width = 2; width <= frequencies; width *= 2) {
       look(0, width);

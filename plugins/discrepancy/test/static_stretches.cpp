@@ -9,12 +9,15 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double patience = 0.1;      // s, in which a resting plant moves by less than the noise
+constexpr double patience = 0.1;  // s, in which a resting plant moves by less than the noise
+// A swing stands still for a moment at each of its turns. That is no rest.
 constexpr double least_length = 0.2;  // s
 constexpr int least_samples = 8;
 
 // Means of every marker's residual over a stretch. What is left of a swing that the model has too
 // little of widens the error: its mean over some periods is of the order of its scatter by root n.
+// A mean by generalised least squares: with noise that has a memory, samples at the ends of a
+// stretch count more than those in its middle.
 StaticStretch stretch_of(const SymptomContext& context, int t, int from, int to) {
   const Trial& trial = context.trial(t);
   const Eigen::Index columns = trial.markers.value.cols();
@@ -28,10 +31,12 @@ StaticStretch stretch_of(const SymptomContext& context, int t, int from, int to)
     Projection constant(1);
     constant.add(part, Eigen::MatrixXd::Ones(part.size(), 1), context.data.position_noise());
     Projection::Result result;
+    // A marker that was hidden for most of the stretch stays NaN, and who reads it leaves it out.
     if (!constant.solve(result) || result.samples < least_samples / 2) continue;
     double scatter = 0.0;
     for (const double x : part)
       if (std::isfinite(x)) scatter += std::pow(x - result.value[0], 2) / result.samples;
+    // Over the noise: above 1 something still moves.
     const double wider = std::sqrt(scatter) / context.data.position_noise().std;
     stretch.mean[c] = result.value[0];
     // Chance alone makes the scatter a little larger than the noise at times.
@@ -44,11 +49,16 @@ StaticStretch stretch_of(const SymptomContext& context, int t, int from, int to)
 
 std::vector<StaticStretch> static_stretches(const SymptomContext& context) {
   std::vector<StaticStretch> stretches;
+  // In m/s: what moves by less than a sample's noise in a tenth of a second rests as far as anyone
+  // can see. Precise data so ask for a quieter plant.
   const double least_motion = context.data.position_noise().std / patience;
   for (int t = 0; t < context.trials(); ++t) {
     if (!context.usable(t)) continue;
+    // Of the model, and not of the data, whose differences are noise. A plant that still swings
+    // while the model rests is dealt with by the wider error.
     const Eigen::MatrixXd v = context.velocity(t);
     const std::vector<double>& time = context.trial(t).markers.time;
+    // A stretch never goes over a jump of the drive.
     const auto ends = spans_of(context.trial(t));
     const auto span_at = [&](double at) {
       int s = 0;
@@ -63,7 +73,9 @@ std::vector<StaticStretch> static_stretches(const SymptomContext& context) {
     };
     for (int i = 0; i < static_cast<int>(time.size()); ++i) {
       const bool rests = v.row(i).cwiseAbs().maxCoeff() < least_motion;
+      // A load that is put on gently leaves the plant at rest on both sides, at two places.
       if (from >= 0 && span_at(time[i]) != span_at(time[from])) close(i);
+      // One sample that moves ends a stretch, and the next one begins anew.
       if (rests && from < 0) from = i;
       if (!rests) close(i);
     }
@@ -75,6 +87,7 @@ std::vector<StaticStretch> static_stretches(const SymptomContext& context) {
 std::string stretch_name(const SymptomContext& context, const StaticStretch& stretch) {
   const Trial& trial = context.trial(stretch.trial);
   char text[64];
+  // With its times, since a trial may rest several times.
   std::snprintf(text, sizeof text, ", %.3g to %.3g s", trial.markers.time[stretch.from],
                 trial.markers.time[stretch.to - 1]);
   return trial.name + text;

@@ -65,9 +65,12 @@ struct Part {
     iterate.position = guess.position;
     iterate.orientation = guess.orientation;
     iterate.root = start.root;
+    // Parts with loops are solved in the rows, unless they are too large for that.
+    const bool by_blocks = !cosserat::loop_parts(one.model);
+    attachments = cosserat::Attachments(by_blocks);
     attachments.prepare(start, one.loads, {});
     attachments.linearise(one.model, iterate, extras);
-    if (!one.model.welds.empty()) loops = std::make_unique<cosserat::BlockSystem>(one.model);
+    if (by_blocks) loops = std::make_unique<cosserat::BlockSystem>(one.model);
   }
   bool second_order(const Garden& garden) const {
     return garden.settings.integrator == cosserat::Integrator::bdf2;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "pedicel/world/scene_reader.h"
@@ -201,6 +202,50 @@ TEST(SceneRefusals, AllFaultsAreShownAtOnce) {
   EXPECT_THAT(text, HasSubstr(":6:5:"));
   EXPECT_THAT(text, HasSubstr(":7:7:"));
   EXPECT_THAT(text, HasSubstr(":8:10:"));
+}
+
+// What follows from a fault is no fault of its own.
+TEST(SceneRefusals, OneFaultIsToldOnce) {
+  const std::string plant = head + "plants: [{name: a, built_in: cantilever}]\n";
+  for (const std::string body : {"ties: [5]",
+                                 "ties: [{organ: a/x}]",
+                                 "wind: {}",
+                                 "wind: 5",
+                                 "wind: {velocity: fast}",
+                                 "cuts: [5]",
+                                 "cuts: [{organ: a/x}]",
+                                 "cuts: [{organ: a/x, time: 1, by_tool: true}]",
+                                 "cameras: [5]",
+                                 "cameras: [{name: c}]",
+                                 "cameras: [{name: c, eye: [1, 0]}]",
+                                 "cameras: [{name: c, eye: [1, 0, 0], focal: 0}]",
+                                 "cameras: [{name: c, eye: [1, 0, 0], sensors: 5}]",
+                                 "cameras: [{name: c, eye: [1, 0, 0], follow: 5}]",
+                                 "wrenches: [5]",
+                                 "loads: [5]",
+                                 "bodies: [5]",
+                                 "bodies: [{name: b}]",
+                                 "expect: [5]",
+                                 "expect: [{quantity: breaks}]",
+                                 "pictures: [5]",
+                                 "video: 5",
+                                 "sweep: 5",
+                                 "vary: 5",
+                                 "vary: {dt: 5}",
+                                 "vary: {dt: {low: 1}}",
+                                 "vary: {dt: {distribution: choice}}",
+                                 "ground: 5",
+                                 "look: 5",
+                                 "robot: 5",
+                                 "rods: 5",
+                                 "coupling: 5",
+                                 "gravity: 5"}) {
+    const std::string text = refusal_of(plant + body + "\n");
+    EXPECT_EQ(std::ranges::count(text, '\n'), 0) << body << "\n" << text;
+    EXPECT_THAT(text, HasSubstr("error: ")) << body;
+  }
+  const std::string text = refusal_of(head + "plants: [5]\n");
+  EXPECT_EQ(std::ranges::count(text, '\n'), 0) << text;
 }
 
 TEST(SceneRefusals, AKeyTwice) {

@@ -308,6 +308,21 @@ TEST_F(Import, RefusesByName) {
   EXPECT_THROW(import_verb(a_), InvalidFile);
 }
 
+TEST_F(Import, WhatIsNotThereIsToldBeforeAnythingElse) {
+  a_.plant.clear();
+  for (const std::string name : {"none.csv", "none.mcap"}) {
+    a_.files = {(folder_ / name).string()};
+    try {
+      import_verb(a_);
+      FAIL();
+    } catch (const InvalidFile& fault) {
+      EXPECT_THAT(fault.what(), HasSubstr(name + ": error: cannot be read: No such file"));
+    }
+  }
+  a_.files = {file("no_log.mcap", "plain text\n").string()};
+  EXPECT_THROW(import_verb(a_), InvalidFile) << "by its name it is a log";
+}
+
 TEST_F(Import, WhatIsSomebodyElsesStays) {
   a_.files = {motive("swing.csv")};
   a_.up = "y";

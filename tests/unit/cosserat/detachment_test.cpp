@@ -86,6 +86,30 @@ TEST(Detachment, TheCauseIsTheThresholdThatIsPassedMost) {
   EXPECT_EQ(events[0].cause, "moment");
 }
 
+// Two fruits at one place: the first leaves the stub to the second, and takes no mass but its own.
+TEST(Detachment, TheSecondFruitOfASegmentStays) {
+  RodModel model = stalk({});
+  model.fruits.push_back(model.fruits[0]);
+  model.fruits[1].name = "second";
+  finish(model);
+  RodState state = loaded(model);
+  const double all = model.elements[1].mass, one = fruit_mass(model.fruits[0]);
+  std::vector<DetachEvent> events;
+  model.fruits[0].thresholds.force = 0.5 * carried(model, state, "force");
+  detach(model, state, events);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_DOUBLE_EQ(events[0].mass, one);
+  EXPECT_TRUE(state.alive[1]);
+  EXPECT_FALSE(state.fruit_gone[1]);
+  EXPECT_NEAR(model.elements[1].mass, all - one, 1e-15);
+  model.fruits[1].thresholds.force = 0.5 * carried(model, state, "force");
+  detach(model, state, events);
+  ASSERT_EQ(events.size(), 2u) << "it would hang on nothing";
+  EXPECT_EQ(events[1].fruit, 1);
+  EXPECT_NEAR(events[1].mass, all - one, 1e-15) << "with the stub";
+  EXPECT_FALSE(state.alive[1]);
+}
+
 TEST(Detachment, NothingComesOffWithoutThresholds) {
   RodModel model = stalk({});
   RodState state = loaded(model);

@@ -36,7 +36,9 @@ class ArmAtStem {
   double swing = 0.12;    // rad
   double duration = 1.2;  // s
   std::string coupling = "{friction: 0.5}";
+  std::string modulus = "1.0e9";  // Pa, of the stem
   std::string scene_more;
+  bool sees_nothing = false;  // no markers, no cameras
 
   std::filesystem::path path() const { return folder_ / ""; }
   void write(const std::string& name, const std::string& text) const {
@@ -55,10 +57,12 @@ class ArmAtStem {
     write("arm.urdf", urdf());
     write("plant.yaml",
           "format: pedicel-plant\nversion: 1\nname: bush\n"
-          "material: {youngs_modulus: 1.0e9, poisson_ratio: 0.35, density: 700, damping_time: "
-          "0.01}\nsampling: {connect: 0.004, distance: 0.05}\nroot: [0, 0, 0]\ncurves:\n"
-          "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, 0.6]], radius: "
-          "0.004}\n");
+          "material: {youngs_modulus: " +
+              modulus +
+              ", poisson_ratio: 0.35, density: 700, damping_time: "
+              "0.01}\nsampling: {connect: 0.004, distance: 0.05}\nroot: [0, 0, 0]\ncurves:\n"
+              "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, 0.6]], radius: "
+              "0.004}\n");
     write("scene.yaml",
           "format: pedicel-scene\nversion: 1\nname: finger\npurpose: A finger pushes a stem.\n"
           "see: The stem bends.\nduration: 1\ndt: 0.001\ncoupling: " +
@@ -86,8 +90,10 @@ class ArmAtStem {
     }
     write("push/joints.csv", joints);
     write("push/wrench_wrist.csv", wrench);
-    write("push/markers.csv", markers);
-    write("push/pixels_left.csv", pixels);
+    if (!sees_nothing) {
+      write("push/markers.csv", markers);
+      write("push/pixels_left.csv", pixels);
+    }
     write("push/torques.csv", torques);
   }
 

@@ -32,6 +32,13 @@ class DiagnosedScene : public testing::Test {
     made_ = observed_scene(plain, variant, how);
     SceneDiagnosisOptions options;
     options.numerics = options.search = numerics_;
+    if (stops_) {
+      options.stop = &stop_;
+      options.progress = [this](const std::string& what, double) {
+        if (cut_ == 0 && what.find("simulating") == std::string::npos) stop_ = true;
+      };
+      options.cut_short = [this] { stop_ = false, ++cut_; };
+    }
     return diagnose_scene(made_, options);
   }
   static const NamedCause* cause(const SceneDiagnosis& diagnosis, const std::string& name) {
@@ -43,6 +50,9 @@ class DiagnosedScene : public testing::Test {
   ArmAtStem at_;
   SceneNumerics numerics_;
   SceneExperiment made_;
+  bool stops_ = false;  // as soon as the search has begun
+  std::atomic<bool> stop_ = false;
+  int cut_ = 0;
 };
 
 TEST_F(DiagnosedScene, NothingHiddenIsAdequate) {
@@ -50,6 +60,16 @@ TEST_F(DiagnosedScene, NothingHiddenIsAdequate) {
   EXPECT_EQ(found.verdict.outcome, Outcome::adequate) << found.text;
   EXPECT_TRUE(found.verdict.causes.empty()) << found.text;
   EXPECT_LT(*found.verdict.fit.nominal, 1.1);
+}
+
+TEST_F(DiagnosedScene, AStopEndsTheSearchAndWhatIsKnownIsTold) {
+  stops_ = true;
+  const SceneDiagnosis found = diagnose({"{name: wrench_bias, force: [0.3, 0, -0.2]}"});
+  EXPECT_EQ(cut_, 1);
+  EXPECT_TRUE(found.verdict.partial);
+  ASSERT_TRUE(found.verdict.fit.nominal);
+  EXPECT_GT(*found.verdict.fit.nominal, 1.5);
+  EXPECT_FALSE(found.text.empty());
 }
 
 TEST_F(DiagnosedScene, ASensorsBiasIsNamedWithItsSize) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/output_check.h"
 #include "support/temporary_folder.h"
 
 namespace pedicel::io {
@@ -77,6 +78,58 @@ TEST_F(OutputFolderTest, AFileOfSomebodyElseIsNeverReplaced) {
   OutputFolder folder(out_, {});
   EXPECT_THAT([&] { folder.file("log.csv"); }, ThrowsMessage<WriteError>(HasSubstr("is there")));
   EXPECT_EQ(read_file(out_ / "log.csv"), "mine");
+}
+
+TEST_F(OutputFolderTest, WhatCannotBeTakenTakesNothingAway) {
+  {
+    OutputFolder first(out_, {"log.csv"});
+    write(first.file("log.csv"), "earlier");
+  }
+  write(out_ / "events.csv", "mine");
+  EXPECT_THROW(OutputFolder(out_, {"log.csv", "events.csv"}), WriteError);
+  EXPECT_EQ(read_file(out_ / "log.csv"), "earlier");
+  EXPECT_THROW(check_output_folder(out_, {"events.csv"}), WriteError);
+  EXPECT_NO_THROW(check_output_folder(out_, {"log.csv"}));
+  EXPECT_EQ(read_file(out_ / "log.csv"), "earlier") << "looking changes nothing";
+}
+
+TEST_F(OutputFolderTest, PlacesAreLookedAtBefore) {
+  write(folder_ / "file");
+  EXPECT_NO_THROW(check_output_file(folder_ / "file"));
+  EXPECT_NO_THROW(check_output_file(folder_ / "not/yet/there.csv"));
+  EXPECT_NO_THROW(check_output_folder(folder_ / "not/yet"));
+  EXPECT_FALSE(fs::exists(folder_ / "not"));
+  for (const fs::path& no : {folder_ / "file/x.csv", fs::path(folder_ / "."), fs::path("/dev/null"),
+                             fs::path("/proc/x.csv"), folder_ / std::string(300, 'x')})
+    EXPECT_THROW(check_output_file(no), WriteError) << no;
+  for (const fs::path& no : {folder_ / "file", fs::path("/proc/x")})
+    EXPECT_THROW(check_output_folder(no), WriteError) << no;
+  const OutputFolder taken(out_, {});
+  EXPECT_THAT([&] { check_output_folder(out_); },
+              ThrowsMessage<WriteError>(HasSubstr("another run is writing there")));
+  EXPECT_THAT(names_in(folder_ / "."), UnorderedElementsAre("file", "out"));
+}
+
+TEST_F(OutputFolderTest, AFolderIsLockedByOne) {
+  const FolderLock first(folder_ / ".");
+  EXPECT_THROW(FolderLock(folder_ / "."), WriteError);
+}
+
+TEST_F(OutputFolderTest, WhatCannotBeMovedInStaysBesideIt) {
+  std::string said;
+  try {
+    write_folder(out_, [&](const fs::path& in) {
+      write(in / "verdict.json", "hours of work");
+      write(out_ / "verdict.json", "mine");  // meanwhile
+    });
+  } catch (const WriteError& fault) {
+    said = fault.what();
+  }
+  const std::string before = "; what was to go there is in ";
+  ASSERT_THAT(said, HasSubstr(before));
+  const fs::path kept = said.substr(said.find(before) + before.size());
+  EXPECT_EQ(read_file(kept / "verdict.json"), "hours of work");
+  EXPECT_EQ(read_file(out_ / "verdict.json"), "mine");
 }
 
 TEST_F(OutputFolderTest, ASecondRunAtOnceIsRefused) {

@@ -12,17 +12,18 @@ using discrepancy::ArmAtStem;
 
 class DiagnosedLog : public ::testing::Test {
  protected:
-  /// Runs a scene whose plant has `hidden` three times, with other motions of the arm, and
-  /// diagnoses their logs by the scene as it is believed to be.
-  discrepancy::SceneDiagnosis diagnose(const std::string& hidden) {
+  /// Runs a scene whose stem has that modulus (Pa) three times, with other motions of the arm, and
+  /// diagnoses their logs by the scene as it is believed to be: 1e9 Pa.
+  discrepancy::SceneDiagnosis diagnose(const std::string& modulus) {
     ArmAtStem believed;
     believed.coupling = "{friction: 0.5, contact_stiffness: 1.0e5}";
     believed.write_all();
     ImportArguments a;
     int number = 0;
     for (const double swing : {0.12, 0.16, 0.09}) {
-      const LoggedRun run(gap, 1.2, [&](ArmAtStem& files) {
+      const LoggedRun run("0.03", 1.2, [&](ArmAtStem& files) {
         files.swing = swing;
+        files.modulus = modulus;
         // Measured things touch when they touch.
         files.coupling = "{friction: 0.5, contact_stiffness: 1.0e5, margin: 1.0e-5}";
       });
@@ -46,18 +47,18 @@ class DiagnosedLog : public ::testing::Test {
 };
 
 TEST_F(DiagnosedLog, OfTheSceneItselfIsAdequate) {
-  const discrepancy::SceneDiagnosis found = diagnose("0.03");
+  const discrepancy::SceneDiagnosis found = diagnose("1.0e9");
   EXPECT_EQ(found.verdict.outcome, discrepancy::Outcome::adequate) << found.text;
   EXPECT_TRUE(found.verdict.causes.empty()) << found.text;
 }
 
 TEST_F(DiagnosedLog, NamesWhatTheRunHad) {
-  const discrepancy::SceneDiagnosis found = diagnose("0.027");
+  const discrepancy::SceneDiagnosis found = diagnose("1.2e9");
   EXPECT_EQ(found.verdict.outcome, discrepancy::Outcome::named) << found.text;
   ASSERT_EQ(found.verdict.causes.size(), 1U) << found.text;
   const discrepancy::NamedCause& cause = found.verdict.causes.front();
-  EXPECT_EQ(cause.name, "plant_pose") << found.text;
-  EXPECT_NEAR(cause.parameters.at("offset")[1].value, -0.003, 5.0e-4);
+  EXPECT_EQ(cause.name, "youngs_modulus") << found.text;
+  EXPECT_NEAR(cause.parameters.at("factor").front().value, 1.2, 0.02);
 }
 
 }  // namespace

@@ -144,6 +144,49 @@ TEST(LogImport, SaysWhatIsNotInTheLog) {
       HasSubstr("no message of /joint_states between from and to"));
 }
 
+TEST(LogImport, WhatIsNotInTheSceneIsToldAndNothingIsWritten) {
+  const LoggedRun run("0.03", 0.1);
+  EXPECT_THAT(refusal(run, "curve: stem", "curve: twig"),
+              HasSubstr("wrong.yaml:6:5: error: curve \"twig\" is no curve of the plant \"bush\", "
+                        "expected one of: stem"));
+  EXPECT_THAT(refusal(run, "curve: stem, at: 1", "link: elbow"),
+              HasSubstr("link \"elbow\" is no link of the robot, expected one of: "));
+  EXPECT_THAT(refusal(run, "curve: stem, at: 1", "fruit: f9"),
+              HasSubstr("fruit \"f9\" is no fruit"));
+  EXPECT_THAT(refusal(run, "curve: stem", "plant: tree, curve: stem"),
+              HasSubstr("plant \"tree\" is no plant of the scene, expected one of: bush"));
+  EXPECT_THAT(refusal(run, "markers:",
+                      "wrenches: [{name: w, topic: /wrist/wrench, link: hand9}]\nmarkers:"),
+              HasSubstr("link \"hand9\" is no link of the robot"));
+  // Of what only the experiment's own reader judges.
+  EXPECT_THAT(refusal(run, "scene: scene.yaml", "scene: scene.yaml\nnoise: {position: 3}"),
+              HasSubstr("(it is not written)"));
+  EXPECT_FALSE(std::filesystem::exists(run.path("experiment")));
+}
+
+TEST(LogImport, TwoLogsOfOneNameAreNoTwoTrials) {
+  const LoggedRun run("0.03", 0.1);
+  ImportArguments a = arguments(run);
+  a.files.push_back(a.files.front());
+  EXPECT_THROW(import_verb(a), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(run.path("experiment")));
+}
+
+TEST(LogImport, AMapThatWasChangedIsNotReplacedByAProposal) {
+  const LoggedRun run("0.03", 0.1);
+  ImportArguments a = arguments(run);
+  ASSERT_EQ(import_verb(a), 0);
+  ASSERT_EQ(import_verb(a), 0) << "as it was proposed";
+  const std::string changed = io::read_file(run.path("experiment/map.yaml")) + "# mine\n";
+  io::write_file_atomically(run.path("experiment/map.yaml"), changed);
+  EXPECT_THROW(import_verb(a), io::WriteError);
+  EXPECT_EQ(io::read_file(run.path("experiment/map.yaml")), changed);
+  a.names = {run.path("experiment/map.yaml").string()};
+  a.scene.clear();
+  EXPECT_EQ(import_verb(a), 0);
+  EXPECT_EQ(io::read_file(run.path("experiment/map.yaml")), changed);
+}
+
 TEST(LogImport, NeedsAScene) {
   const LoggedRun run("0.03", 0.1);
   ImportArguments a = arguments(run);

@@ -1,12 +1,15 @@
 // MCAP files: written, read back, cut off, damaged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <zstd.h>
 
+#include <csignal>
 #include <sstream>
 
 #include "pedicel/core/diagnostics.h"
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/output_check.h"
 #include "pedicel/mcap/reader.h"
 #include "pedicel/mcap/writer.h"
 #include "support/temporary_folder.h"
@@ -173,6 +176,72 @@ TEST_F(McapFile, ASmallChunkThatGrowsIsRefusedEarly) {
                                                  .raw(small)
                                                  .all());
   EXPECT_THAT(failure_of(bytes), HasSubstr("longer than its head says"));
+}
+
+TEST_F(McapFile, DamageIsNoCut) {
+  std::string bytes = written();
+  // The length of a record in the middle: the file goes on behind it, and has its end.
+  std::size_t at = magic.size();
+  for (int records = 0; records < 3; ++records)
+    at += record_head + Fields(std::string_view(bytes).substr(at + 1)).number<std::uint64_t>();
+  bytes[at + 7] = '\x7f';
+  EXPECT_THAT(failure_of(bytes), HasSubstr("at byte " + std::to_string(at) + ": damaged: "));
+  bytes.resize(bytes.size() - 4);
+  EXPECT_EQ(failure_of(bytes), "") << "without its end it may be cut off";
+}
+
+/// As on a full disk: a file cannot grow beyond some bytes.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    old_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit less{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &less);
+  }
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, old_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*old_)(int) = nullptr;
+};
+
+TEST_F(McapFile, AFullDiskLeavesWhatWasWholeUnderAnotherName) {
+  for (const rlim_t size : {2500, 100}) {
+    std::string said;
+    {
+      const SmallDisk disk(size);
+      try {
+        Writer writer(folder_ / "log.mcap", {"ros2", "a test", 1, 1000000});
+        const auto a = writer.add_channel("/a", {"T", "ros2msg", ""});
+        for (int i = 0; i < 1000; ++i) writer.write(a, 0, "message " + std::to_string(i));
+        FAIL() << "it fits";
+      } catch (const io::WriteError& fault) {
+        said = fault.what();
+      }
+    }
+    EXPECT_THAT(said, HasSubstr("log.mcap: cannot be written: File too large"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "log.mcap"));
+    EXPECT_EQ(std::filesystem::exists(folder_ / "log.mcap.part"), size > 1000);
+    if (size < 1000) continue;
+    EXPECT_THAT(said, HasSubstr("; what was whole is in "));
+    ReadEnd end;
+    EXPECT_GT(messages_of(io::read_file(folder_ / "log.mcap.part"), &end).size(), 3U);
+    EXPECT_FALSE(end.whole);
+    EXPECT_EQ(end.at, std::filesystem::file_size(folder_ / "log.mcap.part"));
+    std::filesystem::remove(folder_ / "log.mcap.part");
+  }
+}
+
+TEST_F(McapFile, TwoAtOnceDoNotMix) {
+  Writer first(folder_ / "log.mcap", {});
+  EXPECT_THROW(Writer(folder_ / "log.mcap", {}), io::WriteError);
+  EXPECT_THROW(io::check_output_file(folder_ / "log.mcap"), io::WriteError);
+  first.close();
+  Writer second(folder_ / "log.mcap", {});
 }
 
 TEST_F(McapFile, CannotBeWrittenWhereThereIsNoFolder) {

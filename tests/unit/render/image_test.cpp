@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -45,6 +46,15 @@ TEST(Image, SaysWhereItCannotWrite) {
   EXPECT_THAT([&] { write_png(folder / "file/picture.png", Image(2, 2)); },
               ThrowsMessage<OutputError>(AllOf(HasSubstr("file/picture.png"),
                                                HasSubstr("cannot be written: Not a directory"))));
+}
+
+TEST(Image, LeavesDevicesAndPipesAlone) {
+  TemporaryFolder folder;
+  const std::filesystem::path pipe = folder / "pipe.png";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT([&] { write_png(pipe, Image(2, 2)); },
+              ThrowsMessage<OutputError>(HasSubstr("is a device or a pipe")));
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(Image, SaysWhatIsNoPng) {

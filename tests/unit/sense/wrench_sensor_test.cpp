@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "pedicel/app/report/sensor_recorder.h"
 #include "pedicel/app/run/simulation.h"
+#include "pedicel/io/atomic_file.h"
 #include "pedicel/world/scene_reader.h"
 
 namespace pedicel::app {
@@ -128,6 +131,46 @@ TEST_F(WrenchTest, ATaredSensorBeginsAtZero) {
   for (int i = 0; i < 400; ++i) sim->step();
   EXPECT_LT(sim->wrenches()[0].reading().norm(), 1e-3);
   EXPECT_EQ(sim->wrenches()[0].samples(), 40);
+}
+
+TEST_F(WrenchTest, ATaredSensorIsLessTheMeanOfAllOfItsFirstSamples) {
+  const auto sim = simulation(
+      "{name: wrist, link: hand, tared: true, rate: 100, noise: {force_std: 1}}, "
+      "{name: raw, link: hand, rate: 100, noise: {force_std: 1}}");
+  std::vector<WrenchSensor::Sample> tared;
+  for (int i = 0; i < 400; ++i) {
+    sim->step();
+    const auto& fresh = sim->wrenches()[0].new_samples();
+    if (sim->world().time() < 0.2 - 1e-6) {
+      EXPECT_TRUE(fresh.empty()) << sim->world().time();
+      EXPECT_EQ(sim->wrenches()[0].reading().norm(), 0.0);
+    }
+    tared.insert(tared.end(), fresh.begin(), fresh.end());
+  }
+  ASSERT_EQ(tared.size(), 40U);
+  Wrench sum = Wrench::Zero();
+  double smallest = 1e9, before = -1.0;
+  for (const auto& one : tared) {
+    EXPECT_GT(one.time, before);
+    before = one.time;
+    if (one.time > 0.2 + 1e-9) continue;
+    sum += one.value;
+    smallest = std::min(smallest, one.value.head<3>().norm());
+  }
+  EXPECT_LT(sum.norm(), 1e-9) << "no weight is left, and no row has a mean of its own";
+  EXPECT_GT(smallest, 1e-3) << "the first row is no zero";
+}
+
+TEST_F(WrenchTest, NamesThatMakeOneFileNameAreTwoFiles) {
+  const auto sim = simulation("{name: a/b, link: hand}, {name: a_b, link: finger, touch: true}");
+  io::OutputFolder output(folder_ / "out", {});
+  SensorRecorder recorder(*sim, output, nullptr);
+  for (int i = 0; i < 100; ++i) sim->step(), recorder.record();
+  const std::string first = io::read_file(folder_ / "out/wrench_a_b.csv");
+  const std::string second = io::read_file(folder_ / "out/wrench_a_b_2.csv");
+  EXPECT_EQ(std::ranges::count(first, '\n'), 11);
+  EXPECT_EQ(std::ranges::count(second, '\n'), 11);
+  EXPECT_NE(first, second);
 }
 
 TEST_F(WrenchTest, AnUnknownLinkIsNamed) {

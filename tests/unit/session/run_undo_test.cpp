@@ -55,6 +55,32 @@ TEST_F(Hands, UndoTakesAPullBackBeforeTheEditThatCameEarlier) {
   EXPECT_EQ(session.history().size(), edits - 1) << "now the edit";
 }
 
+TEST_F(Hands, ACutFallsIsToldAndIsTakenBack) {
+  run("run 0.1");
+  const std::uint64_t whole = session.control().state_hash();
+  run("cut p/branch 0.3");
+  run("run 0.1");
+  auto now = session.snapshot();
+  ASSERT_EQ(now->events->size(), 1u);
+  EXPECT_EQ(now->events->front().cause, "cut");
+  EXPECT_EQ(now->events->front().organ, "p/branch");
+  ASSERT_EQ(now->bodies.size(), 1u) << "branch and berry fall as one";
+  EXPECT_LT(now->bodies[0].pose.position.z(), 0.15);
+  EXPECT_THAT(refusal("cut p/branch 0.6"), HasSubstr("has come off there already"));
+  EXPECT_THAT(refusal("cut p/twig"), HasSubstr("no organ"));
+  EXPECT_THAT(refusal("cut p/stem 1.5"), HasSubstr("from 0 to 1"));
+  run("step back 12");
+  run("step 12");
+  EXPECT_EQ(session.snapshot()->bodies[0].pose.position, now->bodies[0].pose.position)
+      << "stepping back and on cuts again";
+  run("undo");
+  now = session.snapshot();
+  EXPECT_EQ(session.control().state_hash(), whole);
+  EXPECT_TRUE(now->events->empty());
+  run("run 0.05");
+  EXPECT_TRUE(session.snapshot()->events->empty()) << "it is not cut again";
+}
+
 TEST_F(Hands, AnEditAfterAPullIsUndoneFirst) {
   run("pull p/berry 0.15,0,0.2");
   run("run 0.05");

@@ -253,6 +253,36 @@ TEST_F(Spoken, AProgramIsClearedAndThenItsStemGoes) {
   run("delete organ truss fruit_5");
 }
 
+/// Tied to wires, with a shoot that the arm is to cut.
+class Tied : public Building {
+ protected:
+  Tied() { EXPECT_TRUE(session.files().open(source("assets/scenes/espalier_prune.scene.yaml"))); }
+};
+
+TEST_F(Tied, TiesAndCutsFollowANewName) {
+  run("rename tree arm_right_1 bough");
+  run("rename tree shoot_1 spur");
+  run("rename plant tree pear");
+  EXPECT_TRUE(session.is_simulated());
+  EXPECT_EQ(scene().ties[0].organ, "pear/bough");
+  EXPECT_EQ(scene().ties[1].organ, "pear/arm_left_1");
+  EXPECT_EQ(scene().cuts[0].organ, "pear/spur");
+}
+
+TEST_F(Tied, WhatTiesAndCutsMeanIsDeletedAfterThem) {
+  EXPECT_THAT(refusal("delete robot"), HasSubstr("1 cut"));
+  const Result taken_back = session.run_text("delete stem tree arm_right_1");
+  EXPECT_FALSE(taken_back.ok);
+  EXPECT_THAT(taken_back.text, HasSubstr("clear references tree/arm_right_1"));
+  run("clear references robot");
+  run("delete robot");
+  EXPECT_TRUE(scene().cuts.empty());
+  EXPECT_THAT(refusal("delete plant tree"), HasSubstr("4 ties"));
+  run("clear references tree");
+  run("delete plant tree");
+  EXPECT_TRUE(scene().ties.empty());
+}
+
 TEST_F(Spoken, ANewNameIsSaidEverywhere) {
   run("set plants.truss.detach.stretch 0.2");
   run("rename plant truss cherry");

@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
 #include "pedicel/app/session/session_files.h"
+#include "pedicel/io/csv.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 
@@ -97,6 +99,18 @@ TEST_F(Scripts, TheLogIsAScriptThatDoesTheSame) {
   EXPECT_EQ(session.document().state_hash(), hash);
 }
 
+TEST_F(Scripts, WhatIsExpectedIsThatOfTheStepThatIsShown) {
+  open_robot();
+  ASSERT_EQ(run("run 0.5\n"), 0) << errors.str();
+  const auto heights = session.control().log().series("tool_x_m");
+  ASSERT_GT(heights.value.size(), 40U);
+  ASSERT_EQ(run("step back 60\nexpect time_s above=0.2499 below=0.2501\n"), 0) << errors.str();
+  const auto row = std::upper_bound(heights.time.begin(), heights.time.end(), 0.25 + 1e-9) - 1;
+  const double then = heights.value[static_cast<std::size_t>(row - heights.time.begin())];
+  ASSERT_NE(then, heights.value.back()) << "it moves";
+  EXPECT_EQ(run("expect tool_x_m is=" + io::exact_number(then) + "\n"), 0) << errors.str();
+}
+
 TEST_F(Scripts, FaultsNameTheirLine) {
   EXPECT_EQ(run("new plant p\n\ndraw sten p\n"), 3);
   EXPECT_THAT(errors.str(), HasSubstr("story.txt:3:1: error: unknown command \"draw\""));
@@ -159,6 +173,7 @@ TEST_F(Scripts, WhatCannotBeDoneIsNotTakenSilently) {
       robot::KinematicModel(*session.snapshot()->assets->robot).joint_names()[0];
   const std::vector<std::pair<std::string, std::string>> refused = {
       {"run -1", "duration -1, expected s from 0 on"},
+      {"run 1e300", "duration 1e+300, expected s of at most 1e+06"},
       {"speed -2", "value -2, expected simulated s a wall s from 0 on"},
       {"step 0", "count 0, expected 1 or more"},
       {"step back -3", "count -3, expected 1 or more"},
