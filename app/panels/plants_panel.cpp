@@ -31,7 +31,7 @@ class PlantsPanel : public Panel {
     }
     ImGui::SameLine();
     if (ImGui::Button("Import")) ui.dialog = Dialog::import_plant;
-    tip("Adds the plant of a plant file, a skeleton table (CSV) or an MTG");
+    tip("Adds the plant of a plant file or a skeleton: CSV, MTG, PLY, XML of Helios");
     ImGui::SameLine();
     if (ImGui::Button("Export")) ImGui::OpenPopup("export");
     tip("Writes the chosen plant as plant file, skeleton table, OBJ or PLY");

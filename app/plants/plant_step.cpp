@@ -70,7 +70,7 @@ void PlantStep::act(world::SimWorld& world, world::WorldReport& report) {
   move_colliders();
   rods_.step(world.dt(), world.settings().gravity);
   // Allocates once. Plants do not come and go in a world that runs.
-  rough_steps_.resize(rods_.size(), 0);
+  tallies_.resize(rods_.size());
   sum_up(world.settings().gravity, report);
   // After the forces were summed up: the step in which it broke counts.
   // The body's own pushes begin in the next step: it was not there while Bullet moved.
@@ -88,6 +88,9 @@ void PlantStep::move_colliders() {
 }
 
 void PlantStep::sum_up(const Vec3& gravity, world::WorldReport& report) {
+  rods_.each_plant([&](int p) {
+    tallies_[p].energy = cosserat::energy_of(rods_.model(p), rods_.state(p), gravity).total();
+  });
   contacts_.begin();
   for (int p = 0; p < rods_.size(); ++p) {
     contacts_.add(p, rods_.model(p), rods_.contact_forces(p));
@@ -96,10 +99,10 @@ void PlantStep::sum_up(const Vec3& gravity, world::WorldReport& report) {
     // A search that fails is as rough as one that ends too early.
     const bool rough = own.errors & (cosserat::not_converged | cosserat::line_search_failed);
     const bool counts = rough && !is_squeezed(own, rods_.contact_forces(p));
-    rough_steps_[p] = counts ? rough_steps_[p] + 1 : 0;
+    tallies_[p].rough_steps = counts ? tallies_[p].rough_steps + 1 : 0;
     report.contacts += own.contacts;
-    report.plant_energy += cosserat::energy_of(rods_.model(p), rods_.state(p), gravity).total();
     // The worst of all plants: one that is rough must not hide behind many that are not.
+    report.plant_energy += tallies_[p].energy;
     report.deepest_overlap = std::max(report.deepest_overlap, own.deepest);
     report.worst_residual = std::max(report.worst_residual, own.last_change);
   }
@@ -114,8 +117,8 @@ void PlantStep::judge(int plant, world::WorldReport& report) const {
   const int quickest = fastest_of(state);
   const double speed = quickest < 0 ? 0.0 : state.velocity[quickest].norm();
   // Speed is looked at as well: a run that flies apart may converge in each step.
-  const bool lost = (own.errors & cosserat::not_finite) || rough_steps_[plant] > most_rough_steps ||
-                    speed > fastest;
+  const bool lost = (own.errors & cosserat::not_finite) ||
+                    tallies_[plant].rough_steps > most_rough_steps || speed > fastest;
   if (lost) report.errors |= world::plant_not_finite;
   if (own.errors & cosserat::not_converged) report.errors |= world::plant_not_converged;
   // The first culprit of a step stays, unless another plant is lost.

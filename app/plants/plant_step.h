@@ -63,7 +63,11 @@ class PlantStep : public world::Participant {
   coupling::ContactReport contacts_;
   std::vector<Pose> poses_;
   std::vector<Detached> detached_;
-  std::vector<int> rough_steps_;  // one a plant: steps in a row that did not converge
+  struct Tally {
+    int rough_steps = 0;  // in a row that did not converge
+    double energy = 0.0;  // J
+  };
+  std::vector<Tally> tallies_;  // one a plant
 };
 
 /// "truss/fruit_3": a fruit's name in scenes, logs and events.

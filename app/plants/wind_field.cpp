@@ -14,11 +14,33 @@ constexpr double pi = 3.14159265358979323846;
 // 1, drag coefficients: of a cylinder across the wind between Reynolds numbers of 1e3 and 1e5, of a
 // plate across the wind and along it (Hoerner, Fluid-Dynamic Drag, 1965, chapters 3 and 2).
 constexpr double cylinder_drag = 1.1, plate_drag = 1.17, plate_friction = 0.03;
-constexpr int waves = 24;
 // m: what stands within this of a line along the wind shelters what is behind, and over this way
 // the wind recovers. About the width of a plant, and ten times that (wakes behind porous plates:
 // Castro, J. Fluid Mech. 46, 1971).
 constexpr double lane_radius = 0.15, recovery = 1.5;
+
+// The nearest whole number, where that is below 2^51: adding this leaves no bits behind the point.
+// Unlike std::round() it is done for several numbers at once.
+double nearest_whole(double x) {
+  constexpr double no_fraction = 6755399441055744.0;  // 1.5 * 2^52
+  return (x + no_fraction) - no_fraction;
+}
+
+// cos(2 pi x) within 1e-15 of 1: a quarter turn on it is a sine, by its series.
+double cosine_of_turns(double x) {
+  const double y = 2.0 * pi * (0.25 - std::abs(x - nearest_whole(x)));  // -pi/2 to pi/2
+  const double z = y * y;
+  double series = -1.0 / 121645100408832000.0;
+  series = 1.0 / 355687428096000.0 + z * series;
+  series = -1.0 / 1307674368000.0 + z * series;
+  series = 1.0 / 6227020800.0 + z * series;
+  series = -1.0 / 39916800.0 + z * series;
+  series = 1.0 / 362880.0 + z * series;
+  series = -1.0 / 5040.0 + z * series;
+  series = 1.0 / 120.0 + z * series;
+  series = -1.0 / 6.0 + z * series;
+  return y + y * z * series;
+}
 
 double area_of(const cosserat::RodModel& model, const Blade& blade, Vec3& normal_W) {
   std::array<Vec3, 3> corner;
@@ -102,23 +124,48 @@ void WindField::draw_gusts(int seed) {
     side = way.cross(side).normalized();
     // Number times spectrum: what a step of the logarithm holds.
     const double share = scaled * scaled / std::pow(1.0 + scaled * scaled, 11.0 / 6.0);
-    waves_.push_back({number * way, std::sqrt(share) * side, random.uniform(0.0, 2.0 * pi)});
+    for (int k = 0; k < 3; ++k) {
+      number_[k][i] = number * way[k] / (2.0 * pi);
+      amplitude_[k][i] = std::sqrt(share) * side[k];
+    }
+    phase_[i] = random.uniform(0.0, 2.0 * pi) / (2.0 * pi);
     energy += 0.5 * share / 3.0;  // in one direction
   }
-  for (Wave& wave : waves_) wave.amplitude *= wind_.intensity / std::sqrt(energy);
+  for (Waves& amplitudes : amplitude_)
+    for (double& amplitude : amplitudes) amplitude *= wind_.intensity / std::sqrt(energy);
 }
 
 // Frozen turbulence (Taylor, Proc. R. Soc. A 164, 1938): gusts travel with the mean wind.
+WindField::Waves WindField::turns_at(double time) const {
+  Waves turns;
+  const Vec3 way = time * wind_.velocity;
+  for (int i = 0; i < waves; ++i) {
+    const double there =
+        phase_[i] - (number_[0][i] * way.x() + number_[1][i] * way.y() + number_[2][i] * way.z());
+    turns[i] = there - nearest_whole(there);
+  }
+  return turns;
+}
+
 Vec3 WindField::velocity(const Vec3& place, double time) const {
+  return velocity(place, time, turns_at(time));
+}
+
+Vec3 WindField::velocity(const Vec3& place, double time, const Waves& turns) const {
   double profile = 1.0;
   if (wind_.roughness > 0.0)
     profile = std::max(0.0, std::log(std::max(place.z(), wind_.roughness) / wind_.roughness) /
                                 std::log(wind_.height / wind_.roughness));
   const double speed = wind_.velocity.norm();
   Vec3 relative = wind_.velocity / speed;
-  const Vec3 carried = place - time * wind_.velocity;
-  for (const Wave& wave : waves_)
-    relative += std::cos(wave.number.dot(carried) + wave.phase) * wave.amplitude;
+  if (wind_.intensity > 0.0) {
+    Waves cosine;
+    for (int i = 0; i < waves; ++i)
+      cosine[i] = cosine_of_turns(turns[i] + number_[0][i] * place.x() + number_[1][i] * place.y() +
+                                  number_[2][i] * place.z());
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < waves; ++i) relative[k] += cosine[i] * amplitude_[k][i];
+  }
   const double grown = wind_.rise > 0.0 ? std::min(1.0, time / wind_.rise) : 1.0;
   return grown * profile * speed * relative;
 }
@@ -167,12 +214,13 @@ void WindField::find_shelter() {
 void WindField::act(world::SimWorld& world, world::WorldReport&) {
   // The step that begins is solved at its end.
   const double time = world.time() + world.dt();
-  for (int p = 0; p < rods_.size(); ++p) {
+  const Waves turns = turns_at(time);
+  rods_.each_plant([&](int p) {
     const cosserat::RodState& state = rods_.state(p);
     std::vector<Vec3>& air = rods_.air(p);
     for (int e = 0; e < state.size(); ++e)
-      air[e] = shelter_[p][e] * velocity(state.position[e], time);
-  }
+      air[e] = shelter_[p][e] * velocity(state.position[e], time, turns);
+  });
 }
 
 }  // namespace pedicel::app

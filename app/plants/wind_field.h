@@ -30,17 +30,20 @@ class WindField : public world::Participant {
   void act(world::SimWorld& world, world::WorldReport& report) override;
 
  private:
-  struct Wave {
-    Vec3 number = Vec3::Zero();     // rad/m, W
-    Vec3 amplitude = Vec3::Zero();  // 1, of the mean speed
-    double phase = 0.0;             // rad
-  };
+  // Side by side, for the compiler to take several at once.
+  static constexpr int waves = 24;
+  using Waves = std::array<double, waves>;
+
   void draw_gusts(int seed);
   void find_shelter();
+  Waves turns_at(double time) const;
+  Vec3 velocity(const Vec3& place, double time, const Waves& turns) const;
 
   world::SceneWind wind_;
   cosserat::RodSystem& rods_;
-  std::vector<Wave> waves_;
+  std::array<Waves, 3> number_{};             // turns/m, W
+  std::array<Waves, 3> amplitude_{};          // 1, of the mean speed, W
+  Waves phase_{};                             // turns
   std::vector<std::vector<double>> shelter_;  // by plant and element
 };
 

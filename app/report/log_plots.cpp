@@ -56,7 +56,7 @@ std::vector<std::string> ranked(const io::CsvTable& log, std::string_view suffix
 
 class Plots {
  public:
-  Plots(const io::CsvTable& log, const std::vector<io::PlotEvent>& events)
+  Plots(const io::CsvTable& log, const std::vector<plots::PlotEvent>& events)
       : log_(log), events_(events), time_(values_of(log, 0)) {}
 
   /// Begins a plot. One that gets no curve is dropped by finish().
@@ -75,16 +75,16 @@ class Plots {
     plots_.back().series.push_back(
         {label, {time_.front(), time_.back()}, {value, value}, true, false, true, limit_colour});
   }
-  std::vector<io::LinePlot> finish() {
-    std::erase_if(plots_, [](const io::LinePlot& plot) { return plot.series.empty(); });
+  std::vector<plots::LinePlot> finish() {
+    std::erase_if(plots_, [](const plots::LinePlot& plot) { return plot.series.empty(); });
     return std::move(plots_);
   }
 
  private:
   const io::CsvTable& log_;
-  const std::vector<io::PlotEvent>& events_;
+  const std::vector<plots::PlotEvent>& events_;
   std::vector<double> time_;
-  std::vector<io::LinePlot> plots_;
+  std::vector<plots::LinePlot> plots_;
 };
 
 void add_strain(Plots& plots, const std::vector<std::string>& fruits,
@@ -113,8 +113,9 @@ void add_contact(Plots& plots, const io::CsvTable& log) {
 
 }  // namespace
 
-std::vector<io::LinePlot> log_plots(const io::CsvTable& log, const std::vector<StalkLimits>& limits,
-                                    const std::vector<io::PlotEvent>& events) {
+std::vector<plots::LinePlot> log_plots(const io::CsvTable& log,
+                                       const std::vector<StalkLimits>& limits,
+                                       const std::vector<plots::PlotEvent>& events) {
   if (log.rows.empty()) return {};
   Plots plots(log, events);
   const std::vector<std::string> fruits = ranked(log, "_margin_used_1");
@@ -139,9 +140,9 @@ std::vector<io::LinePlot> log_plots(const io::CsvTable& log, const std::vector<S
   return plots.finish();
 }
 
-io::LinePlot sweep_plot(const std::string& label, const std::vector<double>& values,
-                        const std::string& measured_label, const std::vector<double>& measured) {
-  io::LinePlot plot;
+plots::LinePlot sweep_plot(const std::string& label, const std::vector<double>& values,
+                           const std::string& measured_label, const std::vector<double>& measured) {
+  plots::LinePlot plot;
   plot.title = measured_label + " over " + label;
   plot.x.label = label;
   plot.y.label = measured_label;

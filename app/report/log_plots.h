@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pedicel/io/csv.h"
-#include "pedicel/io/svg_plot.h"
+#include "pedicel/plots/svg_plot.h"
 
 namespace pedicel::app {
 
@@ -21,11 +21,12 @@ struct StalkLimits {
 /// heights of tool and fruits; for a plant without fruits its largest strain and kinetic energy.
 /// Shows the fruits that came nearest to their limits and the links that pressed most. `events`
 /// are marked in all. A column that is not there is left out.
-std::vector<io::LinePlot> log_plots(const io::CsvTable& log, const std::vector<StalkLimits>& limits,
-                                    const std::vector<io::PlotEvent>& events);
+std::vector<plots::LinePlot> log_plots(const io::CsvTable& log,
+                                       const std::vector<StalkLimits>& limits,
+                                       const std::vector<plots::PlotEvent>& events);
 
 /// A measured quantity over the values of a sweep; `label` and `measured_label` carry their units.
-io::LinePlot sweep_plot(const std::string& label, const std::vector<double>& values,
-                        const std::string& measured_label, const std::vector<double>& measured);
+plots::LinePlot sweep_plot(const std::string& label, const std::vector<double>& values,
+                           const std::string& measured_label, const std::vector<double>& measured);
 
 }  // namespace pedicel::app

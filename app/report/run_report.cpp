@@ -86,7 +86,7 @@ void write_run_report(const RunSummary& summary, const std::filesystem::path& pa
   add_sweep(page, summary);
   add_solvers(page, summary);
   if (!summary.plots.empty()) page.heading("Over time");
-  for (const io::LinePlot& plot : summary.plots) page.plot(to_svg(plot));
+  for (const plots::LinePlot& plot : summary.plots) page.plot(to_svg(plot));
   add_pairs(page, "Numbers", summary.numbers);
   add_pairs(page, "Settings", summary.settings);
   add_pairs(page, "Files", summary.files);

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/io/svg_plot.h"
-#include "pedicel/io/svg_polar.h"
+#include "pedicel/plots/svg_plot.h"
+#include "pedicel/plots/svg_polar.h"
 
 namespace pedicel::app {
 
@@ -38,10 +38,10 @@ struct RunSummary {
   std::vector<ReportImage> pictures;
   ReportTable events;
   ReportTable gentleness;  ///< how each organ was handled
-  std::vector<io::LinePlot> plots;
+  std::vector<plots::LinePlot> plots;
   ReportTable sweep;
-  std::optional<io::LinePlot> sweep_plot;
-  std::optional<io::PolarPlot> sweep_polar;  ///< a sweep over directions
+  std::optional<plots::LinePlot> sweep_plot;
+  std::optional<plots::PolarPlot> sweep_polar;  ///< a sweep over directions
   std::vector<ReportImage> sweep_pictures;
   ReportTable solvers, solver_speeds;  ///< both solvers over a sweep, and at equal error
   std::string solver_note;

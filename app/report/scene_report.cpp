@@ -69,11 +69,11 @@ ReportTable gentleness_of(const SceneResult& result) {
 }
 
 /// What a sweep over pull directions found: the force in the stalk that broke first.
-std::optional<io::PolarPlot> polar_of(const world::Scene& scene,
-                                      const std::vector<SweepRun>& sweep) {
+std::optional<plots::PolarPlot> polar_of(const world::Scene& scene,
+                                         const std::vector<SweepRun>& sweep) {
   const std::string& key = scene.sweep->key;
   if (key != "loads.angle" && key != "loads.azimuth") return {};
-  io::PolarPlot plot;
+  plots::PolarPlot plot;
   plot.title = "Force at detachment over the pull's direction";
   plot.label = key == "loads.angle" ? "force in the stalk (N); 0\u00b0 pulls down"
                                     : "force in the stalk (N); 0\u00b0 pulls along X";
@@ -85,10 +85,10 @@ std::optional<io::PolarPlot> polar_of(const world::Scene& scene,
   return plot;
 }
 
-std::vector<io::LinePlot> plots_of(const SceneResult& result) {
+std::vector<plots::LinePlot> plots_of(const SceneResult& result) {
   Diagnostics diagnostics;
   const io::CsvTable log = io::read_csv(result.folder / "log.csv", {true, true}, diagnostics);
-  std::vector<io::PlotEvent> events;
+  std::vector<plots::PlotEvent> events;
   for (const world::Event& e : result.events) events.push_back({e.time, e.organ + " off"});
   return log_plots(log, result.limits, events);
 }

@@ -29,7 +29,7 @@ Measurements::Measurements(const cosserat::RodSystem& rods, const PlantStep& pla
 void Measurements::observe(const world::SimWorld& world, const world::WorldReport& report) {
   time_ = world.time();
   penetration_ = std::max(penetration_, report.deepest_overlap);
-  for (int p = 0; p < rods_.size(); ++p) observe_plant(p);
+  rods_.each_plant([&](int p) { observe_plant(p); });
   // Its rise goes on being measured where it flies.
   for (const Detached& fruit : plants_.detached()) {
     double& top = records_[fruit.plant].fruit_top[fruit.event.fruit];
@@ -46,15 +46,23 @@ void Measurements::observe_plant(int plant) {
   const cosserat::RodModel& model = rods_.model(plant);
   const cosserat::RodState& state = rods_.state(plant);
   PlantRecord& record = records_[plant];
+  double drift2 = 0.0, stretch2 = 0.0, bend2 = 0.0;  // squares; of bend: sine of half the angle
+  int most_bent = -1;
   for (int e = 0; e < model.size(); ++e) {
     if (!state.alive[e]) continue;
-    const cosserat::Strain strain = cosserat::strain_of(model, state, e);
     // From the drawing, not from the first step: a plant that jumps at once has drifted.
-    record.drift =
-        std::max(record.drift, (state.position[e] - model.elements[e].drawn_position).norm());
-    record.stretch = std::max(record.stretch, strain.stretch.norm());
-    record.bend = std::max(record.bend, strain.bend.norm());
+    drift2 = std::max(drift2, (state.position[e] - model.elements[e].drawn_position).squaredNorm());
+    stretch2 = std::max(stretch2, cosserat::stretch_of(model, state, e).squaredNorm());
+    const double bent = cosserat::turn_of(model, state, e).vec().squaredNorm();
+    if (!(bent > bend2)) continue;
+    bend2 = bent;
+    most_bent = e;
   }
+  record.drift = std::max(record.drift, std::sqrt(drift2));
+  record.stretch = std::max(record.stretch, std::sqrt(stretch2));
+  // Its angle takes an arctangent, so that only one is computed.
+  if (most_bent >= 0)
+    record.bend = std::max(record.bend, cosserat::strain_of(model, state, most_bent).bend.norm());
   for (std::size_t f = 0; f < model.fruits.size(); ++f) {
     const cosserat::Fruit& fruit = model.fruits[f];
     record.fruit_force[f] =

@@ -21,7 +21,7 @@ bool can_be_opened(const fs::path& path, bool robots) {
   const auto ends = [&name](const char* with) { return name.ends_with(with); };
   if (robots) return ends(".urdf");
   return ends(".scene.yaml") || ends(".plant.yaml") || ends(".csv") || ends(".mtg") ||
-         name == "experiment.yaml";
+         ends(".ply") || ends(".xml") || name == "experiment.yaml";
 }
 
 std::string what_is_saved(const Ui& ui) {

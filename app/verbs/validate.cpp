@@ -19,6 +19,7 @@
 #include "pedicel/io/yaml.h"
 #include "pedicel/plant/leaf_template.h"
 #include "pedicel/plant/plant_builder.h"
+#include "pedicel/skeleton/helios_reader.h"
 #include "pedicel/skeleton/plant_source.h"
 #include "pedicel/urdf/urdf_reader.h"
 #include "pedicel/world/scene_reader.h"
@@ -69,6 +70,16 @@ std::string check_source(const std::filesystem::path& path, plant::SourceKind ki
 std::string check_mtg(const std::filesystem::path& path, const Options& options,
                       Diagnostics& diagnostics) {
   return check_source(path, plant::SourceKind::mtg, options, diagnostics);
+}
+
+std::string check_ply(const std::filesystem::path& path, const Options& options,
+                      Diagnostics& diagnostics) {
+  return check_source(path, plant::SourceKind::ply_skeleton, options, diagnostics);
+}
+
+std::string check_helios(const std::filesystem::path& path, const Options& options,
+                         Diagnostics& diagnostics) {
+  return check_source(path, plant::SourceKind::helios_xml, options, diagnostics);
 }
 
 std::string check_leaf(const std::filesystem::path& path, const Options&,
@@ -161,6 +172,7 @@ constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
                               Kind{"pedicel-variation", "", "variation", check_variation},
                               Kind{"", ".urdf", "robot", check_urdf},
                               Kind{"", ".mtg", "digitised plant", check_mtg},
+                              Kind{"", ".ply", "skeleton", check_ply},
                               Kind{"", ".stl", "mesh", check_mesh},
                               Kind{"", ".obj", "mesh", check_mesh},
                               Kind{"", ".dae", "mesh", check_mesh},
@@ -218,6 +230,7 @@ std::optional<Kind> kind_of_text(const std::filesystem::path& path, const std::s
   const std::string text = io::read_text_file(path);
   const std::string_view begin =
       std::string_view(text).substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (plant::is_helios_xml(text)) return Kind{"", "", "plant structure of Helios", check_helios};
   if (begin.starts_with("<?xml") || begin.starts_with("<robot"))
     return Kind{"", "", "robot", check_urdf};
   if (text.find("\nMTG") != std::string::npos && text.find("CODE") != std::string::npos)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array separators = {',', ';', '\t', '|'};
 
-bool is_number(std::string_view text) {
+bool is_number_or_gap(std::string_view text) {
   for (const char decimal : {'.', ','}) {
     const auto kind = number_of(text, {decimal}).kind;
     if (kind == NumberText::Kind::number || kind == NumberText::Kind::missing) return true;
@@ -46,7 +46,7 @@ Fit fit_of(char separator, const TableLine& header, const std::vector<TableLine>
     longest = std::max(longest, count);
     fit.rows_agree = fit.rows_agree && count <= fit.names && count > 0;
     for (const TableCell& cell : splitter.split(row.text))
-      fit.all_numbers = fit.all_numbers && is_number(cell.text);
+      fit.all_numbers = fit.all_numbers && is_number_or_gap(cell.text);
   }
   fit.rows_agree = fit.rows_agree && (rows.empty() || longest > 1);
   return fit;

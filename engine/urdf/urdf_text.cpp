@@ -4,9 +4,9 @@
 #include <map>
 #include <utility>
 
-#include "pedicel/core/utf8.h"
 #include "pedicel/geometry/mesh_file.h"
 #include "pedicel/io/file_magic.h"
+#include "pedicel/io/xml_text.h"
 
 namespace pedicel::robot {
 
@@ -26,68 +26,6 @@ std::optional<std::string> fault_of(const std::string& bytes, const std::string&
   if (const std::string kind = io::kind_of_bytes(bytes); !kind.empty()) return kind;
   if (bytes.find('\0') != std::string::npos) return "a binary file, expected a URDF";
   return {};
-}
-
-/// With every byte that is no UTF-8 as '?': TinyXML takes what follows a byte such as Latin-1's for
-/// a part of the same character, a closing quote or the end of the text, too.
-std::string in_utf8(std::string text, const std::string& file, Diagnostics& diagnostics) {
-  SourcePosition here{file, 1, 1}, first;
-  int replaced = 0;
-  for (std::size_t i = 0; i < text.size();) {
-    std::uint32_t code = 0;
-    const std::size_t length = utf8_length(std::string_view(text).substr(i), code);
-    if (length == 0) {
-      if (replaced++ == 0) first = here;
-      text[i] = '?';
-    }
-    here = text[i] == '\n' ? SourcePosition{file, here.line + 1, 1}
-                           : SourcePosition{file, here.line, here.column + 1};
-    i += std::max<std::size_t>(length, 1);
-  }
-  if (replaced > 0)
-    diagnostics.warning(first, std::to_string(replaced) +
-                                   (replaced == 1 ? " byte that is" : " bytes that are") +
-                                   " no UTF-8, read as '?'");
-  return text;
-}
-
-/// Behind the markup that begins at `start`: a comment, or a tag whose texts in quotes may hold a
-/// '>'. `closes`: it is an element without content.
-std::size_t end_of_markup(const std::string& text, std::size_t start, bool& closes) {
-  if (text.compare(start, 4, "<!--") == 0) {
-    const std::size_t end = text.find("-->", start + 4);
-    return end == std::string::npos ? text.size() : end + 3;
-  }
-  char quote = '\0';
-  for (std::size_t i = start; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quote != '\0') {
-      if (c == quote) quote = '\0';
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '>') {
-      closes = text[i - 1] == '/';
-      return i + 1;
-    }
-  }
-  return text.size();
-}
-
-/// Whether elements lie within elements to a depth that no URDF has and that recursion would not
-/// bear.
-bool is_too_deep(const std::string& text) {
-  int depth = 0;
-  for (std::size_t at = text.find('<'); at < text.size();) {
-    const char next = at + 1 < text.size() ? text[at + 1] : '\0';
-    bool closes = false;
-    const std::size_t end = end_of_markup(text, at, closes);
-    if (next == '/')
-      --depth;
-    else if (next != '!' && next != '?' && !closes && ++depth > most_levels)
-      return true;
-    at = text.find('<', end);
-  }
-  return false;
 }
 
 /// The quoted text that begins at the first quote after `from`; moves `from` behind it.
@@ -161,8 +99,8 @@ std::optional<std::string> urdf_xml_text(const std::string& bytes, const std::st
                            " levels deep, expected a URDF";
   const std::size_t start = bytes.find("<!DOCTYPE"), root = bytes.find("<robot");
   if (start == std::string::npos || start > root) {
-    if (is_too_deep(bytes)) return refuse(deep);
-    return in_utf8(bytes, file, diagnostics);
+    if (io::is_xml_deeper(bytes, most_levels)) return refuse(deep);
+    return io::xml_in_utf8(bytes, file, diagnostics);
   }
   const std::size_t end = end_of_doctype(bytes, start);
   const std::map<std::string, std::string> entities = entities_in(bytes, start, end);
@@ -172,8 +110,8 @@ std::optional<std::string> urdf_xml_text(const std::string& bytes, const std::st
   text = replaced(text, entities);
   if (text.size() > largest_text)
     return refuse("its entities make more than 64 MB of text, expected a URDF");
-  if (is_too_deep(text)) return refuse(deep);
-  return in_utf8(std::move(text), file, diagnostics);
+  if (io::is_xml_deeper(text, most_levels)) return refuse(deep);
+  return io::xml_in_utf8(std::move(text), file, diagnostics);
 }
 
 }  // namespace pedicel::robot

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include "pedicel/io/number_text.h"
@@ -10,6 +11,7 @@
 #include "pedicel/io/table_text.h"
 #include "pedicel/io/text_file.h"
 #include "pedicel/io/unit_text.h"
+#include "pedicel/skeleton/mtg_columns.h"
 #include "pedicel/skeleton/text_cells.h"
 
 namespace pedicel::plant {
@@ -27,8 +29,8 @@ bool is_code(std::string_view code) {
     const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
     const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
     const auto letters = std::find_if_not(code.begin(), code.end(), is_letter);
-    if (letters == code.begin()) return false;
     const auto digits = std::find_if_not(letters, code.end(), is_digit);
+    if (digits == code.begin()) return false;  // OpenAlea numbers those without a label
     code.remove_prefix(static_cast<std::size_t>(digits - code.begin()));
     any = true;
   }
@@ -55,15 +57,17 @@ class MtgParser {
       ++line_;
       const std::size_t first = line.find_first_not_of(" \t");
       if (first == std::string_view::npos) continue;
-      if (code_columns_ == 0) take_unit(line.substr(first));
+      if (columns_.codes == 0) take_unit(line.substr(first));
       if (line[first] == '#') continue;
       const std::vector<TextCell> cells = split_cells(line, '\t');
-      if (!in_mtg)
+      if (!in_mtg) {
         in_mtg = cells.front().text.starts_with("MTG");
-      else if (code_columns_ == 0)
+        take_class(cells);
+      } else if (columns_.codes == 0) {
         take_header(cells, text);
-      else if (!take_entity(cells))
+      } else if (!take_entity(cells)) {
         break;
+      }
     }
     if (diagnostics_.error_count() == before) check_whole(in_mtg);
     if (diagnostics_.error_count() > before) nodes_.clear();
@@ -71,6 +75,18 @@ class MtgParser {
   }
 
  private:
+  /// The last entity of a column: its digitised node, or the one above it (-1: none), and whether
+  /// an axis begins between the two.
+  struct Above {
+    int node = -1;
+    bool branch = false;
+    int scale = -1;  ///< of its class, -1: unknown
+  };
+  struct Column {
+    Above above;
+    std::optional<Above> carrier;  ///< of a branch without a place in the same column
+  };
+
   void error(int column, std::string what) {
     diagnostics_.error({file_, line_, column}, std::move(what));
   }
@@ -83,10 +99,10 @@ class MtgParser {
   void check_whole(bool in_mtg) {
     if (!in_mtg)
       error(1, "no line \"MTG:\", expected an MTG text with that section");
-    else if (code_columns_ == 0)
+    else if (columns_.codes == 0)
       error(1, "no line \"ENTITY-CODE\" after \"MTG:\", expected the names of the columns");
     else if (nodes_.empty())
-      error(1, "no entity has coordinates, expected XX, YY and ZZ");
+      error(1, "no entity has coordinates, expected places");
   }
 
   void take_unit(std::string_view line) {
@@ -102,75 +118,11 @@ class MtgParser {
       unit_ = *unit;
   }
 
-  // AMAPmod's older files say TOPO.
   void take_header(const std::vector<TextCell>& cells, std::string_view rest) {
-    refused_header_ = true;
-    if (cells.front().text != "ENTITY-CODE" && cells.front().text != "TOPO") {
-      error(cells.front().column, in_quotes(cells.front().text) +
-                                      ", expected ENTITY-CODE (or TOPO) and the names of the "
-                                      "columns");
-      return;
-    }
-    const auto is_named = [](const TextCell& cell) { return !cell.text.empty(); };
-    const auto named = std::find_if(cells.begin() + 1, cells.end(), is_named);
-    std::string names;
-    for (auto cell = named; cell != cells.end(); ++cell)
-      if (is_named(*cell)) names += (names.empty() ? "" : ", ") + std::string(cell->text);
-    const auto column_of = [&](std::string_view name) {
-      const auto same = [&](const TextCell& cell) {
-        return io::same_but_case(io::split_unit(cell.text).name, name);
-      };
-      const auto found = std::find_if(named, cells.end(), same);
-      return found == cells.end() ? -1 : static_cast<int>(found - cells.begin());
-    };
-    const std::string axes[] = {"XX", "YY", "ZZ"};
-    std::string missing;
-    for (int i = 0; i < 3; ++i) {
-      coordinates_[i] = column_of(axes[i]);
-      if (coordinates_[i] < 0) missing += (missing.empty() ? "" : ", ") + axes[i];
-    }
-    refused_header_ = !missing.empty();
-    if (refused_header_)
-      error(cells.front().column, "no column " + missing + " beside " +
-                                      (names.empty() ? "ENTITY-CODE" : names) +
-                                      ", expected the coordinates XX, YY and ZZ");
-    if (refused_header_) return;
-    code_columns_ = static_cast<int>(named - cells.begin());
-    for (const TextCell& cell : cells) names_.emplace_back(cell.text);
-    for (int i = 0; i < 3; ++i) scale_[i] = column_unit(cells[coordinates_[i]]);
-    find_diameter(cells, column_of);
-    find_decimal(rest);
-  }
-
-  // In the column's own unit where its name has one: "XX (cm)".
-  double column_unit(const TextCell& cell) {
-    const std::string text = io::split_unit(cell.text).unit;
-    if (text.empty()) return unit_ > 0.0 ? unit_ : 0.001;
-    const auto unit = io::unit_of(text);
-    if (!unit || unit->quantity != io::Quantity::length)
-      error(cell.column, "column " + in_quotes(cell.text) + " is in " + in_quotes(text) +
-                             ", expected " + io::units_of(io::Quantity::length));
-    else if (asked_ > 0.0 && asked_ != unit->factor)
-      error(cell.column, "column " + in_quotes(cell.text) + " is in " + text + ", and " +
-                             io::length_unit_name(asked_) + " was asked for: expected one of them");
-    return unit ? unit->factor : 1.0;
-  }
-
-  template <typename ColumnOf>
-  void find_diameter(const std::vector<TextCell>& cells, const ColumnOf& column_of) {
-    struct Known {
-      const char* name;
-      double factor;  ///< diameter over value
-    };
-    for (const Known& known :
-         {Known{"TopDia", 0.1}, Known{"diameter", 1.0}, Known{"radius", 2.0}}) {
-      if (diameter_ >= 0) return;
-      diameter_ = column_of(known.name);
-      if (diameter_ < 0) continue;
-      const bool own_unit = !io::split_unit(cells[diameter_].text).unit.empty();
-      const double factor = own_unit && known.factor < 1.0 ? 1.0 : known.factor;
-      diameter_scale_ = factor * column_unit(cells[diameter_]);
-    }
+    columns_ = find_mtg_columns(cells, asked_, unit_, {file_, line_, 1}, diagnostics_);
+    refused_header_ = columns_.codes == 0;
+    // Where places stand in one column, commas part their numbers.
+    if (!refused_header_ && !columns_.in_one()) find_decimal(rest);
   }
 
   void find_decimal(std::string_view rest) {
@@ -193,7 +145,7 @@ class MtgParser {
 
   void take_one(const std::vector<TextCell>& cells) {
     int column = -1;
-    for (int i = 0; i < std::min(code_columns_, static_cast<int>(cells.size())); ++i) {
+    for (int i = 0; i < std::min(columns_.codes, static_cast<int>(cells.size())); ++i) {
       if (cells[i].text.empty()) continue;
       if (column >= 0) {
         entity_error("second", cells[i].column, "a second entity in the line, expected one");
@@ -204,59 +156,127 @@ class MtgParser {
     if (column < 0) {
       entity_error("none", 1,
                    "no entity in the line, expected one in the first " +
-                       std::to_string(code_columns_) + " columns");
+                       std::to_string(columns_.codes) + " columns");
       return;
     }
     const TextCell& code = cells[column];
     if (!is_code(code.text))
       error(code.column,
             in_quotes(code.text) + ", expected an entity such as ^<E2, +B95/E1 or /E1<<E5");
-    const int node = add_node(cells, code, parent_of(code, column));
-    depth_.resize(static_cast<std::size_t>(column), -1);
-    depth_.push_back(node);
+    Above here = add_node(cells, code, parent_of(code, column));
+    here.scale = scale_of(code.text);
+    // A branch that is one column with what carries it: OpenAlea writes its parts behind it.
+    std::optional<Above> carrier;
+    if (code.text.starts_with("^+") && here.branch && column < static_cast<int>(depth_.size()))
+      carrier = depth_[column].carrier ? depth_[column].carrier : depth_[column].above;
+    depth_.resize(static_cast<std::size_t>(column));
+    depth_.push_back({here, carrier});
+  }
+
+  // Under CLASSES: a class and its scale.
+  void take_class(const std::vector<TextCell>& cells) {
+    constexpr std::size_t most_classes = 1000;
+    if (cells.size() < 2 || scale_of_class_.size() == most_classes) return;
+    const io::NumberText scale = io::number_of(cells[1].text);
+    if (scale.kind == io::NumberText::Kind::number && scale.value >= 0.0 && scale.value < 100.0)
+      scale_of_class_.emplace(cells[0].text, static_cast<int>(scale.value));
+  }
+
+  // Of the last class in a code.
+  int scale_of(std::string_view code) const {
+    const std::size_t relation = code.find_last_of("/<+");
+    std::string_view name = relation == std::string_view::npos ? code : code.substr(relation + 1);
+    name = name.substr(0, name.find_first_of("0123456789"));
+    const auto found = scale_of_class_.find(name);
+    return found == scale_of_class_.end() ? -1 : found->second;
+  }
+
+  // "^" means the last of the column that has the scale for it: a part follows the part that
+  // carries a branch, not the branch, whose own parts begin with "/".
+  Above last_of(const Column& column, bool follows, const TextCell& code) const {
+    const bool part = follows && column.carrier && !code.text.starts_with("^/") &&
+                      column.above.scale < column.carrier->scale;
+    return part ? *column.carrier : column.above;
   }
 
   // The nearest digitised node above: entities without coordinates pass their own one on.
-  int parent_of(const TextCell& code, int column) {
+  Above parent_of(const TextCell& code, int column) {
     const bool follows = !code.text.empty() && code.text.front() == '^';
     const int above = follows ? column : column - 1;
     // The first entities are those of the whole plant; nothing is above the very first one.
-    if (depth_.empty() || above < 0) return -1;
-    if (above < static_cast<int>(depth_.size())) return depth_[above];
+    if (depth_.empty() || above < 0) return {};
+    if (above < static_cast<int>(depth_.size())) return last_of(depth_[above], follows, code);
     entity_error("above", code.column,
                  follows ? "\"^\" follows nothing, expected an entity above it in the same column"
                          : "the entity hangs from nothing, expected one in the column before it");
-    return -1;
+    return {};
   }
 
-  int add_node(const std::vector<TextCell>& cells, const TextCell& code, int parent) {
+  /// What a line says of a place: nothing, or where it is, in m.
+  std::optional<Vec3> place_of(const std::vector<TextCell>& cells, const TextCell& code) {
+    if (columns_.in_one()) return place_in(cells, columns_.place[0]);
     std::optional<double> values[3];
-    for (int i = 0; i < 3; ++i) values[i] = number(cells, coordinates_[i]);
+    for (int i = 0; i < 3; ++i) values[i] = number(cells, columns_.place[i]);
     const int given = int(values[0].has_value()) + values[1].has_value() + values[2].has_value();
-    if (given == 0) return parent;
-    if (given < 3) {
+    if (given > 0 && given < 3)
       entity_error("coordinates", code.column,
-                   "the entity has " + std::to_string(given) +
-                       " of 3 coordinates, expected XX, YY and ZZ or none of them");
-      return parent;
-    }
-    if (parent < 0 && !nodes_.empty())
+                   "the entity has " + std::to_string(given) + " of 3 coordinates, expected " +
+                       columns_.names[columns_.place[0]] + ", " +
+                       columns_.names[columns_.place[1]] + " and " +
+                       columns_.names[columns_.place[2]] + " or none of them");
+    if (given < 3) return std::nullopt;
+    Vec3 place;
+    for (int i = 0; i < 3; ++i) place[i] = in_metres(*values[i], columns_.scale[i]);
+    return place;
+  }
+
+  std::optional<Vec3> place_in(const std::vector<TextCell>& cells, int column) {
+    if (column < 0 || column >= static_cast<int>(cells.size())) return std::nullopt;
+    const TextCell& cell = cells[column];
+    if (io::number_of(cell.text, style_).kind == io::NumberText::Kind::missing) return std::nullopt;
+    std::optional<Vec3> place = place_in_one(cell.text, style_);
+    if (!place)
+      entity_error("place", cell.column,
+                   columns_.names[column] + ": " + in_quotes(cell.text) +
+                       ", expected three numbers such as (0.1, 0.2, 0.3)");
+    else
+      for (int i = 0; i < 3; ++i) (*place)[i] = in_metres((*place)[i], columns_.scale[i]);
+    return place;
+  }
+
+  Above add_node(const std::vector<TextCell>& cells, const TextCell& code, const Above& above) {
+    const bool branch = above.branch || code.text.find('+') != std::string_view::npos;
+    const std::optional<Vec3> place = place_of(cells, code);
+    if (!place) return {above.node, branch};
+    if (above.node < 0 && !nodes_.empty())
       entity_error("root", code.column,
                    "the entity is a second root, expected it to hang from the first");
     SkeletonNode node;
-    node.parent = parent;
-    for (int i = 0; i < 3; ++i) node.position[i] = in_metres(*values[i], scale_[i]);
-    node.diameter = number(cells, diameter_);
+    node.parent = above.node;
+    node.position = *place;
+    node.diameter = number(cells, columns_.diameter);
     if (node.diameter && *node.diameter < 0.0)
-      entity_error("diameter", cells[diameter_].column,
-                   names_[diameter_] + " is " + in_quotes(cells[diameter_].text) +
-                       ", expected a number >= 0");
-    if (node.diameter) node.diameter = in_metres(*node.diameter, diameter_scale_);
-    node.branch = code.text.find('+') != std::string_view::npos;
+      entity_error("diameter", cells[columns_.diameter].column,
+                   columns_.names[columns_.diameter] + " is " +
+                       in_quotes(cells[columns_.diameter].text) + ", expected a number >= 0");
+    if (node.diameter) node.diameter = in_metres(*node.diameter, columns_.diameter_scale);
+    node.branch = branch;
     node.code = code.text;
     node.where = {file_, line_, code.column};
+    if (nodes_.empty()) add_foot(cells, node);
     nodes_.push_back(std::move(node));
-    return static_cast<int>(nodes_.size()) - 1;
+    return {static_cast<int>(nodes_.size()) - 1, false};
+  }
+
+  // Where the first entity begins, if the file says so.
+  void add_foot(const std::vector<TextCell>& cells, SkeletonNode& first) {
+    const std::optional<Vec3> place = place_in(cells, columns_.foot);
+    if (!place) return;
+    SkeletonNode foot = first;
+    foot.position = *place;
+    nodes_.push_back(std::move(foot));
+    first.parent = 0;
+    first.branch = false;
   }
 
   // Divided where the unit is a part of a metre, so that whole millimetres come to the same bits
@@ -274,7 +294,7 @@ class MtgParser {
     if (found.kind != io::NumberText::Kind::number) {
       const std::string why = io::why_no_number(cell.text, style_);
       diagnostics_.repeated_error(why, {file_, line_, cell.column},
-                                  names_[column] + ": " + in_quotes(cell.text) + " " + why);
+                                  columns_.names[column] + ": " + in_quotes(cell.text) + " " + why);
     }
     return found.value;
   }
@@ -285,14 +305,10 @@ class MtgParser {
       unit_;  ///< m, of the file's lengths: by the caller, and by whoever says it; 0: none
   int line_ = 0;
   bool refused_header_ = false;
-  int code_columns_ = 0;
-  int coordinates_[3] = {-1, -1, -1};
-  double scale_[3] = {0.001, 0.001, 0.001};  ///< m
-  int diameter_ = -1;
-  double diameter_scale_ = 0.0001;  ///< m
+  MtgColumns columns_;
   io::NumberStyle style_;
-  std::vector<std::string> names_;  ///< of the columns
-  std::vector<int> depth_;  ///< of the last entity in each column: its digitised node, or -1
+  std::vector<Column> depth_;
+  std::map<std::string, int, std::less<>> scale_of_class_;
   std::vector<SkeletonNode> nodes_;
 };
 

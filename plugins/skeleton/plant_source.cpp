@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cctype>
 
+#include "pedicel/io/atomic_file.h"
 #include "pedicel/io/table_text.h"
 #include "pedicel/io/text_file.h"
 #include "pedicel/plant/plant_size.h"
+#include "pedicel/skeleton/helios_reader.h"
 #include "pedicel/skeleton/mtg_reader.h"
+#include "pedicel/skeleton/ply_reader.h"
 #include "pedicel/skeleton/skeleton_columns.h"
 
 namespace pedicel::plant {
@@ -20,15 +23,23 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
+std::vector<SkeletonNode> parse_nodes(const std::filesystem::path& path, SourceKind kind,
+                                      double unit, Diagnostics& diagnostics) {
+  const std::string file = path.string();
+  if (kind == SourceKind::ply_skeleton)
+    return parse_ply_skeleton(io::read_file(path), file, diagnostics, unit);
+  const std::string text = io::read_text_file(path);
+  if (kind == SourceKind::helios_xml) return parse_helios_xml(text, file, diagnostics, unit);
+  return kind == SourceKind::mtg ? parse_mtg(text, file, diagnostics, unit)
+                                 : parse_skeleton_csv(text, file, diagnostics, unit);
+}
+
 std::optional<PlantFile> read_nodes(const std::filesystem::path& path, SourceKind kind, double unit,
                                     Diagnostics& diagnostics) {
   MtgOptions options;
   options.unit = unit;
-  options.keeps_thin = kind == SourceKind::skeleton_table;  // a fruit's stalk
-  const std::string text = io::read_text_file(path);
-  const auto nodes = kind == SourceKind::mtg
-                         ? parse_mtg(text, path.string(), diagnostics, unit)
-                         : parse_skeleton_csv(text, path.string(), diagnostics, unit);
+  options.keeps_thin = kind != SourceKind::mtg;  // a fruit's stalk
+  const std::vector<SkeletonNode> nodes = parse_nodes(path, kind, unit, diagnostics);
   auto plant = checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
   if (!plant) return std::nullopt;
   warn_of_size(*plant, diagnostics);
@@ -44,7 +55,13 @@ SourceKind source_kind(const std::filesystem::path& path) {
   if (extension == ".mtg") return SourceKind::mtg;
   if (extension == ".csv" || extension == ".tsv" || extension == ".txt")
     return SourceKind::skeleton_table;
+  if (extension == ".ply") return SourceKind::ply_skeleton;
+  if (extension == ".xml") return SourceKind::helios_xml;
   return SourceKind::unknown;
+}
+
+bool is_skeleton(SourceKind kind) {
+  return kind != SourceKind::unknown && kind != SourceKind::plant_file;
 }
 
 bool is_skeleton_table(const std::filesystem::path& path) {
@@ -64,8 +81,7 @@ std::optional<PlantFile> read_plant_source(const std::filesystem::path& path, do
                                            Diagnostics& diagnostics, SourceKind kind) {
   if (kind == SourceKind::unknown) kind = source_kind(path);
   try {
-    if (kind == SourceKind::skeleton_table || kind == SourceKind::mtg)
-      return read_nodes(path, kind, unit, diagnostics);
+    if (is_skeleton(kind)) return read_nodes(path, kind, unit, diagnostics);
     if (kind == SourceKind::plant_file && (unit == 0.0 || unit == 1.0))
       return read_plant_file(path, diagnostics);
   } catch (const InvalidFile& fault) {
@@ -76,7 +92,7 @@ std::optional<PlantFile> read_plant_source(const std::filesystem::path& path, do
                     kind == SourceKind::plant_file
                         ? "is a plant file, whose lengths are in m: expected no other unit"
                         : "cannot tell what this is, expected *.scene.yaml, *.plant.yaml, *.csv (a "
-                          "skeleton or cylinders) or *.mtg");
+                          "skeleton or cylinders), *.mtg, *.ply (a skeleton) or *.xml (of Helios)");
   return std::nullopt;
 }
 

@@ -35,9 +35,13 @@ constexpr std::array names = {
     Name{"xskeleton", ColumnRole::x},
     Name{"yskeleton", ColumnRole::y},
     Name{"zskeleton", ColumnRole::z},
+    Name{"xx", ColumnRole::x},
+    Name{"yy", ColumnRole::y},
+    Name{"zz", ColumnRole::z},
     Name{"edgetype", ColumnRole::edge},
     Name{"edge", ColumnRole::edge},
     Name{"isbranch", ColumnRole::edge},
+    Name{"link", ColumnRole::edge},
     Name{"diameter", ColumnRole::diameter},
     Name{"diam", ColumnRole::diameter},
     Name{"radius", ColumnRole::radius},
@@ -204,8 +208,7 @@ class Finder {
                     {ColumnRole::y, "y"},
                     {ColumnRole::z, "z"},
                     {ColumnRole::parent, "parentid"},
-                    {ColumnRole::id, "vid"},
-                    {ColumnRole::edge, "edgetype"}});
+                    {ColumnRole::id, "vid"}});
   }
 
   // An end, or an axis and a length. Rows without an id are counted from 1, as TreeQSM does.

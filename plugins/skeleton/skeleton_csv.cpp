@@ -85,9 +85,11 @@ class TableParser {
 
   void take_node(Row& row) {
     row.position = point(ColumnRole::x);
-    const io::TableCell& edge = table_.cells()[columns_.column(ColumnRole::edge)];
-    row.edge = edge.text.substr(0, 40);
-    row.edge_column = edge.column;
+    if (columns_.has(ColumnRole::edge)) {
+      const io::TableCell& edge = table_.cells()[columns_.column(ColumnRole::edge)];
+      row.edge = edge.text.substr(0, 40);
+      row.edge_column = edge.column;
+    }
     if (columns_.has(ColumnRole::code))
       row.code = table_.cells()[columns_.column(ColumnRole::code)].text;
   }
@@ -204,9 +206,11 @@ class TableParser {
   }
   static bool branches(const Row& row) { return is_one_of(row.edge, {"+", "1", "1.0", "true"}); }
 
+  // "/" is a part's first one, which goes on where its whole does.
   bool begins_axis(const Row& row) {
+    if (!columns_.has(ColumnRole::edge)) return false;
     if (branches(row)) return true;
-    if (!is_one_of(row.edge, {"<", "0", "0.0", "false"}))
+    if (!is_one_of(row.edge, {"<", "/", "0", "0.0", "false"}))
       diagnostics_.repeated_error("edge", {table_.file(), row.link.where.line, row.edge_column},
                                   table_.columns()[columns_.column(ColumnRole::edge)].name + ": " +
                                       in_quotes(row.edge) +

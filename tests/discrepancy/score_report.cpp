@@ -10,7 +10,7 @@
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/html_report.h"
-#include "pedicel/io/svg_heat_map.h"
+#include "pedicel/plots/svg_heat_map.h"
 
 namespace pedicel::hidden {
 
@@ -26,7 +26,7 @@ std::string joined(const std::vector<std::string>& names) {
 
 // Each row in percent of its cases; the columns' names stand in the list below the map.
 std::string heat_map(const Confusion& confusion) {
-  io::HeatMap map;
+  plots::HeatMap map;
   map.title = "What was hidden (rows) and what was said (columns)";
   map.x_label = "said: number of the list below";
   map.value_label = "% of the row's cases";

@@ -137,8 +137,7 @@ std::uint64_t Document::state_hash() const {
 
 bool is_lone_plant(const std::filesystem::path& path) {
   const plant::SourceKind kind = plant::source_kind(path);
-  return kind == plant::SourceKind::skeleton_table || kind == plant::SourceKind::mtg ||
-         path.filename().string().ends_with(".plant.yaml");
+  return plant::is_skeleton(kind) || path.filename().string().ends_with(".plant.yaml");
 }
 
 void stand_on_ground(Document& document) {

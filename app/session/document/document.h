@@ -53,7 +53,7 @@ struct Document {
 /// By its name: *.scene.yaml.
 bool is_scene(const std::filesystem::path& path);
 
-/// By its name: *.plant.yaml, *.csv, *.tsv, *.txt (a skeleton) or *.mtg.
+/// By its name: *.plant.yaml, *.csv, *.tsv, *.txt, *.ply (a skeleton), *.mtg or *.xml (of Helios).
 bool is_lone_plant(const std::filesystem::path& path);
 
 /// Lowers the ground of a document without a scene file under plants that lie in it.

@@ -11,8 +11,8 @@ namespace pedicel::app {
 
 bool is_plant_file(const std::filesystem::path& path);
 
-/// A plant file, a skeleton or cylinder table (*.csv) or an MTG (*.mtg), by its name. `unit` (m) is
-/// that of a table's or an MTG's lengths; 0: as the file says. Faults go to `diagnostics`, and then
+/// A plant file or a skeleton (see plant::source_kind()), by its name. `unit` (m) is that of a
+/// skeleton's lengths; 0: as the file says. Faults go to `diagnostics`, and then
 /// nothing comes back; so do warnings and the plant's height.
 std::optional<plant::PlantFile> read_plant(const std::filesystem::path& path,
                                            Diagnostics& diagnostics, double unit = 0.0);

@@ -48,6 +48,9 @@ struct Strain {
   Vec3 bend = Vec3::Zero();     ///< rad, (bend 1, bend 2, twist), in E
 };
 Strain strain_of(const RodModel& model, const RodState& state, int element);
+/// Its parts: the stretch, and the rotation that `bend` is the rotation vector of.
+Vec3 stretch_of(const RodModel& model, const RodState& state, int element);
+Quat turn_of(const RodModel& model, const RodState& state, int element);
 
 /// Elastic force (N) and moment (N m) of a segment and its joint, in E.
 struct JointLoad {

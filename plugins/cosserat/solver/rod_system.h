@@ -68,6 +68,16 @@ class RodSystem {
   /// empty: as the model says (direct solver only).
   std::vector<Vec3>& air(int plant) { return plants_[plant].air; }
 
+  /// task(plant) for all of them, on the threads that step them. Tasks must not depend on each
+  /// other.
+  template <class Task>
+  void each_plant(const Task& task) const {
+    if (size() == 1)
+      task(0);
+    else
+      pool_.for_each(size(), task);
+  }
+
   const StepReport& report(int plant) const { return plants_[plant].report; }
   const std::vector<ContactForce>& contact_forces(int plant) const;
   /// Fruits of a plant that came off in the last step.
@@ -109,7 +119,7 @@ class RodSystem {
   FetchAhead* what_follows(const Bed& bed);
 
   RodSettings settings_;
-  ThreadPool pool_;
+  mutable ThreadPool pool_;
   std::vector<Plant> plants_;
   std::vector<Bed> beds_;  // direct solver; made by the first step after add_plant()
   std::optional<SelfContactSettings> touching_;

@@ -2,7 +2,7 @@
 
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/io/html_report.h"
-#include "pedicel/io/svg_plot.h"
+#include "pedicel/plots/svg_plot.h"
 
 namespace pedicel::discrepancy {
 
@@ -11,13 +11,13 @@ namespace {
 constexpr double around = 0.4;  // s shown before and after the fall
 
 /// The force's size and its part along the pull, in a stretch of the record.
-io::LinePlot plot_of(const ForceCourse& course, const Pick& pick, const std::string& title,
-                     std::optional<std::pair<double, double>> stretch) {
-  io::LinePlot plot;
+plots::LinePlot plot_of(const ForceCourse& course, const Pick& pick, const std::string& title,
+                        std::optional<std::pair<double, double>> stretch) {
+  plots::LinePlot plot;
   plot.title = title;
   plot.x.label = "time (s)";
   plot.y.label = "force (N)";
-  io::PlotSeries size{"size", {}, {}}, along{"along the pull", {}, {}};
+  plots::PlotSeries size{"size", {}, {}}, along{"along the pull", {}, {}};
   along.markers = stretch.has_value();
   for (int i = 0; i < course.size(); ++i) {
     if (stretch && (course.time(i) < stretch->first || course.time(i) > stretch->second)) continue;
@@ -56,11 +56,11 @@ void write_pick_report(const std::filesystem::path& file, const std::vector<Judg
     report.note(pick.sentence(), pick.end == Pick::End::came_off);
     const ForceCourse course(judged.record, settings.rest);
     if (course.size() < 2) continue;
-    std::vector<std::string> plots = {io::to_svg(plot_of(course, pick, "the record", {}))};
+    std::vector<std::string> plots = {plots::to_svg(plot_of(course, pick, "the record", {}))};
     if (pick.fall)
       plots.push_back(
-          io::to_svg(plot_of(course, pick, "its largest fall",
-                             std::pair(pick.fall->time - around, pick.fall->time + around))));
+          plots::to_svg(plot_of(course, pick, "its largest fall",
+                                std::pair(pick.fall->time - around, pick.fall->time + around))));
     report.plots(plots);
   }
   report.write(file);

@@ -7,13 +7,13 @@
 #include "pedicel/discrepancy/data/places.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
-#include "pedicel/io/svg_canvas.h"
+#include "pedicel/plots/svg_canvas.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 
-using io::SvgCanvas;
+using plots::SvgCanvas;
 
 constexpr int width = 400, most_height = 460, least_height = 240;
 constexpr double margin = 56.0, foot = 44.0;  // px

@@ -7,8 +7,8 @@
 #include "pedicel/discrepancy/data/trial_name.h"
 #include "pedicel/discrepancy/simulate/channel.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/io/svg_heat_map.h"
-#include "pedicel/io/svg_plot.h"
+#include "pedicel/plots/svg_heat_map.h"
+#include "pedicel/plots/svg_plot.h"
 
 namespace pedicel::discrepancy {
 
@@ -58,9 +58,9 @@ double rms(const Eigen::Ref<const Eigen::MatrixXd>& values) {
   return count > 0 ? std::sqrt(sum / count) : nan;
 }
 
-io::PlotBand band(const std::string& label, const std::vector<double>& x,
-                  const std::vector<double>& middle, double half) {
-  io::PlotBand result{label, x, middle, middle};
+plots::PlotBand band(const std::string& label, const std::vector<double>& x,
+                     const std::vector<double>& middle, double half) {
+  plots::PlotBand result{label, x, middle, middle};
   for (double& y : result.low) y -= half;
   for (double& y : result.high) y += half;
   return result;
@@ -110,7 +110,7 @@ std::optional<ReportChannel> worst(const ReportData& report, Model model) {
 
 std::string path_plot(const ReportData& report, const ReportChannel& channel) {
   const Shown s = shown(report, channel);
-  io::LinePlot plot;
+  plots::LinePlot plot;
   plot.title = report.experiment.trials[channel.trial].name + ": " + s.name;
   plot.x.label = "time (s)";
   plot.y.label = (s.unit == "N"    ? "force ("
@@ -127,12 +127,12 @@ std::string path_plot(const ReportData& report, const ReportChannel& channel) {
     plot.series.back().colour = colours[m];
     plot.series.back().dashed = m == extended;
   }
-  return io::to_svg(plot);
+  return plots::to_svg(plot);
 }
 
 std::string residual_plot(const ReportData& report, const ReportChannel& channel, int width) {
   const Shown s = shown(report, channel);
-  io::LinePlot plot;
+  plots::LinePlot plot;
   plot.title = "Measured less simulated, " + s.name + " in " +
                named_trial(report.experiment.trials[channel.trial].name);
   plot.x.label = "time (s)";
@@ -147,7 +147,7 @@ std::string residual_plot(const ReportData& report, const ReportChannel& channel
     plot.series.push_back({m == refitted ? "before (refitted)" : "after (extended)", s.time, r});
     plot.series.back().colour = colours[m];
   }
-  return io::to_svg(plot);
+  return plots::to_svg(plot);
 }
 
 std::string residual_map(const ReportData& report, int trial, Model model) {
@@ -158,7 +158,7 @@ std::string residual_map(const ReportData& report, int trial, Model model) {
   const int samples =
       t.force.size() > 0 ? std::min(t.markers.size(), t.force.size()) : t.markers.size();
   const int columns = std::clamp(samples, 1, most_columns);
-  io::HeatMap map;
+  plots::HeatMap map;
   map.title = t.name + ": " + names[model];
   map.x_label = "time (s)";
   map.value_label = "RMS residual in noise units:";
@@ -181,12 +181,12 @@ std::string residual_map(const ReportData& report, int trial, Model model) {
     for (int c = 0; c < columns; ++c)
       map.value.back().push_back(count[c] > 0.0 ? std::sqrt(sum[c] / count[c]) : nan);
   }
-  return io::to_svg(map);
+  return plots::to_svg(map);
 }
 
 std::string symptom_plot(const Symptom& symptom, const std::string& model) {
   if (symptom.plot.series.empty()) return {};
-  io::LinePlot plot;
+  plots::LinePlot plot;
   plot.title = symptom.plot.title + (model.empty() ? "" : ": " + model);
   // A title that would run out of the picture goes without its subject.
   if (plot.title.size() > 56) plot.title = symptom.name + (model.empty() ? "" : ": " + model);
@@ -201,11 +201,11 @@ std::string symptom_plot(const Symptom& symptom, const std::string& model) {
     plot.series.push_back({s.label, s.x, s.y, s.line, !s.line});
     plot.series.back().colour = palette[i % 2];
   }
-  return io::to_svg(plot);
+  return plots::to_svg(plot);
 }
 
 std::string error_bars(const Errors& errors, const std::string& title) {
-  io::BarChart chart;
+  plots::BarChart chart;
   chart.title = title;
   chart.y_label = "RMS residual over the noise";
   chart.width = 400;
@@ -214,14 +214,14 @@ std::string error_bars(const Errors& errors, const std::string& title) {
                 {names[0], errors.nominal.value_or(nan), colours[0]},
                 {names[1], errors.refitted.value_or(nan), colours[1]},
                 {names[2], errors.extended.value_or(nan), colours[2]}};
-  return io::to_svg(chart);
+  return plots::to_svg(chart);
 }
 
 std::string prediction_plot(const NextExperiment& next) {
   if (next.series.empty()) return {};
   const bool force = next.unit == "N";
   const double scale = force ? 1.0 : 1e3;
-  io::LinePlot plot;
+  plots::LinePlot plot;
   plot.title = "What each explanation predicts for it: " + next.channel;
   plot.x.label = "time (s)";
   plot.y.label = force ? "force (N)" : "position (mm)";
@@ -234,7 +234,7 @@ std::string prediction_plot(const NextExperiment& next) {
     plot.series.push_back({next.names[i], next.time, y});
     plot.series.back().dashed = i > 0;
   }
-  return io::to_svg(plot);
+  return plots::to_svg(plot);
 }
 
 }  // namespace pedicel::discrepancy

@@ -8,7 +8,7 @@
 #include "pedicel/discrepancy/report/verdict_tables.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 #include "pedicel/io/atomic_file.h"
-#include "pedicel/io/svg_plot.h"
+#include "pedicel/plots/svg_plot.h"
 
 namespace pedicel::discrepancy {
 
@@ -50,7 +50,7 @@ void choose(ShownColumn& best, const Samples& samples, const Eigen::MatrixXd& mo
 std::string plot_of(const ShownColumn& shown, bool extended) {
   const auto series = [&](const std::string& label, const Eigen::MatrixXd& values,
                           const std::string& colour) {
-    io::PlotSeries one;
+    plots::PlotSeries one;
     one.label = label;
     one.colour = colour;
     for (long r = 0; r < shown.samples->size(); ++r) {
@@ -59,7 +59,7 @@ std::string plot_of(const ShownColumn& shown, bool extended) {
     }
     return one;
   };
-  io::LinePlot plot;
+  plots::LinePlot plot;
   plot.title = shown.title;
   plot.x.label = "time (s)";
   plot.y.label = shown.unit;
@@ -72,7 +72,7 @@ std::string plot_of(const ShownColumn& shown, bool extended) {
     plot.series.push_back(series("extended", *shown.extended, "#2e8b57"));
     plot.series.back().dashed = true;
   }
-  return io::to_svg(plot);
+  return plots::to_svg(plot);
 }
 
 void add_trial(io::HtmlReport& page, const SceneExperiment& experiment, const SceneDiagnosis& d,

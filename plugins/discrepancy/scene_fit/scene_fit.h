@@ -53,7 +53,14 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
 SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
                        std::span<const int> trials);
 
-/// Modulus, density and damping of the plants, as factors on what their files say.
+/// Modulus, density and damping of the plants, as factors on what their files say; and where a
+/// plant stands, where nothing that was measured shows it but what it does to the arm.
 Hypothesis scene_baseline(const SceneExperiment& experiment);
+
+/// Whether a marker or an image point of a plant was measured.
+bool is_seen(const SceneExperiment& experiment, int plant);
+
+/// m and rad, standard deviations: how well a file says where an unseen plant stands.
+inline constexpr double place_known_to = 0.03, yaw_known_to = 0.3;
 
 }  // namespace pedicel::discrepancy

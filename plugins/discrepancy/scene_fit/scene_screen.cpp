@@ -125,8 +125,13 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneF
   const SceneExperiment& experiment = evaluator.simulator().experiment();
   for (const SceneEffectDefinition& definition : scene_effect_definitions()) {
     if (std::ranges::find(has, definition.name) != has.end()) continue;
-    for (const SceneFit& start : starts_of(definition, {experiment}))
-      screen.add(definition.name, start);
+    for (const SceneFit& start : starts_of(definition, {experiment})) {
+      // An unseen plant's place is in the base already.
+      const bool in_base = std::ranges::any_of(base.model.effects, [&](const plant::Effect& one) {
+        return one.name == start.effect.name && one.words == start.effect.words;
+      });
+      if (!in_base) screen.add(definition.name, start);
+    }
   }
   return screen.run();
 }

@@ -232,6 +232,20 @@ class Search {
       const double error = std::hypot(fit.standard_error[p], allowance(name));
       if (std::abs(off) > clear * error) found_.material.push_back(name);
     }
+    if (is_moved(fit)) found_.material.push_back("plant_pose");
+  }
+
+  // An unseen plant's place in the baseline: beyond what its numbers are sure of, and 1 mm.
+  static bool is_moved(const SceneFitResult& fit) {
+    constexpr double least = 1.0e-3;  // m
+    for (int p = 0; p < fit.model.size(); ++p) {
+      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+      const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
+      if (effect.name != "plant_pose" || free.name != "offset" || free.prior == 0.0) continue;
+      const double error = std::hypot(fit.standard_error[p] * free.scale, least);
+      if (std::abs(fit.model.value(p)) > clear * error) return true;
+    }
+    return false;
   }
 
   // Damping is what solvers differ by most, and density is seen through little but weight.
@@ -312,7 +326,7 @@ std::string findings_text(const SceneFindings& found, const SceneExperiment&) {
   const auto units = [](double value) { return io::format_number(value, 3); };
   std::string text = "misfit beyond the noise, in noise units: " + units(found.nominal_excess) +
                      " as the files say, " + units(found.baseline_excess) +
-                     " with modulus, density and damping refitted\n";
+                     " with the baseline refitted\n";
   text += "  refitted: " + numbers_of(found.baseline) + "\n";
   for (const SceneCandidate& one : found.candidates)
     text += "  " + joined_names(one.names) + ": " + units(one.excess) + " left" +

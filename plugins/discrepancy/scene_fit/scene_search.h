@@ -43,7 +43,7 @@ struct SceneFindings {
   std::optional<double> nominal_check, baseline_check;  ///< the same on trials held out
   std::vector<SceneCandidate> candidates;               ///< those with causes, the best first
   std::vector<std::size_t> rivals;  ///< of the best: candidates that do nearly as well
-  /// Of a factor beside the causes, that left what is known of it: "youngs_modulus".
+  /// Of a number beside the causes, that left what is known of it: "youngs_modulus", "plant_pose".
   std::vector<std::string> material;
   OutsideForce outside;    ///< where nothing explains the data
   std::vector<int> clean;  ///< trials that the baseline alone explains, likewise

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "pedicel/discrepancy/scene_fit/scene_noise.h"
+#include "pedicel/discrepancy/scene_procedure/robot_alone.h"
 #include "pedicel/discrepancy/scene_procedure/scene_symptoms.h"
 #include "pedicel/discrepancy/scene_procedure/scene_verdict.h"
 
@@ -141,6 +142,9 @@ class Procedure {
     // Of the refitted model and not of the extended one: a symptom is what the data show beside
     // what everybody would fit.
     out_.verdict.symptoms = scene_symptoms(experiment_, data_, out_.refitted);
+    for (SymptomNumber& one : robot_alone(fine_, out_.model, data_.deviation(SceneChannel::force),
+                                          data_.deviation(SceneChannel::moment)))
+      out_.verdict.symptoms.push_back(std::move(one));
     out_.verdict.partial = out_.findings.partial;
     out_.text = findings_text(out_.findings, experiment_);
     // Last, so that what the conclusion simulated counts, too.

@@ -346,8 +346,9 @@ class Symptoms {
   void standing(const SceneTrial& trial, const SceneReadings& model) {
     Vec3 sum = Vec3::Zero();
     int count = 0;
-    for (long r = 0;
-         r < trial.markers.size() && trial.markers.time[static_cast<std::size_t>(r)] < still; ++r)
+    for (long r = 0; r < trial.markers.size() && trial.markers.time[static_cast<std::size_t>(r)] <
+                                                     trial.markers.time.front() + still;
+         ++r)
       for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
         // Markers on the arm are the business of lag().
         if (experiment_.markers[m].plant < 0) continue;

@@ -128,6 +128,23 @@ class Conclusion {
       v_.parameters[name] = {own * factor.value, own * factor.low, own * factor.high,
                              known->material_unit};
     }
+    set_root(model);
+  }
+
+  // Where an unseen plant is attached.
+  void set_root(const SceneFitResult& model) {
+    for (int p = 0; p < model.model.size(); ++p) {
+      const effects::FreeParameter& free = model.model.free[static_cast<std::size_t>(p)];
+      const plant::Effect& effect = model.model.effects[static_cast<std::size_t>(free.effect)];
+      if (effect.name != "plant_pose" || free.prior == 0.0 || free.name != "offset") continue;
+      const auto named = effect.words.find("plant");
+      const int at = named == effect.words.end() ? 0 : experiment_.plant_index(named->second);
+      const ScenePlantFile& plant = experiment_.plants[static_cast<std::size_t>(at)];
+      const double own = (plant.pose * plant.file.root)[free.component];
+      Estimate place = estimate_of(model, p);
+      for (double* value : {&place.value, &place.low, &place.high}) *value += own;
+      v_.parameters[plant.name + "_root_" + "xyz"[free.component]] = place;
+    }
   }
 
   void add_causes() {
@@ -214,19 +231,38 @@ class Conclusion {
     const SceneFitResult& model = found_.model();
     NamedCause cause;
     cause.name = name;
-    const int p = model.model.factor_on(name);
-    cause.parameters["factor"].push_back(estimate_of(model, p));
+    if (const int p = model.model.factor_on(name); p >= 0) {
+      cause.parameters["factor"].push_back(estimate_of(model, p));
+      // Not how much misfit it takes: a swing sees a ratio of numbers, and each of them takes all
+      // of it.
+      cause.because = "the fitted factor leaves what is known of the file's own number";
+    } else {
+      add_place(model, cause);
+    }
     std::vector<plant::Effect> without;
     for (const plant::Effect& effect : d_.model)
       if (effect.name != name) without.push_back(effect);
-    // Not how much misfit it takes: a swing sees a ratio of numbers, and each of them takes all of
-    // it.
-    cause.because = "the fitted factor leaves what is known of the file's own number";
     // Simulated once, for the share and for the change.
     const std::vector<SceneReadings> left = predict(without);
     set_share(cause, left);
     set_change(cause, without, &left);
     return cause;
+  }
+
+  // Of an unseen plant, whose place is part of the baseline.
+  void add_place(const SceneFitResult& model, NamedCause& cause) const {
+    for (int p = 0; p < model.model.size(); ++p) {
+      const effects::FreeParameter& free = model.model.free[static_cast<std::size_t>(p)];
+      const plant::Effect& effect = model.model.effects[static_cast<std::size_t>(free.effect)];
+      if (effect.name != cause.name) continue;
+      cause.parameters[free.name].push_back(estimate_of(model, p));
+      cause.words = effect.words;
+    }
+    if (const SceneEffectDefinition* known = find_scene_effect(cause.name))
+      cause.plain = known->plain_name;
+    cause.because =
+        "nothing shows where the plant stands but what it does to the arm, and that "
+        "puts it there";
   }
 
   std::vector<SceneReadings> predict(const std::vector<plant::Effect>& effects) {

@@ -56,15 +56,15 @@ io::CsvTable truss_log() {
   return log;
 }
 
-std::vector<std::string> titles(const std::vector<io::LinePlot>& plots) {
+std::vector<std::string> titles(const std::vector<plots::LinePlot>& plots) {
   std::vector<std::string> all;
-  for (const io::LinePlot& plot : plots) all.push_back(plot.title);
+  for (const plots::LinePlot& plot : plots) all.push_back(plot.title);
   return all;
 }
 
-std::vector<std::string> labels(const io::LinePlot& plot) {
+std::vector<std::string> labels(const plots::LinePlot& plot) {
   std::vector<std::string> all;
-  for (const io::PlotSeries& series : plot.series) all.push_back(series.label);
+  for (const plots::PlotSeries& series : plot.series) all.push_back(series.label);
   return all;
 }
 
@@ -81,7 +81,7 @@ TEST(LogPlots, ShowStrainAgainstItsLimitForcesAndHeights) {
   // What touched nothing, and the organs' side of the same contacts, are left out.
   EXPECT_THAT(labels(plots[2]), ElementsAre("finger, normal", "finger, friction"));
   EXPECT_THAT(labels(plots[3]), ElementsAre("t/fruit_b", "tool"));
-  for (const io::LinePlot& plot : plots) EXPECT_EQ(plot.events.size(), 1u);
+  for (const plots::LinePlot& plot : plots) EXPECT_EQ(plot.events.size(), 1u);
 }
 
 TEST(LogPlots, WithoutFruitsShowStrainAndEnergy) {

@@ -118,6 +118,27 @@ TEST_F(Validate, TellsATableByItsHeader) {
   good("time_s,joint1,joint2\n0,1,2\n", "t.csv: table over time (trajectory or log), good");
 }
 
+TEST_F(Validate, TellsPlantsOfOtherPrograms) {
+  EXPECT_EQ(validate({write("t.ply",
+                            "ply\nformat ascii 1.0\ncomment radius: 0.004\nelement vertex 2\n"
+                            "property float x\nproperty float y\nproperty float z\n"
+                            "element edge 1\nproperty int vertex1\nproperty int vertex2\n"
+                            "end_header\n0 0 0\n0 0 0.5\n0 1\n")}),
+            0)
+      << text_;
+  EXPECT_THAT(text_, HasSubstr("t.ply: notice: 0.5 m tall, 2 nodes"));
+  EXPECT_THAT(text_, HasSubstr("t.ply: skeleton, good"));
+  EXPECT_EQ(validate({write("t.xml",
+                            "<?xml version=\"1.0\"?>\n<helios><plant_instance ID=\"0\">"
+                            "<shoot ID=\"0\"><phytomer><internode>"
+                            "<internode_length>0.5</internode_length>"
+                            "<internode_radius>0.004</internode_radius>"
+                            "</internode></phytomer></shoot></plant_instance></helios>\n")}),
+            0)
+      << text_;
+  EXPECT_THAT(text_, HasSubstr("t.xml: plant structure of Helios, good"));
+}
+
 TEST_F(Validate, WhatNothingReadsIsNotGood) {
   EXPECT_EQ(validate({write("t.csv", "apples,pears\n1,2\n")}), 3);
   EXPECT_THAT(text_, HasSubstr("t.csv:1:1: error: nothing reads a table with the columns apples, "

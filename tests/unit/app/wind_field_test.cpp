@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "pedicel/core/random.h"
 #include "unit/app/contact_cases.h"
 
 namespace pedicel::app {
@@ -48,6 +49,47 @@ TEST(WindField, GustsTravelWithTheMeanWind) {
             .norm(),
         1e-9);
   EXPECT_GT((field.velocity(place, 1.0) - field.velocity(place, 1.5)).norm(), 1e-3);
+}
+
+// The same waves, drawn and added up one by one.
+Vec3 plain_gusts(const world::SceneWind& wind, int seed, const Vec3& place, double time) {
+  constexpr int waves = 24;
+  constexpr double turn = 2.0 * 3.14159265358979323846;
+  Random random(static_cast<std::uint64_t>(seed) + 1);
+  Vec3 sum = Vec3::Zero();
+  double energy = 0.0;
+  for (int i = 0; i < waves; ++i) {
+    const double scaled = std::pow(10.0, -0.5 + 1.5 * i / (waves - 1.0));
+    Vec3 way(random.normal(), random.normal(), random.normal());
+    Vec3 side(random.normal(), random.normal(), random.normal());
+    way.normalize();
+    side = way.cross(side).normalized();
+    const double share = scaled * scaled / std::pow(1.0 + scaled * scaled, 11.0 / 6.0);
+    const double phase = random.uniform(0.0, turn);
+    const Vec3 carried = place - time * wind.velocity;
+    sum +=
+        std::sqrt(share) * std::cos(turn / wind.length * scaled * way.dot(carried) + phase) * side;
+    energy += 0.5 * share / 3.0;
+  }
+  return wind.velocity.norm() * wind.intensity / std::sqrt(energy) * sum;
+}
+
+TEST(WindField, SumsItsWavesAsOneByOne) {
+  cosserat::RodSystem none{cosserat::RodSettings{}};
+  world::SceneWind wind = gusty();
+  wind.roughness = 0.0;
+  for (int seed = 0; seed < 20; ++seed) {
+    const WindField field(wind, seed, none);
+    Random random(seed);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 place(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(0, 3));
+      const double time = random.uniform(0.0, 600.0);
+      EXPECT_LT((field.velocity(place, time) - wind.velocity - plain_gusts(wind, seed, place, time))
+                    .norm(),
+                1e-10)
+          << seed;
+    }
+  }
 }
 
 TEST(WindField, TheAirKeepsItsVolume) {

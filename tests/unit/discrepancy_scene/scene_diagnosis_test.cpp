@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "arm_at_stem.h"
+#include "pedicel/discrepancy/scene/run_effects.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
 #include "pedicel/discrepancy/scene_procedure/extended_scene.h"
 #include "pedicel/world/scene_reader.h"
@@ -100,7 +101,35 @@ TEST_F(DiagnosedScene, AMovedPlantIsNamedAndItsSceneRuns) {
   Diagnostics diagnostics;
   const auto scene = world::read_scene(out / extended.file, diagnostics);
   ASSERT_TRUE(scene) << diagnostics.text();
-  EXPECT_NEAR(scene->plants.front().pose.position.y(), 0.03 - 0.004, 5.0e-4);
+  // The plant stands where the nominal scene has it, and an effect moves it.
+  EXPECT_NEAR(scene->plants.front().pose.position.y(), 0.03, 1.0e-12);
+  const RunEffects effects = read_run_effects(*scene, &made_.robot, {}, diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.text();
+  EXPECT_NEAR(effects.state.plants.front().offset.y(), -0.004, 5.0e-4);
+}
+
+// Nothing of the plant is seen: where it stands is found from what it does to the arm.
+TEST_F(DiagnosedScene, FromTheRobotAloneAPlantsPlaceAndStiffnessAreFound) {
+  at_.instruments =
+      "wrenches:\n  - {name: wrist, link: finger}\n"
+      "noise: {force_std: 0.03, moment_std: 0.002, joint_std: 0.00002}\n";
+  at_.trials = "trials:\n  - {name: push, folder: push, robot: {follows: joints}}\n";
+  at_.sees_nothing = true;
+  const SceneDiagnosis found = diagnose(
+      {"{name: plant_pose, offset: [0, 0.008, 0]}", "{name: youngs_modulus, factor: 1.3}"});
+  EXPECT_EQ(found.verdict.outcome, Outcome::named) << found.text;
+  const NamedCause* place = cause(found, "plant_pose");
+  ASSERT_TRUE(place) << found.text;
+  const Estimate& y = place->parameters.at("offset")[1];
+  EXPECT_NEAR(y.value, 0.008, 1.0e-3) << found.text;
+  EXPECT_LT(y.low, 0.008);
+  EXPECT_GT(y.high, 0.008);
+  EXPECT_NEAR(found.verdict.parameters.at("bush_root_y").value, 0.038, 1.0e-3);
+  // 0.6 m tall, and pushed at 0.3 m by a flat finger: along the stem the push may be anywhere on
+  // it.
+  const auto hold = std::ranges::find(found.verdict.symptoms, "hold_place", &SymptomNumber::name);
+  ASSERT_NE(hold, found.verdict.symptoms.end()) << found.text;
+  EXPECT_EQ(hold->unit, "m");
 }
 
 TEST_F(DiagnosedScene, AForceFromOutsideIsUnknownWithPlaceTimeAndDirection) {

@@ -214,6 +214,31 @@ TEST_F(SceneEffects, ReactionTurnsTheJointByTorqueOverStiffness) {
   EXPECT_GT(std::abs(rigid.wrenches[0](given.wrenches[0].rows() - 1, 1)), std::abs(wrench[1]));
 }
 
+TEST_F(SceneEffects, ThePayloadsWeightIsTheMotorsToo) {
+  // The joint's axis leans by gravity's turn: it carries the payload 0.4 m out.
+  SceneExperiment lying = free();
+  lying.scene.gravity = {0, -g, 0};
+  const SceneReadings plain = readings_of(lying),
+                      laden = readings_of(lying, {"{name: payload, mass: 0.1}"});
+  EXPECT_NEAR(laden.torques(0, 0) - plain.torques(0, 0), 0.1 * g * ArmAtStem::reach, 1e-3);
+}
+
+TEST_F(SceneEffects, WhatIsGraspedGoesWhereTheLinkGoes) {
+  at_.write_all();
+  at_.write("push/events.csv",
+            "time,event,what,by\n0.05,grasped,stem,finger\n1.05,released,stem,finger\n");
+  const SceneExperiment held = at_.read();
+  const SceneReadings all = readings_of(held);
+  // In the middle of the motion, 0.11 m/s, the link feels the stem's bending and no more.
+  const Eigen::RowVectorXd wrench = all.wrenches[0].row(50);
+  EXPECT_LT(wrench.head<3>().norm(), 0.05 * g + 4.0);
+  EXPECT_LT(wrench[1], -0.2);
+  const SceneReadings finer = readings_of(held, {}, {0.02, 5.0e-4, 0.05, 1.0e-5});
+  EXPECT_NEAR(finer.wrenches[0](50, 1), wrench[1], 0.05 * std::abs(wrench[1]));
+  // Released, it swings back.
+  EXPECT_GT(std::abs(all.markers(104, middle + 1) - all.markers(119, middle + 1)), 2.0e-3);
+}
+
 TEST_F(SceneEffects, FruitsWeighAndHoldMultiplesOfTheFile) {
   SceneState state = nominal_state(free());
   apply_scene_effect(scene_effect("{name: fruit_mass, factor: 1.5}", free()), free(), state);

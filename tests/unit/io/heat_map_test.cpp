@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "pedicel/core/check.h"
-#include "pedicel/io/svg_heat_map.h"
+#include "pedicel/plots/svg_heat_map.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 namespace {
 
 using testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(HeatMap, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

@@ -7,10 +7,10 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/core/random.h"
-#include "pedicel/io/plot_scale.h"
-#include "pedicel/io/svg_plot.h"
+#include "pedicel/plots/plot_scale.h"
+#include "pedicel/plots/svg_plot.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 namespace {
 
 using testing::HasSubstr;
@@ -232,4 +232,4 @@ TEST(BarChart, MissingValueIsSaid) {
 }
 
 }  // namespace
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

@@ -141,7 +141,7 @@ TEST(SkeletonWays, DropsNoColumnInSilence) {
               HasSubstr("t.csv:1:29: error: column \"X\" says the same as \"x\""));
   EXPECT_THAT(
       read("x,y,parentid\n").said,
-      HasSubstr("t.csv:1:1: error: a column is missing (z, vid, edgetype), expected x,y,z"));
+      HasSubstr("t.csv:1:1: error: a column is missing (z, vid), expected x,y,z"));
 }
 
 TEST(SkeletonWays, SaysTheSameFaultOnce) {

@@ -1,4 +1,4 @@
-#include "pedicel/io/svg_polar.h"
+#include "pedicel/plots/svg_polar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
-#include "pedicel/io/svg_canvas.h"
+#include "pedicel/plots/svg_canvas.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 namespace {
 
@@ -42,7 +42,7 @@ void draw_grid(SvgCanvas& canvas, const Disc& disc, double step) {
   for (double value = step; value <= disc.most * 1.0001; value += step) {
     canvas.element(circle(disc.x, disc.y, disc.radius * value / disc.most, style_ring));
     canvas.text(disc.x + 3.0, disc.y - disc.radius * value / disc.most - 3.0,
-                format_number(value, 3), "font-size=\"10\" fill=\"#57606a\"");
+                io::format_number(value, 3), "font-size=\"10\" fill=\"#57606a\"");
   }
   for (int turn = 0; turn < 12; ++turn) {
     const double angle = turn * std::numbers::pi / 6.0;
@@ -102,4 +102,4 @@ std::string to_svg(const PolarPlot& plot) {
   return std::move(canvas).finished();
 }
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

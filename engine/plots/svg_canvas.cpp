@@ -1,11 +1,11 @@
-#include "pedicel/io/svg_canvas.h"
+#include "pedicel/plots/svg_canvas.h"
 
 #include <algorithm>
 #include <cstdio>
 
 #include "pedicel/io/markup.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 namespace {
 
@@ -14,8 +14,8 @@ constexpr std::string_view edge = "stroke=\"#8c959f\"";
 
 /// " × 10⁻³": the power of ten that the tick texts leave out.
 std::string with_power(const std::string& label, int power) {
-  if (power == 0) return escape_markup(label);
-  return escape_markup(label) + " \u00d7 10<tspan dy=\"-4\" font-size=\"9\">" +
+  if (power == 0) return io::escape_markup(label);
+  return io::escape_markup(label) + " \u00d7 10<tspan dy=\"-4\" font-size=\"9\">" +
          std::to_string(power) + "</tspan>";
 }
 
@@ -25,7 +25,7 @@ SvgCanvas::SvgCanvas(int width, int height, std::string_view description) {
   const std::string w = std::to_string(width), h = std::to_string(height);
   body_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h +
           "\" viewBox=\"0 0 " + w + " " + h + "\" role=\"img\" aria-label=\"" +
-          escape_markup(description) +
+          io::escape_markup(description) +
           "\" font-family=\"system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif\">"
           "\n<rect width=\"" +
           w + "\" height=\"" + h + "\" fill=\"#ffffff\"/>\n";
@@ -54,12 +54,12 @@ void SvgCanvas::line(double x0, double y0, double x1, double y1, std::string_vie
 
 void SvgCanvas::text(double x, double y, std::string_view words, std::string_view style) {
   body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" " + std::string(style) + ">" +
-           escape_markup(words) + "</text>\n";
+           io::escape_markup(words) + "</text>\n";
 }
 
 void SvgCanvas::upward_text(double x, double y, std::string_view words, std::string_view style) {
   body_ += "<text transform=\"translate(" + number(x) + " " + number(y) + ") rotate(-90)\" " +
-           std::string(style) + ">" + escape_markup(words) + "</text>\n";
+           std::string(style) + ">" + io::escape_markup(words) + "</text>\n";
 }
 
 void SvgCanvas::x_axis(const PlotFrame& frame, const PlotScale& scale, const std::string& label) {
@@ -92,4 +92,4 @@ std::string SvgCanvas::finished() && {
   return std::move(body_) + "</svg>\n";
 }
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

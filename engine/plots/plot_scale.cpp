@@ -1,4 +1,4 @@
-#include "pedicel/io/plot_scale.h"
+#include "pedicel/plots/plot_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 namespace {
 
@@ -93,9 +93,9 @@ std::vector<Tick> PlotScale::logarithmic_ticks() const {
       const double value = factor * std::pow(10.0, power);
       if (factor > 1.0 && !fine) break;
       if (value >= low_ * (1.0 - 1e-9) && value <= high_ * (1.0 + 1e-9))
-        ticks.push_back({value, format_number(value, 3)});
+        ticks.push_back({value, io::format_number(value, 3)});
     }
   return ticks;
 }
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

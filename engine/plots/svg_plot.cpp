@@ -1,4 +1,4 @@
-#include "pedicel/io/svg_plot.h"
+#include "pedicel/plots/svg_plot.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/markup.h"
-#include "pedicel/io/svg_canvas.h"
+#include "pedicel/plots/svg_canvas.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 7> palette = {"#1b6ca8", "#d1495b", "#2e8
                                                      "#c77d0a", "#3aa6a6", "#6b6f76"};
 
 std::string colour_of(const std::string& wanted, std::size_t index) {
-  return wanted.empty() ? std::string(palette[index % palette.size()]) : escape_markup(wanted);
+  return wanted.empty() ? std::string(palette[index % palette.size()]) : io::escape_markup(wanted);
 }
 
 void check_size(int width, int height) {
@@ -83,7 +83,7 @@ void legend_entry(SvgCanvas& canvas, const PlotSeries& s, std::size_t index, dou
 
 void legend_entry(SvgCanvas& canvas, const PlotBand& band, std::size_t, double x, double y) {
   canvas.element("<rect x=\"" + SvgCanvas::number(x) + "\" y=\"" + SvgCanvas::number(y - 10) +
-                 "\" width=\"24\" height=\"12\" fill=\"" + escape_markup(band.colour) +
+                 "\" width=\"24\" height=\"12\" fill=\"" + io::escape_markup(band.colour) +
                  "\" fill-opacity=\"0.55\"/>\n");
   canvas.text(x + 30, y, band.label, style_label);
 }
@@ -185,7 +185,7 @@ void draw_band(SvgCanvas& canvas, const LinePlot& plot, const PlotBand& band, co
       back = px + SvgCanvas::number(y(band.high[i])) + " " + back;
     }
     if (end > begin + 1)
-      canvas.element("<polygon fill=\"" + escape_markup(band.colour) +
+      canvas.element("<polygon fill=\"" + io::escape_markup(band.colour) +
                      "\" fill-opacity=\"0.55\" points=\"" + there + back + "\"/>\n");
     begin = end + 1;
   }
@@ -266,7 +266,8 @@ std::string to_svg(const BarChart& chart) {
                    SvgCanvas::number(top) + "\" width=\"" + SvgCanvas::number(thick) +
                    "\" height=\"" + SvgCanvas::number(low - top) + "\" rx=\"2\" fill=\"" +
                    colour_of(bar.colour, 0) + "\"/>\n");
-    canvas.text(middle, top - 5, there ? format_number(bar.value, 3) : "none", style_label_middle);
+    canvas.text(middle, top - 5, there ? io::format_number(bar.value, 3) : "none",
+                style_label_middle);
     canvas.text(middle, frame.bottom + 17, bar.label, style_label_middle);
   }
   canvas.line(frame.left, y(0.0), frame.right, y(0.0), "stroke=\"#8c959f\"");
@@ -275,4 +276,4 @@ std::string to_svg(const BarChart& chart) {
   return std::move(canvas).finished();
 }
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 /// One curve or set of points.
 struct PlotSeries {
@@ -68,4 +68,4 @@ struct BarChart {
 std::string to_svg(const LinePlot& plot);
 std::string to_svg(const BarChart& chart);
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 /// A mark on an axis, at a round number.
 struct Tick {
@@ -41,4 +41,4 @@ class PlotScale {
   bool logarithmic_;
 };
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

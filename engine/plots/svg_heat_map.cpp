@@ -1,4 +1,4 @@
-#include "pedicel/io/svg_heat_map.h"
+#include "pedicel/plots/svg_heat_map.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/markup.h"
-#include "pedicel/io/svg_canvas.h"
+#include "pedicel/plots/svg_canvas.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 namespace {
 
@@ -68,10 +68,10 @@ double legend(const HeatMap& map, double left, double right, double top, SvgCanv
   std::vector<std::pair<std::string, std::string_view>> entries;
   const double below = map.levels.empty() ? 0.0 : map.levels.front() - 1.0;
   if (!map.levels.empty())
-    entries.emplace_back("below " + format_number(map.levels.front(), 3),
+    entries.emplace_back("below " + io::format_number(map.levels.front(), 3),
                          colour(below, map.levels));
   for (const double level : map.levels)
-    entries.emplace_back("from " + format_number(level, 3), colour(level, map.levels));
+    entries.emplace_back("from " + io::format_number(level, 3), colour(level, map.levels));
   const bool gaps = std::ranges::any_of(map.value, [](const auto& row) {
     return std::ranges::any_of(row, [](double v) { return std::isnan(v); });
   });
@@ -116,4 +116,4 @@ std::string to_svg(const HeatMap& map) {
   return std::move(canvas).finished();
 }
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/io/plot_scale.h"
+#include "pedicel/plots/plot_scale.h"
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 /// The area of a plot inside its picture, px.
 struct PlotFrame {
@@ -45,4 +45,4 @@ inline constexpr std::string_view style_label = "font-size=\"12\" fill=\"#3d444d
 inline constexpr std::string_view style_label_middle =
     "font-size=\"12\" fill=\"#3d444d\" text-anchor=\"middle\"";
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 /// Values over directions: 0 points down, as a fruit hangs, and angles go on to the right and up.
 struct PolarPlot {
@@ -17,4 +17,4 @@ struct PolarPlot {
 /// One <svg> element. Throws UsageError where the lists differ in length or are empty.
 std::string to_svg(const PolarPlot& plot);
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

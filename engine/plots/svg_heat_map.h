@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace pedicel::io {
+namespace pedicel::plots {
 
 /// Values over rows with names and an axis: each cell is filled by the level that it reaches.
 struct HeatMap {
@@ -22,4 +22,4 @@ struct HeatMap {
 /// 300 px.
 std::string to_svg(const HeatMap& map);
 
-}  // namespace pedicel::io
+}  // namespace pedicel::plots

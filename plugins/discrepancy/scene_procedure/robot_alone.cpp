@@ -1,0 +1,277 @@
+#include "pedicel/discrepancy/scene_procedure/robot_alone.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "pedicel/io/csv.h"
+
+namespace pedicel::discrepancy {
+
+namespace {
+
+constexpr double least_push = 15.0;  // standard errors of a sample, for a push to say where it is
+constexpr double hold_share = 0.9;   // of the largest force: what is as strong says where, too
+constexpr double around_break = 0.012;  // s, to either side of a break
+constexpr double least_break = 0.25;    // of the largest force, that breaks off at once
+constexpr double finest = 2.5e-4;       // m, steps along the line of a force
+constexpr double farthest = 0.5;        // m, along it
+constexpr double near_stem = 0.03;      // m: what is farther from every stem is no place on one
+constexpr int places_a_curve = 80;
+
+/// Force and moment of the contact alone, in the sensor's frame, over time.
+struct Felt {
+  std::vector<double> time;
+  std::vector<Vec3> force, moment;
+
+  double largest() const {
+    double most = 0.0;
+    for (const Vec3& f : force) most = std::max(most, f.norm());
+    return most;
+  }
+};
+
+Felt less(const Samples& measured, const Eigen::MatrixXd& own) {
+  Felt felt;
+  for (long r = 0; r < measured.size(); ++r) {
+    const Eigen::RowVectorXd d = measured.value.row(r) - own.row(r);
+    if (!d.allFinite()) continue;
+    felt.time.push_back(measured.time[static_cast<std::size_t>(r)]);
+    felt.force.push_back(d.head<3>().transpose());
+    felt.moment.push_back(d.tail<3>().transpose());
+  }
+  return felt;
+}
+
+/// The scene with places along all curves as further markers of one trial, of one sample.
+SceneExperiment with_curves(const SceneExperiment& experiment, int trial, double time,
+                            std::vector<SceneMarker>& places) {
+  SceneExperiment own = experiment;
+  own.trials = {experiment.trials[static_cast<std::size_t>(trial)]};
+  own.markers.clear();
+  for (std::size_t p = 0; p < experiment.plants.size(); ++p)
+    for (const plant::PlantCurve& curve : experiment.plants[p].file.curves)
+      for (int i = 0; i <= places_a_curve; ++i) {
+        SceneMarker marker;
+        marker.name = "place " + std::to_string(own.markers.size());
+        marker.plant = static_cast<int>(p);
+        marker.place = {curve.name, static_cast<double>(i) / places_a_curve, {}};
+        own.markers.push_back(marker);
+      }
+  places = own.markers;
+  SceneTrial& one = own.trials.front();
+  one.pixels.assign(one.pixels.size(), Samples{});
+  one.markers.time = {time};
+  one.markers.value = Eigen::MatrixXd::Constant(1, 3 * static_cast<long>(own.markers.size()),
+                                                std::numeric_limits<double>::quiet_NaN());
+  return own;
+}
+
+class RobotAlone {
+ public:
+  RobotAlone(SceneSimulator& simulator, const std::vector<plant::Effect>& model, double force_std,
+             double moment_std)
+      : simulator_(simulator),
+        experiment_(simulator.experiment()),
+        model_(model),
+        force_std_(force_std),
+        moment_std_(moment_std),
+        state_(nominal_state(experiment_)),
+        fields_(link_fields(experiment_.robot)) {
+    for (const auto* list : {&experiment_.scene_effects, &experiment_.effects, &model_})
+      for (const plant::Effect& effect : *list) apply_scene_effect(effect, experiment_, state_);
+  }
+
+  std::vector<SymptomNumber> run() {
+    for (std::size_t t = 0; t < experiment_.trials.size(); ++t) look_at(static_cast<int>(t));
+    return std::move(found_);
+  }
+
+ private:
+  void look_at(int t) {
+    const SceneTrial& trial = experiment_.trials[static_cast<std::size_t>(t)];
+    const SceneReadings own = untouched(t);
+    if (!own.healthy) return;
+    for (std::size_t w = 0; w < trial.wrenches.size(); ++w) {
+      if (trial.wrenches[w].size() < 10) continue;
+      const Felt felt = less(trial.wrenches[w], own.wrenches[w]);
+      if (felt.largest() < least_push * force_std_) continue;
+      tell_place(t, trial, felt, experiment_.wrenches[w].link);
+      tell_break(trial, felt);
+    }
+  }
+
+  // As if no plant were there: what remains is weight, inertia and the sensor's own.
+  SceneReadings untouched(int t) {
+    SceneVariant variant{model_};
+    plant::Effect away;
+    away.name = "plant_pose";
+    away.numbers["offset"] = {0.0, 0.0, -100.0};
+    variant.effects.push_back(away);
+    const SceneSimulator::Request request{&variant, t};
+    return simulator_.run({&request, 1}).front();
+  }
+
+  // Where one force would give the moment: nearest to what all samples of a firm push say.
+  void tell_place(int t, const SceneTrial& trial, const Felt& felt, int link) {
+    const double most = felt.largest();
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    double time = 0.0;
+    int count = 0;
+    // The longest stretch of a firm push is one place; its middle stands for it.
+    std::size_t best = 0, length = 0, begin = 0;
+    for (std::size_t i = 0; i <= felt.force.size(); ++i) {
+      const bool firm = i < felt.force.size() && felt.force[i].norm() > hold_share * most;
+      if (firm) continue;
+      if (i - begin > length) best = begin, length = i - begin;
+      begin = i + 1;
+    }
+    for (std::size_t i = best; i < best + length; ++i) {
+      force += felt.force[i];
+      moment += felt.moment[i];
+      time += felt.time[i];
+      ++count;
+    }
+    if (count < 3) return;
+    force /= count, moment /= count, time /= count;
+    if (trial.follows_commands) return;  // where its links are is not known before it is simulated
+    const Arm arm(experiment_, state_);
+    const JointPath path = path_of(experiment_, trial);
+    SceneMember member;
+    member.state = &state_;
+    member.arm = &arm;
+    member.path = &path;
+    std::vector<Pose> links;
+    arm.model().link_poses(arm_at(member, time).q, links);
+    const Pose& sensor = links[static_cast<std::size_t>(link)];
+    const Vec3 f = sensor.rotation * force, m = sensor.rotation * moment;
+    const std::optional<Vec3> place =
+        entry(arm, links, link, sensor.position + f.cross(m) / f.squaredNorm(), f.normalized());
+    if (!place) return;
+    const double error = moment_std_ / std::sqrt(static_cast<double>(count)) / f.norm() +
+                         force_std_ / std::sqrt(static_cast<double>(count)) / f.norm() *
+                             (*place - sensor.position).norm();
+    tell_along(t, trial, time, *place, error);
+  }
+
+  // m, W: where the line of a force first meets what collides of the links beyond the sensor.
+  std::optional<Vec3> entry(const Arm& arm, const std::vector<Pose>& links, int link,
+                            const Vec3& on_line, const Vec3& along) const {
+    const auto inside = [&](const Vec3& place) {
+      for (const int l : arm.beyond(link)) {
+        const auto at = static_cast<std::size_t>(l);
+        const auto& shapes = arm.description().links[at].collisions;
+        for (std::size_t c = 0; c < shapes.size(); ++c) {
+          const Vec3 place_C = (links[at] * shapes[c].X_LC).inverse() * place;
+          if (fields_[at][c]->distance(place_C) < 1.0e-3) return true;
+        }
+      }
+      return false;
+    };
+    for (double s = -farthest; s < farthest; s += finest)
+      if (inside(on_line + s * along)) return on_line + s * along;
+    return std::nullopt;
+  }
+
+  // The place on the stems of the fitted model, as they are bent then.
+  void tell_along(int t, const SceneTrial& trial, double time, const Vec3& place, double error) {
+    std::vector<SceneMarker> places;
+    const SceneExperiment own = with_curves(experiment_, t, time, places);
+    SceneSimulator simulator(own, simulator_.numerics(), 1);
+    const SceneVariant variant{model_};
+    const SceneSimulator::Request request{&variant, 0};
+    const SceneReadings bent = simulator.run({&request, 1}).front();
+    if (!bent.healthy) return;
+    double nearest = near_stem;
+    std::size_t best = places.size();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double distance =
+          (bent.markers.row(0).segment<3>(3 * static_cast<long>(i)).transpose() - place).norm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      best = i;
+    }
+    if (best == places.size()) return;
+    const plant::CurvePlace& at = places[best].place;
+    const double length = length_of(places[best].plant, at.curve);
+    SymptomNumber said;
+    said.name = "hold_place";
+    said.of = trial.name;
+    said.value = at.at * length;
+    said.error = std::hypot(error, 0.5 * length / places_a_curve);
+    said.unit = "m";
+    said.shows = true;
+    said.sentence = "In " + trial.name + " the tool pushes most at " + io::format_number(time, 3) +
+                    " s, by the wrench at (" + io::format_number(place.x(), 3) + ", " +
+                    io::format_number(place.y(), 3) + ", " + io::format_number(place.z(), 3) +
+                    ") m: on " + at.curve + ", " + io::format_number(said.value, 3) +
+                    " m from its foot.";
+    found_.push_back(said);
+  }
+
+  double length_of(int plant, const std::string& name) const {
+    const plant::PlantFile& file = experiment_.plants[static_cast<std::size_t>(plant)].file;
+    const plant::PlantCurve& curve = file.curves[static_cast<std::size_t>(file.curve_index(name))];
+    double length = 0.0;
+    for (std::size_t i = 1; i < curve.points.size(); ++i)
+      length += (curve.points[i] - curve.points[i - 1]).norm();
+    return length;
+  }
+
+  // The largest fall of the force within a moment.
+  void tell_break(const SceneTrial& trial, const Felt& felt) {
+    const auto mean = [&](std::size_t i, int side) {
+      Vec3 sum = Vec3::Zero();
+      int count = 0;
+      for (auto k = static_cast<long>(i) + side; k >= 0 && k < static_cast<long>(felt.time.size());
+           k += side) {
+        const auto at = static_cast<std::size_t>(k);
+        if (std::abs(felt.time[at] - felt.time[i]) > around_break) break;
+        sum += felt.force[at];
+        ++count;
+      }
+      return count > 0 ? Vec3(sum / count) : Vec3(felt.force[i]);
+    };
+    double most = 0.0;
+    std::size_t at = 0;
+    for (std::size_t i = 1; i + 1 < felt.time.size(); ++i) {
+      const double fall = mean(i, -1).norm() - mean(i, 1).norm();
+      if (fall <= most) continue;
+      most = fall;
+      at = i;
+    }
+    if (most < std::max(least_break * felt.largest(), 6.0 * force_std_)) return;
+    const double sample = (felt.time.back() - felt.time.front()) /
+                          static_cast<double>(std::max<std::size_t>(1, felt.time.size() - 1));
+    SymptomNumber said;
+    said.name = "force_breaks_off";
+    said.of = trial.name;
+    said.value = felt.time[at];
+    said.error = sample + around_break * force_std_ / most;
+    said.unit = "s";
+    said.shows = true;
+    said.speaks_for = {"detachment_threshold", "contact_friction"};
+    said.sentence = "In " + trial.name + " the force falls by " + io::format_number(most, 2) +
+                    " N at " + io::format_number(said.value, 4) +
+                    " s: something slips or comes off.";
+    found_.push_back(said);
+  }
+
+  SceneSimulator& simulator_;
+  const SceneExperiment& experiment_;
+  const std::vector<plant::Effect>& model_;
+  double force_std_, moment_std_;
+  SceneState state_;
+  LinkFields fields_;
+  std::vector<SymptomNumber> found_;
+};
+
+}  // namespace
+
+std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
+                                       const std::vector<plant::Effect>& model, double force_std,
+                                       double moment_std) {
+  return RobotAlone(simulator, model, force_std, moment_std).run();
+}
+
+}  // namespace pedicel::discrepancy

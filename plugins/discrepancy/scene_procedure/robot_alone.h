@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pedicel/discrepancy/scene/scene_simulator.h"
+#include "pedicel/discrepancy/select/verdict.h"
+
+namespace pedicel::discrepancy {
+
+/// What the robot's own sensors say of a plant, without any marker: in each trial with a wrench
+/// where the tool holds when it pushes most, in the world and along the stem of the fitted model,
+/// and when the force breaks off (something slips or comes off). One of each kind a trial.
+/// `model`: effects of the fitted model. `force_std`, `moment_std`: N and N m.
+std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
+                                       const std::vector<plant::Effect>& model, double force_std,
+                                       double moment_std);
+
+}  // namespace pedicel::discrepancy

@@ -1,0 +1,246 @@
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "discrepancy/scene_cases/scene_case.h"
+
+namespace pedicel::scene_case {
+
+namespace {
+
+constexpr double joint_std = 2.0e-5, position_std = 3.0e-4, force_std = 0.03, moment_std = 2.0e-3;
+constexpr double joint_rate = 250.0, marker_rate = 100.0, wrench_rate = 250.0;  // Hz
+
+std::string list(const std::vector<double>& values) {
+  std::ostringstream out;
+  out.precision(10);
+  if (values.size() > 1) out << "[";
+  for (std::size_t i = 0; i < values.size(); ++i) out << (i > 0 ? ", " : "") << values[i];
+  if (values.size() > 1) out << "]";
+  return out.str();
+}
+std::string list(const Vec3& v) {
+  return list(std::vector<double>{v.x(), v.y(), v.z()});
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream out(file);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+std::string link(const std::string& name, const std::string& centre, double mass,
+                 const std::string& inertia, const std::string& shape = "") {
+  double x = 0.0, y = 0.0, z = 0.0;
+  std::istringstream(inertia) >> x >> y >> z;
+  std::ostringstream out;
+  out << "  <link name=\"" << name << "\"><inertial><origin xyz=\"" << centre
+      << "\"/><mass value=\"" << mass << "\"/><inertia ixx=\"" << x
+      << "\" ixy=\"0\" ixz=\"0\" iyy=\"" << y << "\" iyz=\"0\" izz=\"" << z << "\"/></inertial>"
+      << shape << "</link>\n";
+  return out.str();
+}
+
+std::string joint(const std::string& name, const std::string& kind, const std::string& parent,
+                  const std::string& child, const std::string& origin) {
+  std::string text = "  <joint name=\"" + name + "\" type=\"" + kind + "\"><parent link=\"" +
+                     parent + "\"/><child link=\"" + child + "\"/><origin xyz=\"" + origin + "\"/>";
+  if (kind != "fixed")
+    text +=
+        "<axis xyz=\"0 0 1\"/><limit lower=\"-3.1\" upper=\"3.1\" effort=\"60\" velocity=\"3\"/>";
+  return text + "</joint>\n";
+}
+
+std::string urdf() {
+  std::ostringstream shape;
+  for (const char* kind : {"visual", "collision"})
+    shape << "<" << kind << "><origin xyz=\"" << 0.5 * finger_length
+          << " 0 0\" rpy=\"0 1.57079632679 0\"/><geometry><cylinder radius=\"" << finger_radius
+          << "\" length=\"" << finger_length << "\"/></geometry></" << kind << ">";
+  std::ostringstream out;
+  out << "<?xml version=\"1.0\"?>\n<robot name=\"reacher\">\n"
+      << link("base", "0 0 0.05", 3.0, "0.02 0.02 0.02")
+      << link("upper", "0.125 0 0", 0.8, "0.0004 0.0045 0.0045")
+      << joint("shoulder", "revolute", "base", "upper", "0 0 " + std::to_string(shoulder_height))
+      << link("fore", "0.1 0 0", 0.5, "0.0002 0.0018 0.0018")
+      << joint("elbow", "revolute", "upper", "fore", std::to_string(upper_length) + " 0 0")
+      << link("carriage", "0 0 0", 0.2, "0.0001 0.0001 0.0001")
+      << joint("lift", "prismatic", "fore", "carriage", std::to_string(fore_length - 0.05) + " 0 0")
+      << link("hand", "0.015 0 0", hand_mass, "0.00008 0.00008 0.00008")
+      << joint("sensor_mount", "fixed", "carriage", "hand", "0.02 0 0")
+      << link("finger", std::to_string(0.5 * finger_length) + " 0 0", finger_mass,
+              "0.000002 0.00009 0.00009", shape.str())
+      << joint("tool_mount", "fixed", "hand", "finger", "0.03 0 0") << "</robot>\n";
+  return out.str();
+}
+
+std::string plant(const Setting& s) {
+  std::ostringstream out;
+  out.precision(10);
+  out << std::showpoint << "format: pedicel-plant\nversion: 1\nname: bush\n"
+      << "material: {youngs_modulus: " << s.modulus
+      << ", poisson_ratio: 0.35, density: " << s.density << ", damping_time: " << s.damping_time
+      << "}\n"
+      << "sampling: {connect: 0.004, distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n"
+      << "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, " << s.height
+      << "]], radius: " << s.radius << "}\n";
+  return out.str();
+}
+
+std::string scene(const Setting& s, const Vec3& start) {
+  std::ostringstream out;
+  out.precision(10);
+  out << "format: pedicel-scene\nversion: 1\nname: nominal\n"
+      << "purpose: The nominal scene of a measured experiment, as believed.\n"
+      << "see: A finger pushes a stem.\nduration: 3\ndt: 0.001\ncoupling: {friction: " << s.friction
+      << "}\nplants:\n  - {name: bush, file: plant.yaml, position: " << list(s.root)
+      << "}\nrobot:\n  {name: arm, file: reacher.urdf, joints: {shoulder: " << start[0]
+      << ", elbow: " << start[1] << ", lift: " << start[2] << "}, tool: finger}\n";
+  return out.str();
+}
+
+std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
+  std::string text =
+      "format: pedicel-experiment\nversion: 1\ntitle: a finger pushes a stem and lets it go\n"
+      "scene: scene.yaml\nmarkers:\n";
+  int m = 0;
+  for (const auto& [curve, at] : markers_of(s))
+    text += "  - {name: m" + std::to_string(m++) + ", plant: bush, curve: " + curve +
+            ", at: " + list({at}) + "}\n";
+  text += "  - {name: nail, link: finger, offset: " + list(nail) + "}\n";
+  text += "wrenches:\n  - {name: wrist, link: hand}\nnoise: {joint_std: " + list({joint_std}) +
+          ", position_std: " + list({position_std}) + ", force_std: " + list({force_std}) +
+          ", moment_std: " + list({moment_std}) + "}\ntrials:\n";
+  for (const Drive& drive : drives)
+    text +=
+        "  - {name: " + drive.name + ", folder: " + drive.name + ", robot: {follows: joints}}\n";
+  return text;
+}
+
+std::string answer(const Setting& s) {
+  std::string text =
+      "# What is hidden. The diagnosis does not read it.\nseed: " + std::to_string(s.seed) +
+      "\nhidden:" + (s.hidden.empty() ? " []\n" : "\n");
+  for (const Hidden& one : s.hidden) {
+    text += "  - {name: " + one.name;
+    for (const auto& [key, values] : one.numbers) text += ", " + key + ": " + list(values);
+    text += "}\n";
+  }
+  return text;
+}
+
+/// Rows of a table with noise, at its rate.
+class Table {
+ public:
+  Table(const std::string& head, std::uint64_t seed)
+      : text_("time," + head + "\n"), random_(seed) {}
+  void row(double t) { add("%.4f", t), first_ = false; }
+  void value(double v, double deviation) {
+    text_ += ",", add("%.9g", v + deviation * normal_(random_));
+  }
+  void end() { text_ += "\n", first_ = true; }
+  const std::string& text() const { return text_; }
+
+ private:
+  void add(const char* form, double v) {
+    char piece[40];
+    std::snprintf(piece, sizeof piece, form, v);
+    text_ += piece;
+  }
+  std::string text_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  bool first_ = true;
+};
+
+/// One trial's tables. Rows of a wrench are means over half a sample to either side.
+class Tables {
+ public:
+  Tables(const Setting& s, const Drive& drive, const Run& run, const std::filesystem::path& folder)
+      : s_(s), drive_(drive), run_(run), folder_(folder) {}
+
+  void write_all(std::uint64_t seed) {
+    write_joints(seed);
+    write_markers(seed + 1);
+    write_wrench(seed + 2);
+  }
+
+ private:
+  std::size_t step(double t) const {
+    return std::min(run_.joints.size() - 1,
+                    static_cast<std::size_t>(std::max(0.0, std::round(t / run_.dt))));
+  }
+
+  void write_joints(std::uint64_t seed) {
+    // A row at t holds what was at t - delay.
+    const double delay = hidden_number(s_, "robot_latency", "delay", 0.0);
+    Table table("shoulder,elbow,lift", seed);
+    for (int r = 0; r <= static_cast<int>(drive_.duration * joint_rate); ++r) {
+      const double t = r / joint_rate;
+      table.row(t);
+      const Vec3 q = run_.joints[step(t - delay)];
+      for (int j = 0; j < 3; ++j) table.value(q[j], joint_std);
+      table.end();
+    }
+    write(folder_ / "joints.csv", table.text());
+  }
+
+  void write_markers(std::uint64_t seed) {
+    std::string head;
+    for (std::size_t m = 0; m + 1 < run_.markers.front().size(); ++m)
+      for (const char axis : {'x', 'y', 'z'}) head += "m" + std::to_string(m) + "." + axis + ",";
+    Table table(head + "nail.x,nail.y,nail.z", seed);
+    for (int r = 0; r <= static_cast<int>(drive_.duration * marker_rate); ++r) {
+      const double t = r / marker_rate;
+      table.row(t);
+      for (const Vec3& place : run_.markers[step(t)])
+        for (int a = 0; a < 3; ++a) table.value(place[a], position_std);
+      table.end();
+    }
+    write(folder_ / "markers.csv", table.text());
+  }
+
+  void write_wrench(std::uint64_t seed) {
+    const double gain = hidden_number(s_, "wrench_gain", "gain", 1.0);
+    Table table("fx,fy,fz,tx,ty,tz", seed);
+    for (int r = 0; r <= static_cast<int>(drive_.duration * wrench_rate); ++r) {
+      const double t = r / wrench_rate;
+      Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+      const std::size_t first = step(t - 0.5 / wrench_rate), last = step(t + 0.5 / wrench_rate);
+      for (std::size_t k = first; k <= last; ++k) sum += run_.wrench[k];
+      sum *= gain / static_cast<double>(last - first + 1);
+      table.row(t);
+      for (std::size_t a = 0; a < 6; ++a)
+        table.value(sum[static_cast<long>(a)] +
+                        hidden_number(s_, "wrench_bias", a < 3 ? "force" : "moment", 0.0, a % 3),
+                    a < 3 ? force_std : moment_std);
+      table.end();
+    }
+    write(folder_ / "wrench_wrist.csv", table.text());
+  }
+
+  const Setting& s_;
+  const Drive& drive_;
+  const Run& run_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+void write_case(const std::filesystem::path& folder, const Setting& setting) {
+  const std::vector<Drive> drives = drives_of(setting);
+  write(folder / "reacher.urdf", urdf());
+  write(folder / "plant.yaml", plant(setting));
+  write(folder / "scene.yaml", scene(setting, drives.front().joints.front()));
+  write(folder / "experiment.yaml", experiment(setting, drives));
+  write(folder / "answer.yaml", answer(setting));
+  for (std::size_t d = 0; d < drives.size(); ++d)
+    Tables(setting, drives[d], simulate(setting, drives[d]), folder / drives[d].name)
+        .write_all(1000 * setting.seed + 10 * d);
+}
+
+}  // namespace pedicel::scene_case

@@ -1,0 +1,14 @@
+#include "pedicel/skeleton/helios_reader.h"
+#include "reading.h"
+
+using namespace pedicel;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Diagnostics diagnostics;
+  const auto nodes = plant::parse_helios_xml(fuzz::text_of(data, size), "plant.xml", diagnostics);
+  fuzz::require_answer(!nodes.empty(), diagnostics);
+  if (nodes.empty()) return 0;
+  Diagnostics of_plant;
+  fuzz::require_answer(plant::checked_skeleton_plant(nodes, "plant", {}, of_plant), of_plant);
+  return 0;
+}
