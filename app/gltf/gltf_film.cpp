@@ -242,7 +242,9 @@ class GltfFilm : public RunWatcher {
 }  // namespace
 
 MakeWatcher gltf_film(const std::filesystem::path& file) {
-  return [file](Simulation& simulation) { return std::make_unique<GltfFilm>(simulation, file); };
+  return [file](Simulation& simulation, PictureTaker*) {
+    return std::make_unique<GltfFilm>(simulation, file);
+  };
 }
 
 }  // namespace pedicel::app

@@ -56,10 +56,16 @@ std::shared_ptr<io::OutputFolder> take_folder(const std::filesystem::path& folde
 
 /// Before the folder is taken: who refuses the simulation costs no earlier run.
 std::vector<std::unique_ptr<RunWatcher>> watchers_of(const RunOptions& options,
-                                                     Simulation& simulation) {
+                                                     Simulation& simulation, PictureTaker* taker) {
   std::vector<std::unique_ptr<RunWatcher>> all;
-  for (const MakeWatcher& make : options.watchers) all.push_back(make(simulation));
+  for (const MakeWatcher& make : options.watchers) all.push_back(make(simulation, taker));
   return all;
+}
+
+/// Null where the run takes no pictures.
+std::unique_ptr<PictureTaker> taker_of(const RunOptions& options) {
+  if (!options.pictures || options.out.empty()) return nullptr;
+  return std::make_unique<PictureTaker>();
 }
 
 /// A simulation, at the state that the run goes on from.
@@ -87,11 +93,13 @@ class Run {
         options_(options),
         started_(scene, options),
         simulation_(started_.simulation),
-        watchers_(watchers_of(options, simulation_)),
+        pictures_(taker_of(options)),
+        watchers_(watchers_of(options, simulation_, pictures_.get())),
         output_(take_folder(options.out)),
         recorder_(options.out, scene.log_rate),
         view_(simulation_) {
     result_.folder = options.out;
+    result_.moving_scene = options.moving_scene;
     result_.output = output_;
     if (output_) output_->file("log.csv"), output_->file("events.csv");
     if (output_ && simulation_.assets()->coupling.plant_contact)
@@ -107,10 +115,7 @@ class Run {
         strain_history_ |= picture.strain;
       }
     }
-    if (options.pictures && !options.out.empty()) {
-      pictures_ = std::make_unique<PictureTaker>();
-      if (options.video) open_video();
-    }
+    if (pictures_ && options.video) open_video();
     if (output_)
       sensors_ = std::make_unique<SensorRecorder>(simulation_, *output_, pictures_.get());
     say_start();
@@ -382,13 +387,13 @@ class Run {
   const world::Scene& scene_;
   RunOptions options_;
   Started started_;
-  Simulation& simulation_;  // of started_
+  Simulation& simulation_;                  // of started_
+  std::unique_ptr<PictureTaker> pictures_;  // null: none are taken
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
   std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
   RoughSpell rough_;
   SceneView view_;
-  std::unique_ptr<PictureTaker> pictures_;
   std::unique_ptr<SensorRecorder> sensors_;
   FrameHistory history_;
   Frame frame_;

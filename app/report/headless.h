@@ -31,7 +31,8 @@ struct RunOptions {
       save_state;  ///< written at the end, also of a run that is stopped; empty: not
   std::filesystem::path load_state;  ///< the run goes on from there; empty: from the beginning
   std::optional<ComparisonRequest> comparison_with;
-  std::vector<MakeWatcher> watchers;  ///< who looks at the run besides; of a sweep's main run only
+  std::vector<MakeWatcher> watchers;   ///< who looks at the run besides; of a sweep's main run only
+  std::filesystem::path moving_scene;  ///< GLB that a watcher writes, for the report; empty: none
   bool pictures = true;
   bool video = true;
   bool comparison = true;     ///< compare_solvers(), where the scene's sweep is one for it
@@ -58,6 +59,7 @@ struct SceneResult {
   std::vector<StalkLimits> limits;              ///< of every fruit, for the plots
   std::vector<std::filesystem::path> pictures;  ///< in the order taken
   std::optional<std::filesystem::path> video;
+  std::filesystem::path moving_scene;  ///< GLB; empty: none
   std::filesystem::path folder;
   std::shared_ptr<io::OutputFolder> output;  ///< taken for the run; null: nothing is written
 

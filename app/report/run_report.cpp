@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pedicel/app/report/moving_scene.h"
 #include "pedicel/core/diagnostics.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/html_report.h"
@@ -78,6 +79,7 @@ void write_run_report(const RunSummary& summary, const std::filesystem::path& pa
   add_result(page, summary);
   if (!summary.see.empty()) page.paragraph("What to see: " + summary.see);
   if (!summary.video.empty()) page.video(summary.video, "The whole run.");
+  if (!summary.moving_scene.empty()) add_moving_scene(page, summary.moving_scene);
   add_pictures(page, summary.pictures);
   add_table(page, "What came off", summary.events);
   add_table(page, "How gently it was done", summary.gentleness);

@@ -33,7 +33,8 @@ struct RunSummary {
   std::string see;    ///< what to look at
   std::string error;  ///< why the run ended early
   std::vector<ReportExpectation> expectations;
-  std::string video;  ///< relative to the page
+  std::string video;                   ///< relative to the page
+  std::filesystem::path moving_scene;  ///< a GLB, played in the page; empty: none
   std::vector<ReportImage> pictures;
   ReportTable events;
   ReportTable gentleness;  ///< how each organ was handled

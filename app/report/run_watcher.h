@@ -6,6 +6,7 @@
 namespace pedicel::app {
 
 class Simulation;
+class PictureTaker;
 
 /// Looks at a run as it goes: a log of another kind, somebody who listens. It may throw
 /// io::WriteError, which ends the run.
@@ -17,7 +18,8 @@ class RunWatcher {
   virtual void end() = 0;  ///< after the last step, also of a run that is stopped
 };
 
-/// Makes one for a run; the simulation outlives it.
-using MakeWatcher = std::function<std::unique_ptr<RunWatcher>(Simulation&)>;
+/// Makes one for a run; simulation and taker outlive it. The taker is null where the run takes no
+/// pictures.
+using MakeWatcher = std::function<std::unique_ptr<RunWatcher>(Simulation&, PictureTaker*)>;
 
 }  // namespace pedicel::app

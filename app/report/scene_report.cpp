@@ -200,6 +200,7 @@ void write_scene_report(const world::Scene& scene, const SceneResult& result,
   summary.expectations = expectations_of(result);
   if (result.video)
     summary.video = std::filesystem::relative(*result.video, result.folder).string();
+  summary.moving_scene = result.moving_scene;
   for (const std::filesystem::path& picture : result.pictures)
     summary.pictures.push_back({picture, picture.stem().string()});
   summary.events = events_of(result);

@@ -69,6 +69,7 @@ RunOptions options_of_value(const RunOptions& options) {
   one.quiet = true;
   one.log.clear(), one.events.clear(), one.save_state.clear(), one.comparison_with.reset();
   one.watchers.clear();
+  one.moving_scene.clear();
   return one;
 }
 

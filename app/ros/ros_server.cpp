@@ -6,6 +6,7 @@
 
 #include "pedicel/app/ros/ros_services.h"
 #include "pedicel/app/run/verbosity.h"
+#include "pedicel/app/topics/camera_topics.h"
 #include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/csv.h"
@@ -27,6 +28,7 @@ double wall_seconds() {
 
 RosServer::RosServer(const world::Scene& scene, const RosOptions& options)
     : options_(options),
+      edits_(scene, options.simulation),
       assets_(std::make_shared<const SceneAssets>(scene, options.simulation)),
       state_(options.paused ? State::paused : State::playing),
       node_(std::make_unique<DdsNode>(options.node)),
@@ -35,7 +37,14 @@ RosServer::RosServer(const world::Scene& scene, const RosOptions& options)
     actions_ = std::make_unique<ArmActions>(
         *node_, queue_, scene.robot && !scene.robot->gripper.empty(),
         [this](const std::string& what, const std::string& why) { refuse(what, why); });
-  if (!options.log.empty()) log_ = std::make_unique<McapSink>(options.log);
+  if (!options.log.empty()) {
+    log_ = std::make_unique<McapSink>(options.log);
+    both_ = std::make_unique<BothSinks>(*sink_, *log_);
+  }
+  if (options.pictures && has_sensing_camera(scene)) {
+    taker_ = std::make_unique<PictureTaker>();
+    if (!taker_->available()) say(Verbosity::warnings, "no cameras: %s", taker_->why().c_str());
+  }
   begin();
   for (const std::string& note : simulation_->notes()) say(Verbosity::warnings, "%s", note.c_str());
   const auto definitions = ros::definitions_of<ros::JointTrajectory>();
@@ -57,7 +66,8 @@ RosServer::~RosServer() {
 
 void RosServer::begin() {
   told_.reset();
-  logged_.reset();
+  // Each telling adds its topics anew, and finds them.
+  if (both_) both_ = std::make_unique<BothSinks>(*sink_, *log_);
   // What was led until now stays until nobody looks at it any more.
   const auto before = std::move(simulation_);
   const auto follower_before = std::move(follower_);
@@ -68,19 +78,31 @@ void RosServer::begin() {
     actions_->lead(*simulation_, *robot, *follower_);
   }
   const TopicRates rates{.states = simulation_->scene().log_rate};
-  told_ = std::make_unique<SimulationTopics>(*simulation_, *sink_, rates);
+  TopicSink& sink = both_ ? static_cast<TopicSink&>(*both_) : *sink_;
+  told_ = std::make_unique<SimulationTopics>(*simulation_, sink, rates, taker_.get());
   told_->begin();
-  if (log_) {
-    logged_ = std::make_unique<SimulationTopics>(*simulation_, *log_, rates);
-    logged_->begin();
-  }
   pace_wall_ = 0.0;
+}
+
+bool RosServer::rebuild(const SceneEdits& edits, std::string& fault) {
+  std::shared_ptr<const SceneAssets> assets;
+  try {
+    assets = std::make_shared<const SceneAssets>(edits.scene(), edits.options());
+    // Bodies, loads and contacts are checked by what is built of them.
+    const Simulation trial(assets);
+  } catch (const std::exception& refused) {
+    fault = refused.what();
+    return false;
+  }
+  edits_.take(edits);
+  assets_ = std::move(assets);
+  begin();
+  return true;
 }
 
 bool RosServer::step() {
   const world::WorldReport& report = simulation_->step();
   told_->after_step();
-  if (logged_) logged_->after_step();
   if (actions_) actions_->after_step();
   if (!(report.errors & world::fatal_errors)) return true;
   failure_ = "unstable at " + io::format_number(report.time, 6) + " s: " + report.culprit + ": " +

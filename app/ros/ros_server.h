@@ -9,7 +9,9 @@
 #include "pedicel/app/ros/entities.h"
 #include "pedicel/app/ros/joint_follower.h"
 #include "pedicel/app/ros/ros_sink.h"
+#include "pedicel/app/ros/scene_edits.h"
 #include "pedicel/app/run/scene_assets.h"
+#include "pedicel/app/topics/both_sinks.h"
 #include "pedicel/app/topics/mcap_log.h"
 
 namespace pedicel::app {
@@ -21,6 +23,7 @@ struct RosOptions {
   bool paused = false;             ///< waits for a step or for play
   std::optional<double> duration;  ///< s, simulated; absent: until it is stopped
   std::filesystem::path log;       ///< *.mcap; empty: none
+  bool pictures = true;            ///< of the scene's cameras
   bool quiet = false;
 };
 
@@ -40,6 +43,9 @@ class RosServer {
   friend class RosServices;
   enum class State { playing, paused, stopped };
   void begin();
+  /// The scene as edited, at time 0: false, with the reason, where it cannot be built, and then
+  /// nothing has changed.
+  bool rebuild(const SceneEdits& edits, std::string& fault);
   /// False where it cannot go on.
   bool step();
   void wait_for_pace();
@@ -49,12 +55,12 @@ class RosServer {
   void say_end() const;
 
   RosOptions options_;
+  SceneEdits edits_;
   std::shared_ptr<const SceneAssets> assets_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<JointFollower> follower_;  // null: no robot
   CommandQueue queue_;
-  std::unique_ptr<McapSink> log_;  // null: none
-  std::unique_ptr<SimulationTopics> told_, logged_;
+  std::unique_ptr<PictureTaker> taker_;  // null: no cameras
   State state_ = State::playing;
   bool quits_ = false;
   std::string failure_;
@@ -63,6 +69,9 @@ class RosServer {
   // Last, so that nothing arrives any more once the rest goes.
   std::unique_ptr<DdsNode> node_;
   std::unique_ptr<RosSink> sink_;
+  std::unique_ptr<McapSink> log_;    // null: none
+  std::unique_ptr<BothSinks> both_;  // the two before; null where there is no log
+  std::unique_ptr<SimulationTopics> told_;
   std::unique_ptr<class RosServices> services_;
   std::unique_ptr<ArmActions> actions_;  // null: no robot
 };

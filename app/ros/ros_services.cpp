@@ -61,6 +61,15 @@ RosServices::RosServices(RosServer& server) : server_(server) {
   });
   serve<GetEntityState>("/get_entity_state",
                         [this](const auto& request) { return state_of(request.entity); });
+  serve<SpawnEntity>("/spawn_entity", [this](const auto& request) { return spawn(request); });
+  serve<DeleteEntity>("/delete_entity", [this](const auto& request) {
+    return DeleteEntity::Response{
+        edit([&](SceneEdits& edits) { return edits.remove(request.entity); })};
+  });
+  serve<SetEntityState>("/set_entity_state", [this](const auto& request) {
+    return SetEntityState::Response{
+        edit([&](SceneEdits& edits) { return edits.set_state(request); })};
+  });
   serve<GetEntitiesStates>("/get_entities_states", [this](const auto& request) {
     GetEntitiesStates::Response response;
     if (const auto left =
@@ -73,24 +82,57 @@ RosServices::RosServices(RosServer& server) : server_(server) {
   });
 }
 
+template <class Edit>
+Result RosServices::edit(const Edit& change) {
+  if (server_.simulation_->world().steps() > 0)
+    return {Result::incorrect_state,
+            "plants and bodies change at time 0 only, expected the simulation stopped "
+            "(set_simulation_state 0) or reset"};
+  SceneEdits edits = server_.edits_;
+  const Result said = change(edits);
+  if (said.result != Result::ok) return said;
+  std::string fault;
+  if (!server_.rebuild(edits, fault)) return {Result::operation_failed, fault};
+  return {};
+}
+
+ros::SpawnEntity::Response RosServices::spawn(const ros::SpawnEntity::Request& request) {
+  ros::SpawnEntity::Response response;
+  response.result = edit([&](SceneEdits& edits) {
+    response = edits.spawn(request);
+    return response.result;
+  });
+  if (response.result.result != Result::ok) response.entity_name.clear();
+  return response;
+}
+
 ros::GetSimulatorFeatures::Response RosServices::features() const {
   using F = ros::SimulatorFeatures;
-  return {
-      {{F::entity_categories, F::entity_state_getting, F::simulation_reset,
-        F::simulation_reset_time, F::simulation_reset_state, F::simulation_state_getting,
-        F::simulation_state_setting, F::simulation_state_pause, F::step_single, F::step_multiple},
-       {},
-       "Pedicel: plants as Cosserat rods; entities are the robot, plants, fruits and bodies"}};
+  return {{{F::spawning, F::deleting, F::entity_categories, F::spawning_resource_string,
+            F::entity_state_getting, F::entity_state_setting, F::simulation_reset,
+            F::simulation_reset_time, F::simulation_reset_state, F::simulation_reset_spawned,
+            F::simulation_state_getting, F::simulation_state_setting, F::simulation_state_pause,
+            F::step_single, F::step_multiple},
+           {"pedicel-plant", "pedicel-body"},
+           "Pedicel: plants as Cosserat rods; entities are the robot, plants, fruits and bodies"}};
 }
 
 Result RosServices::reset(std::uint8_t scope) {
   using Reset = ros::ResetSimulation;
   const bool time = scope & Reset::scope_time, state = scope & Reset::scope_state;
   // Time and state go back together: a run is the same from its beginning on.
-  if (scope != Reset::scope_default && time != state)
+  if (scope != Reset::scope_default && !(time && state))
     return {Result::unsupported,
-            "time and state are set back together: expected scope 0, 3 or 255"};
-  server_.begin();
+            "time and state are set back together: expected scope 0, 3, 7 or 255"};
+  const bool spawned = scope == Reset::scope_default || (scope & Reset::scope_spawned);
+  if (!spawned || server_.edits_.is_as_given()) {
+    server_.begin();
+    return {};
+  }
+  SceneEdits edits = server_.edits_;
+  edits.reset();
+  std::string fault;
+  if (!server_.rebuild(edits, fault)) return {Result::operation_failed, fault};
   return {};
 }
 

@@ -20,6 +20,10 @@ class RosServices {
              std::function<typename Service::Response(const typename Service::Request&)> answer);
   ros::GetSimulatorFeatures::Response features() const;
   ros::SimulationResult reset(std::uint8_t scope);
+  ros::SpawnEntity::Response spawn(const ros::SpawnEntity::Request& request);
+  /// The scene is built with an edit, at time 0 only.
+  template <class Edit>
+  ros::SimulationResult edit(const Edit& change);
   ros::SimulationResult step(std::uint64_t steps);
   ros::SimulationResult set_state(std::uint8_t state);
   ros::GetEntityState::Response state_of(const std::string& entity) const;

@@ -21,8 +21,9 @@ std::string qos_text(Delivery delivery) {
 
 class McapWatcher : public RunWatcher {
  public:
-  McapWatcher(Simulation& simulation, const std::filesystem::path& file, const TopicRates& rates)
-      : sink_(file), topics_(simulation, sink_, rates) {}
+  McapWatcher(Simulation& simulation, PictureTaker* taker, const std::filesystem::path& file)
+      : sink_(file),
+        topics_(simulation, sink_, TopicRates{.states = simulation.scene().log_rate}, taker) {}
   void begin() override { topics_.begin(); }
   void after_step() override { topics_.after_step(); }
   void end() override { sink_.close(); }
@@ -40,10 +41,12 @@ McapSink::McapSink(const std::filesystem::path& file)
 int McapSink::add(const Topic& topic) {
   const auto known = topics_.find(topic.name);
   if (known != topics_.end()) return known->second;
+  std::map<std::string, std::string> metadata = topic.metadata;
+  metadata["offered_qos_profiles"] = qos_text(topic.delivery);
   return topics_[topic.name] = writer_.add_channel(
              topic.name,
              {topic.definitions.front().name, "ros2msg", ros::schema_text(topic.definitions)},
-             "cdr", {{"offered_qos_profiles", qos_text(topic.delivery)}});
+             "cdr", std::move(metadata));
 }
 
 void McapSink::write(int topic, double time, std::string_view cdr) {
@@ -53,9 +56,8 @@ void McapSink::write(int topic, double time, std::string_view cdr) {
 }
 
 MakeWatcher mcap_log(const std::filesystem::path& file) {
-  return [file](Simulation& simulation) {
-    return std::make_unique<McapWatcher>(simulation, file,
-                                         TopicRates{.states = simulation.scene().log_rate});
+  return [file](Simulation& simulation, PictureTaker* taker) {
+    return std::make_unique<McapWatcher>(simulation, taker, file);
   };
 }
 

@@ -38,7 +38,9 @@ void JointTopics::tell(double time) {
 }
 
 DescriptionTopic::DescriptionTopic(const RobotControl& robot, TopicSink& sink)
-    : robot_(robot), text_(sink, "/robot_description", Delivery::latched) {}
+    : robot_(robot),
+      text_(sink, "/robot_description", Delivery::latched,
+            {{"file", std::filesystem::absolute(robot.description().file).string()}}) {}
 
 void DescriptionTopic::begin(double time) {
   text_.tell(time, {io::read_text_file(robot_.description().file)});

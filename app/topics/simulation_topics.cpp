@@ -1,7 +1,9 @@
 #include "pedicel/app/topics/simulation_topics.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "pedicel/app/topics/camera_topics.h"
 #include "pedicel/app/topics/frame_topics.h"
 #include "pedicel/app/topics/plant_topics.h"
 #include "pedicel/app/topics/robot_topics.h"
@@ -29,7 +31,8 @@ long due_by(double time, double rate) {
 
 }  // namespace
 
-SimulationTopics::SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates)
+SimulationTopics::SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates,
+                                   PictureTaker* taker)
     : simulation_(simulation), sink_(sink) {
   const auto add = [&](std::unique_ptr<TopicSource> source, double rate) {
     all_.push_back({std::move(source), rate, 0});
@@ -39,12 +42,21 @@ SimulationTopics::SimulationTopics(Simulation& simulation, TopicSink& sink, cons
   if (RobotControl* robot = simulation.robot()) {
     add(std::make_unique<DescriptionTopic>(*robot, sink), rates.states);
     add(std::make_unique<JointTopics>(*robot, sink), rates.states);
-    if (wrist_link(*robot) >= 0) add(std::make_unique<WrenchTopic>(simulation, sink), rates.states);
+    // A sensor of the scene that is called so takes its place.
+    const bool own = std::ranges::any_of(simulation.scene().wrenches, [](const auto& one) {
+      return topic_part(one.name) == "wrist";
+    });
+    if (!own && wrist_link(*robot) >= 0)
+      add(std::make_unique<WrenchTopic>(simulation, sink), rates.states);
   }
+  if (!simulation.wrenches().empty())
+    add(std::make_unique<SceneWrenchTopics>(simulation, sink), rates.states);
   add(std::make_unique<FrameTopics>(simulation, sink), rates.states);
   add(std::make_unique<OrganTopic>(simulation, sink), rates.states);
   add(std::make_unique<EventTopic>(simulation, sink), rates.states);
   add(std::make_unique<MarkerTopics>(simulation, sink), rates.markers);
+  if (taker && taker->available() && has_sensing_camera(simulation.scene()))
+    add(std::make_unique<CameraTopics>(simulation, sink, *taker), rates.states);
 }
 
 void SimulationTopics::begin() {

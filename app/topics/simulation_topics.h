@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "pedicel/app/draw/pictures.h"
 #include "pedicel/app/topics/topic_source.h"
 
 namespace pedicel::app {
@@ -15,8 +16,10 @@ struct TopicRates {
 /// Everything that a simulation tells on topics, to one sink.
 class SimulationTopics {
  public:
-  /// Both must outlive it.
-  SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates);
+  /// All must outlive it. `taker`: for the cameras of the scene; null, or one that takes no
+  /// pictures: there are none.
+  SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates,
+                   PictureTaker* taker = nullptr);
 
   /// Before the first step: what stays as it is, and how all things stand.
   void begin();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,7 @@ struct Topic {
   std::string name;                          ///< "/joint_states"
   std::vector<ros::Definition> definitions;  ///< of its messages: their own first
   Delivery delivery = Delivery::sensor;
+  std::map<std::string, std::string> metadata;  ///< told where the sink has a place for it
 };
 
 /// Where messages go: a log, or DDS.
@@ -38,8 +40,10 @@ class TopicSink {
 template <ros::Message M>
 class Teller {
  public:
-  Teller(TopicSink& sink, const std::string& name, Delivery delivery)
-      : sink_(sink), topic_(sink.add({name, ros::definitions_of<M>(), delivery})) {}
+  Teller(TopicSink& sink, const std::string& name, Delivery delivery,
+         std::map<std::string, std::string> metadata = {})
+      : sink_(sink),
+        topic_(sink.add({name, ros::definitions_of<M>(), delivery, std::move(metadata)})) {}
   void tell(double time, const M& message) { sink_.write(topic_, time, ros::to_cdr(message)); }
 
  private:

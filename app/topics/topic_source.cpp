@@ -2,6 +2,15 @@
 
 namespace pedicel::app {
 
+std::string topic_part(const std::string& name) {
+  std::string part;
+  for (const char c : name) {
+    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    part += good ? c : '_';
+  }
+  return part.empty() || (part[0] >= '0' && part[0] <= '9') ? "_" + part : part;
+}
+
 ros::Point point_of(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
 }

@@ -20,6 +20,9 @@ class TopicSource {
   virtual void tell(double /*time*/) {}
 };
 
+/// A name of the scene as a part of a topic's: letters, digits and _, no digit first.
+std::string topic_part(const std::string& name);
+
 /// Messages' geometry.
 ros::Point point_of(const Vec3& p);
 ros::Vector3 vector_of(const Vec3& v);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pedicel/app/run/colliders.h"
+#include "pedicel/app/run/wrench_sensor.h"
 #include "pedicel/robot/multibody.h"
 #include "pedicel/robot/rigid_groups.h"
 
@@ -137,6 +138,28 @@ void WrenchTopic::after_step(double time) {
   wrench_.tell(time, message);
   sum_ = {Vec3::Zero(), Vec3::Zero()};
   steps_ = 0;
+}
+
+SceneWrenchTopics::SceneWrenchTopics(const Simulation& simulation, TopicSink& sink)
+    : simulation_(simulation) {
+  for (const WrenchSensor& sensor : simulation.wrenches()) {
+    tellers_.emplace_back(sink, "/" + topic_part(sensor.scene().name) + "/wrench",
+                          Delivery::sensor);
+    told_.push_back(sensor.samples());
+  }
+}
+
+void SceneWrenchTopics::after_step(double time) {
+  for (std::size_t i = 0; i < tellers_.size(); ++i) {
+    const WrenchSensor& sensor = simulation_.wrenches()[i];
+    if (sensor.samples() == told_[i]) continue;
+    told_[i] = sensor.samples();
+    const Wrench& now = sensor.reading();
+    ros::WrenchStamped message;
+    message.header = {ros::stamp_of(sensor.reading_time()), sensor.scene().link};
+    message.wrench = {vector_of(now.head<3>()), vector_of(now.tail<3>())};
+    tellers_[i].tell(time, message);
+  }
 }
 
 }  // namespace pedicel::app

@@ -41,4 +41,17 @@ class WrenchTopic : public TopicSource {
   int steps_ = 0, wanted_ = 1;
 };
 
+/// /NAME/wrench of the scene's force sensors (`wrenches`), each at its own rate, with its noise; in
+/// the link's frame. The stamp is the sample's.
+class SceneWrenchTopics : public TopicSource {
+ public:
+  SceneWrenchTopics(const Simulation& simulation, TopicSink& sink);
+  void after_step(double time) override;
+
+ private:
+  const Simulation& simulation_;
+  std::vector<Teller<ros::WrenchStamped>> tellers_;
+  std::vector<long> told_;  // samples
+};
+
 }  // namespace pedicel::app

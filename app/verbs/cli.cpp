@@ -13,6 +13,8 @@
 #include "pedicel/app/help/man_page.h"
 #include "pedicel/app/help/manual.h"
 #include "pedicel/app/plants/rod_options.h"
+#include "pedicel/app/playback/log_film.h"
+#include "pedicel/app/playback/play_off_screen.h"
 #include "pedicel/app/report/version.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/document/document.h"
@@ -41,6 +43,7 @@
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/output_check.h"
+#include "pedicel/io/output_folder.h"
 #include "pedicel/render/image.h"
 #include "pedicel/world/settings.h"
 
@@ -131,6 +134,44 @@ std::optional<double> duration_of(const RunArguments& a) {
   return scene.duration;
 }
 
+/// A log as a film or a picture, off screen; without either a film below --out.
+int play_verb(const RunArguments& a, const DesktopRequest& window) {
+  const std::pair<const char*, bool> of_scenes[] = {{"--set", !a.set.empty()},
+                                                    {"--steps", a.steps.has_value()},
+                                                    {"--log", !a.log.empty()},
+                                                    {"--events", !a.events.empty()},
+                                                    {"--gltf", !a.gltf.empty()},
+                                                    {"--script", !a.script.empty()},
+                                                    {"--trajectory", !a.trajectory.empty()},
+                                                    {"--compare", !a.compare.empty()},
+                                                    {"--save-state", !a.save_state.empty()},
+                                                    {"--load-state", !a.load_state.empty()},
+                                                    {"--param-sweep", !a.param_sweep.empty()},
+                                                    {"--json", a.json},
+                                                    {"--print-scene", a.print_scene},
+                                                    {"--with-ui", window.with_interface}};
+  for (const auto& [option, given] : of_scenes)
+    if (given) throw UsageError(std::string(option) + ": is of a scene, expected it without a log");
+  PlayRequest request;
+  request.log = a.scene;
+  request.packages = a.packages;
+  request.film = window.record;
+  request.picture = window.screenshot;
+  if (request.film.empty() && request.picture.empty()) {
+    const std::filesystem::path out = a.out.empty()
+                                          ? std::filesystem::path("out") / io::name_of_file(a.scene)
+                                          : std::filesystem::path(a.out);
+    std::filesystem::create_directories(out);
+    request.film = (out / "playback.mp4").string();
+    request.picture = (out / "playback.png").string();
+  }
+  if (window.time > 0.0) request.at = window.time;
+  if (a.fps) request.fps = *a.fps;
+  if (const auto size = run_options(a).size) request.size = *size;
+  request.quiet = a.quiet;
+  return play_off_screen(request);
+}
+
 /// "frame_%05d.png" is a name for each of many.
 void check_picture_places(const DesktopRequest& window) {
   if (!window.screenshot.empty()) io::check_output_file(window.screenshot);
@@ -148,6 +189,10 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
   check_run_arguments(a);
   apply_verbosity(a);
   const bool picture = !window.screenshot.empty() || !window.record.empty();
+  if (is_playable(a.scene) && (picture || a.asks_for_run() || !open_desktop)) {
+    check_picture_places(window);
+    return play_verb(a, window);
+  }
   if (picture) check_picture_arguments(a);
   if (!window.record.empty() && a.scene.empty())
     throw UsageError("--record: no scene given, expected one to make a film of");
@@ -170,6 +215,7 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
   window.camera = a.camera;
   window.quiet = a.quiet;
   if (const std::optional<int> code = open_desktop(window)) return *code;
+  if (is_playable(a.scene)) return play_verb(a, window);
   if (!a.scene.empty()) return run_verb(a, make_films);
   throw std::runtime_error("there is no window to open; give a scene to run it off screen");
 }
@@ -329,7 +375,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   app.set_version_flag("--version", "pedicel " + version() + " (" + git_hash() + ")");
 
   RunArguments run;
-  app.add_option("scene", run.scene, "scene file (*.scene.yaml)");
+  app.add_option("scene", run.scene, "scene file (*.scene.yaml), or a log that is played (*.mcap)");
   app.add_option("--script", run.script, "run commands from a file, one a line, off screen");
   app.add_flag("--headless", run.headless,
                "no window: run off screen (so do --out, --json and --quiet)");

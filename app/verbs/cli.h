@@ -15,7 +15,7 @@ class Session;
 
 /// What the command line asks of the window.
 struct DesktopRequest {
-  std::string file;                    ///< scene or plant; empty: the first start's scene
+  std::string file;                    ///< scene, plant or log; empty: the first start's scene
   double unit = 0.0;                   ///< m, of a lone table's or MTG's lengths; 0: as it says
   std::vector<std::string> set;        ///< "key=value", over what the files say
   std::vector<std::string> packages;   ///< "NAME=PATH"

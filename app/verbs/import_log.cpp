@@ -15,6 +15,7 @@
 #include "pedicel/io/output_folder.h"
 #include "pedicel/io/unit_text.h"
 #include "pedicel/mcap/reader.h"
+#include "pedicel/rosbag/reader.h"
 
 namespace pedicel::app {
 
@@ -59,8 +60,11 @@ std::vector<LogMap::Trial> trials_of(const LogMap& map, const std::vector<LogCon
 
 const LogContents& log_of(const LogMap::Trial& trial, const std::vector<LogContents>& logs,
                           Diagnostics& diagnostics) {
-  const auto found = std::ranges::find_if(
-      logs, [&](const LogContents& log) { return log.file.filename() == trial.log; });
+  const auto is_it = [&](const LogContents& log) { return log.file.filename() == trial.log; };
+  const auto found = std::ranges::find_if(logs, is_it);
+  if (std::ranges::count_if(logs, is_it) > 1)
+    diagnostics.error(trial.where, "log " + in_quotes(trial.log) +
+                                       " is the name of several of the files given, expected one");
   if (found != logs.end()) return *found;
   if (!trial.log.empty() || logs.size() > 1)
     diagnostics.error(trial.where, "log " + in_quotes(trial.log) +
@@ -98,8 +102,10 @@ int import_with(const ImportArguments& a, const LogMap& map, const LogScene& sce
   Diagnostics diagnostics;
   discrepancy::check_places(map, scene, diagnostics);
   std::vector<discrepancy::LogTrial> trials;
-  for (const LogMap::Trial& trial : trials_of(map, logs)) {
-    const LogContents& log = log_of(trial, logs, diagnostics);
+  const std::vector<LogMap::Trial> wanted = trials_of(map, logs);
+  for (std::size_t t = 0; t < wanted.size(); ++t) {
+    const LogMap::Trial& trial = wanted[t];
+    const LogContents& log = map.trials.empty() ? logs[t] : log_of(trial, logs, diagnostics);
     trials.push_back(discrepancy::trial_of_log(log, map, trial, scene, diagnostics));
     for (const std::string& remark : trials.back().remarks)
       if (!a.quiet) std::fprintf(stderr, "%s\n", printable(remark).c_str());
@@ -155,7 +161,9 @@ namespace {
 
 /// By what it begins with, else by its name: then the reader says what is wrong with it.
 bool is_log(const std::string& file) {
-  return mcap::is_mcap(file) || io::same_but_case(fs::path(file).extension().string(), ".mcap");
+  const std::string ending = fs::path(file).extension().string();
+  return mcap::is_mcap(file) || rosbag::is_bag(file) || io::same_but_case(ending, ".mcap") ||
+         io::same_but_case(ending, ".bag");
 }
 
 }  // namespace
@@ -163,7 +171,8 @@ bool is_log(const std::string& file) {
 bool are_logs(const ImportArguments& a) {
   const auto logs = static_cast<std::size_t>(std::ranges::count_if(a.files, is_log));
   if (logs > 0 && logs < a.files.size())
-    throw UsageError("import: some files are MCAP logs and some are not, expected one kind");
+    throw UsageError(
+        "import: some files are logs (MCAP, bags) and some are not, expected one kind");
   return logs > 0;
 }
 

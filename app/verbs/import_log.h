@@ -4,8 +4,8 @@
 
 namespace pedicel::app {
 
-/// Whether the files of an import are logs (MCAP) of a robot. Throws UsageError where only some
-/// are.
+/// Whether the files of an import are logs of a robot (MCAP, bags of ROS 1). Throws UsageError
+/// where only some are.
 bool are_logs(const ImportArguments& arguments);
 
 /// `pedicel import LOG.mcap...`: an experiment whose model is a scene. Without --map a first map is

@@ -83,6 +83,7 @@ int ros_verb(const RosArguments& a, const RunArguments& run, bool paused) {
   options.pace = a.pace.value_or(1.0);
   options.paused = paused;
   options.log = run.log;
+  options.pictures = !run.no_pictures;
   if (!run.log.empty()) io::check_output_file(run.log);
   options.quiet = run.quiet;
   const world::Scene scene = load_scene(run);

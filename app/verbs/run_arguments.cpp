@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "pedicel/app/gltf/gltf_film.h"
+#include "pedicel/app/h5/h5_log.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/plant_import.h"
@@ -47,7 +48,7 @@ void add_number(CLI::App& app, RunArguments& a, const std::string& option, const
 void add_table_options(CLI::App& app, RunArguments& a) {
   app.add_option(
       "--log", a.log,
-      "a copy of log.csv there, at the end of the run; *.mcap: what ROS 2's topics would "
+      "a copy of log.csv there, at the end of the run; *.mcap, *.h5: what ROS 2's topics would "
       "say, while it runs");
   app.add_option("--gltf", a.gltf, "the moving scene there (*.glb), for Blender and browsers");
   app.add_option("--events", a.events, "a copy of events.csv there, at the end of the run");
@@ -256,6 +257,8 @@ RunOptions run_options(const RunArguments& a) {
   if (options.out.empty()) options.out = std::filesystem::path("out") / io::name_of_file(a.scene);
   if (a.log.ends_with(".mcap"))
     options.watchers.push_back(mcap_log(a.log));
+  else if (a.log.ends_with(".h5"))
+    options.watchers.push_back(h5_log(a.log));
   else
     options.log = a.log;
   options.events = a.events;
@@ -263,6 +266,7 @@ RunOptions run_options(const RunArguments& a) {
     if (!a.gltf.ends_with(".glb"))
       throw UsageError("--gltf " + a.gltf + ": expected a name that ends in .glb");
     options.watchers.push_back(gltf_film(a.gltf));
+    options.moving_scene = a.gltf;
   }
   options.steps = a.steps;
   options.save_state = a.save_state;

@@ -17,6 +17,7 @@
 #include "pedicel/app/session/session_recovery.h"
 #include "pedicel/app/window/desktop.h"
 #include "pedicel/app/window/film.h"
+#include "pedicel/app/window/playback_window.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/asset_folder.h"
@@ -155,6 +156,28 @@ int make_film(const DesktopRequest& request, const DesktopOptions& options) {
   return unstable;
 }
 
+/// A log in a window of its own kind, until it is closed.
+std::optional<int> play_log(const DesktopRequest& request) {
+  const LogFilm log(request.file, request.packages);
+  for (const std::string& note : log.notes())
+    std::fprintf(stderr, "%s: warning: %s\n", request.file.c_str(), note.c_str());
+  PlatformOptions where;
+  where.size = request.size;
+  where.scale = request.scale;
+  where.title = std::filesystem::path(request.file).filename().string() + " - Pedicel";
+  std::string why;
+  const auto platform = open_platform(request.platform, where, why);
+  if (!platform) {
+    std::fprintf(stderr, "%s\n", why.c_str());
+    return std::nullopt;
+  }
+  stop_in_good_order();
+  PlaybackWindow window(*platform, log);
+  while (window.frame() && !stop_requested) {
+  }
+  return stop_requested ? stop_exit_code() : 0;
+}
+
 }  // namespace
 
 std::unique_ptr<FilmMaker> make_films(Session& session) {
@@ -162,6 +185,7 @@ std::unique_ptr<FilmMaker> make_films(Session& session) {
 }
 
 std::optional<int> open_desktop(const DesktopRequest& request) {
+  if (is_playable(request.file)) return play_log(request);
   DesktopOptions options;
   if (request.theme == "light") options.theme = Theme::light;
   options.theme_given = !request.theme.empty();

@@ -154,6 +154,25 @@ void HtmlReport::video(const std::string& relative, const std::string& caption) 
            "<a href=\"" + where + "\">" + escape_markup(relative) + "</a></figcaption></figure>\n";
 }
 
+void HtmlReport::moving_scene(std::string_view glb, std::string_view viewer,
+                              const std::string& caption) {
+  if (!has_viewer_) {
+    // A script ends at its first closing tag, also where that stands in a text of it.
+    std::string script(viewer);
+    for (std::size_t at = script.find("</script"); at != std::string::npos;
+         at = script.find("</script", at))
+      script.replace(at, 2, "<\\/");
+    body_ += "<script>" + script + "</script>\n";
+  }
+  has_viewer_ = true;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(glb.data());
+  body_ += figure(
+      "<model-viewer style=\"width:100%;height:480px\" autoplay camera-controls "
+      "shadow-intensity=\"0.6\" src=\"data:model/gltf-binary;base64," +
+          base64({bytes, bytes + glb.size()}) + "\"></model-viewer>",
+      caption);
+}
+
 void HtmlReport::plot(const std::string& svg) {
   body_ += figure(svg, "");
 }

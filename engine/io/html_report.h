@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,9 @@ class HtmlReport {
   void pictures(const std::vector<ReportPicture>& pictures);
   /// A video that lies at `relative` from the page, with a player and a link.
   void video(const std::string& relative, const std::string& caption);
+  /// A moving scene (the bytes of a GLB file) that the page plays by itself and that can be turned:
+  /// `viewer` is the text of model-viewer's script, which goes into the page once.
+  void moving_scene(std::string_view glb, std::string_view viewer, const std::string& caption);
   /// What to_svg() made.
   void plot(const std::string& svg);
   /// Several of them side by side where the page is wide enough.
@@ -54,7 +58,7 @@ class HtmlReport {
 
  private:
   std::string title_, subtitle_, body_;
-  bool in_card_ = false;
+  bool in_card_ = false, has_viewer_ = false;
 };
 
 }  // namespace pedicel::io

@@ -148,7 +148,9 @@ class FileReader {
       read_message(fields);
     } else if (op == Op::header) {
       fields.text();
+      const std::string_view library = fields.text();
       if (!fields.good()) fail("a head that is none");
+      end_.library = library;
     }
   }
 

@@ -25,6 +25,7 @@ struct ReaderLimits {
 
 /// How a file ended.
 struct ReadEnd {
+  std::string library;  ///< that wrote the file, as it says
   std::uint64_t messages = 0;
   /// The file has its end; else it is one of a program that was killed, or was cut off, and what
   /// was whole has been read.

@@ -28,8 +28,8 @@ struct MeshFile {
 
 struct Marker {
   static constexpr const char* name = "visualization_msgs/msg/Marker";
-  static constexpr std::int32_t cube = 1, sphere = 2, cylinder = 3, line_list = 5, sphere_list = 7,
-                                triangle_list = 11;
+  static constexpr std::int32_t cube = 1, sphere = 2, cylinder = 3, line_strip = 4, line_list = 5,
+                                sphere_list = 7, triangle_list = 11;
   static constexpr std::int32_t add = 0, remove = 2, remove_all = 3;
   Header header;
   std::string ns;

@@ -35,9 +35,11 @@ struct SimulationState {
 
 struct SimulatorFeatures {
   static constexpr const char* name = "simulation_interfaces/msg/SimulatorFeatures";
-  static constexpr std::uint16_t entity_categories = 8, entity_state_getting = 10,
-                                 simulation_reset = 20, simulation_reset_time = 21,
-                                 simulation_reset_state = 22, simulation_state_getting = 24,
+  static constexpr std::uint16_t spawning = 0, deleting = 1, entity_categories = 8,
+                                 spawning_resource_string = 9, entity_state_getting = 10,
+                                 entity_state_setting = 11, simulation_reset = 20,
+                                 simulation_reset_time = 21, simulation_reset_state = 22,
+                                 simulation_reset_spawned = 23, simulation_state_getting = 24,
                                  simulation_state_setting = 25, simulation_state_pause = 26,
                                  step_single = 31, step_multiple = 32;
   std::vector<std::uint16_t> features;
@@ -110,6 +112,17 @@ struct EntityState {
     visit("pose", self.pose);
     visit("twist", self.twist);
     visit("acceleration", self.acceleration);
+  }
+};
+
+/// A thing to be made: a file, or, where that is empty, its text.
+struct Resource {
+  static constexpr const char* name = "simulation_interfaces/msg/Resource";
+  std::string uri, resource_string;
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("uri", self.uri);
+    visit("resource_string", self.resource_string);
   }
 };
 
@@ -281,6 +294,86 @@ struct GetEntitiesStates {
       visit("result", self.result);
       visit("entities", self.entities);
       visit("states", self.states);
+    }
+  };
+};
+
+struct SpawnEntity {
+  static constexpr const char* service = "simulation_interfaces/srv/SpawnEntity";
+  static constexpr std::uint8_t name_not_unique = 101, name_invalid = 102, unsupported_format = 103,
+                                no_resource = 104, namespace_invalid = 105,
+                                resource_parse_error = 106, invalid_pose = 109;
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/SpawnEntity_Request";
+    std::string entity;
+    bool allow_renaming = false;
+    Resource entity_resource;
+    std::string entity_namespace;
+    PoseStamped initial_pose;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("name", self.entity);
+      visit("allow_renaming", self.allow_renaming);
+      visit("entity_resource", self.entity_resource);
+      visit("entity_namespace", self.entity_namespace);
+      visit("initial_pose", self.initial_pose);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/SpawnEntity_Response";
+    SimulationResult result;
+    std::string entity_name;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+      visit("entity_name", self.entity_name);
+    }
+  };
+};
+
+struct DeleteEntity {
+  static constexpr const char* service = "simulation_interfaces/srv/DeleteEntity";
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/DeleteEntity_Request";
+    std::string entity;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("entity", self.entity);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/DeleteEntity_Response";
+    SimulationResult result;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
+    }
+  };
+};
+
+struct SetEntityState {
+  static constexpr const char* service = "simulation_interfaces/srv/SetEntityState";
+  static constexpr std::uint8_t invalid_pose = 101;
+  struct Request {
+    static constexpr const char* name = "simulation_interfaces/srv/SetEntityState_Request";
+    std::string entity;
+    EntityState state;
+    bool set_pose = false, set_twist = false, set_acceleration = false;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("entity", self.entity);
+      visit("state", self.state);
+      visit("set_pose", self.set_pose);
+      visit("set_twist", self.set_twist);
+      visit("set_acceleration", self.set_acceleration);
+    }
+  };
+  struct Response {
+    static constexpr const char* name = "simulation_interfaces/srv/SetEntityState_Response";
+    SimulationResult result;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit& visit) {
+      visit("result", self.result);
     }
   };
 };

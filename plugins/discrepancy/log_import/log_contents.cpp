@@ -5,6 +5,8 @@
 
 #include "pedicel/mcap/reader.h"
 #include "pedicel/ros_messages/cdr.h"
+#include "pedicel/ros_messages/ros1.h"
+#include "pedicel/rosbag/reader.h"
 
 namespace pedicel::discrepancy {
 
@@ -28,7 +30,12 @@ class LogReader {
  public:
   LogContents read(const std::filesystem::path& file) {
     out_.file = file;
-    out_.whole = mcap::read(file, [&](const mcap::Message& message) { take(message); }).whole;
+    const auto use = [&](const mcap::Message& message) { take(message); };
+    // By what it begins with, else by its name: then the reader says what is wrong with it.
+    const bool bag = rosbag::is_bag(file) || (file.extension() == ".bag" && !mcap::is_mcap(file));
+    const mcap::ReadEnd end = bag ? rosbag::read(file, use) : mcap::read(file, use);
+    out_.whole = end.whole;
+    out_.simulated = end.library.starts_with("pedicel ");
     return std::move(out_);
   }
 
@@ -43,7 +50,8 @@ class LogReader {
   void take(const mcap::Message& message) {
     LogTopic& topic = topic_of(message);
     ++topic.messages;
-    if (message.channel.message_encoding != "cdr") return;
+    const std::string& encoding = message.channel.message_encoding;
+    if (encoding != "cdr" && encoding != "ros1") return;
     logged_ = 1.0e-9 * static_cast<double>(message.log_time);
     const std::string& name = message.channel.topic;
     topic.is_read = take_as<ros::JointState>(topic, message,
@@ -66,7 +74,8 @@ class LogReader {
   template <class M, class Take>
   bool take_as(LogTopic& topic, const mcap::Message& message, const Take& use) {
     if (topic.type != M::name) return false;
-    if (const auto read = ros::from_cdr<M>(message.data))
+    const bool old = message.channel.message_encoding == "ros1";
+    if (const auto read = old ? ros::from_ros1<M>(message.data) : ros::from_cdr<M>(message.data))
       use(*read);
     else
       ++topic.malformed;

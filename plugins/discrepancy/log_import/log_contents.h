@@ -38,10 +38,12 @@ struct LogTopic {
   bool is_read = false;         ///< its type is one that an experiment can take
 };
 
-/// What an MCAP file holds that an experiment can take, in the file's order.
+/// What a log (MCAP, or a bag of ROS 1) holds that an experiment can take, in the file's order.
 struct LogContents {
   std::filesystem::path file;
   bool whole = false;  ///< false: the file was cut off; what was whole is here
+  /// The log is one of Pedicel's simulations, whose values have no noise of instruments.
+  bool simulated = false;
   std::vector<LogTopic> topics;
   std::map<std::string, TimedList<ros::JointState>> joints;  ///< by topic
   std::map<std::string, TimedList<ros::WrenchStamped>> wrenches;
@@ -55,7 +57,7 @@ struct LogContents {
 };
 
 /// Reads a file. Messages that are malformed are counted and left out. Throws InvalidFile where it
-/// is no MCAP, or damaged.
+/// is neither MCAP nor a bag, or damaged.
 LogContents read_log(const std::filesystem::path& file);
 
 /// Where a frame is in another at a time of the given clock, between the neighbouring messages of

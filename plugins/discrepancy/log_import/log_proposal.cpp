@@ -130,6 +130,14 @@ std::string wrenches_text(const LogContents& log, const LogScene& scene) {
   return (text.find("  - ") == std::string::npos ? "# wrenches:\n" : "wrenches:\n") + text;
 }
 
+/// A simulation's log is exact, and a misfit needs something to be measured by.
+std::string noise_text(const LogContents& log) {
+  const std::string noise =
+      "noise: {position_std: 0.0003, force_std: 0.03, moment_std: 0.002, joint_std: 0.00002}";
+  return log.simulated ? noise + "   # a simulation has none: that of good instruments\n"
+                       : "# " + noise + "   # where it is known\n";
+}
+
 }  // namespace
 
 std::string proposed_map(const LogContents& log, const LogScene& scene,
@@ -143,9 +151,7 @@ std::string proposed_map(const LogContents& log, const LogScene& scene,
   text += joints_text(log, scene) + markers_text(log, scene) + wrenches_text(log, scene);
   for (const auto& [topic, texts] : log.texts)
     if (topic.ends_with("events")) text += "events: {topic: " + yaml_word(topic) + "}\n";
-  text +=
-      "# noise: {position_std: 0.0005, force_std: 0.05, moment_std: 0.003, joint_std: 0.00005}   # "
-      "where it is known\n";
+  text += noise_text(log);
   std::string other;
   for (const LogTopic& topic : log.topics)
     if (!topic.is_read) other += "#   " + topic.name + " (" + topic.type + ")\n";

@@ -1,7 +1,8 @@
 // A subscriber to all topics of `pedicel SCENE --ros`, and a publisher of a joint trajectory, with
 // Eclipse Cyclone DDS. Usage: cyclone_peer DOMAIN SECONDS JOINT POSITION
 // Every line of standard output is "topic number words...": how many messages came, and of the last
-// one what a test looks at.
+// one what a test looks at. "tf_gap_us" is the longest simulated time between two messages of /tf
+// (us), which is reliable: more than its period means that one was lost.
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -11,7 +12,7 @@
 #include "dds/dds.h"
 #include "topics.h"
 
-enum { topics = 11, longest = 400 };
+enum { topics = 15, longest = 400 };
 
 struct topic {
   const char *name;
@@ -21,6 +22,8 @@ struct topic {
   int count;
   char last[longest];
 };
+
+static double tf_before = -1.0, tf_gap = 0.0; /* s */
 
 static double seconds(const builtin_interfaces_msg_dds__Time_ *t) { return t->sec + 1e-9 * t->nanosec; }
 
@@ -36,6 +39,11 @@ static void describe(struct topic *t, const void *sample) {
   } else if (t->type == &tf2_msgs_msg_dds__TFMessage__desc) {
     const tf2_msgs_msg_dds__TFMessage_ *s = sample;
     int n = snprintf(out, longest, "%u", s->transforms._length);
+    if (!t->latched && s->transforms._length) {
+      const double now = seconds(&s->transforms._buffer[0].header.stamp);
+      if (tf_before >= 0.0 && now - tf_before > tf_gap) tf_gap = now - tf_before;
+      tf_before = now;
+    }
     for (uint32_t i = 0; i < s->transforms._length && n < longest; ++i)
       n += snprintf(out + n, longest - n, " %s", s->transforms._buffer[i].child_frame_id);
   } else if (t->type == &std_msgs_msg_dds__String__desc) {
@@ -49,6 +57,15 @@ static void describe(struct topic *t, const void *sample) {
   } else if (t->type == &control_msgs_msg_dds__DynamicJointState__desc) {
     const control_msgs_msg_dds__DynamicJointState_ *s = sample;
     snprintf(out, longest, "%u %u", s->joint_names._length, s->interface_values._length);
+  } else if (t->type == &sensor_msgs_msg_dds__Image__desc) {
+    const sensor_msgs_msg_dds__Image_ *s = sample;
+    snprintf(out, longest, "%s %ux%u %s %u", s->header.frame_id, s->width, s->height, s->encoding, s->data._length);
+  } else if (t->type == &sensor_msgs_msg_dds__CameraInfo__desc) {
+    const sensor_msgs_msg_dds__CameraInfo_ *s = sample;
+    snprintf(out, longest, "%ux%u %.1f %.1f %s", s->width, s->height, s->k[2], s->p[6], s->distortion_model);
+  } else if (t->type == &sensor_msgs_msg_dds__PointCloud2__desc) {
+    const sensor_msgs_msg_dds__PointCloud2_ *s = sample;
+    snprintf(out, longest, "%ux%u %u %u", s->width, s->height, s->fields._length, s->data._length);
   } else if (t->type == &visualization_msgs_msg_dds__MarkerArray__desc) {
     const visualization_msgs_msg_dds__MarkerArray_ *s = sample;
     snprintf(out, longest, "%u %s", s->markers._length, s->markers._length ? s->markers._buffer[0].ns : "");
@@ -96,7 +113,11 @@ int main(int argc, char **argv) {
       {"rt/organ_forces", &control_msgs_msg_dds__DynamicJointState__desc, false, false, 0, 0, ""},
       {"rt/plant", &visualization_msgs_msg_dds__MarkerArray__desc, true, false, 0, 0, ""},
       {"rt/bodies", &visualization_msgs_msg_dds__MarkerArray__desc, true, false, 0, 0, ""},
-      {"rt/events", &std_msgs_msg_dds__String__desc, true, false, 0, 0, ""}};
+      {"rt/events", &std_msgs_msg_dds__String__desc, true, false, 0, 0, ""},
+      {"rt/top_view/image", &sensor_msgs_msg_dds__Image__desc, false, false, 0, 0, ""},
+      {"rt/top_view/depth_image", &sensor_msgs_msg_dds__Image__desc, false, false, 0, 0, ""},
+      {"rt/top_view/camera_info", &sensor_msgs_msg_dds__CameraInfo__desc, false, false, 0, 0, ""},
+      {"rt/top_view/points", &sensor_msgs_msg_dds__PointCloud2__desc, false, false, 0, 0, ""}};
   const dds_entity_t participant = dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL);
   if (participant < 0) {
     fprintf(stderr, "no participant: %s\n", dds_strretcode(-participant));
@@ -135,6 +156,7 @@ int main(int argc, char **argv) {
   }
   for (int i = 0; i < topics; ++i) printf("%s %d %s\n", all[i].name + 2, all[i].count, all[i].last);
   printf("sent %d\n", sent);
+  printf("tf_gap_us %.0f\n", tf_gap * 1e6);
   dds_delete(participant);
   return 0;
 }

@@ -233,6 +233,93 @@ void check_services(Client& client) {
   expect(set(1) == 1, "it plays again");
 }
 
+void put_pose(Cdr& cdr, const std::string& frame, double x, double y, double z, double w) {
+  cdr << std::int32_t{0} << std::uint32_t{0} << frame << x << y << z << 0.0 << 0.0 << 0.0 << w;
+}
+
+// Plants and bodies come and go while the simulation stands at time 0.
+void check_entities(Client& client) {
+  const auto spawn = [&](const std::string& name, bool renaming, const std::string& text, double w,
+                         std::string& got) {
+    std::string reply =
+        client.call("/spawn_entity", services + "SpawnEntity", bytes_of([&](Cdr& cdr) {
+                      cdr << name << renaming << std::string() << text << std::string();
+                      put_pose(cdr, "world", 0.8, 0.4, 0.2, w);
+                    }));
+    std::uint8_t result = 255;
+    std::string fault;
+    if (!reply.empty()) read(reply, [&](Cdr& cdr) { cdr >> result >> fault >> got; });
+    return int{result};
+  };
+  const auto set_state = [&](const std::string& name, double z, bool twist) {
+    return result_of(
+        client.call("/set_entity_state", services + "SetEntityState", bytes_of([&](Cdr& cdr) {
+                      cdr << name;
+                      put_pose(cdr, "", 0.8, 0.4, z, 1.0);
+                      for (int i = 0; i < 12; ++i) cdr << (i == 2 ? 0.5 : 0.0);
+                      cdr << true << twist << false;
+                    })));
+  };
+  const auto height = [&](const std::string& name) {
+    std::string reply = client.call("/get_entity_state", services + "GetEntityState",
+                                    bytes_of([&](Cdr& cdr) { cdr << name; }));
+    std::uint8_t result = 255;
+    std::string text;
+    std::int32_t sec = 0;
+    std::uint32_t nanosec = 0;
+    double p[3] = {0, 0, -1};
+    if (!reply.empty())
+      read(reply, [&](Cdr& cdr) {
+        cdr >> result >> text >> sec >> nanosec >> text >> p[0] >> p[1] >> p[2];
+      });
+    return result == 1 ? p[2] : -1.0;
+  };
+  const auto remove = [&](const std::string& name) {
+    return result_of(client.call("/delete_entity", services + "DeleteEntity",
+                                 bytes_of([&](Cdr& cdr) { cdr << name; })));
+  };
+  const auto set = [&](std::uint8_t state) {
+    return result_of(
+        client.call("/set_simulation_state", services + "SetSimulationState", one_byte(state)));
+  };
+  const std::string ball = "{name: any, sphere: {radius: 0.02}, mass: 0.1}",
+                    bush =
+                        "format: pedicel-plant\nversion: 1\nname: bush\n"
+                        "material: {youngs_modulus: 1.0e9, poisson_ratio: 0.35, density: 700, "
+                        "damping_time: 0.01}\nsampling: {connect: 0.004, distance: 0.05}\n"
+                        "root: [0, 0, 0]\ncurves:\n  - {name: stem, interpolation: linear, "
+                        "points: [[0, 0, 0], [0, 0, 0.3]], radius: 0.004}\n";
+  std::string got;
+  expect(spawn("ball", false, ball, 1.0, got) == 3, "nothing is spawned while time goes on");
+  expect(set(0) == 1, "it is stopped");
+  expect(spawn("ball", false, ball, 1.0, got) == 1 && got == "ball", "a ball is spawned");
+  expect(spawn("ball", false, ball, 1.0, got) == 101, "its name is taken then");
+  expect(spawn("ball", true, ball, 1.0, got) == 1 && got == "ball_2", "or made another");
+  expect(spawn("bush", false, bush, 1.0, got) == 1 && got == "bush", "a plant is spawned");
+  expect(spawn("b2", false, "", 1.0, got) == 104, "nothing is no resource");
+  expect(spawn("b2", false, "{box: 3", 1.0, got) == 106, "nor is broken YAML");
+  expect(spawn("b2", false, ball, 0.0, got) == 109, "a quaternion of zeros is no pose");
+  expect(spawn("a b", false, ball, 1.0, got) == 102, "a name with a space is none");
+  expect(set_state("ball", 0.7, true) == 1 && std::abs(height("ball") - 0.7) < 1e-9,
+         "a ball is moved");
+  expect(set_state("bush", 0.1, false) == 1 && std::abs(height("bush") - 0.1) < 1e-9,
+         "a plant is moved");
+  expect(set_state("nobody", 0.7, false) == 2, "nobody is not");
+  expect(set_state("bush", 0.1, true) == 4, "a plant has no twist");
+  expect(result_of(client.call("/step_simulation", services + "StepSimulation",
+                               bytes_of([](Cdr& cdr) { cdr << std::uint64_t{10}; }))) == 1 &&
+             height("ball") > 0.7,
+         "the ball flies up");
+  expect(set_state("ball", 0.7, false) == 3, "nothing is moved under way");
+  expect(set(0) == 1 && remove("ball_2") == 1 && height("ball_2") == -1, "a ball is deleted");
+  expect(remove("ball_2") == 2, "once");
+  expect(
+      result_of(client.call("/reset_simulation", services + "ResetSimulation", one_byte(0))) == 1 &&
+          height("ball") == -1 && height("bush") == -1,
+      "a reset takes away what was spawned");
+  expect(set(1) == 1, "it plays again");
+}
+
 void put_goal(Cdr& cdr, std::uint8_t id, const std::string& joint, double position,
               std::int32_t seconds, std::uint32_t nanoseconds) {
   const std::vector<double> none, positions = {position};
@@ -341,6 +428,7 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   Client client(std::atoi(argv[1]));
   check_services(client);
+  check_entities(client);
   check_actions(client);
   return failures ? 1 : 0;
 }

@@ -35,6 +35,8 @@ class ArmAtStem {
   std::string trials = "trials:\n  - {name: push, folder: push, robot: {follows: joints}}\n";
   double swing = 0.12;    // rad
   double duration = 1.2;  // s
+  std::string coupling = "{friction: 0.5}";
+  std::string modulus = "1.0e9";  // Pa, of the stem
   std::string scene_more;
   bool sees_nothing = false;  // no markers, no cameras
 
@@ -55,14 +57,18 @@ class ArmAtStem {
     write("arm.urdf", urdf());
     write("plant.yaml",
           "format: pedicel-plant\nversion: 1\nname: bush\n"
-          "material: {youngs_modulus: 1.0e9, poisson_ratio: 0.35, density: 700, damping_time: "
-          "0.01}\nsampling: {connect: 0.004, distance: 0.05}\nroot: [0, 0, 0]\ncurves:\n"
-          "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, 0.6]], radius: "
-          "0.004}\n");
+          "material: {youngs_modulus: " +
+              modulus +
+              ", poisson_ratio: 0.35, density: 700, damping_time: "
+              "0.01}\nsampling: {connect: 0.004, distance: 0.05}\nroot: [0, 0, 0]\ncurves:\n"
+              "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, 0.6]], radius: "
+              "0.004}\n");
     write("scene.yaml",
           "format: pedicel-scene\nversion: 1\nname: finger\npurpose: A finger pushes a stem.\n"
-          "see: The stem bends.\nduration: 1\ndt: 0.001\ncoupling: {friction: 0.5}\nplants:\n"
-          "  - {name: bush, file: plant.yaml, position: [" +
+          "see: The stem bends.\nduration: 1\ndt: 0.001\ncoupling: " +
+              coupling +
+              "\nplants:\n"
+              "  - {name: bush, file: plant.yaml, position: [" +
               std::to_string(reach) + ", " + gap +
               ", 0]}\nrobot:\n  {name: arm, file: arm.urdf, joints: {turn: 0}, tool: finger}\n" +
               scene_more);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "pedicel/app/report/headless.h"
 #include "pedicel/app/topics/mcap_log.h"
 #include "pedicel/discrepancy/log_import/log_contents.h"
@@ -12,8 +14,10 @@ namespace pedicel::app {
 /// against a stem where `gap` is small.
 class LoggedRun {
  public:
-  explicit LoggedRun(const std::string& gap = "0.03", double duration = 1.2) {
+  explicit LoggedRun(const std::string& gap = "0.03", double duration = 1.2,
+                     const std::function<void(discrepancy::ArmAtStem&)>& change = {}) {
     files_.gap = gap;
+    if (change) change(files_);
     files_.write_all();
     std::string path = "time_s,turn\n";
     for (int i = 0; i <= 120; ++i)
@@ -26,7 +30,8 @@ class LoggedRun {
     scene->duration = duration;
     RunOptions options;
     options.quiet = true;
-    options.pictures = options.video = options.comparison = false;
+    options.pictures = !files_.scene_more.empty();
+    options.video = options.comparison = false;
     options.out = files_.path() / "out";
     options.watchers = {mcap_log(log_file())};
     result_ = run_scene(*scene, options);

@@ -166,6 +166,30 @@ TEST(PublishedFields, OfSimulationInterfaces) {
             "result; string[] entities; simulation_interfaces/EntityState[] states;");
 }
 
+TEST(PublishedFields, OfServicesThatChangeTheScene) {
+  EXPECT_EQ(lines<Resource>(),
+            "simulation_interfaces/msg/Resource: string uri; string resource_string;");
+  EXPECT_EQ(lines<SpawnEntity::Request>(),
+            "simulation_interfaces/srv/SpawnEntity_Request: string name; bool allow_renaming; "
+            "simulation_interfaces/Resource entity_resource; string entity_namespace; "
+            "geometry_msgs/PoseStamped initial_pose;");
+  EXPECT_EQ(lines<SpawnEntity::Response>(),
+            "simulation_interfaces/srv/SpawnEntity_Response: simulation_interfaces/Result result; "
+            "string entity_name;");
+  EXPECT_EQ(lines<DeleteEntity::Request>(),
+            "simulation_interfaces/srv/DeleteEntity_Request: string entity;");
+  EXPECT_EQ(lines<DeleteEntity::Response>(),
+            "simulation_interfaces/srv/DeleteEntity_Response: simulation_interfaces/Result "
+            "result;");
+  EXPECT_EQ(lines<SetEntityState::Request>(),
+            "simulation_interfaces/srv/SetEntityState_Request: string entity; "
+            "simulation_interfaces/EntityState state; bool set_pose; bool set_twist; bool "
+            "set_acceleration;");
+  EXPECT_EQ(lines<SetEntityState::Response>(),
+            "simulation_interfaces/srv/SetEntityState_Response: simulation_interfaces/Result "
+            "result;");
+}
+
 TEST(PublishedFields, OfActions) {
   EXPECT_EQ(lines<UUID>(), "unique_identifier_msgs/msg/UUID: uint8[16] uuid;");
   EXPECT_EQ(lines<GoalInfo>(),
