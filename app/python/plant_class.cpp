@@ -238,7 +238,8 @@ void add_plant_class(py::module_& module) {
            "distance"_a = 0.02, "connect"_a = 0.01, "shape"_a = "drawn",
            "An empty plant: material in Pa, 1, kg/m3 and s; sampling in m; shape drawn or rest.")
       .def_static("load", &load_plant, "path"_a, "unit"_a = "",
-                  "Reads a plant file, a skeleton table or an MTG. unit: of a table's lengths.")
+                  "Reads a plant file or a skeleton (table, MTG, PLY, XML of Helios). unit: of its "
+                  "lengths.")
       .def_static("parse", &parse_plant, "text"_a, "name"_a = "plant.yaml",
                   "Reads a plant file from text; `name` stands for the file in errors.")
       .def(

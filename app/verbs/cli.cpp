@@ -397,8 +397,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
                    "plants, experiments, scenes, leaf templates, URDFs, meshes, tables, scripts")
       ->required();
   std::string unit;
-  validate->add_option("--unit", unit,
-                       "of the lengths in skeleton tables and MTGs: m, cm, mm or metres");
+  validate->add_option("--unit", unit, "of the lengths in skeletons: m, cm, mm or metres");
   validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies")
       ->allow_extra_args(false);
 

@@ -223,7 +223,7 @@ world::Scene load_scene(const RunArguments& a) {
   const double unit = unit_of_text(a.unit, "--unit");
   if (unit > 0.0 && !is_lone_plant(a.scene))
     throw UsageError(
-        "--unit: expected beside a table or an MTG; a scene says the unit of each of its "
+        "--unit: expected beside a skeleton; a scene says the unit of each of its "
         "plants (unit: cm)");
   std::optional<world::Scene> scene = is_lone_plant(a.scene)
                                           ? scene_of(open_document(a.scene, unit, &diagnostics))

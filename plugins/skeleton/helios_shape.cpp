@@ -36,18 +36,18 @@ Vec3 end_direction(const std::vector<Vec3>& points, bool at_tip, const Vec3& oth
   std::vector<Vec3> way = points;
   if (at_tip) std::reverse(way.begin(), way.end());
   double length = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
+  for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).stableNorm();
   double left = 0.1 * length;
   Vec3 there = way.front();
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Vec3 step = way[i] - way[i - 1];
-    const double size = step.norm();
+    const double size = step.stableNorm();
     there = size > left && size > 0.0 ? Vec3(way[i - 1] + step * (left / size)) : way[i];
     if (size > left) break;
     left -= size;
   }
   const Vec3 direction = at_tip ? Vec3(way.front() - there) : Vec3(there - way.front());
-  const double norm = direction.norm();
+  const double norm = direction.stableNorm();
   return norm > 0.0 ? Vec3(direction / norm) : otherwise;
 }
 
@@ -88,6 +88,9 @@ class ShapeBuilder {
     SkeletonNode node;
     node.parent = parent;
     node.position = unit_ * place;
+    if (!node.position.allFinite())
+      diagnostics_.repeated_error("place", where,
+                                  "the plant goes on without end, expected lengths in m");
     if (radius && *radius > 0.0) node.diameter = 2.0 * unit_ * *radius;
     node.branch = branch;
     node.code = code;

@@ -5,6 +5,7 @@
 #include "pedicel/io/table_text.h"
 #include "pedicel/io/text_file.h"
 #include "pedicel/io/unit_text.h"
+#include "pedicel/plant/point_grid.h"
 #include "pedicel/skeleton/mtg_reader.h"
 #include "pedicel/skeleton/skeleton_columns.h"
 #include "pedicel/skeleton/skeleton_tree.h"
@@ -14,7 +15,8 @@ namespace pedicel::plant {
 namespace {
 
 constexpr std::size_t most_rows = 1000000;
-constexpr double largest_whole = 9.0e15;  ///< doubles below it have no fractions left out
+constexpr double end_of_another = 5.0e-4;  ///< m, by the four digits that programs write
+constexpr double largest_whole = 9.0e15;   ///< doubles below it have no fractions left out
 
 /// A row as it stands in the table.
 struct Row {
@@ -25,6 +27,26 @@ struct Row {
   int edge_column = 1;
   std::optional<std::int64_t> branch, order, extension;
 };
+
+// TreeQSM and Helios name three columns by one word: "start_point" and "axis_direction".
+std::string with_three_names(std::string_view text) {
+  std::size_t start = 0, end = 0;
+  for (; start < text.size(); start = end + 1) {
+    end = std::min(text.find_first_of("\r\n", start), text.size());
+    if (end > start && text[start] != '#') break;
+  }
+  std::string header(text.substr(start, end - start));
+  bool changed = false;
+  for (const std::string name : {"start_point", "axis_direction"}) {
+    const std::size_t at = header.find(name), behind = at + name.size();
+    if (at == std::string::npos || behind >= header.size() || header[behind] == '_') continue;
+    const std::string parted = header[behind] + name;
+    header.insert(behind, "_x" + parted + "_y" + parted + "_z");
+    changed = true;
+  }
+  if (!changed) return {};
+  return std::string(text.substr(0, start)) + header + std::string(text.substr(end));
+}
 
 class TableParser {
  public:
@@ -39,6 +61,11 @@ class TableParser {
     if (!good()) return {};
     while (table_.next() && take_row()) {
     }
+    if (passed_over_ > 0)
+      diagnostics_.warning({table_.file(), table_.header_line(), 1},
+                           std::to_string(passed_over_) +
+                               (passed_over_ == 1 ? " row without a place is passed over"
+                                                  : " rows without a place are passed over"));
     if (good() && rows_.empty())
       error({table_.file(), table_.header_line(), 1},
             "no rows, expected a header and one row a node");
@@ -69,6 +96,10 @@ class TableParser {
             "the table goes on, expected at most " + std::to_string(most_rows) + " nodes");
       return false;
     }
+    if (has_no_place()) {
+      ++passed_over_;
+      return true;
+    }
     Row row;
     row.link.where = {table_.file(), table_.line(), 1};
     row.link.id = columns_.has(ColumnRole::id) ? whole(ColumnRole::id)
@@ -80,6 +111,16 @@ class TableParser {
       take_node(row);
     take_diameter(row);
     rows_.push_back(std::move(row));
+    return true;
+  }
+
+  // OpenAlea's tables hold a plant's coarser scales, too, which lie nowhere.
+  bool has_no_place() const {
+    if (is_cylinders()) return false;
+    for (const ColumnRole role : {ColumnRole::x, ColumnRole::y, ColumnRole::z})
+      if (io::number_of(table_.cells()[columns_.column(role)].text).kind !=
+          io::NumberText::Kind::missing)
+        return false;
     return true;
   }
 
@@ -240,32 +281,62 @@ class TableParser {
     return true;
   }
 
+  // Helios writes the row before as the parent of a branch. Where a branch begins far from what it
+  // is said to hang from, and just where another cylinder ends, it hangs from that one; -1: it does
+  // not.
+  int end_at(const Row& row, const Row& parent, const PointGrid& ends) {
+    const Vec3 along = parent.position - parent.start;
+    const double length = along.squaredNorm();
+    const double at =
+        length > 0.0 ? std::clamp((row.start - parent.start).dot(along) / length, 0.0, 1.0) : 0.0;
+    const double away = (row.start - parent.start - at * along).norm();
+    if (away <= 2.0 * parent.diameter.value_or(0.0) + end_of_another) return -1;
+    const int found = ends.nearest(row.start).point;
+    if (found >= 0 && !said_of_parents_) {
+      said_of_parents_ = true;
+      diagnostics_.warning(row.link.where,
+                           "a branch is said to hang from a cylinder that is not there where it "
+                           "begins, and is hung from the one that ends there");
+    }
+    return found;
+  }
+
   // A node at every cylinder's end, one at the root's start, and one where a branch begins away
   // from the axis that carries it. A branch hangs from whichever end of its parent is nearer.
   std::vector<SkeletonNode> cylinder_nodes(const SkeletonTree& tree) {
     constexpr double at_junction = 1.0e-6;  // m
+    PointGrid ends(end_of_another);
     std::vector<SkeletonNode> nodes;
-    std::vector<int> start_of(rows_.size(), -1), end_of(rows_.size(), -1);
+    std::vector<int> start_of(rows_.size(), -1), end_of(rows_.size(), -1), node_at_end;
     const auto add = [&](int from, const Vec3& at, bool branch, const Row& row) {
       nodes.push_back({from, at, row.diameter, branch, row.code, row.link.where});
       return static_cast<int>(nodes.size()) - 1;
+    };
+    const auto add_end = [&](const Vec3& at, int node) {
+      ends.add(at);
+      node_at_end.push_back(node);
     };
     for (const int r : tree.order) {
       const Row& row = rows_[r];
       const int p = tree.parent[r];
       int from = p < 0 ? add(-1, row.start, false, row) : end_of[p];
+      if (p < 0) add_end(row.start, from);
       bool branch = p >= 0 && !continues(row, rows_[p]);
-      if (p >= 0 && (nodes[start_of[p]].position - row.start).norm() <
-                        (nodes[from].position - row.start).norm()) {
+      const int other = branch ? end_at(row, rows_[p], ends) : -1;
+      if (other >= 0)
+        from = node_at_end[other];
+      else if (p >= 0 && (nodes[start_of[p]].position - row.start).norm() <
+                             (nodes[from].position - row.start).norm()) {
         from = start_of[p];
         branch = true;
       }
-      if (branch && (nodes[from].position - row.start).norm() > at_junction) {
+      if (branch && other < 0 && (nodes[from].position - row.start).norm() > at_junction) {
         from = add(from, row.start, true, row);
         branch = false;
       }
       start_of[r] = from;
       end_of[r] = add(from, row.position, branch, row);
+      add_end(row.position, end_of[r]);
     }
     return nodes;
   }
@@ -275,13 +346,16 @@ class TableParser {
   io::TableText table_;
   SkeletonColumns columns_;
   std::vector<Row> rows_;
+  std::size_t passed_over_ = 0;
+  bool said_of_parents_ = false;
 };
 
 }  // namespace
 
 std::vector<SkeletonNode> parse_skeleton_csv(const std::string& text, const std::string& file,
                                              Diagnostics& diagnostics, double unit) {
-  return TableParser(text, file, unit, diagnostics).parse();
+  const std::string named = with_three_names(text);
+  return TableParser(named.empty() ? text : named, file, unit, diagnostics).parse();
 }
 
 std::optional<PlantFile> read_skeleton_csv(const std::filesystem::path& path,

@@ -25,7 +25,7 @@ QUANTITY = re.compile(r"^\s+\{\"(\w+)\", \"", re.M)
 SCRIPT_QUANTITY = re.compile(r"if \(name == \"(\w+)\"\)")
 CHANNEL = re.compile(r"(?:emplace_back\(|push_back\(\{)\"(\w+)\",")
 FRUIT_CHANNEL = re.compile(r"(?:emplace_back\(|push_back\(\{)name \+ \"(_\w+)\",")
-TABLE_COLUMN = re.compile(r"Name\{\"(\w+)\", Role::")
+TABLE_COLUMN = re.compile(r"Name\{\"(\w+)\", ColumnRole::")
 COLUMN = re.compile(r"\"((?:time|stretch|bend|force|moment|torsion|angle|tool)_\w+|organ|cause)\"")
 
 
@@ -43,7 +43,7 @@ class Rule:
 READER = (ASKED, NAMED, EITHER)
 RULES = [
     Rule("plant_file.md", ("plugins/plant/plant_reader.cpp",), READER, 35),
-    Rule("plant_file.md", ("plugins/skeleton/skeleton_columns.cpp",), (TABLE_COLUMN,), 47, end=""),
+    Rule("plant_file.md", ("plugins/skeleton/skeleton_columns.cpp",), (TABLE_COLUMN,), 51, end=""),
     Rule("leaf_template.md", ("plugins/plant/leaf_template.cpp",), READER, 12),
     Rule("scene_file.md", ("engine/world/scene_reader.cpp", "engine/world/scene_bodies.cpp",
          "engine/world/scene_common.cpp", "engine/world/scene_plants.cpp",

@@ -182,6 +182,9 @@ TEST(Helios, RefusesWithPlaceAndWords) {
                                                               "<internode_length_segments>0</"
                                                               "internode_length_segments>")))),
       HasSubstr("<internode_length_segments> is 0, expected a number from 1 to 1000"));
+  EXPECT_THAT(helios_errors(helios_file(helios_shoot(
+                  0, -1, 0, "0 0 0", helios_internode("1e308") + helios_internode("1e308")))),
+              HasSubstr("the plant goes on without end"));
   std::string deep;
   for (int i = 0; i < 100; ++i) deep += "<a>";
   EXPECT_THAT(helios_errors(deep), HasSubstr("more than 50 levels deep"));

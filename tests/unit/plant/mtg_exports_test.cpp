@@ -129,6 +129,33 @@ TEST(TableExports, ATableWithoutEdgesGoesOnWithTheFirstChild) {
   EXPECT_EQ(skeleton_plant(read.nodes, "t", {}).curves.size(), 2u);
 }
 
+// to_dataframe() of OpenAlea: plant and axes are rows, too, which have no place.
+TEST(TableExports, RowsWithoutAPlaceArePassedOver) {
+  const Export read = read_export_table(
+      "vid,label,edge_type,XX,YY,ZZ,parent,complex,scale,order\n0,,,,,,,,0,\n1,P1,/,,,,,0,1,0\n"
+      "2,S1,/,0.0,0.0,0.0,,1,2,0\n3,S2,<,0.0,0.0,0.1,2.0,1,2,0\n4,S3,+,0.1,0.0,0.2,3.0,1,2,1\n");
+  EXPECT_THAT(read.said, HasSubstr("t.csv:1:1: warning: 2 rows without a place are passed over"));
+  EXPECT_EQ(parents_of(read.nodes), (std::vector<int>{-1, 0, 1}));
+  EXPECT_TRUE(read.nodes[2].branch);
+}
+
+// Helios' cylinders: one name for three columns, and the row before as the parent of a branch.
+TEST(TableExports, CylindersOfHeliosHangWhereTheyBegin) {
+  const std::string rest = "\t0.0002\t1\t0\t0.004\n";
+  const Export read = read_export_table(
+      "radius (m)\tlength (m)\tstart_point\taxis_direction\tparent\textension\tbranch\t"
+      "branch_order\tposition_in_branch\tmad\tSurfCov\tadded\tUnmodRadius (m)\n"
+      "0.0040\t0.1000\t0\t0\t0\t0\t0\t1\t0\t0\t1\t0\t1" +
+      rest + "0.0040\t0.1000\t0\t0\t0.1000\t0\t0\t1\t1\t0\t1\t0\t2" + rest +
+      "0.0040\t0.1000\t0\t0\t0.2000\t0\t0\t1\t2\t0\t1\t0\t3" + rest +
+      "0.0020\t0.1000\t0\t0\t0.1000\t1\t0\t0\t3\t0\t2\t1\t1" + rest);
+  EXPECT_THAT(read.said, HasSubstr("t.csv:5:1: warning: a branch is said to hang from a cylinder"));
+  EXPECT_THAT(read.said, ::testing::Not(HasSubstr("error")));
+  EXPECT_EQ(parents_of(read.nodes), (std::vector<int>{-1, 0, 1, 2, 1}));
+  EXPECT_TRUE(read.nodes[4].branch);
+  EXPECT_NEAR(read.nodes[4].position.x(), 0.1, 1.0e-12);
+}
+
 TEST(TableExports, TheNamesOfMtgsAreKnown) {
   const Export read = read_export_table(
       "id,parent_id,link,XX,YY,ZZ,diameter\n1,,/,0,0,0,0.01\n2,1,<,0,0,0.1,0.01\n"

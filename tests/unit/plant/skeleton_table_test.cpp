@@ -139,9 +139,8 @@ TEST(SkeletonWays, DropsNoColumnInSilence) {
       "t.csv:1:1: warning: columns that are not read: colour, age");
   EXPECT_THAT(read("x,y,z,parentid,vid,edgetype,X\n").said,
               HasSubstr("t.csv:1:29: error: column \"X\" says the same as \"x\""));
-  EXPECT_THAT(
-      read("x,y,parentid\n").said,
-      HasSubstr("t.csv:1:1: error: a column is missing (z, vid), expected x,y,z"));
+  EXPECT_THAT(read("x,y,parentid\n").said,
+              HasSubstr("t.csv:1:1: error: a column is missing (z, vid), expected x,y,z"));
 }
 
 TEST(SkeletonWays, SaysTheSameFaultOnce) {
