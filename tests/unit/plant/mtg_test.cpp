@@ -18,13 +18,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string head =
+const std::string mtg_head =
     "CODE :\tFORM-A\nFEATURES:\nXX\tREAL\nMTG:\n"
     "ENTITY-CODE\t\t\tdist\tXX\tYY\tZZ\tTopDia\n";
 
 // A trunk of three points with a gap in its digits, a branch at the second one, and a twig whose
 // foot lies where it branches off.
-const std::string small = head +
+const std::string small = mtg_head +
                           "/P1\n"
                           "^/U1\t\t\t\t0\t0\t0\t200\n"
                           "^/E1<<E5\t\t\t\t0\t0\t500\t100\n"
@@ -113,19 +113,22 @@ TEST(MtgReader, RefusesWithPlaceAndWords) {
               HasSubstr("t.mtg:2:1: error: no column ZZ beside Dab, XX, YY"));
   EXPECT_THAT(errors_of("MTG:\nENTITY-CODE\tLongUC\n/P1\t12\n"),
               HasSubstr("no column XX, YY, ZZ beside LongUC"));
-  EXPECT_THAT(errors_of(head + "/P1\n"), HasSubstr("no entity has coordinates"));
-  EXPECT_THAT(errors_of(head + "/P1\t\t\t\tx\t0\t0\n"),
+  EXPECT_THAT(errors_of(mtg_head + "/P1\n"), HasSubstr("no entity has coordinates"));
+  EXPECT_THAT(errors_of(mtg_head + "/P1\t\t\t\tx\t0\t0\n"),
               HasSubstr("t.mtg:6:8: error: XX: \"x\" is not a finite number"));
-  EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t\t0\n"),
+  EXPECT_THAT(errors_of(mtg_head + "/P1\t\t\t\t0\t\t0\n"),
               HasSubstr("t.mtg:6:1: error: the entity has 2 of 3 coordinates"));
-  EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t0\t0\t-5\n"),
+  EXPECT_THAT(errors_of(mtg_head + "/P1\t\t\t\t0\t0\t0\t-5\n"),
               HasSubstr("TopDia is \"-5\", expected a number >= 0"));
-  EXPECT_THAT(errors_of(head + "/P1\t+B1\n"), HasSubstr("t.mtg:6:5: error: a second entity"));
-  EXPECT_THAT(errors_of(head + "\t\t\t3\n"), HasSubstr("no entity in the line"));
-  EXPECT_THAT(errors_of(head + "/P1\n^=E1\n"), HasSubstr("t.mtg:7:1: error: \"^=E1\", expected"));
-  EXPECT_THAT(errors_of(head + "/P1\n\t^<E1\n"), HasSubstr("7:2: error: \"^\" follows nothing"));
-  EXPECT_THAT(errors_of(head + "/P1\n\t\t+E1\n"), HasSubstr("7:3: error: the entity hangs from"));
-  EXPECT_THAT(errors_of(head + "/P1\t\t\t\t0\t0\t0\n/P2\t\t\t\t1\t0\t0\n"),
+  EXPECT_THAT(errors_of(mtg_head + "/P1\t+B1\n"), HasSubstr("t.mtg:6:5: error: a second entity"));
+  EXPECT_THAT(errors_of(mtg_head + "\t\t\t3\n"), HasSubstr("no entity in the line"));
+  EXPECT_THAT(errors_of(mtg_head + "/P1\n^=E1\n"),
+              HasSubstr("t.mtg:7:1: error: \"^=E1\", expected"));
+  EXPECT_THAT(errors_of(mtg_head + "/P1\n\t^<E1\n"),
+              HasSubstr("7:2: error: \"^\" follows nothing"));
+  EXPECT_THAT(errors_of(mtg_head + "/P1\n\t\t+E1\n"),
+              HasSubstr("7:3: error: the entity hangs from"));
+  EXPECT_THAT(errors_of(mtg_head + "/P1\t\t\t\t0\t0\t0\n/P2\t\t\t\t1\t0\t0\n"),
               HasSubstr("t.mtg:7:1: error: the entity is a second root"));
 }
 
