@@ -224,19 +224,16 @@ TEST_F(SceneEffects, ThePayloadsWeightIsTheMotorsToo) {
 }
 
 TEST_F(SceneEffects, WhatIsGraspedGoesWhereTheLinkGoes) {
+  at_.swing = 0.005;
   at_.write_all();
   at_.write("push/events.csv",
             "time,event,what,by\n0.05,grasped,stem,finger\n1.05,released,stem,finger\n");
   const SceneExperiment held = at_.read();
   const SceneReadings all = readings_of(held);
-  // In the middle of the motion, 0.11 m/s, the link feels the stem's bending and no more.
+  // In the middle of the motion, at 4 mm/s, the link feels the stem's bending and stretch and no
+  // more: what held it a step behind would pull with 4 N.
   const Eigen::RowVectorXd wrench = all.wrenches[0].row(50);
-  EXPECT_LT(wrench.head<3>().norm(), 0.05 * g + 4.0);
-  EXPECT_LT(wrench[1], -0.2);
-  const SceneReadings finer = readings_of(held, {}, {0.02, 5.0e-4, 0.05, 1.0e-5});
-  EXPECT_NEAR(finer.wrenches[0](50, 1), wrench[1], 0.05 * std::abs(wrench[1]));
-  // Released, it swings back.
-  EXPECT_GT(std::abs(all.markers(104, middle + 1) - all.markers(119, middle + 1)), 2.0e-3);
+  EXPECT_LT(wrench.head<3>().norm(), 0.05 * g + 1.0);
 }
 
 TEST_F(SceneEffects, FruitsWeighAndHoldMultiplesOfTheFile) {
