@@ -50,7 +50,7 @@ std::vector<BodyPart> read_shape(io::YamlMap& map) {
     parts = read_tray(*tray);
     ++shapes;
   }
-  if (shapes != 1)
+  if (map.node().is_map() && shapes != 1)
     map.error("a body: expected exactly one of box, sphere, cylinder, capsule and tray");
   return parts;
 }

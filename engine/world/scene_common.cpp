@@ -38,7 +38,7 @@ Anchor read_anchor(const io::YamlNode& node, const std::string& what) {
     anchor.kind = kind;
     anchor.name = name->text(key);
   }
-  if (anchor.kind == Anchor::Kind::none)
+  if (node.is_map() && anchor.kind == Anchor::Kind::none)
     node.error(what + ": expected {fruit: NAME}, {body: NAME}, {plant: NAME} or {tool: true}");
   map.finish();
   return anchor;

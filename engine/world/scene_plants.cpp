@@ -12,7 +12,7 @@ void read_source(io::YamlMap& map, const std::filesystem::path& folder, ScenePla
   plant.optional = map.boolean("optional", false);
   const auto file = map.optional("file"), mtg = map.optional("mtg"),
              built_in = map.optional("built_in");
-  if (file.has_value() + mtg.has_value() + built_in.has_value() != 1)
+  if (map.node().is_map() && file.has_value() + mtg.has_value() + built_in.has_value() != 1)
     map.error("a plant: expected exactly one of file, mtg and built_in");
   if (file) plant.file = read_path(*file, "file", folder, plant.optional);
   if (mtg) {
@@ -77,7 +77,7 @@ SceneLoad read_load(const io::YamlNode& node) {
   load.from = map.number("from", io::not_negative, 0.0);
   load.to = map.number("to", io::positive);
   load.ramp = map.boolean("ramp", false);
-  if (load.to <= load.from) node.error("a load: expected from < to");
+  if (map.has("to") && load.to <= load.from) node.error("a load: expected from < to");
   map.finish();
   return load;
 }

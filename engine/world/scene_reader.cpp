@@ -141,6 +141,7 @@ void check_expectation(const Scene& scene, const Expectation& e, Diagnostics& di
 
 /// Keys that no scene has are found before a run; those of plants when its plants are built.
 void check_vary(const Scene& scene, Diagnostics& diagnostics) {
+  if (diagnostics.has_errors()) return;  // what could not be read is not drawn from
   try {
     drawn_scene(scene);
   } catch (const InvalidFile& fault) {
@@ -162,7 +163,8 @@ void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnos
       check_anchor(scene, waypoint.at, diagnostics);
   for (const SceneCamera& camera : scene.cameras) check_anchor(scene, camera.follow, diagnostics);
   for (const SceneWrench& wrench : scene.wrenches)
-    if (!scene.robot) diagnostics.error(wrench.where, "a wrench: the scene has no robot");
+    if (!scene.robot && !wrench.link.empty())
+      diagnostics.error(wrench.where, "a wrench: the scene has no robot");
   check_vary(scene, diagnostics);
   for (const Expectation& e : scene.expectations) check_expectation(scene, e, diagnostics);
   std::vector<std::string> wanted = {scene.video.camera};

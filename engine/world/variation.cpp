@@ -33,11 +33,12 @@ void read_bounds(io::YamlMap& map, VariedNumber& one, bool required) {
 
 void read_values(io::YamlMap& map, VariedNumber& one) {
   const auto node = map.required("values");
-  if (!node) return;
-  for (const io::YamlNode& value : node->list("values")) one.values.push_back(value.text("values"));
+  if (node)
+    for (const io::YamlNode& value : node->list("values"))
+      one.values.push_back(value.text("values"));
   if (!one.values.empty()) return;
-  node->error("values: is empty, expected one or more");
-  one.values.emplace_back();  // a scene is drawn from before its faults are told
+  if (node && node->is_list()) node->error("values: is empty, expected one or more");
+  one.values.emplace_back();  // nothing may be drawn from none
 }
 
 VariedNumber read_number(const std::string& key, const io::YamlNode& node) {

@@ -226,7 +226,7 @@ TEST(SceneRefusals, OneFaultIsToldOnce) {
                                  "bodies: [5]",
                                  "bodies: [{name: b}]",
                                  "expect: [5]",
-                                 "expect: [{quantity: breaks}]",
+                                 "expect: [{quantity: breaks, is: 0}]",
                                  "pictures: [5]",
                                  "video: 5",
                                  "sweep: 5",
