@@ -15,6 +15,9 @@ constexpr const char* of_the_arm[] = {"tool_pose",    "joint_offset", "robot_lat
                                       "reaction",     "payload",      "joint_friction",
                                       "tracking_lag", "wrench_bias",  "wrench_gain"};
 
+// A run draws its cameras as the scene has them.
+constexpr const char* of_measured_images[] = {"camera_pose", "camera_focal", "lens_distortion"};
+
 /// The scene as an experiment without trials, as far as effects name things of it.
 SceneExperiment without_trials(const world::Scene& scene, const robot::RobotDescription* robot) {
   SceneExperiment experiment;
@@ -83,6 +86,9 @@ RunEffects read_run_effects(const world::Scene& scene, const robot::RobotDescrip
     } else if (effect.words.contains("trial")) {
       out.notes.push_back("effect " + effect.name + " is of trial " + effect.words.at("trial") +
                           " alone: it changes nothing of a run");
+    } else if (std::ranges::find(of_measured_images, effect.name) != std::end(of_measured_images)) {
+      out.notes.push_back("effect " + effect.name +
+                          " is about measured images: it changes nothing of a run");
     } else if (apply_scene_effect(effect, experiment, out.state)) {
       continue;
     } else if (is_of_experiment(effect)) {

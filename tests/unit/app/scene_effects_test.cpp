@@ -172,6 +172,9 @@ TEST_F(RunOfScene, WhatIsAboutMeasuredDataIsSaidToChangeNothing) {
   const Simulation simulation(scene("{name: latency, delay: 0.01}"), {});
   ASSERT_FALSE(simulation.notes().empty());
   EXPECT_NE(simulation.notes().front().find("latency"), std::string::npos);
+  const Simulation seen(scene("{name: camera_focal, factor: 1.1}"), {});
+  ASSERT_FALSE(seen.notes().empty());
+  EXPECT_NE(seen.notes().front().find("measured images"), std::string::npos);
 }
 
 }  // namespace
