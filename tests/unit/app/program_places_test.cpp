@@ -74,9 +74,9 @@ TEST_F(ProgramPlaces, ASettingThatNoPlantHasIsFoundBeforeTheFirstRun) {
 }
 
 TEST_F(ProgramPlaces, WhatIsNoNumberIsNoOption) {
-  for (const std::string call :
-       {"sweep " + path("quick.scene.yaml") + " --set dt=0.001,0.002 --case-seconds nan",
-        "bench cantilever --dt nan", "diagnose x --time-limit nan", "pick x --rest inf"}) {
+  for (const std::string& call : std::vector<std::string>{
+           "sweep " + path("quick.scene.yaml") + " --set dt=0.001,0.002 --case-seconds nan",
+           "bench cantilever --dt nan", "diagnose x --time-limit nan", "pick x --rest inf"}) {
     EXPECT_EQ(run(call), 2) << call;
     EXPECT_THAT(err_, HasSubstr("expected a finite number")) << call;
   }
