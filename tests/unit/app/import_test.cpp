@@ -319,7 +319,7 @@ TEST_F(Import, WhatIsNotThereIsToldBeforeAnythingElse) {
       EXPECT_THAT(fault.what(), HasSubstr(name + ": error: cannot be read: No such file"));
     }
   }
-  a_.files = {file("no_log.mcap", "plain text\n").string()};
+  a_.files = {file("no_log.mcap", "plain text\n")};
   EXPECT_THROW(import_verb(a_), InvalidFile) << "by its name it is a log";
 }
 

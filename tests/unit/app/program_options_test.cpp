@@ -100,7 +100,7 @@ TEST_F(ProgramOptions, WhatDoesNotFitIsRefusedInWords) {
   expect_refused("--compare x.csv", "--compare and --tolerance: expected both or none");
   expect_refused("--tolerance 1", "--compare and --tolerance: expected both or none");
   expect_refused("--compare x.csv --tolerance -1", "expected a number from 0 on");
-  expect_refused("--compare x.csv --tolerance nan", "expected a number from 0 on");
+  expect_refused("--compare x.csv --tolerance nan", "expected a finite number");
   expect_refused("--camera side",
                  "--camera side: the scene has none of that name, expected one of: front");
   expect_refused("--trajectory t.csv", "the scene has no robot");
@@ -175,13 +175,19 @@ TEST_F(ProgramOptions, AStateThatDoesNotFitIsRefused) {
   expect_refused(load + " --dt 0.002", "with other plants or settings", 3);
   const std::string text = io::read_file(state);
   write("state.yaml", text.substr(0, text.size() - 5));
-  expect_refused(load, "state.yaml:8", 3);
+  expect_refused(load, "state.yaml:9", 3);
   write("state.yaml", text.substr(0, text.find("steps")));
   expect_refused(load, "missing key \"steps\"", 3);
   write("state.yaml", with(text, "version: 1", "version: 2"));
   expect_refused(load, "version", 3);
   write("state.yaml", with(text, "steps: 10", "steps: 11"));
+  expect_refused(load, "sum: does not agree with the other numbers", 3);
+  // As programs wrote it that knew no sum.
+  const std::string older = text.substr(0, text.find("sum:"));
+  write("state.yaml", with(older, "steps: 10", "steps: 11"));
   expect_refused(load, "the run does not come to this state again", 3);
+  write("state.yaml", older);
+  EXPECT_EQ(hash(load + " --steps 0"), hash("--steps 10"));
   write("state.yaml", io::read_file(folder_ / "pull.scene.yaml"));
   expect_refused(load, "pedicel-state", 3);
   expect_refused("--load-state " + path("none.yaml"), "none.yaml", 3);

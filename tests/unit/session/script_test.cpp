@@ -173,7 +173,7 @@ TEST_F(Scripts, WhatCannotBeDoneIsNotTakenSilently) {
       robot::KinematicModel(*session.snapshot()->assets->robot).joint_names()[0];
   const std::vector<std::pair<std::string, std::string>> refused = {
       {"run -1", "duration -1, expected s from 0 on"},
-      {"run 1e300", "duration 1e+300, expected s of at most 1e+06"},
+      {"run 1e300", "duration 1e+300, expected s of at most 1000000"},
       {"speed -2", "value -2, expected simulated s a wall s from 0 on"},
       {"step 0", "count 0, expected 1 or more"},
       {"step back -3", "count -3, expected 1 or more"},
