@@ -18,7 +18,7 @@ namespace {
 using cosserat::RodModel;
 using cosserat::RodState;
 
-constexpr double dt = 1.0 / 240.0;
+constexpr double time_step = 1.0 / 240.0;
 const Vec3 gravity(0, 0, -9.81);
 
 Pose at(const Vec3& position) {
@@ -66,7 +66,7 @@ TEST(ContactScene, ARodOnTheGroundCarriesItsWeight) {
   colliders.add(ground, {});
   auto system = system_with(model);
   system->add_contact_source(0, std::make_unique<ColliderSource>(colliders, CouplingSettings{}));
-  for (int i = 0; i < 480; ++i) system->step(dt, gravity);
+  for (int i = 0; i < 480; ++i) system->step(time_step, gravity);
 
   ContactReport report(colliders);
   report.begin();
@@ -92,7 +92,7 @@ TEST(ContactScene, ASphereCarriesTheWeightOfARodAcrossIt) {
   system->add_contact_source(0, std::make_unique<ColliderSource>(colliders, CouplingSettings{}));
   double normal = 0.0;
   for (int i = 0; i < 480; ++i) {
-    system->step(dt, gravity);
+    system->step(time_step, gravity);
     for (const auto& force : system->contact_forces(0))
       if (i >= 240) normal += force.normal / 240.0;
   }
@@ -128,11 +128,11 @@ Grip pull_down(double friction) {
   grip.pads_moved = 0.005;
   double before = 0.0;
   for (int i = 0; i < 360; ++i) {
-    const double t = i * dt;
+    const double t = i * time_step;
     const double opening = t < 0.4 ? 0.002 - (0.002 + squeeze) * t / 0.4 : -squeeze;
     const double lowered = grip.pads_moved * std::clamp((t - 0.5) / 0.5, 0.0, 1.0);
     colliders.update(pads(opening, lowered));
-    system->step(dt, gravity);
+    system->step(time_step, gravity);
     if (t < 0.5) before = system->state(0).position[9].z();
     if (t < 0.9) continue;
     for (const auto& force : system->contact_forces(0)) grip.ever_slipped |= force.slipping;
@@ -181,7 +181,7 @@ TEST(ContactScene, ForcesOnLinksAreOppositeToThoseOnThePlant) {
   ContactReport report(colliders);
   int touched = 0;
   for (int i = 0; i < 120; ++i) {
-    system->step(dt, gravity);
+    system->step(time_step, gravity);
     report.begin();
     report.add(0, system->model(0), system->contact_forces(0));
     report.end();
@@ -204,10 +204,10 @@ TEST(ContactScene, AFastPlateDoesNotPassThroughARod) {
   auto system = system_with(model);
   system->add_contact_source(0, std::make_unique<ColliderSource>(colliders, CouplingSettings{}));
   for (int i = 1; i <= 20; ++i) {
-    const double x = -0.03 + speed * i * dt;
+    const double x = -0.03 + speed * i * time_step;
     const Pose pose = plate(x);
     colliders.update({&pose, 1});
-    system->step(dt, gravity);
+    system->step(time_step, gravity);
     for (int e = 0; e < 15; ++e) {
       const Vec3 node = system->state(0).position[e];
       if (std::abs(node.z() - 0.1) > 0.02) continue;
@@ -233,7 +233,7 @@ TEST(ContactScene, SelfContactBalancesMomentum) {
   auto system = system_with(model);
   system->add_contact_source(
       0, std::make_unique<cosserat::SelfContact>(model, self_contact_settings({})));
-  for (int i = 0; i < 720; ++i) system->step(dt, gravity);
+  for (int i = 0; i < 720; ++i) system->step(time_step, gravity);
   Vec3 sum = Vec3::Zero();
   double normal = 0.0;
   for (const auto& force : system->contact_forces(0)) {
@@ -257,9 +257,9 @@ TEST(ContactScene, AStepWithContactDoesNotAllocateOnceWarm) {
   system->add_contact_source(0, std::make_unique<ColliderSource>(colliders, CouplingSettings{}));
   system->add_contact_source(
       0, std::make_unique<cosserat::SelfContact>(model, self_contact_settings({})));
-  for (int i = 0; i < 20; ++i) system->step(dt, gravity);
+  for (int i = 0; i < 20; ++i) system->step(time_step, gravity);
   const long before = allocations();
-  for (int i = 0; i < 20; ++i) system->step(dt, gravity);
+  for (int i = 0; i < 20; ++i) system->step(time_step, gravity);
   EXPECT_EQ(allocations(), before);
   EXPECT_FALSE(system->contact_forces(0).empty());
 }

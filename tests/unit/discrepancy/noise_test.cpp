@@ -15,7 +15,7 @@ namespace {
 
 using testing::coloured;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Autoregressive, GivesTheWeightsThatMadeTheCovariances) {
   const double a = 0.9, b = -0.3, variance = 4.0e-8;
@@ -149,7 +149,7 @@ TEST(Whitening, StartsAfreshAfterAGap) {
   const double covariance[] = {1.0, r1, r2};
   const Noise noise = autoregressive(covariance, 1e6);
   Series x(7);
-  x << 1.0, 2.0, 3.0, nan, 4.0, 5.0, 6.0;
+  x << 1.0, 2.0, 3.0, no_number, 4.0, 5.0, 6.0;
   const Eigen::VectorXd white = whiten(x, noise);
   const double one = std::sqrt(1.0 - r1 * r1), two = std::sqrt(1.0 - a * r1 - b * r2);
   EXPECT_NEAR(white[0], 1.0, 1e-12);

@@ -18,7 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double noise = 2.0e-4;  // m
+constexpr double marker_noise = 2.0e-4;  // m
 
 plant::Effect soft_root() {
   return testing::effect("base_compliance", "stiffness", {0.25});
@@ -31,7 +31,7 @@ Experiment measured(const std::vector<plant::Effect>& hidden) {
   beam.radius = 0.0035;
   beam.damping_time = 0.01;
   Experiment e = testing::experiment_of(beam, 1.0, 0.02);
-  e.noise.position_std = noise;
+  e.noise.position_std = marker_noise;
   e.trials[0].force = {};
   e.trials[0].gravity = Vec3(0, 0, -9.81);
   e.trials.resize(3, e.trials[0]);
@@ -49,7 +49,7 @@ Experiment measured(const std::vector<plant::Effect>& hidden) {
   for (int t = 0; t < 3; ++t) {
     const Simulator::Request request{&variant, t};
     Eigen::MatrixXd seen = simulator.run(std::span(&request, 1)).front().markers;
-    for (double& x : seen.reshaped()) x += noise * random.normal();
+    for (double& x : seen.reshaped()) x += marker_noise * random.normal();
     e.trials[t].markers.value = seen;
   }
   return e;
