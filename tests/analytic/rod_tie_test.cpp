@@ -12,12 +12,12 @@ namespace pedicel::cosserat::cases {
 namespace {
 
 using Peer = PeerCantilever;
-constexpr int elements = 20;
+constexpr int segments = 20;
 constexpr double spring = 3.0 * Peer::bending / (Peer::length * Peer::length * Peer::length);
 
 Tie upward(double height, double length, double stiffness) {
   Tie tie;
-  tie.element = elements - 1;
+  tie.element = segments - 1;
   tie.anchor_W = Vec3(Peer::length, 0, height);
   tie.length = length;
   tie.stiffness = stiffness;
@@ -27,7 +27,7 @@ Tie upward(double height, double length, double stiffness) {
 // The peers' cantilever on a string.
 struct Tied : RodSystem {
   Tied(const Tie& tie, double damping) : RodSystem(settings_with(Integrator::bdf2)) {
-    RodModel model = Peer::model(elements);
+    RodModel model = Peer::model(segments);
     for (Element& element : model.elements) element.mass_damping = damping;
     add_plant(std::move(model));
     ties(0).push_back(tie);
@@ -51,7 +51,7 @@ TEST(RodTie, ATautStringLiftsTheTipByItsShareOfTheStiffness) {
 TEST(RodTie, ASlackStringBearsNothing) {
   Tied system(upward(0.5, 0.51, 1.0e4), 0.0), free(upward(0.5, 0.51, 0.0), 0.0);
   for (Tied* one : {&system, &free})
-    one->loads(0).push_back({elements - 1, 0.0, Vec3(0, 0, 0.002 * spring), Vec3::Zero()});
+    one->loads(0).push_back({segments - 1, 0.0, Vec3(0, 0, 0.002 * spring), Vec3::Zero()});
   for (int i = 0; i < 100; ++i) {
     system.step(1.0 / 240.0, no_gravity);
     free.step(1.0 / 240.0, no_gravity);

@@ -11,7 +11,7 @@
 namespace pedicel::plant {
 namespace {
 
-constexpr double length = 0.4;  // m, of the stem
+constexpr double stem_length = 0.4;  // m, of the stem
 
 BuiltPlant built(const std::string& points, const std::string& effects) {
   Diagnostics diagnostics;
@@ -54,8 +54,8 @@ TEST(WeakSegment, InTheMiddleAddsItsLength) {
 }
 
 TEST(WeakSegment, AtTheClampAddsItsLengthToo) {
-  EXPECT_NEAR(weak_length(upward, 0.05 / length, 0.1, 0.5), 0.1, 1e-9);
-  EXPECT_NEAR(weak_length(downward, 1.0 - 0.05 / length, 0.1, 0.5), 0.1, 1e-9);
+  EXPECT_NEAR(weak_length(upward, 0.05 / stem_length, 0.1, 0.5), 0.1, 1e-9);
+  EXPECT_NEAR(weak_length(downward, 1.0 - 0.05 / stem_length, 0.1, 0.5), 0.1, 1e-9);
 }
 
 }  // namespace
