@@ -17,8 +17,8 @@ BuiltPlant built(const std::string& points, const std::string& effects) {
   Diagnostics diagnostics;
   const auto file = parse_plant(
       "format: pedicel-plant\nversion: 1\nname: p\nshape: drawn\n"
-      "material: {youngs_modulus: 1.0e+8, poisson_ratio: 0.3, density: 700}\n"
-      "sampling: {distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n"
+      "material: {youngs_modulus: 1.0e+8, poisson_ratio: 0.3, density: 700, damping_time: 0.01}\n"
+      "sampling: {connect: 0.01, distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n"
       "  - {name: stem, points: " +
           points + ", radius: 0.003}\n" + effects,
       "p.plant.yaml", diagnostics);

@@ -16,7 +16,7 @@ namespace {
 // Looks along +Y at the stem, which stands at (0.4, 0.3) from z = 0 to 0.6 m.
 constexpr const char* camera =
     "cameras:\n  - {name: side view, eye: [0.4, -0.7, 0.3], target: [0.4, 0, 0.3], fov: 0.8, "
-    "size: [64, 48], rate: 20, sensors: [rgb, depth, points, instances]}\n"
+    "size: [256, 192], rate: 20, sensors: [rgb, depth, points, instances]}\n"
     "wrenches:\n  - {name: pad, link: finger, rate: 50}\n";
 
 class CameraLog : public ::testing::Test {
@@ -55,7 +55,7 @@ TEST_F(CameraLog, TellsEachPictureWhenItIsDue) {
   ASSERT_EQ(images.size(), 5U);  // at 0, 0.05, ... 0.2 s
   EXPECT_EQ(images[0].encoding, "rgb8");
   EXPECT_EQ(images[0].header.frame_id, "side_view_optical_frame");
-  EXPECT_EQ(images[0].data.size(), 64U * 48U * 3U);
+  EXPECT_EQ(images[0].data.size(), 256U * 192U * 3U);
   EXPECT_NEAR(ros::seconds_of(images[3].header.stamp), 0.15, 1e-9);
   EXPECT_EQ(all<ros::Image>("/side_view/depth_image").size(), 5U);
   EXPECT_EQ(all<ros::PointCloud2>("/side_view/points").size(), 5U);
@@ -65,8 +65,8 @@ TEST_F(CameraLog, TellsEachPictureWhenItIsDue) {
 
 TEST_F(CameraLog, DepthsAndPointsLieOnThings) {
   const auto info = all<ros::CameraInfo>("/side_view/camera_info").at(0);
-  EXPECT_NEAR(info.k[4], 24.0 / std::tan(0.4), 1e-9);
-  EXPECT_EQ(info.k[2], 32.0);
+  EXPECT_NEAR(info.k[4], 96.0 / std::tan(0.4), 1e-9);
+  EXPECT_EQ(info.k[2], 128.0);
   EXPECT_EQ(info.p[5], info.k[4]);
   const auto depth = all<ros::Image>("/side_view/depth_image").at(0);
   const auto cloud = all<ros::PointCloud2>("/side_view/points").at(0);
@@ -78,7 +78,7 @@ TEST_F(CameraLog, DepthsAndPointsLieOnThings) {
       discrepancy::frame_at(log, "side_view_optical_frame", "world", 0.0, false);
   EXPECT_LT((camera_pose.position - Vec3(0.4, -0.7, 0.3)).norm(), 1e-9);
   int on_stem = 0;
-  for (std::size_t i = 0; i < 64U * 48U; ++i) {
+  for (std::size_t i = 0; i < 256U * 192U; ++i) {
     const std::size_t at = i * cloud.point_step;
     const Vec3 p(number_at(cloud.data, at), number_at(cloud.data, at + 4),
                  number_at(cloud.data, at + 8));
