@@ -149,8 +149,12 @@ ros::SpawnEntity::Response SceneEdits::spawn(const ros::SpawnEntity::Request& re
     }
   }
   if (text.empty()) return refuse(Spawn::no_resource, "neither uri nor resource_string");
-  const Result result = add(name, text, file, *pose);
-  return {result, result.result == Result::ok ? name : ""};
+  try {
+    const Result result = add(name, text, file, *pose);
+    return {result, result.result == Result::ok ? name : ""};
+  } catch (const InvalidFile& fault) {  // no YAML at all
+    return refuse(Spawn::resource_parse_error, fault.what());
+  }
 }
 
 Result SceneEdits::remove(const std::string& entity) {

@@ -43,13 +43,13 @@ def main(program, scene):
             names = [str(one) for one in data["joint_states"].attrs["names"]]
             assert "joint1" in names, names
             states = data["joint_states"]
-            # The log has the start, too, which the table has not.
-            assert len(states["time"]) == len(states["position"]) == len(table) + 1, (len(states["time"]), len(table))
-            for row, time, place in zip(table, states["time"][1:], states["position"][1:]):
+            # Both have the start, too.
+            assert len(states["time"]) == len(states["position"]) == len(table), (len(states["time"]), len(table))
+            for row, time, place in zip(table, states["time"], states["position"]):
                 assert abs(float(row["time_s"]) - time) < 1e-9
                 assert abs(float(row["joint_joint1_rad"]) - place[names.index("joint1")]) < 1e-7, row
             assert data["tf/truss/fruit_1"].attrs["parent"] == "world"
-            assert data["tf/truss/fruit_1/position"].shape == (len(table) + 1, 3)
+            assert data["tf/truss/fruit_1/position"].shape == (len(table), 3)
             assert data["wrist/wrench/force"].shape[1] == 3 and abs(data["wrist/wrench/force"][-1]).max() > 0.1
             assert data["robot_description/text"][0].decode().lstrip().startswith("<")
             if "top_view" in data:
