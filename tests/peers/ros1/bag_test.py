@@ -17,7 +17,7 @@ def check(program, bag, scene, out):
     said = subprocess.run([program, "import", bag, "--scene", scene, "--out", out],
                           stderr=subprocess.PIPE, text=True, timeout=60)
     assert said.returncode == 0, said.stderr
-    assert "no end" not in said.stderr, said.stderr
+    assert "cut off" not in said.stderr, said.stderr
     map_text = (out / "map.yaml").read_text()
     assert "/tracker/pose" in map_text and "/camera/image (sensor_msgs/msg/Image)" in map_text, map_text
     trial = out / bag.stem
@@ -28,9 +28,9 @@ def check(program, bag, scene, out):
         assert row["joint1"] == -0.001 * i and row["joint2"] == 0.002 * i, row
     wrench = rows(trial / "wrench_wrist.csv")
     assert len(wrench) == 51 and wrench[50]["fz"] == -5.0 and wrench[50]["tx"] == 0.5, wrench[50]
-    # The fruit is off from 0.3 s on.
+    # The fruit is off from 0.3 s on; a double of seconds since 1970 knows that to 0.2 us.
     fruit = [row for row in rows(trial / "markers.csv") if row["fruit_1.x"] is not None]
-    assert len(fruit) == 30 and abs(fruit[29]["fruit_1.x"] - 0.529) < 1e-12, fruit[-1]
+    assert len(fruit) in (30, 31) and abs(fruit[29]["fruit_1.x"] - 0.529) < 1e-12, fruit[-1]
     events = (trial / "events.csv").read_text().splitlines()
     assert len(events) == 2 and events[1].split(",")[1:3] == ["detached", "fruit_1"], events
 
@@ -47,7 +47,7 @@ def main(program, writer, scene):
         (folder / "cut.bag").write_bytes(whole[:len(whole) // 2])
         said = subprocess.run([program, "import", folder / "cut.bag", "--scene", scene, "--out", folder / "cut"],
                               stderr=subprocess.PIPE, text=True, timeout=60)
-        assert said.returncode == 0 and "the file has no end" in said.stderr, said.stderr
+        assert said.returncode == 0 and "the file is cut off" in said.stderr, said.stderr
         assert 5 < len(rows(folder / "cut/cut/joints.csv")) < 51
 
 
