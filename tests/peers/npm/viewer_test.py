@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -29,7 +30,7 @@ class Browser:
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
-        self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL,
+        self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], start_new_session=True, stdout=subprocess.DEVNULL,
                                        stderr=subprocess.DEVNULL)
         self.base = f"http://127.0.0.1:{port}"
         # No name is found, so nothing can come from outside.
@@ -58,7 +59,12 @@ class Browser:
         return self.call("/execute/sync", {"script": script, "args": []})
 
     def close(self):
-        self.driver.terminate()
+        """The session, then the driver and what it started: a browser that stays takes a core."""
+        try:
+            urllib.request.urlopen(urllib.request.Request(self.base, method="DELETE"), timeout=20)
+        except (urllib.error.URLError, ConnectionError, TimeoutError):
+            pass
+        os.killpg(self.driver.pid, signal.SIGKILL)
         self.driver.wait(10)
 
 
