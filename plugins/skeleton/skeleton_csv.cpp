@@ -35,6 +35,7 @@ std::string with_three_names(std::string_view text) {
     end = std::min(text.find_first_of("\r\n", start), text.size());
     if (end > start && text[start] != '#') break;
   }
+  if (start >= text.size()) return {};  // comments alone
   std::string header(text.substr(start, end - start));
   bool changed = false;
   for (const std::string name : {"start_point", "axis_direction"}) {

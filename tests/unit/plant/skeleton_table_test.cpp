@@ -249,5 +249,13 @@ TEST(MtgWays, ReadsOlderHeadersAndOtherLineEnds) {
       1u);
 }
 
+TEST(SkeletonTable, CommentsAloneAreNoTable) {
+  for (const char* text : {"#N/A", "#", "# a\n# b", "#a\r\n", ""}) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(parse_skeleton_csv(text, "t.csv", diagnostics).empty()) << text;
+    EXPECT_TRUE(diagnostics.has_errors()) << text;
+  }
+}
+
 }  // namespace
 }  // namespace pedicel::plant
