@@ -17,13 +17,6 @@ using render::Shading;
 
 constexpr int round_segments = 40;
 
-void add_cylinder(DrawList& shape, const Pose& pose, double radius, double length,
-                  const Shading& material) {
-  auto mesh = std::make_shared<const geometry::TriangleMesh>(
-      geometry::make_cylinder(radius, length, round_segments));
-  shape.meshes.push_back({std::move(mesh), pose, material});
-}
-
 /// A sepal is a strip of four triangles and a tip, from the stalk down the fruit; its end stands
 /// off. `t` runs along it, `side` across.
 void add_sepal(DrawList& shape, const FruitLook& look, double radius, double azimuth,
@@ -58,17 +51,6 @@ Shading skin_of(const FruitLook& look, int number) {
   skin.colour.g += share * (look.unripe.g - skin.colour.g);
   skin.colour.b += share * (look.unripe.b - skin.colour.b);
   return skin;
-}
-
-Shading material_of(const std::string& look) {
-  namespace shadings = render::shadings;
-  static const std::map<std::string, Shading> known = {{"steel", shadings::steel},
-                                                       {"wood", shadings::wood},
-                                                       {"light", shadings::robot_light},
-                                                       {"dark", shadings::robot_dark},
-                                                       {"accent", shadings::accent}};
-  const auto found = known.find(look);
-  return found == known.end() ? Shading{} : found->second;
 }
 
 void add_part(DrawList& shape, const world::BodyPart& part, const Shading& material) {
@@ -118,6 +100,24 @@ void add_visual(DrawList& shape, const robot::Visual& visual) {
 }
 
 }  // namespace
+
+void add_cylinder(DrawList& list, const Pose& pose, double radius, double length,
+                  const Shading& shading) {
+  auto mesh = std::make_shared<const geometry::TriangleMesh>(
+      geometry::make_cylinder(radius, length, round_segments));
+  list.meshes.push_back({std::move(mesh), pose, shading});
+}
+
+Shading shading_of(const std::string& look) {
+  namespace shadings = render::shadings;
+  static const std::map<std::string, Shading> known = {{"steel", shadings::steel},
+                                                       {"wood", shadings::wood},
+                                                       {"light", shadings::robot_light},
+                                                       {"dark", shadings::robot_dark},
+                                                       {"accent", shadings::accent}};
+  const auto found = known.find(look);
+  return found == known.end() ? Shading{} : found->second;
+}
 
 FruitLook FruitLook::apple() {
   FruitLook look;
@@ -174,7 +174,7 @@ DrawList fruit_shape(const FruitLook& look, int number, double radius, double st
 DrawList body_shape(const world::BodyDescription& body) {
   DrawList shape;
   if (body.look == "hidden") return shape;
-  for (const world::BodyPart& part : body.parts) add_part(shape, part, material_of(body.look));
+  for (const world::BodyPart& part : body.parts) add_part(shape, part, shading_of(body.look));
   return shape;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "pedicel/app/plants/blade.h"
@@ -26,6 +27,13 @@ struct FruitLook {
   static FruitLook apple();
   static FruitLook of(plant::Look look);
 };
+
+/// How what a body's `look` says takes the light; of another word, grey.
+render::Shading shading_of(const std::string& look);
+
+/// Adds a cylinder about Z of its own frame: radius and length in m.
+void add_cylinder(render::DrawList& list, const Pose& pose, double radius, double length,
+                  const render::Shading& shading);
 
 /// Adds `shape`, which is given in its own frame, at X_WS. Its ground is left out.
 void add_at(render::DrawList& list, const render::DrawList& shape, const Pose& X_WS);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pedicel/app/draw/drawing.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -69,13 +71,9 @@ void add_marker(render::DrawList& list, const ros::Marker& marker) {
     case ros::Marker::sphere:
       list.spheres.push_back({pose.position, 0.5 * scale.x(), shading});
       break;
-    case ros::Marker::cylinder: {
-      const double radius = 0.5 * scale.x();
-      const Vec3 half = pose.rotation * Vec3(0.0, 0.0, std::max(0.0, 0.5 * scale.z() - radius));
-      list.capsules.push_back(
-          {pose.position - half, pose.position + half, radius, radius, shading});
+    case ros::Marker::cylinder:
+      add_cylinder(list, pose, 0.5 * scale.x(), scale.z(), shading);
       break;
-    }
     case ros::Marker::line_strip:
     case ros::Marker::line_list:
       add_lines(list, marker, pose, marker.type == ros::Marker::line_strip);

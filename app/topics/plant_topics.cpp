@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "pedicel/app/draw/drawing.h"
 #include "pedicel/app/draw/plant_drawing.h"
 
 namespace pedicel::app {
@@ -114,7 +115,7 @@ ros::MarkerArray MarkerTopics::bodies(double) const {
                                 : part.kind == Kind::sphere ? ros::Marker::sphere
                                                             : ros::Marker::cylinder;
       ros::Marker one = marker(body.name, static_cast<int>(i), type);
-      one.color = {0.6F, 0.62F, 0.65F, 1.0F};
+      one.color = colour_of(shading_of(body.look).colour);
       one.pose = pose_of(world.body_pose(b) * part.pose);
       const double width = 2.0 * part.radius;
       if (part.kind == Kind::box)

@@ -75,7 +75,11 @@ TEST(LogFilm, DrawsEveryKindThatWeSend) {
   add_markers(list, all);
   EXPECT_EQ(list.boxes.size(), 1U);
   EXPECT_EQ(list.spheres.size(), 5U);
-  EXPECT_EQ(list.capsules.size(), 1U);
+  ASSERT_EQ(list.meshes.size(), 1U) << "a cylinder with flat ends";
+  double highest = 0.0;
+  for (const Vec3& vertex : list.meshes[0].mesh->vertices)
+    highest = std::max(highest, std::abs(vertex.z()));
+  EXPECT_DOUBLE_EQ(highest, 0.2);
   EXPECT_EQ(list.blades.size(), 1U);
   EXPECT_EQ(list.tubes.size(), 2U + 3U) << "two lines that do not meet, and a strip";
 }
