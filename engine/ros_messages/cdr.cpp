@@ -2,7 +2,7 @@
 
 namespace pedicel::ros {
 
-CdrReader::CdrReader(std::string_view bytes) : bytes_(bytes) {
+CdrReader::CdrReader(std::string_view bytes) : FieldReader(bytes) {
   // Of the kinds of CDR only the plain one: 0 big-endian, 1 little-endian.
   good_ = bytes.size() >= cdr_header_size && bytes[0] == 0 && (bytes[1] == 0 || bytes[1] == 1);
   if (!good_) return;

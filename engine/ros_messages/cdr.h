@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "pedicel/ros_messages/definition.h"
+#include "pedicel/ros_messages/field_reader.h"
 
 /// Messages as bytes and back: CDR as ROS 2 sends it (plain CDR version 1, four bytes of header,
 /// each number at a multiple of its own size).
@@ -67,82 +68,27 @@ class CdrWriter {
   std::string bytes_;
 };
 
-/// Reads CDR of either byte order, and never more than there is: good() is false once something
-/// did not fit, and stays so. Memory grows only with what was read. Used through from_cdr().
-class CdrReader {
+/// Reads CDR of either byte order. Used through from_cdr().
+class CdrReader : public FieldReader<CdrReader> {
  public:
   explicit CdrReader(std::string_view bytes);
 
-  template <class T>
-  void operator()(const char*, T& value) {
-    read(value);
-  }
-  bool good() const { return good_; }
-  std::size_t left() const { return bytes_.size() - at_; }
-
  private:
+  friend FieldReader<CdrReader>;
   template <class T>
-  void read(T& value) {
-    if (!good_) return;
-    if constexpr (Message<T>) {
-      T::fields(value, *this);
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      text(value);
-    } else if constexpr (IsVector<T>::value) {
-      sequence(value);
-    } else if constexpr (IsArray<T>::value) {
-      for (auto& item : value) read(item);
-    } else if constexpr (std::is_same_v<T, bool>) {
-      std::uint8_t byte = 0;
-      number(byte);
-      value = byte != 0;
-    } else {
-      number(value);
-    }
-  }
+  void begin() {}
+  bool turns() const { return swapped_; }
   template <class T>
-  void sequence(std::vector<T>& items) {
-    std::uint32_t count = 0;
-    number(count);
-    items.clear();
-    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
-      if (count == 0) return;
-      align(sizeof(T));
-      if (!good_ || count > left() / sizeof(T)) return fail();
-      items.resize(count);
-      std::memcpy(items.data(), bytes_.data() + at_, count * sizeof(T));
-      at_ += count * sizeof(T);
-      if (swapped_)
-        for (T& item : items) item = turned(item);
-    } else {
-      // Each item takes a byte at least, so a wrong count ends before it has taken much.
-      if (count > left()) return fail();
-      for (std::uint32_t i = 0; i < count && good_; ++i) read(items.emplace_back());
-    }
-  }
-  template <class T>
-  void number(T& value) {
-    align(sizeof(T));
-    if (!good_ || left() < sizeof(T)) return fail();
-    std::memcpy(&value, bytes_.data() + at_, sizeof(T));
-    at_ += sizeof(T);
-    if (swapped_) value = turned(value);
-  }
-  template <class T>
-  static T turned(T value) {
+  void turn(T& value) const {
     char bytes[sizeof(T)];
     std::memcpy(bytes, &value, sizeof(T));
     for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
     std::memcpy(&value, bytes, sizeof(T));
-    return value;
   }
   void text(std::string& value);
   void align(std::size_t size);
-  void fail() { good_ = false; }
 
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-  bool good_ = true, swapped_ = false;
+  bool swapped_ = false;
 };
 
 /// With the header of four bytes.
