@@ -216,21 +216,25 @@ HWY_INLINE Blocks turned(const Blocks& b) {
   return out;
 }
 
+// x <- L^-T x, from the last unknown to the first.
+template <class Stored>
+HWY_INLINE void solve_transposed(const Stored* lower, int lane, V* x) {
+#pragma GCC unroll 6
+  for (int k = 5; k > 0; --k)
+#pragma GCC unroll 6
+    for (int i = 0; i < k; ++i)
+      x[i] = hn::NegMulAdd(load(lower[k * (k - 1) / 2 + i] + lane), x[k], x[i]);
+}
+
 // From y to the solution, given that of whom the element was eliminated into.
 HWY_INLINE void back_substitute(const FactorRow& factor, int lane, const V* other, V* x) {
-  const auto* lower = factor.factors + FactorRow::coupling_size;
   int place = 0;
 #pragma GCC unroll 6
   for (int j = 0; j < 6; ++j)
 #pragma GCC unroll 6
     for (int i = j < 3 ? 0 : 3; i < 6; ++i)
       x[i] = hn::MulAdd(load(factor.factors[place++] + lane), other[j], x[i]);
-      // Now x <- L^-T x, from the last unknown to the first.
-#pragma GCC unroll 6
-  for (int k = 5; k > 0; --k)
-#pragma GCC unroll 6
-    for (int i = 0; i < k; ++i)
-      x[i] = hn::NegMulAdd(load(lower[k * (k - 1) / 2 + i] + lane), x[k], x[i]);
+  solve_transposed(factor.factors + FactorRow::coupling_size, lane, x);
 }
 
 }  // namespace HWY_NAMESPACE

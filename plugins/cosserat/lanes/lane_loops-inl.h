@@ -282,12 +282,7 @@ HWY_INLINE void substitute_column(const RowArrays& rows, const Pack& pack,
         x[i] = hn::NegMulAdd(load(factor.values[6 * j + i] + lane), change, x[i]);
     }
   }
-  const auto* lower = own.factors + FactorRow::coupling_size;
-#pragma GCC unroll 6
-  for (int k = 5; k > 0; --k)
-#pragma GCC unroll 6
-    for (int i = 0; i < k; ++i)
-      x[i] = hn::NegMulAdd(load(lower[k * (k - 1) / 2 + i] + lane), x[k], x[i]);
+  solve_transposed(own.factors + FactorRow::coupling_size, lane, x);
 }
 
 }  // namespace HWY_NAMESPACE
