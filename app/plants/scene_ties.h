@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,13 @@ class SceneTies {
     std::string name;      ///< "tie_1", or of a plant of a grid "tie_1_3"
     int plant = 0;         ///< index into the RodSystem
     std::size_t slot = 0;  ///< in RodSystem::ties()
+    int number = 0;        ///< in the scene's list, from 0
+  };
+  /// How a string runs now.
+  struct Course {
+    Vec3 from_W = Vec3::Zero(), to_W = Vec3::Zero();  ///< m, the tied place and the other end
+    double length = 0.0;                              ///< m, where it becomes taut
+    double tension = 0.0;                             ///< N
   };
 
   /// Gives them to the plants, where they stand as drawn. A tie on an organ that no plant has is an
@@ -25,9 +33,11 @@ class SceneTies {
   const std::vector<One>& all() const { return all_; }
   /// N, of one of them now.
   double tension(const One& one) const;
+  /// Nothing where what it held came off.
+  std::optional<Course> course(const One& one) const;
 
  private:
-  void add(const world::SceneTie& tie, const std::string& organ, const std::string& name);
+  void add(const world::SceneTie& tie, const std::string& organ, One one);
 
   cosserat::RodSystem& rods_;
   std::vector<One> all_;

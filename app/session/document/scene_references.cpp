@@ -68,16 +68,6 @@ bool has_fruit(const Document& document, const std::string& fruit) {
                                              [&](const auto& one) { return one.name == name; });
 }
 
-/// "truss/stem", "truss/fruit_1"
-bool has_organ(const Document& document, const std::string& organ) {
-  if (has_fruit(document, organ)) return true;
-  const std::size_t slash = organ.find('/');
-  const DocumentPlant* plant = find_plant(document, organ.substr(0, slash));
-  return plant && slash != std::string::npos &&
-         std::ranges::any_of(plant->file->curves,
-                             [&](const auto& one) { return one.name == organ.substr(slash + 1); });
-}
-
 bool has_body(const Document& document, const std::string& body) {
   return std::ranges::any_of(document.scene->bodies,
                              [&](const auto& one) { return one.name == body; });
@@ -124,6 +114,15 @@ void rename_keys(Document& document, world::Scene& scene, ThingKind kind, const 
 }
 
 }  // namespace
+
+bool has_organ(const Document& document, const std::string& organ) {
+  if (has_fruit(document, organ)) return true;
+  const std::size_t slash = organ.find('/');
+  const DocumentPlant* plant = find_plant(document, organ.substr(0, slash));
+  return plant && slash != std::string::npos &&
+         std::ranges::any_of(plant->file->curves,
+                             [&](const auto& one) { return one.name == organ.substr(slash + 1); });
+}
 
 std::vector<std::string> broken_references(const Document& document) {
   std::vector<std::string> broken;
