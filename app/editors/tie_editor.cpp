@@ -24,6 +24,12 @@ void draw_ends(Ui& ui, const world::SceneTie& tie) {
   double at = tie.at;
   if (labelled_number(ui, "Place on stem", "", at)) set(ui, "at", at);
   tip("0 is the stem's foot, 1 its tip");
+  if (!tie.to_organ.empty()) {
+    row("Ends on", tie.to_organ);
+    double to_at = tie.to_at.value_or(0.0);
+    if (tie.to_at && labelled_number(ui, "Place there", "", to_at)) set(ui, "to_at", to_at);
+    return;
+  }
   Vec3 end = 1e3 * tie.to;
   const char* label = tie.is_offset ? "Ends off it x, y, z, mm" : "Ends at x, y, z, mm";
   if (three_numbers(ui, label, end))

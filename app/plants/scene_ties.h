@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/app/plants/organ_places.h"
 #include "pedicel/cosserat/solver/rod_system.h"
 #include "pedicel/world/scene.h"
 
@@ -13,10 +14,11 @@ namespace pedicel::app {
 class SceneTies {
  public:
   struct One {
-    std::string name;      ///< "tie_1", or of a plant of a grid "tie_1_3"
-    int plant = 0;         ///< index into the RodSystem
-    std::size_t slot = 0;  ///< in RodSystem::ties()
-    int number = 0;        ///< in the scene's list, from 0
+    std::string name;         ///< "tie_1", or of a plant of a grid "tie_1_3"
+    int plant = 0;            ///< that it holds, index into the RodSystem
+    bool is_between = false;  ///< it ends on a plant
+    std::size_t slot = 0;     ///< in RodSystem::ties(), or strings() where it ends on a plant
+    int number = 0;           ///< in the scene's list, from 0
   };
   /// How a string runs now.
   struct Course {
@@ -26,7 +28,7 @@ class SceneTies {
   };
 
   /// Gives them to the plants, where they stand as drawn. A tie on an organ that no plant has is an
-  /// error.
+  /// error, and so is one with both ends on one segment.
   SceneTies(const std::vector<world::SceneTie>& ties, cosserat::RodSystem& rods,
             Diagnostics& diagnostics);
 
@@ -37,7 +39,9 @@ class SceneTies {
   std::optional<Course> course(const One& one) const;
 
  private:
-  void add(const world::SceneTie& tie, const std::string& organ, One one);
+  void add(const world::SceneTie& tie, const std::string& organ, const std::string& number,
+           One one);
+  Vec3 now(const PlaceOnPlant& place) const;
 
   cosserat::RodSystem& rods_;
   std::vector<One> all_;

@@ -58,6 +58,7 @@ bool TieStroke::begin(Ui& ui) {
     ui.say("A string begins on a stem or a fruit: drag from there to where it ends");
     return false;
   }
+  to_.reset();
   to_W_ = from_->now_W;
   shapes_.follow(*ui.snapshot);
   return true;
@@ -73,6 +74,11 @@ void TieStroke::lead(const Ui& ui, const SceneFrame& frame, const ImVec2& to) {
     const BodyInfo& body = *ui.snapshot->bodies[static_cast<std::size_t>(hit.body)].info;
     if (body.description.mass > 0.0) moves_ = body.description.name;
   }
+  to_ = foot_of(ui, hit);
+  if (to_) {
+    to_W_ = to_->now_W;
+    return;
+  }
   if (hit && hit.kind != Kind::tie) {
     to_W_ = hit.place_W;
     return;
@@ -85,6 +91,7 @@ void TieStroke::lead(const Ui& ui, const SceneFrame& frame, const ImVec2& to) {
 void TieStroke::apply(Ui& ui) {
   if (!from_) return;
   const Foot from = *from_;
+  const std::optional<Foot> end = to_;
   clear();
   const double way = (to_W_ - from.now_W).norm();
   if (!moves_.empty())
@@ -92,7 +99,12 @@ void TieStroke::apply(Ui& ui) {
   if (way < shortest) return ui.say("Drag from the stem to where the string ends");
   Vec3 to = to_W_;
   for (double& x : to) x = rounded(x, 1e-6);
-  std::map<std::string, Value> arguments{{"organ", from.organ}, {"to", to}};
+  std::map<std::string, Value> arguments{{"organ", from.organ}};
+  if (end)
+    arguments.emplace("to_organ", end->organ);
+  else
+    arguments.emplace("to", to);
+  if (end && end->at) arguments.emplace("to_at", *end->at);
   if (from.at) arguments.emplace("at", *from.at);
   const DrawMode& d = ui.draw;
   if (d.tie_slack > 0.0) arguments.emplace("length", rounded(way + d.tie_slack, 1e-6));

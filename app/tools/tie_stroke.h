@@ -12,15 +12,15 @@
 
 namespace pedicel::app {
 
-/// A string that is drawn from a stem or a fruit to where it ends: a place of something that stands
-/// still, or a point in the air. Release adds it to the scene.
+/// A string that is drawn from a stem or a fruit to where it ends: a stem or fruit, a place of
+/// something that stands still, or a point in the air. Release adds it to the scene.
 class TieStroke {
  public:
   /// From what is under the pointer. False where no string can begin there, which is said.
   bool begin(Ui& ui);
   void lead(const Ui& ui, const SceneFrame& frame, const ImVec2& to);
   void apply(Ui& ui);
-  void clear() { from_.reset(); }
+  void clear() { from_.reset(), to_.reset(); }
 
   /// The string in hand, and how long it is.
   void add_to(render::DrawList& list) const;
@@ -35,7 +35,7 @@ class TieStroke {
   };
   static std::optional<Foot> foot_of(const Ui& ui, const Selection& hit);
 
-  std::optional<Foot> from_;
+  std::optional<Foot> from_, to_;  // the other end, where that is on a plant
   Vec3 to_W_ = Vec3::Zero();
   std::string moves_;  // what it would end at, where that moves
   RigidShapes shapes_;

@@ -39,22 +39,38 @@ double within(const Command& c, const std::string& name, const char* argument, d
 void set_number(SceneTie& tie, const Command& c, const std::string& key, const char* argument) {
   if (key == "at")
     tie.at = within(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
+  else if (key == "to_at" && tie.to_organ.empty())
+    throw UsageError("to_at of a tie that ends at a point, expected one that ends on a stem");
+  else if (key == "to_at")
+    tie.to_at = within(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
   else if (key == "length")
     tie.length = within(c, key, argument, 0.0, 1.0e6, "m from 0 on");
   else if (key == "stiffness")
     tie.stiffness = within(c, key, argument, 1.0e-3, 1.0e9, "N/m from 1e-3 to 1e9");
   else
-    throw UsageError(in_quotes(key) + ", expected one of: at, length, stiffness");
+    throw UsageError(in_quotes(key) + ", expected one of: at, to_at, length, stiffness");
 }
 
-/// The end that is not the plant's; false: the command does not say it.
-bool set_end(SceneTie& tie, const Command& c) {
-  if (c.has("to") && c.has("offset")) throw UsageError("to and offset, expected one of the two");
-  if (!c.has("to") && !c.has("offset")) return false;
-  tie.is_offset = c.has("offset");
-  tie.to = c.point(tie.is_offset ? "offset" : "to");
-  if (!tie.to.allFinite()) throw UsageError("the end of a tie, expected three finite numbers in m");
-  return true;
+/// The other end; false: the command does not say it.
+bool set_end(const Document& document, SceneTie& tie, const Command& c) {
+  const int ends = c.has("to") + c.has("offset") + c.has("to_organ");
+  if (ends > 1) throw UsageError("several ends, expected one of to, offset and to_organ");
+  if (c.has("to_organ")) {
+    check_organ(document, c.word("to_organ"));
+    tie.to_organ = c.word("to_organ");
+    tie.to_at.reset();
+    tie.is_offset = false;
+    tie.to.setZero();
+  } else if (ends == 1) {
+    tie.is_offset = c.has("offset");
+    tie.to = c.point(tie.is_offset ? "offset" : "to");
+    tie.to_organ.clear();
+    tie.to_at.reset();
+    if (!tie.to.allFinite())
+      throw UsageError("the end of a tie, expected three finite numbers in m");
+  }
+  if (c.has("to_at")) set_number(tie, c, "to_at", "to_at");
+  return ends == 1 || c.has("to_at");
 }
 
 void add(Document& document, const Command& c) {
@@ -63,20 +79,22 @@ void add(Document& document, const Command& c) {
   tie.organ = c.word("organ");
   for (const char* key : {"at", "length", "stiffness"})
     if (c.has(key)) set_number(tie, c, key, key);
-  if (!set_end(tie, c)) throw UsageError("a tie without an end, expected to or offset");
+  if (!set_end(document, tie, c))
+    throw UsageError("a tie without an end, expected to, offset or to_organ");
   document.edit_scene().ties.push_back(tie);
 }
 
 void move(Document& document, const Command& c) {
-  SceneTie& tie = tie_of(document, c);
+  SceneTie tie = tie_of(document, c);
   if (c.has("organ")) {
     check_organ(document, c.word("organ"));
     tie.organ = c.word("organ");
   }
   if (c.has("at")) set_number(tie, c, "at", "at");
-  const bool end = set_end(tie, c);
+  const bool end = set_end(document, tie, c);
   if (!end && !c.has("organ") && !c.has("at"))
-    throw UsageError("nothing to move, expected organ, at, to or offset");
+    throw UsageError("nothing to move, expected organ, at, to, offset, to_organ or to_at");
+  tie_of(document, c) = tie;
 }
 
 void set(Document& document, const Command& c) {
@@ -101,12 +119,18 @@ std::vector<CommandDescription> tie_commands() {
   const ArgumentDescription to{"to", Kind::point, false, "m, in the world: where it ends"};
   const ArgumentDescription offset{"offset", Kind::point, false,
                                    "m, from the tied place as drawn, in place of to"};
+  const ArgumentDescription to_organ{"to_organ", Kind::word, false,
+                                     "PLANT/STEM or PLANT/FRUIT where it ends, in place of to"};
+  const ArgumentDescription to_at{"to_at", Kind::number, false,
+                                  "as at, of to_organ (nearest to the tied place)"};
   return {
       {"add tie",
        d,
        {{"organ", Kind::word, true, "PLANT/STEM or PLANT/FRUIT; the name of a grid: each of it"},
         to,
         offset,
+        to_organ,
+        to_at,
         {"at", Kind::number, false, "fraction of the stem's length, from its foot (1)"},
         {"length", Kind::number, false, "m, beyond which it pulls (as drawn)"},
         {"stiffness", Kind::number, false, "N/m (1e4)"}},
@@ -118,13 +142,15 @@ std::vector<CommandDescription> tie_commands() {
         {"organ", Kind::word, false, "PLANT/STEM or PLANT/FRUIT (the same)"},
         {"at", Kind::number, false, "fraction of the stem's length, from its foot (the same)"},
         to,
-        offset},
+        offset,
+        to_organ,
+        to_at},
        "Puts one end of a tie elsewhere, or both.",
        move},
       {"set tie",
        d,
        {tie,
-        {"key", Kind::word, true, "at (1), length (m), stiffness (N/m)"},
+        {"key", Kind::word, true, "at (1), to_at (1), length (m), stiffness (N/m)"},
         {"value", Kind::number, true, "of the key"}},
        "Sets a number of a tie.",
        set},

@@ -72,17 +72,42 @@ TEST_F(Tying, TheRunningPlantIsHeld) {
   EXPECT_NEAR(now->ties[0].course.tension, 5.0 * stretch, 1e-9);
 }
 
+TEST_F(Tying, AStringEndsOnAStem) {
+  run("new plant q");
+  run("draw stem q wire -0.2,0,0.3;0,0,0.3;0.2,0,0.3 0.002");
+  run("add tie p/branch to_organ=q/wire");
+  run("add tie p/berry to_organ=p/stem to_at=0.9");
+  ASSERT_EQ(ties().size(), 2u);
+  EXPECT_EQ(ties()[0].to_organ, "q/wire");
+  EXPECT_FALSE(ties()[0].to_at.has_value());
+  run("set tie 1 to_at 0.25");
+  EXPECT_EQ(ties()[0].to_at.value(), 0.25);
+  run("rename q wire cable");
+  EXPECT_EQ(ties()[0].to_organ, "q/cable");
+  EXPECT_THAT(refusal("delete plant q"), HasSubstr("1 tie"));
+  must(session.files().save(folder / "wired.scene.yaml"));
+  Session again(waiting());
+  ASSERT_TRUE(again.files().open(folder / "wired.scene.yaml"));
+  EXPECT_EQ(again.document().scene->ties[0].to_organ, "q/cable");
+  EXPECT_EQ(again.document().scene->ties[0].to_at.value(), 0.25);
+  EXPECT_EQ(again.document().scene->ties[1].to_organ, "p/stem");
+  run("move tie 1 to=0,0,1");
+  EXPECT_TRUE(ties()[0].to_organ.empty());
+  EXPECT_FALSE(ties()[0].to_at.has_value());
+  EXPECT_THAT(refusal("set tie 1 to_at 0.5"), HasSubstr("ends at a point"));
+}
+
 TEST_F(Tying, WhatCannotBeIsRefused) {
   EXPECT_THAT(refusal("add tie p/bough to=0,0,1"), HasSubstr("no organ \"p/bough\""));
-  EXPECT_THAT(refusal("add tie p/stem"), HasSubstr("expected to or offset"));
+  EXPECT_THAT(refusal("add tie p/stem"), HasSubstr("expected to, offset or to_organ"));
   EXPECT_THAT(refusal("add tie p/stem to=0,0,1 offset=0,0,1"),
-              HasSubstr("expected one of the two"));
+              HasSubstr("expected one of to, offset and to_organ"));
   EXPECT_THAT(refusal("add tie p/stem to=0,0,1 at=1.5"), HasSubstr("0 to 1"));
   EXPECT_THAT(refusal("add tie p/stem to=0,0,1 stiffness=0"), HasSubstr("N/m from 1e-3"));
   EXPECT_THAT(refusal("set tie 1 at 0.5"), HasSubstr("one to be added before"));
   run("add tie p/stem to=0,0,1");
   EXPECT_THAT(refusal("set tie 2 at 0.5"), HasSubstr("from 1 to 1"));
-  EXPECT_THAT(refusal("set tie 1 colour 2"), HasSubstr("at, length, stiffness"));
+  EXPECT_THAT(refusal("set tie 1 colour 2"), HasSubstr("at, to_at, length, stiffness"));
   EXPECT_THAT(refusal("set tie 1 length -1"), HasSubstr("m from 0 on"));
   EXPECT_THAT(refusal("move tie 1"), HasSubstr("nothing to move"));
 }
