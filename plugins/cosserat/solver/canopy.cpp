@@ -43,12 +43,15 @@ void begin_memory(const RodModel& model, RodState& state) {
 
 }  // namespace
 
-/// What the sources of all plants find, each asked about its own plant.
+/// What the sources of all plants find, each asked about its own plant: those of a plant with
+/// itself, or all others.
 class Canopy::Sources : public ContactSource {
  public:
+  explicit Sources(bool within) : within_(within) {}
+  bool is_within_plant() const override { return within_; }
+
   // The plants of the step that begins.
-  // With `touching`, contact of a plant with itself is found by the canopy.
-  void take(const JoinedModel& joined, std::span<const PlantStep> plants, bool touching) {
+  void take(const JoinedModel& joined, std::span<const PlantStep> plants) {
     joined_ = &joined;
     parts_.resize(plants.size());
     for (std::size_t p = 0; p < plants.size(); ++p) {
@@ -56,7 +59,7 @@ class Canopy::Sources : public ContactSource {
       part.model = plants[p].model;
       part.sources.clear();
       for (ContactSource* source : plants[p].contacts)
-        if (!touching || !source->is_within_plant()) part.sources.push_back(source);
+        if (source->is_within_plant() == within_) part.sources.push_back(source);
       const RodState& state = *plants[p].state;
       part.start.alive = part.iterate.alive = state.alive;
       part.start.fruit_gone = part.iterate.fruit_gone = state.fruit_gone;
@@ -97,7 +100,7 @@ class Canopy::Sources : public ContactSource {
       }
       for (ContactPoint& point : part.found) {
         point.shape = joined_->shape(p, point.shape);
-        if (is_self_contact(point.collider))
+        if (within_)
           point.collider =
               self_contact_base + joined_->shape(p, point.collider - self_contact_base);
       }
@@ -148,6 +151,7 @@ class Canopy::Sources : public ContactSource {
       for (ContactSource* source : part.sources) task(part, *source);
   }
 
+  bool within_ = false;
   const JoinedModel* joined_ = nullptr;
   ThreadPool* pool_ = nullptr;
   std::vector<Part> parts_;
@@ -156,7 +160,7 @@ class Canopy::Sources : public ContactSource {
 
 Canopy::Canopy(const RodSettings& settings, const std::optional<SelfContactSettings>& contact,
                std::span<const PlantStep> plants, int threads, std::span<const PlantString> strings)
-    : sources_(std::make_unique<Sources>()),
+    : sources_(std::make_unique<Sources>(false)),
       strings_(strings.begin(), strings.end()),
       forces_(plants.size()) {
   join(plants);
@@ -164,6 +168,8 @@ Canopy::Canopy(const RodSettings& settings, const std::optional<SelfContactSetti
                                            std::array{&joined_->model()}, threads);
   if (contact)
     contact_ = std::make_unique<SelfContact>(joined_->model(), *contact, first_elements(*joined_));
+  else
+    own_ = std::make_unique<Sources>(true);
 }
 
 void Canopy::join(std::span<const PlantStep> plants) {
@@ -192,9 +198,10 @@ void Canopy::step(std::span<PlantStep> plants, double dt, const Vec3& gravity, T
   joined_->read_supports(models_);
   read(plants);
   if (state_changed) gather(plants);
-  sources_->take(*joined_, plants, contact_ != nullptr);
-  const std::array<ContactSource*, 2> both{contact_.get(), sources_.get()};
-  const std::span<ContactSource* const> contacts = std::span(both).subspan(contact_ ? 0 : 1);
+  sources_->take(*joined_, plants);
+  if (own_) own_->take(*joined_, plants);
+  ContactSource* const within = own_ ? static_cast<ContactSource*>(own_.get()) : contact_.get();
+  const std::array<ContactSource*, 2> contacts{within, sources_.get()};
   PlantStep all{&joined_->model(), &state_, loads_,  contacts, model_changed,
                 state_changed,     {},      clamps_, ties_,    air_};
   solver_->step({&all, 1}, dt, gravity, pool);

@@ -73,8 +73,10 @@ class Canopy {
 
   std::unique_ptr<JoinedModel> joined_;
   std::unique_ptr<DirectSolver> solver_;
-  std::unique_ptr<SelfContact> contact_;  // none where they do not touch
-  std::unique_ptr<Sources> sources_;
+  // Of the plants with themselves: with each other, too, or each as its own sources find it.
+  std::unique_ptr<SelfContact> contact_;
+  std::unique_ptr<Sources> own_;
+  std::unique_ptr<Sources> sources_;  // all others
   std::vector<PlantString> strings_;
   std::vector<const RodModel*> models_;
   RodState state_;  // of all
