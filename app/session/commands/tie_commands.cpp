@@ -23,40 +23,40 @@ SceneTie& tie_of(Document& document, const Command& c) {
   return document.edit_scene().ties[static_cast<std::size_t>(number - 1)];
 }
 
-void check_organ(const Document& document, const std::string& organ) {
+void check_tied_organ(const Document& document, const std::string& organ) {
   if (!has_organ(document, organ))
     throw UsageError("no organ " + in_quotes(organ) + ", expected PLANT/STEM or PLANT/FRUIT");
 }
 
-double within(const Command& c, const std::string& name, const char* argument, double low,
-              double high, const char* expected) {
+double tie_number(const Command& c, const std::string& name, const char* argument, double low,
+                  double high, const char* expected) {
   const double value = c.number(argument);
   if (!(value >= low && value <= high))
     throw UsageError(name + " " + io::format_number(value) + ", expected " + expected);
   return value;
 }
 
-void set_number(SceneTie& tie, const Command& c, const std::string& key, const char* argument) {
+void set_tie_number(SceneTie& tie, const Command& c, const std::string& key, const char* argument) {
   if (key == "at")
-    tie.at = within(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
+    tie.at = tie_number(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
   else if (key == "to_at" && tie.to_organ.empty())
     throw UsageError("to_at of a tie that ends at a point, expected one that ends on a stem");
   else if (key == "to_at")
-    tie.to_at = within(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
+    tie.to_at = tie_number(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
   else if (key == "length")
-    tie.length = within(c, key, argument, 0.0, 1.0e6, "m from 0 on");
+    tie.length = tie_number(c, key, argument, 0.0, 1.0e6, "m from 0 on");
   else if (key == "stiffness")
-    tie.stiffness = within(c, key, argument, 1.0e-3, 1.0e9, "N/m from 1e-3 to 1e9");
+    tie.stiffness = tie_number(c, key, argument, 1.0e-3, 1.0e9, "N/m from 1e-3 to 1e9");
   else
     throw UsageError(in_quotes(key) + ", expected one of: at, to_at, length, stiffness");
 }
 
 /// The other end; false: the command does not say it.
-bool set_end(const Document& document, SceneTie& tie, const Command& c) {
+bool set_tie_end(const Document& document, SceneTie& tie, const Command& c) {
   const int ends = c.has("to") + c.has("offset") + c.has("to_organ");
   if (ends > 1) throw UsageError("several ends, expected one of to, offset and to_organ");
   if (c.has("to_organ")) {
-    check_organ(document, c.word("to_organ"));
+    check_tied_organ(document, c.word("to_organ"));
     tie.to_organ = c.word("to_organ");
     tie.to_at.reset();
     tie.is_offset = false;
@@ -69,43 +69,43 @@ bool set_end(const Document& document, SceneTie& tie, const Command& c) {
     if (!tie.to.allFinite())
       throw UsageError("the end of a tie, expected three finite numbers in m");
   }
-  if (c.has("to_at")) set_number(tie, c, "to_at", "to_at");
+  if (c.has("to_at")) set_tie_number(tie, c, "to_at", "to_at");
   return ends == 1 || c.has("to_at");
 }
 
-void add(Document& document, const Command& c) {
-  check_organ(document, c.word("organ"));
+void add_tie(Document& document, const Command& c) {
+  check_tied_organ(document, c.word("organ"));
   SceneTie tie;
   tie.organ = c.word("organ");
   for (const char* key : {"at", "length", "stiffness"})
-    if (c.has(key)) set_number(tie, c, key, key);
-  if (!set_end(document, tie, c))
+    if (c.has(key)) set_tie_number(tie, c, key, key);
+  if (!set_tie_end(document, tie, c))
     throw UsageError("a tie without an end, expected to, offset or to_organ");
   document.edit_scene().ties.push_back(tie);
 }
 
-void move(Document& document, const Command& c) {
+void move_tie(Document& document, const Command& c) {
   SceneTie tie = tie_of(document, c);
   if (c.has("organ")) {
-    check_organ(document, c.word("organ"));
+    check_tied_organ(document, c.word("organ"));
     tie.organ = c.word("organ");
   }
-  if (c.has("at")) set_number(tie, c, "at", "at");
-  const bool end = set_end(document, tie, c);
+  if (c.has("at")) set_tie_number(tie, c, "at", "at");
+  const bool end = set_tie_end(document, tie, c);
   if (!end && !c.has("organ") && !c.has("at"))
     throw UsageError("nothing to move, expected organ, at, to, offset, to_organ or to_at");
   tie_of(document, c) = tie;
 }
 
-void set(Document& document, const Command& c) {
-  set_number(tie_of(document, c), c, c.word("key"), "value");
+void set_tie(Document& document, const Command& c) {
+  set_tie_number(tie_of(document, c), c, c.word("key"), "value");
 }
 
-void tauten(Document& document, const Command& c) {
+void tauten_tie(Document& document, const Command& c) {
   tie_of(document, c).length.reset();
 }
 
-void remove(Document& document, const Command& c) {
+void delete_tie(Document& document, const Command& c) {
   tie_of(document, c);
   auto& ties = document.edit_scene().ties;
   ties.erase(ties.begin() + (c.whole("tie") - 1));
@@ -135,7 +135,7 @@ std::vector<CommandDescription> tie_commands() {
         {"length", Kind::number, false, "m, beyond which it pulls (as drawn)"},
         {"stiffness", Kind::number, false, "N/m (1e4)"}},
        "Ties a place of a plant by a string.",
-       add},
+       add_tie},
       {"move tie",
        d,
        {tie,
@@ -146,16 +146,16 @@ std::vector<CommandDescription> tie_commands() {
         to_organ,
         to_at},
        "Puts one end of a tie elsewhere, or both.",
-       move},
+       move_tie},
       {"set tie",
        d,
        {tie,
         {"key", Kind::word, true, "at (1), to_at (1), length (m), stiffness (N/m)"},
         {"value", Kind::number, true, "of the key"}},
        "Sets a number of a tie.",
-       set},
-      {"tauten tie", d, {tie}, "Gives a tie the length that it has as drawn.", tauten},
-      {"delete tie", d, {tie}, "Takes a tie away.", remove},
+       set_tie},
+      {"tauten tie", d, {tie}, "Gives a tie the length that it has as drawn.", tauten_tie},
+      {"delete tie", d, {tie}, "Takes a tie away.", delete_tie},
   };
 }
 

@@ -21,17 +21,18 @@ RodSettings exactly() {
 }
 
 // Forest plants in a row, half a metre apart.
-RodSystem row_of(int plants, const RodSettings& settings, int threads = 1) {
-  RodSystem system(settings, threads);
-  for (int p = 0; p < plants; ++p) {
-    RodModel model = plant::forest_plant(p);
-    const Vec3 by(0.5 * p, 0, 0);
-    model.root.position += by;
-    for (Element& element : model.elements) element.drawn_position += by;
-    system.add_plant(std::move(model));
+struct Row : RodSystem {
+  explicit Row(int plants, const RodSettings& settings, int threads = 1)
+      : RodSystem(settings, threads) {
+    for (int p = 0; p < plants; ++p) {
+      RodModel model = plant::forest_plant(p);
+      const Vec3 by(0.5 * p, 0, 0);
+      model.root.position += by;
+      for (Element& element : model.elements) element.drawn_position += by;
+      add_plant(std::move(model));
+    }
   }
-  return system;
-}
+};
 
 PlantString between(const RodSystem& system, PlantString::End a, PlantString::End b,
                     double stretched, double stiffness) {
@@ -43,7 +44,7 @@ PlantString between(const RodSystem& system, PlantString::End a, PlantString::En
 // same way: so both ends are pulled along the string, by one force, and by nothing else. What a
 // step leaves is of the order of its tolerance, and so is the difference.
 TEST(PlantStrings, PullBothEndsWithTheForceTheySay) {
-  RodSystem tied = row_of(3, exactly()), pulled = row_of(3, exactly());
+  Row tied(3, exactly()), pulled(3, exactly());
   tied.add_string(between(tied, {0, 15, 0.004}, {1, 14, 0.0}, 0.02, 400.0));
   tied.add_string(between(tied, {1, 15, 0.0}, {2, 9, 0.01}, 0.05, 3.0e4));
   tied.add_string(between(tied, {0, 9, 0.0}, {2, 16, 0.0}, 0.03, 50.0));  // closes a loop
@@ -94,9 +95,9 @@ TEST(PlantStrings, ShareAStretchAsSpringsInARow) {
 }
 
 TEST(PlantStrings, SlackTheyAreNotThere) {
-  RodSystem tied = row_of(2, exactly()), free = row_of(2, exactly());
+  Row tied(2, exactly()), free(2, exactly());
   tied.add_string(between(tied, {0, 15, 0.0}, {1, 15, 0.0}, -0.3, 1.0e4));
-  for (RodSystem* system : {&tied, &free})
+  for (Row* system : {&tied, &free})
     system->loads(0).push_back({15, 0.0, Vec3(0.05, 0.02, 0), Vec3::Zero()});
   for (int i = 0; i < 60; ++i) {
     tied.step(string_dt, gravity);
@@ -109,7 +110,7 @@ TEST(PlantStrings, SlackTheyAreNotThere) {
 }
 
 std::uint64_t net(int threads, bool touching) {
-  RodSystem system = row_of(5, RodSettings{}, threads);
+  Row system(5, RodSettings{}, threads);
   for (int p = 0; p + 1 < 5; ++p)
     system.add_string(between(system, {p, 15, 0.0}, {p + 1, 13, 0.0}, 0.05, 1.0e3));
   if (touching) system.let_plants_touch(SelfContactSettings{});
@@ -127,7 +128,7 @@ TEST(PlantStrings, BitsDoNotDependOnThreads) {
 
 // A plant that finds its contact with itself goes on doing so.
 TEST(PlantStrings, APlantStillTouchesItself) {
-  RodSystem system = row_of(2, RodSettings{});
+  Row system(2, RodSettings{});
   for (int p = 0; p < 2; ++p)
     system.add_contact_source(
         p, std::make_unique<SelfContact>(system.model(p), SelfContactSettings{}));
@@ -151,7 +152,7 @@ TEST(PlantStrings, APlantStillTouchesItself) {
 }
 
 TEST(PlantStrings, WhatCannotBeTiedIsRefused) {
-  RodSystem system = row_of(2, RodSettings{});
+  Row system(2, RodSettings{});
   const auto refusal = [&](const PlantString& string) -> std::string {
     try {
       system.add_string(string);
@@ -165,7 +166,7 @@ TEST(PlantStrings, WhatCannotBeTiedIsRefused) {
   EXPECT_THAT(refusal({{0, 3, 0.0}, {2, 3, 0.0}, 0.1, 1.0}), testing::HasSubstr("no element"));
   RodSettings paper;
   paper.solver = SolverKind::position_based;
-  RodSystem other = row_of(2, paper);
+  Row other(2, paper);
   EXPECT_THROW(other.add_string({{0, 3, 0.0}, {1, 3, 0.0}, 0.1, 1.0}), UsageError);
 }
 
