@@ -100,7 +100,8 @@ class DrawPanel : public Panel {
         return;
       case DrawThing::tie:
         note(
-            "Drag from a stem or fruit to another one, to a post, or to a point in the air: a string. Click on a "
+            "Drag from a stem or fruit to another one, to a post, or to a point in the air: a "
+            "string. Click on a "
             "string with no tool in hand to change it; " +
             keys_of(Action::remove) + " takes it away.");
         return;

@@ -108,8 +108,8 @@ struct SceneTie {
   double at = 1.0;         ///< fraction of the curve's length, from its foot
   Vec3 to = Vec3::Zero();  ///< m, W; from the tied place as drawn where `is_offset`
   bool is_offset = false;
-  std::string to_organ;         ///< in place of `to`: where it ends; empty: at a point
-  std::optional<double> to_at;  ///< 1, as `at`; absent: nearest to the tied place as drawn
+  std::string to_organ;          ///< in place of `to`: where it ends; empty: at a point
+  std::optional<double> to_at;   ///< 1, as `at`; absent: nearest to the tied place as drawn
   std::optional<double> length;  ///< m, where it becomes taut; absent: as drawn
   double stiffness = 1.0e4;      ///< N/m
   SourcePosition where;

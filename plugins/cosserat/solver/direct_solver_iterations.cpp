@@ -133,7 +133,8 @@ bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
   return true;
 }
 
-// Welds and strands couple elements that are no neighbours in the tree: a block system solves the whole plant.
+// Welds and strands couple elements that are no neighbours in the tree: a block system solves the
+// whole plant.
 void DirectSolver::solve_loops(int index, const RodModel& model) {
   Plant& plant = plants_[index];
   BlockSystem& system = *plant.loops;
