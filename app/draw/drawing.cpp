@@ -187,6 +187,26 @@ std::vector<DrawList> robot_shapes(const robot::RobotDescription& robot) {
   return shapes;
 }
 
+// A flat parabola of height h over the way d is longer than it by 8/3 h^2/d.
+void add_string(DrawList& list, const Vec3& from_W, const Vec3& to_W, double length,
+                const render::Colour& colour) {
+  constexpr double radius = 0.0012;  // m
+  const Shading look{colour, 0.9f, 0.1f};
+  const double way = (to_W - from_W).norm();
+  const double level = (to_W - from_W).head<2>().norm();
+  // Hung upright it only lies beside itself.
+  const double sag = level > 0.0 && length > way
+                         ? std::min(std::sqrt(0.375 * way * (length - way)), 0.5 * length)
+                         : 0.0;
+  const int parts = sag > radius ? 12 : 1;
+  const auto place = [&](int i) {
+    const double t = static_cast<double>(i) / parts;
+    return Vec3(from_W + t * (to_W - from_W) - 4.0 * sag * t * (1.0 - t) * Vec3::UnitZ());
+  };
+  for (int i = 0; i < parts; ++i)
+    list.capsules.push_back({place(i), place(i + 1), radius, radius, look});
+}
+
 void add_force(DrawList& list, const Vec3& point_W, const Vec3& force_W, double metres_per_newton,
                const Shading& material) {
   const Vec3 arrow = metres_per_newton * force_W;

@@ -50,6 +50,11 @@ render::DrawList body_shape(const world::BodyDescription& body);
 /// The visuals of every link, in the links' frames and the order of the description.
 std::vector<render::DrawList> robot_shapes(const robot::RobotDescription& robot);
 
+/// The string of a tie from end to end (m, W). What is longer than the way sags.
+void add_string(render::DrawList& list, const Vec3& from_W, const Vec3& to_W, double length,
+                const render::Colour& colour);
+inline constexpr render::Colour twine = render::Colour::hex(0xcdb36b);
+
 /// An arrow that ends at `point_W` (m) and shows a force (N).
 void add_force(render::DrawList& list, const Vec3& point_W, const Vec3& force_W,
                double metres_per_newton, const render::Shading& material);

@@ -36,6 +36,9 @@ void SceneView::fill(Frame& frame, bool strain) {
   for (std::size_t p = 0; p < plants_.size(); ++p)
     plants_[p].add_to(frame.list, simulation_.rods().state(static_cast<int>(p)),
                       strain ? std::optional(strain_scale_) : std::nullopt);
+  for (const SceneTies::One& tie : simulation_.ties().all())
+    if (const auto course = simulation_.ties().course(tie))
+      add_string(frame.list, course->from_W, course->to_W, course->length, twine);
   for (std::size_t l = 0; l < links_.size(); ++l) {
     const render::DrawList::Counts before = frame.list.counts();
     add_at(frame.list, links_[l], simulation_.robot()->link_pose(static_cast<int>(l)));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pedicel/app/editors/tie_editor.h"
 #include "pedicel/app/session/commands/scene_things.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/widgets.h"
@@ -19,24 +20,6 @@ namespace {
 using Kind = Selection::Kind;
 
 constexpr double degree = std::numbers::pi / 180.0;  // rad
-
-/// Three numbers in a row under their name. True once one was typed.
-bool three_numbers(const Ui& ui, const char* label, Vec3& value, const char* format) {
-  ImGui::TextColored(palette().dim, "%s", label);
-  const float space = 4.0f * ui.scale;
-  const float width = (rest_width() - 2 * space) / 3.0f;
-  bool typed = false;
-  ImGui::PushID(label);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis) ImGui::SameLine(0, space);
-    ImGui::SetNextItemWidth(width);
-    ImGui::PushID(axis);
-    typed = number_field("##axis", value[axis], format) || typed;
-    ImGui::PopID();
-  }
-  ImGui::PopID();
-  return typed;
-}
 
 /// rad, about the world's X, then Y, then Z.
 Vec3 angles_of(const Quat& turn) {
@@ -56,10 +39,10 @@ void pose_numbers(Ui& ui, const char* word, const std::string& name, const Pose&
     ui.run(Command(std::string(verb) + " " + word, std::move(arguments)));
   };
   Vec3 place = 1e3 * pose.position;
-  if (three_numbers(ui, "Place x, y, z, mm", place, "%.6g")) run("move", Vec3(place / 1e3));
+  if (three_numbers(ui, "Place x, y, z, mm", place)) run("move", Vec3(place / 1e3));
   Vec3 turn = angles_of(pose.rotation) / degree;
   for (double& angle : turn) angle = std::round(1e9 * angle) / 1e9 + 0.0;
-  if (three_numbers(ui, "Turn about x, y, z, degrees", turn, "%.6g")) {
+  if (three_numbers(ui, "Turn about x, y, z, degrees", turn)) {
     turn *= degree;
     run("turn", std::vector<double>{turn.x(), turn.y(), turn.z()});
   }
@@ -144,9 +127,9 @@ void camera_details(Ui& ui, const world::SceneCamera& camera) {
                    {{"camera", camera.name}, {"eye", eye}, {"target", target}, {"fov", fov}}));
   };
   Vec3 eye = 1e3 * camera.eye, target = 1e3 * camera.target;
-  if (three_numbers(ui, "Place x, y, z, mm", eye, "%.6g"))
+  if (three_numbers(ui, "Place x, y, z, mm", eye))
     move(eye / 1e3, camera.target, camera.field_of_view);
-  if (three_numbers(ui, "Looks at x, y, z, mm", target, "%.6g"))
+  if (three_numbers(ui, "Looks at x, y, z, mm", target))
     move(camera.eye, target / 1e3, camera.field_of_view);
   double fov = camera.field_of_view / degree;
   if (labelled_number(ui, "Field of view", "deg", fov))
@@ -256,6 +239,8 @@ bool remove_thing(Ui& ui) {
     done = ui.remove(Command("delete body", {{"body", body->name}}));
   } else if (const world::SceneCamera* camera = chosen_camera(ui)) {
     done = ui.remove(Command("delete camera", {{"camera", camera->name}}));
+  } else if (kind == Kind::tie) {
+    done = chosen_tie(ui) && ui.run(Command("delete tie", {{"tie", ui.selection.tie + 1}}));
   } else if (kind == Kind::ground) {
     done = ui.remove(Command("delete ground", {}));
   } else if (kind == Kind::link) {
@@ -270,7 +255,9 @@ bool remove_thing(Ui& ui) {
 // Commands replace the document: what is drawn from is copied.
 bool draw_thing(Ui& ui) {
   const Document& document = ui.session.document();
-  if (ui.selection.kind == Kind::plant) {
+  if (ui.selection.kind == Kind::tie) {
+    draw_tie(ui);
+  } else if (ui.selection.kind == Kind::plant) {
     const int index = document.plant_index(ui.selection.plant_name);
     if (index < 0) return true;
     const DocumentPlant plant = document.plants[static_cast<std::size_t>(index)];

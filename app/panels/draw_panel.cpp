@@ -50,6 +50,7 @@ class DrawPanel : public Panel {
     thing_buttons(ui, d);
     if (d.thing == DrawThing::stem) stem_options(ui, d);
     if (d.thing == DrawThing::fruit) fruit_options(ui, d);
+    if (d.thing == DrawThing::tie) tie_options(ui, d);
     if (d.thing == DrawThing::leaf) leaf_templates(d);
     if (d.thing == DrawThing::leaf)
       millimetres(ui, "Size", d.leaf_size, 5.0f, 400.0f, "From the foot of its stalk to its tip");
@@ -59,9 +60,10 @@ class DrawPanel : public Panel {
 
  private:
   static void thing_buttons(const Ui& ui, DrawMode& d) {
-    constexpr std::array<const char*, 4> names = {"Stem", "Fruit", "Leaf", "Cut"};
+    // In the order of DrawThing.
+    constexpr std::array<const char*, 5> names = {"Stem", "Fruit", "Leaf", "Cut", "Tie"};
     const float gap = 4.0f * ui.scale;
-    const float width = (rest_width() - 3.0f * gap) / 4.0f;
+    const float width = (rest_width() - 4.0f * gap) / 5.0f;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const bool chosen = d.thing == static_cast<DrawThing>(i);
       if (i) ImGui::SameLine(0, gap);
@@ -95,6 +97,13 @@ class DrawPanel : public Panel {
         note(
             "Draw across stems, or click on one: what lies beyond goes (red), with all that is on "
             "it.");
+        return;
+      case DrawThing::tie:
+        note(
+            "Drag from a stem or fruit to another one, to a post, or to a point in the air: a "
+            "string. Click on a "
+            "string with no tool in hand to change it; " +
+            keys_of(Action::remove) + " takes it away.");
         return;
     }
   }
@@ -153,6 +162,15 @@ class DrawPanel : public Panel {
       if (ImGui::RadioButton(names[i].c_str(), d.leaf_template == names[i]))
         d.leaf_template = names[i];
     }
+  }
+
+  static void tie_options(Ui& ui, DrawMode& d) {
+    heading(ui, "String");
+    slider(ui, "Stiffness", d.tie_stiffness, 1.0, 1.0e6, "%.0f N/m", ImGuiSliderFlags_Logarithmic,
+           "How hard it pulls for each metre that it is longer");
+    double slack = 1e3 * d.tie_slack;
+    if (slider(ui, "Slack", slack, 0.0, 200.0, "%.0f mm", 0, "How much longer than its way it is"))
+      d.tie_slack = slack / 1e3;
   }
 
   static void fruit_options(Ui& ui, DrawMode& d) {

@@ -7,6 +7,7 @@
 #include "pedicel/app/editors/add_menu.h"
 #include "pedicel/app/editors/stem_editor.h"
 #include "pedicel/app/editors/thing_editor.h"
+#include "pedicel/app/editors/tie_editor.h"
 #include "pedicel/app/panels/panel.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
@@ -113,7 +114,7 @@ class PlantsPanel : public Panel {
            describe(ui.selection, *ui.snapshot) == plant + "/" + leaf;
   }
 
-  /// Bodies, ground and cameras of the document.
+  /// Bodies, ground, strings and cameras of the document.
   static void scene_nodes(Ui& ui) {
     const world::Scene& scene = *ui.session.document().scene;
     const auto is = [&](Selection::Kind kind, const std::string& name) {
@@ -123,6 +124,13 @@ class PlantsPanel : public Panel {
       if (leaf(body.name, is(Selection::Kind::body, body.name))) choose_body(ui, body.name);
     if (scene.ground && leaf("ground", ui.selection.kind == Selection::Kind::ground))
       choose_ground(ui);
+    for (int i = 0; i < static_cast<int>(scene.ties.size()); ++i)
+      if (leaf(
+              "tie_" + std::to_string(i + 1) + "  " + scene.ties[static_cast<std::size_t>(i)].organ,
+              ui.selection.kind == Selection::Kind::tie && ui.selection.tie == i)) {
+        choose_tie(ui, i);
+        break;
+      }
     for (const auto& camera : scene.cameras)
       if (leaf(camera.name + "  (camera)", is(Selection::Kind::camera, camera.name)))
         choose_camera(ui, camera.name);

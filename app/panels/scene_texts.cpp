@@ -157,6 +157,9 @@ void draw_scene_texts(Ui& ui, const LayoutAreas& areas) {
   else if (ui.draw.on && ui.draw.thing == DrawThing::trim)
     banner(ui, over, areas, "Cutting: draw across stems or click on one, Esc leaves",
            IM_COL32(150, 44, 36, 235));
+  else if (ui.draw.on && ui.draw.thing == DrawThing::tie)
+    banner(ui, over, areas, "Tying: drag from a stem to where the string ends, Esc leaves",
+           IM_COL32(62, 120, 34, 235));
   else if (ui.draw.on)
     banner(ui, over, areas, "Drawing: left draws, Alt+left turns the view, Esc leaves",
            IM_COL32(62, 120, 34, 235));

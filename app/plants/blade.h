@@ -1,14 +1,11 @@
 #pragma once
 
-#include <array>
+#include "pedicel/coupling/blade_source.h"
 
 namespace pedicel::app {
 
-/// A corner of a leaf's triangle: a place on an element of a plant.
-struct BladeCorner {
-  int element = 0;
-  double back = 0.0;  ///< m, from the child node
-};
-using Blade = std::array<BladeCorner, 3>;
+/// A triangle of a leaf, its corners places on elements of a plant.
+using BladeCorner = coupling::BladeCorner;
+using Blade = coupling::BladeFace;
 
 }  // namespace pedicel::app

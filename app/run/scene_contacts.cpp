@@ -74,12 +74,22 @@ void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& d
     diagnostics.warning(place_of(colliders_.collider(overlap.collider)), overlap.text);
   sources_.push_back(&source);
   if (grip_) grip_->add(source);
+  if (assets.coupling.blade_contact) add_blades(assets, p);
   // Plants that touch each other touch themselves there, too.
   if (!assets.coupling.self_contact || assets.coupling.plant_contact) return;
   auto own = std::make_unique<cosserat::SelfContact>(
       rods_.model(p), coupling::self_contact_settings(assets.coupling));
   self_contacts_.push_back(own.get());
   rods_.add_contact_source(p, std::move(own));
+}
+
+void SceneContacts::add_blades(const SceneAssets& assets, int p) {
+  const std::vector<Blade>& blades = assets.plants[static_cast<std::size_t>(p)].blades;
+  if (blades.empty()) return;
+  auto source = std::make_unique<coupling::BladeSource>(colliders_, assets.coupling, blades);
+  source->ignore_touching(rods_.model(p), rods_.state(p));
+  blades_.push_back(source.get());
+  rods_.add_contact_source(p, std::move(source));
 }
 
 coupling::ColliderSource& SceneContacts::add_source(const SceneAssets& assets, int p) {
@@ -108,6 +118,7 @@ void SceneContacts::change_settings(const coupling::CouplingSettings& settings) 
   coupling::CouplingSettings wide = settings;
   if (giving_) wide.margin = std::max(wide.margin, discrepancy::reach_back);
   for (coupling::ColliderSource* source : sources_) source->change_settings(wide);
+  for (coupling::BladeSource* blades : blades_) blades->change_settings(settings);
   for (cosserat::SelfContact* own : self_contacts_)
     own->change_settings(coupling::self_contact_settings(settings));
   if (touch_each_other_) rods_.let_plants_touch(coupling::self_contact_settings(settings));

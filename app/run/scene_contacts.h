@@ -9,6 +9,7 @@
 #include "pedicel/app/run/reaction.h"
 #include "pedicel/app/run/robot_control.h"
 #include "pedicel/cosserat/contact/self_contact.h"
+#include "pedicel/coupling/blade_source.h"
 #include "pedicel/coupling/collider_source.h"
 #include "pedicel/coupling/coupling_settings.h"
 
@@ -41,6 +42,7 @@ class SceneContacts {
  private:
   void add_colliders(const SceneAssets& assets);
   void add_grip(const SceneAssets& assets);
+  void add_blades(const SceneAssets& assets, int plant);
   void add_sources(const SceneAssets& assets, int plant, Diagnostics& diagnostics);
   coupling::ColliderSource& add_source(const SceneAssets& assets, int plant);
   void act_back(const coupling::ContactReport& contacts);
@@ -56,6 +58,7 @@ class SceneContacts {
   std::vector<coupling::ColliderSource*> sources_;       // of rods_
   std::vector<discrepancy::GivingSource*> with_giving_;  // likewise; empty where nothing gives way
   std::vector<cosserat::SelfContact*> self_contacts_;
+  std::vector<coupling::BladeSource*> blades_;
   std::unique_ptr<GripperStep> grip_;  // null without a gripper that its motor moves
   std::unique_ptr<PlantStep> plant_step_;
   std::unique_ptr<Reaction> reaction_;  // null where nothing feels plants

@@ -196,7 +196,8 @@ bool Simulation::can_change_to(const SceneAssets& assets) const {
   // These decide what is set up once, so they cannot change under way.
   const bool same_contacts = now.margin == then.margin && now.two_way == then.two_way &&
                              now.self_contact == then.self_contact &&
-                             now.plant_contact == then.plant_contact;
+                             now.plant_contact == then.plant_contact &&
+                             now.blade_contact == then.blade_contact;
   // The file counts, too: relative paths and names are found from its folder.
   const bool same_world =
       scene_.dt == assets.scene.dt && scene_.gravity == assets.scene.gravity &&

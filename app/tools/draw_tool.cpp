@@ -38,6 +38,10 @@ void DrawTool::press(Ui& ui, const SceneFrame& frame) {
     trim_.begin(pressed_at_);
     return;
   }
+  if (ui.draw.thing == DrawThing::tie) {
+    if (tie_.begin(ui)) hand_ = Hand::tie;
+    return;
+  }
   if (press_handle(ui, frame)) return;
   if (point_ = point_under(ui, frame); point_ >= 0) {
     choose_point(ui, point_);
@@ -83,6 +87,9 @@ void DrawTool::drag(Ui& ui, const SceneFrame& frame) {
     case Hand::trim:
       trim_.extend(ui, frame, io.MousePos);
       break;
+    case Hand::tie:
+      tie_.lead(ui, frame, io.MousePos);
+      break;
   }
 }
 
@@ -98,6 +105,8 @@ void DrawTool::release(Ui& ui) {
   } else if (hand_ == Hand::trim) {
     if (foot_ && click) trim_.cut(*foot_);
     trim_.apply(ui);
+  } else if (hand_ == Hand::tie) {
+    tie_.apply(ui);
   } else {
     ui.session.end_gesture();
     // The rods of a leaf that was moved have other numbers.
@@ -128,6 +137,7 @@ std::string DrawTool::label(const Ui& ui) const {
     const std::size_t cuts = trim_.cuts().size();
     return cuts == 0 ? "" : std::to_string(cuts) + (cuts == 1 ? " stem" : " stems");
   }
+  if (hand_ == Hand::tie) return tie_.label();
   if (hand_ == Hand::organ && foot_)
     return foot_->stem + ", " + number_text(100.0 * foot_->at, 3) + " %";
   if (hand_ != Hand::idle || !foot_) return "";
@@ -139,6 +149,7 @@ Vec3 DrawTool::label_place() const {
   if (hand_ == Hand::stroke && !stroke_.empty()) return stroke_.back().position;
   if (hand_ == Hand::radius) return handle_.surface;
   if (hand_ == Hand::trim && !trim_.cuts().empty()) return trim_.cuts().back().now_W;
+  if (hand_ == Hand::tie) return tie_.place();
   return foot_ ? foot_->now_W : Vec3(Vec3::Zero());
 }
 
@@ -154,6 +165,8 @@ bool DrawTool::cancel(Ui& ui) {
     stroke_.clear();
   else if (hand_ == Hand::trim)
     trim_.clear();
+  else if (hand_ == Hand::tie)
+    tie_.clear();
   else
     ui.session.cancel_gesture();
   hand_ = Hand::idle;

@@ -8,6 +8,7 @@
 #include "pedicel/app/session/live/draw_surface.h"
 #include "pedicel/app/tools/drawn_shape.h"
 #include "pedicel/app/tools/radius_handles.h"
+#include "pedicel/app/tools/tie_stroke.h"
 #include "pedicel/app/tools/trim_brush.h"
 #include "pedicel/app/ui/ui.h"
 #include "pedicel/app/view/scene_mouse.h"
@@ -17,7 +18,7 @@
 namespace pedicel::app {
 
 /// Drawing and editing plants in the scene: strokes, control points and their radii, fruits and
-/// leaves put on and moved, cuts. What it does to the document are the session's commands.
+/// leaves put on and moved, strings, cuts. What it does to the document are the session's commands.
 class DrawTool {
  public:
   /// To be called right after the item that is the scene's picture. Whether the left button is the
@@ -37,7 +38,7 @@ class DrawTool {
   bool thicken(double steps);
 
  private:
-  enum class Hand { idle, stroke, point, radius, organ, trim };
+  enum class Hand { idle, stroke, point, radius, organ, trim, tie };
 
   void press(Ui& ui, const SceneFrame& frame);
   bool press_handle(Ui& ui, const SceneFrame& frame);
@@ -75,6 +76,7 @@ class DrawTool {
   std::optional<plant::StemPicker> stems_;  // of the plant whose organ is dragged
   Vec3 moved_ = Vec3::Zero();               // m, by the simulation from the drawing, at the organ
   TrimBrush trim_;
+  TieStroke tie_;
 };
 
 }  // namespace pedicel::app

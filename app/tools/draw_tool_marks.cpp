@@ -111,6 +111,7 @@ void DrawTool::add_to(render::DrawList& list, const Ui& ui, const SceneFrame& fr
   }
   if (hand_ == Hand::stroke && stroke_.size() > 1) add_stroke(list, ui, frame);
   if (hand_ == Hand::trim) trim_.add_to(list, ui, frame);
+  if (hand_ == Hand::tie) tie_.add_to(list);
 }
 
 }  // namespace pedicel::app

@@ -150,6 +150,10 @@ std::optional<Vec3> place_of(const Selection& s, const Snapshot& snapshot) {
     case Kind::link:
       if (s.link < 0 || s.link >= static_cast<int>(snapshot.robot.links.size())) return {};
       return snapshot.robot.links[static_cast<std::size_t>(s.link)].position;
+    case Kind::tie:
+      for (const TieSnapshot& tie : snapshot.ties)
+        if (tie.number == s.tie) return tie.course.from_W;
+      return {};
     default:
       return {};
   }

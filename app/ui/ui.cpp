@@ -175,6 +175,8 @@ std::string describe(const Selection& s, const Snapshot& snapshot) {
       return s.plant_name;
     case Kind::camera:
       return s.thing;
+    case Kind::tie:
+      return "tie_" + std::to_string(s.tie + 1);
     case Kind::ground:
       return "ground";
     case Kind::body:

@@ -67,12 +67,25 @@ struct ViewState {
 
 /// What a person points at or has chosen.
 struct Selection {
-  enum class Kind { none, element, fruit, link, body, curve_point, curve, plant, camera, ground };
+  enum class Kind {
+    none,
+    element,
+    fruit,
+    link,
+    body,
+    curve_point,
+    curve,
+    plant,
+    camera,
+    ground,
+    tie
+  };
   Kind kind = Kind::none;
   int plant = -1, element = -1, fruit = -1, link = -1, body = -1;  ///< of the snapshot
   std::string plant_name, curve;  ///< of the document: curve, curve_point, plant
   std::string thing;              ///< of the document: body, camera
   int point = -1;
+  int tie = -1;                 ///< of the document's scene, from 0
   bool to_tip = false;          ///< element: from the place on to the stem's tip
   double back = 0.0;            ///< m, place on the element
   Vec3 place_W = Vec3::Zero();  ///< m, where it was hit
@@ -83,13 +96,13 @@ struct Selection {
     return kind == other.kind && plant == other.plant && element == other.element &&
            fruit == other.fruit && link == other.link && body == other.body &&
            plant_name == other.plant_name && curve == other.curve && thing == other.thing &&
-           point == other.point && to_tip == other.to_tip;
+           point == other.point && tie == other.tie && to_tip == other.to_tip;
   }
 };
 
 enum class PlaneChoice { upright, view, ground, tangent };
 enum class DrawDepth { cursor, surface };
-enum class DrawThing { stem, fruit, leaf, trim };
+enum class DrawThing { stem, fruit, leaf, trim, tie };
 
 /// The draw tool: its options, with Blender's names, and the stroke in hand.
 struct DrawMode {
@@ -109,6 +122,9 @@ struct DrawMode {
   double fruit_force = 3.0;       ///< N, threshold of its stalk: what a ripe cherry tomato takes
   double leaf_size = 0.08;        ///< m
   std::string leaf_template = "tomato";  ///< of those beside the program
+
+  double tie_stiffness = 1.0e4;  ///< N/m
+  double tie_slack = 0.0;        ///< m, that a new one is longer than its way
 
   int copies = 1;                     ///< of Repeat
   double copy_spacing = 0.03;         ///< m, along the parent

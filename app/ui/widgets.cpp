@@ -226,6 +226,23 @@ bool labelled_number(const Ui& ui, const char* label, const char* unit, double& 
   return typed;
 }
 
+bool three_numbers(const Ui& ui, const char* label, Vec3& value, const char* format) {
+  ImGui::TextColored(palette().dim, "%s", label);
+  const float space = 4.0f * ui.scale;
+  const float width = (rest_width() - 2 * space) / 3.0f;
+  bool typed = false;
+  ImGui::PushID(label);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis) ImGui::SameLine(0, space);
+    ImGui::SetNextItemWidth(width);
+    ImGui::PushID(axis);
+    typed = number_field("##axis", value[axis], format) || typed;
+    ImGui::PopID();
+  }
+  ImGui::PopID();
+  return typed;
+}
+
 bool text_field(const char* id, std::string& text, const char* hint) {
   const bool edited = ImGui::InputTextWithHint(id, hint, &text);
   return was_left(text, edited);

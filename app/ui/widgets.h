@@ -5,6 +5,7 @@
 #include <string>
 
 #include "pedicel/app/ui/bindings.h"
+#include "pedicel/core/frames.h"
 
 namespace pedicel::app {
 
@@ -76,6 +77,8 @@ bool slider(const Ui& ui, const std::string& name, double& value, double low, do
 bool number_field(const char* id, double& value, const char* format = "%.6g");
 /// The same with a label before it and its unit behind it, in two columns.
 bool labelled_number(const Ui& ui, const char* label, const char* unit, double& value);
+/// Three numbers in a row under their name. True once one was typed.
+bool three_numbers(const Ui& ui, const char* label, Vec3& value, const char* format = "%.6g");
 /// An input of a text, as number_field().
 bool text_field(const char* id, std::string& text, const char* hint = "");
 

@@ -53,6 +53,21 @@ void pick_fruits(Selection& best, const Snapshot& snapshot, int p, const geometr
   }
 }
 
+/// Only where nothing else is: a string ends in the stem that it holds.
+void pick_ties(Selection& best, const Snapshot& snapshot, const geometry::Ray& ray, double slack) {
+  for (const TieSnapshot& tie : snapshot.ties) {
+    const Vec3 &a = tie.course.from_W, &b = tie.course.to_W;
+    const NearAxis near = near_axis(ray, a, b);
+    if (near.distance <= 0.0 || near.gap > slack * near.distance) continue;
+    Selection found;
+    found.kind = Kind::tie;
+    found.tie = tie.number;
+    found.place_W = a + near.along * (b - a);
+    found.distance = near.distance;
+    take(best, found);
+  }
+}
+
 /// A leaf's blade stands for the element at its first corner.
 void pick_blades(Selection& best, const Snapshot& snapshot, int p, const geometry::Ray& ray) {
   if (static_cast<std::size_t>(p) >= snapshot.assets->plants.size()) return;
@@ -193,6 +208,7 @@ Selection pick(const Snapshot& snapshot, const RigidShapes& shapes, const geomet
     }
     if (!best) best = missed;
     pick_rigid(best, snapshot, shapes, ray);
+    if (!best) pick_ties(best, snapshot, ray, slack);
   }
   if (best) return best;
   const double ground = snapshot.assets && snapshot.assets->scene.ground

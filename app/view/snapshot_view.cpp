@@ -149,6 +149,13 @@ void SnapshotView::fill(render::DrawList& list, const Snapshot& snapshot, const 
   if (view.ghost) add_ghost(list, snapshot, view);
   for (std::size_t b = 0; b < snapshot.bodies.size(); ++b)
     add_at(list, shapes_.bodies()[b].list, snapshot.bodies[b].pose);
+  const auto is_of = [](const Selection& s, const TieSnapshot& tie) {
+    return s.kind == Selection::Kind::tie && s.tie == tie.number;
+  };
+  for (const TieSnapshot& tie : snapshot.ties) {
+    const float share = is_of(selection, tie) ? 0.75f : is_of(hover, tie) ? 0.4f : 0.0f;
+    add_string(list, tie.course.from_W, tie.course.to_W, tie.course.length, lighter(twine, share));
+  }
   add_marks(list, snapshot, view);
   if (!hover.same_thing(selection))
     add_selection(list, bounds_of(hover, snapshot, shapes_), hover, false);

@@ -101,12 +101,15 @@ struct SceneLoad {
   SourcePosition where;
 };
 
-/// A string that ties a place of a plant to a fixed point: it pulls, and bears no pressure.
+/// A string that ties a place of a plant to a fixed point, or to a place of a plant, which it pulls
+/// as hard: it bears no pressure.
 struct SceneTie {
   std::string organ;       ///< "PLANT/CURVE" or "PLANT/FRUIT"; each plant of a grid
   double at = 1.0;         ///< fraction of the curve's length, from its foot
   Vec3 to = Vec3::Zero();  ///< m, W; from the tied place as drawn where `is_offset`
   bool is_offset = false;
+  std::string to_organ;          ///< in place of `to`: where it ends; empty: at a point
+  std::optional<double> to_at;   ///< 1, as `at`; absent: nearest to the tied place as drawn
   std::optional<double> length;  ///< m, where it becomes taut; absent: as drawn
   double stiffness = 1.0e4;      ///< N/m
   SourcePosition where;

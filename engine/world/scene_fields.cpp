@@ -211,7 +211,11 @@ void add_view(FlowMap& map, const SceneCamera& camera) {
 std::string tie(const SceneTie& tie) {
   FlowMap map;
   map.add("organ", plain(tie.organ)).add_unless("at", tie.at, SceneTie{}.at);
-  map.add(tie.is_offset ? "offset" : "to", tie.to);
+  if (tie.to_organ.empty())
+    map.add(tie.is_offset ? "offset" : "to", tie.to);
+  else
+    map.add("to_organ", plain(tie.to_organ));
+  if (tie.to_at) map.add("to_at", *tie.to_at);
   if (tie.length) map.add("length", *tie.length);
   map.add_unless("stiffness", tie.stiffness, SceneTie{}.stiffness);
   return map.text();

@@ -88,11 +88,15 @@ SceneTie read_tie(const io::YamlNode& node) {
   tie.where = node.position();
   tie.organ = map.text("organ");
   tie.at = map.number("at", io::fraction, 1.0);
-  const auto to = map.optional("to"), offset = map.optional("offset");
-  if (node.is_map() && to.has_value() == offset.has_value())
+  const auto to = map.optional("to"), offset = map.optional("offset"),
+             to_organ = map.optional("to_organ"), to_at = map.optional("to_at");
+  if (node.is_map() && to.has_value() + offset.has_value() + to_organ.has_value() != 1)
     map.error(
-        "a tie: expected exactly one of to (m, in the world) and offset (m, from the tied "
-        "place as drawn)");
+        "a tie: expected exactly one of to (m, in the world), offset (m, from the tied place as "
+        "drawn) and to_organ (PLANT/CURVE or PLANT/FRUIT)");
+  if (to_organ) tie.to_organ = to_organ->text("to_organ");
+  if (to_at && !to_organ) to_at->error("to_at: expected only beside to_organ");
+  if (to_at) tie.to_at = to_at->number("to_at", io::fraction);
   tie.is_offset = offset.has_value();
   if (to || offset) tie.to = map.vector(tie.is_offset ? "offset" : "to");
   if (map.optional("length")) tie.length = map.number("length", io::not_negative);

@@ -152,7 +152,10 @@ void check_vary(const Scene& scene, Diagnostics& diagnostics) {
 void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnostics) {
   for (const SceneLoad& load : scene.loads)
     check_fruit(scene, load.target, load.where, diagnostics);
-  for (const SceneTie& tie : scene.ties) check_organ(scene, tie.organ, tie.where, diagnostics);
+  for (const SceneTie& tie : scene.ties) {
+    check_organ(scene, tie.organ, tie.where, diagnostics);
+    check_organ(scene, tie.to_organ, tie.where, diagnostics);
+  }
   for (const SceneCut& cut : scene.cuts) {
     check_organ(scene, cut.organ, cut.where, diagnostics);
     if (!cut.time && !scene.robot)

@@ -30,6 +30,8 @@ std::vector<Parameter> parameters_of(CouplingSettings& s) {
        "Whether plants touch each other, fruits that came off, and themselves. They are then "
        "solved "
        "as one, by the direct solver."},
+      {"blade_contact", "1", &s.blade_contact, 0, 1,
+       "Whether leaf blades touch robots, bodies and the ground between their veins, too."},
   };
 }
 

@@ -20,6 +20,7 @@ struct CouplingSettings {
   bool two_way = false;              ///< the reaction acts on the links
   bool self_contact = true;          ///< plants touch themselves
   bool plant_contact = false;        ///< plants touch each other, and themselves
+  bool blade_contact = false;        ///< leaf blades touch robots, bodies and the ground
 };
 std::vector<Parameter> parameters_of(CouplingSettings& settings);
 

@@ -227,6 +227,74 @@ TEST_F(Editing, TheTrimBrushCutsWhatItCrosses) {
   expect_one_step();
 }
 
+TEST_F(Editing, AStringIsDrawnChosenAndTakenAway) {
+  const auto& ties = [&]() -> const std::vector<world::SceneTie>& {
+    return desk_.session().document().scene->ties;
+  };
+  desk_.ui().draw.thing = DrawThing::tie;
+  desk_.ui().draw.tie_slack = 0.02;
+  const ImVec2 foot = desk_.at(Vec3(0, 0, 0.4)), end(foot.x + 120, foot.y - 40);
+  desk_.drag({foot, ImVec2(foot.x + 40, foot.y - 10), end});
+  desk_.settle();
+  ASSERT_EQ(ties().size(), 1u) << desk_.ui().notice;
+  EXPECT_EQ(ties()[0].organ, "p/stem");
+  EXPECT_NEAR(ties()[0].at, 0.4 / 0.45, 0.03);
+  const double way = (ties()[0].to - Vec3(0, 0, 0.4)).norm();
+  EXPECT_NEAR(ties()[0].length.value(), way + 0.02, 0.01);
+  const ImVec2 there = desk_.at(ties()[0].to);
+  EXPECT_NEAR(there.x, end.x, 1.0);
+  EXPECT_NEAR(there.y, end.y, 1.0);
+  EXPECT_EQ(describe(desk_.ui().selection, *desk_.snapshot()), "tie_1");
+  expect_one_step();
+  // Out of the draw mode a click on it chooses it, and Del takes it away.
+  desk_.key(Key::d);
+  desk_.ui().selection = {};
+  desk_.click(0.3 * foot.x + 0.7 * end.x, 0.3 * foot.y + 0.7 * end.y);
+  ASSERT_EQ(desk_.ui().selection.kind, Selection::Kind::tie);
+  EXPECT_EQ(desk_.ui().selection.tie, 0);
+  desk_.key(Key::del);
+  desk_.settle();
+  EXPECT_TRUE(ties().empty());
+  EXPECT_EQ(desk_.ui().selection.kind, Selection::Kind::none);
+  expect_one_step();
+  desk_.key(Key::z, true);
+  EXPECT_EQ(ties().size(), 1u);
+}
+
+TEST_F(Editing, AStringEndsAtAPostButNotAtWhatMoves) {
+  for (const char* line : {"add box post 0.04,0.04,0.5 position=0.25,0,0.25",
+                           "add sphere ball 0.04 mass=0.1 position=-0.25,0,0.4"})
+    ASSERT_TRUE(desk_.session().run_text(line).ok);
+  desk_.settle();
+  desk_.key(Key::home);
+  steps_ = desk_.session().history().size();
+  desk_.ui().draw.thing = DrawThing::tie;
+  const ImVec2 foot = desk_.at(Vec3(0, 0, 0.4));
+  const ImVec2 post = desk_.at(Vec3(0.25, 0, 0.4)), ball = desk_.at(Vec3(-0.25, 0, 0.4));
+  desk_.drag({foot, ImVec2(0.5f * (foot.x + post.x), foot.y), post});
+  desk_.settle();
+  const auto& scene = [&]() -> const world::Scene& { return *desk_.session().document().scene; };
+  ASSERT_EQ(scene().ties.size(), 1u) << desk_.ui().notice;
+  // On its surface.
+  const Vec3 off = scene().ties[0].to - Vec3(0.25, 0, 0.25);
+  EXPECT_LT(std::abs(std::max(std::abs(off.x()), std::abs(off.y())) - 0.02), 1e-4);
+  expect_one_step();
+  desk_.drag({foot, ImVec2(0.5f * (foot.x + ball.x), foot.y), ball});
+  EXPECT_EQ(scene().ties.size(), 1u);
+  EXPECT_NE(desk_.ui().notice.find("ball moves"), std::string::npos) << desk_.ui().notice;
+  // To another stem it is one between the two.
+  const ImVec2 twig = desk_.at(Vec3(0.12, 0.075, 0.352));
+  desk_.drag({foot, ImVec2(0.5f * (foot.x + twig.x), 0.5f * (foot.y + twig.y)), twig});
+  desk_.settle();
+  ASSERT_EQ(scene().ties.size(), 2u) << desk_.ui().notice;
+  EXPECT_EQ(scene().ties[1].to_organ, "p/branch");
+  EXPECT_GT(scene().ties[1].to_at.value(), 0.4);
+  expect_one_step();
+  // From nothing no string begins.
+  desk_.drag({ImVec2(foot.x + 60, foot.y - 60), post});
+  EXPECT_EQ(scene().ties.size(), 2u);
+}
+
 TEST_F(Editing, TheWheelMakesAStrokeThicker) {
   const ImVec2 from = desk_.at(Vec3(0, 0, 0.2));
   const ViewCamera camera = desk_.desktop().scene().camera();

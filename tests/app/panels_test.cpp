@@ -4,6 +4,7 @@
 #include "cut_text.h"
 #include "desk.h"
 #include "pedicel/app/editors/stem_editor.h"
+#include "pedicel/app/editors/tie_editor.h"
 #include "pedicel/app/ui/theme.h"
 
 namespace pedicel::app {
@@ -82,13 +83,18 @@ TEST_P(Panels, DetailsOfWhatIsChosen) {
 TEST_P(Panels, DetailsOfAStemAndItsPoints) {
   desk_->ui().draw.on = true;
   Selection& s = desk_->ui().selection;
-  for (const char* part : {"stem", "point", "to_tip", "leaf"}) {
+  for (const char* part : {"stem", "point", "to_tip", "leaf", "tie"}) {
     s = {};
     choose_curve(desk_->ui(), "truss", "stem");
     if (part == std::string("point")) s.kind = Selection::Kind::curve_point, s.point = 1;
     if (part == std::string("leaf")) choose_leaf(desk_->ui(), "truss", "leaf_1");
     if (part == std::string("to_tip"))
       s = {}, s.kind = Selection::Kind::element, s.plant = 0, s.element = 3, s.to_tip = true;
+    if (part == std::string("tie")) {
+      ASSERT_TRUE(desk_->session().run_text("add tie truss/stem to=0.2,0,1 length=0.8").ok);
+      desk_->settle();
+      choose_tie(desk_->ui(), 0);
+    }
     desk_->show("Plants");
     check(std::string("details of ") + part, panel_window("left", "Plants"));
   }
@@ -96,7 +102,7 @@ TEST_P(Panels, DetailsOfAStemAndItsPoints) {
 
 TEST_P(Panels, DrawOptionsOfEveryThing) {
   for (const DrawThing thing :
-       {DrawThing::stem, DrawThing::fruit, DrawThing::leaf, DrawThing::trim}) {
+       {DrawThing::stem, DrawThing::fruit, DrawThing::leaf, DrawThing::trim, DrawThing::tie}) {
     desk_->ui().draw.thing = thing;
     desk_->ui().draw.on = true;
     desk_->show("Draw");

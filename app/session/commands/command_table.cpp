@@ -20,8 +20,8 @@ std::vector<CommandDescription> whole_table() {
   std::vector<CommandDescription> table = stem_commands();
   for (const auto& part :
        {organ_commands(), document_commands(), waypoint_commands(), scene_commands(),
-        thing_commands(), robot_scene_commands(), run_commands(), robot_commands(), file_commands(),
-        history_commands(), film_commands(), setting_commands(), query_commands(),
+        thing_commands(), tie_commands(), robot_scene_commands(), run_commands(), robot_commands(),
+        file_commands(), history_commands(), film_commands(), setting_commands(), query_commands(),
         measured_commands()})
     table.insert(table.end(), part.begin(), part.end());
   return table;

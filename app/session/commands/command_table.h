@@ -78,6 +78,7 @@ std::vector<CommandDescription> organ_commands();
 std::vector<CommandDescription> document_commands();
 std::vector<CommandDescription> scene_commands();
 std::vector<CommandDescription> thing_commands();
+std::vector<CommandDescription> tie_commands();
 std::vector<CommandDescription> robot_scene_commands();
 std::vector<CommandDescription> waypoint_commands();
 std::vector<CommandDescription> run_commands();

@@ -39,7 +39,7 @@ SessionParameter described(const std::string& group, const Parameter& now,
   one.whole = std::holds_alternative<int*>(now.value);
   one.logarithmic = !one.flag && one.maximum > 1.0e3 * std::max(one.minimum, 1.0e-12);
   one.restarts = now.name == "margin" || now.name == "two_way" || now.name == "self_contact" ||
-                 now.name == "plant_contact";
+                 now.name == "plant_contact" || now.name == "blade_contact";
   return one;
 }
 

@@ -39,6 +39,10 @@ long keys_that_mean(const world::Scene& scene, const std::string& name) {
          (scene.sweep && key_means(scene.sweep->key, name) ? 1 : 0);
 }
 
+bool tie_means(const world::SceneTie& tie, const std::string& name) {
+  return means(tie.organ, name) || means(tie.to_organ, name);
+}
+
 /// By its tool a robot cuts; its links carry force sensors.
 bool cut_means(const world::SceneCut& cut, const std::string& name) {
   return means(cut.organ, name) || (name == "robot" && !cut.time);
@@ -66,16 +70,6 @@ bool has_fruit(const Document& document, const std::string& fruit) {
   const std::string name = fruit.substr(slash + 1);
   return !plant->file || std::ranges::any_of(plant->file->fruits,
                                              [&](const auto& one) { return one.name == name; });
-}
-
-/// "truss/stem", "truss/fruit_1"
-bool has_organ(const Document& document, const std::string& organ) {
-  if (has_fruit(document, organ)) return true;
-  const std::size_t slash = organ.find('/');
-  const DocumentPlant* plant = find_plant(document, organ.substr(0, slash));
-  return plant && slash != std::string::npos &&
-         std::ranges::any_of(plant->file->curves,
-                             [&](const auto& one) { return one.name == organ.substr(slash + 1); });
 }
 
 bool has_body(const Document& document, const std::string& body) {
@@ -125,6 +119,15 @@ void rename_keys(Document& document, world::Scene& scene, ThingKind kind, const 
 
 }  // namespace
 
+bool has_organ(const Document& document, const std::string& organ) {
+  if (has_fruit(document, organ)) return true;
+  const std::size_t slash = organ.find('/');
+  const DocumentPlant* plant = find_plant(document, organ.substr(0, slash));
+  return plant && slash != std::string::npos &&
+         std::ranges::any_of(plant->file->curves,
+                             [&](const auto& one) { return one.name == organ.substr(slash + 1); });
+}
+
 std::vector<std::string> broken_references(const Document& document) {
   std::vector<std::string> broken;
   const auto add = [&](const std::string& name) {
@@ -141,7 +144,8 @@ std::vector<std::string> broken_references(const Document& document) {
   for (const auto& load : scene.loads)
     if (!has_fruit(document, load.target)) add(load.target);
   for (const auto& tie : scene.ties)
-    if (!has_organ(document, tie.organ)) add(tie.organ);
+    for (const std::string& organ : {tie.organ, tie.to_organ})
+      if (!organ.empty() && !has_organ(document, organ)) add(organ);
   for (const auto& cut : scene.cuts) {
     if (!has_organ(document, cut.organ)) add(cut.organ);
     if (!cut.time && !scene.robot) add("robot");
@@ -168,7 +172,7 @@ std::string references_to(const Document& document, const std::string& name) {
   const auto cameras = std::ranges::count_if(
       scene.cameras, [&](const auto& camera) { return means(camera.follow, name); });
   const auto ties =
-      std::ranges::count_if(scene.ties, [&](const auto& tie) { return means(tie.organ, name); });
+      std::ranges::count_if(scene.ties, [&](const auto& tie) { return tie_means(tie, name); });
   const auto cuts =
       std::ranges::count_if(scene.cuts, [&](const auto& cut) { return cut_means(cut, name); });
   if (loads) add(counted(loads, "load"));
@@ -186,7 +190,7 @@ void clear_references(Document& document, const std::string& name) {
   world::Scene& scene = document.edit_scene();
   if (programme_means(scene, name)) scene.robot->waypoints.clear();
   std::erase_if(scene.loads, [&](const auto& load) { return means(load.target, name); });
-  std::erase_if(scene.ties, [&](const auto& tie) { return means(tie.organ, name); });
+  std::erase_if(scene.ties, [&](const auto& tie) { return tie_means(tie, name); });
   std::erase_if(scene.cuts, [&](const auto& cut) { return cut_means(cut, name); });
   if (name == "robot") scene.wrenches.clear();
   std::erase_if(scene.expectations, [&](const auto& e) { return means(e, name); });
@@ -226,7 +230,7 @@ void rename_references(Document& document, ThingKind kind, const std::string& na
   }
   if (kind == ThingKind::body) return;
   for (auto& load : scene.loads) rename(load.target, name, to);
-  for (auto& tie : scene.ties) rename(tie.organ, name, to);
+  for (auto& tie : scene.ties) rename(tie.organ, name, to), rename(tie.to_organ, name, to);
   for (auto& cut : scene.cuts) rename(cut.organ, name, to);
 }
 
@@ -250,7 +254,7 @@ void rename_organ_references(Document& document, const std::string& plant, const
   for (auto& camera : scene.cameras) anchor(camera.follow);
   for (auto& e : scene.expectations) any |= renamed(e.fruit);
   for (auto& load : scene.loads) any |= renamed(load.target);
-  for (auto& tie : scene.ties) any |= renamed(tie.organ);
+  for (auto& tie : scene.ties) any |= renamed(tie.organ), any |= renamed(tie.to_organ);
   for (auto& cut : scene.cuts) any |= renamed(cut.organ);
   if (any) document.edit_scene() = std::move(scene);
 }

@@ -12,6 +12,9 @@ namespace pedicel::app {
 /// Names that the scene speaks of and the document has not (any more): "truss/fruit_5", "tray".
 std::vector<std::string> broken_references(const Document& document);
 
+/// Whether there is "PLANT/STEM" or "PLANT/FRUIT"; plants of a grid are NAME_0, NAME_1, ...
+bool has_organ(const Document& document, const std::string& organ);
+
 /// What speaks of a thing, for people: "the robot's program, 2 expectations"; empty: nothing. A
 /// plant's name stands for its fruits, too.
 std::string references_to(const Document& document, const std::string& name);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/app/plants/scene_ties.h"
 #include "pedicel/app/run/scene_assets.h"
 #include "pedicel/cosserat/model/rod_state.h"
 #include "pedicel/world/recorder.h"
@@ -54,6 +55,12 @@ struct RobotSnapshot {
   double program_duration = 0.0;  ///< s
 };
 
+/// A string that holds a plant, as it runs now.
+struct TieSnapshot {
+  int number = 0;  ///< in the scene's list, from 0
+  SceneTies::Course course;
+};
+
 /// The spring of a pull, as it acts.
 struct PullSnapshot {
   bool active = false;
@@ -81,6 +88,7 @@ struct Snapshot {
   std::vector<PlantSnapshot> plants;
   std::vector<BodySnapshot> bodies;
   RobotSnapshot robot;
+  std::vector<TieSnapshot> ties;  ///< that still hold something
   std::vector<ContactSnapshot> contacts;
   std::shared_ptr<const std::vector<std::string>> colliders;  ///< names
   PullSnapshot pull;

@@ -33,6 +33,9 @@ std::shared_ptr<Snapshot> SnapshotMaker::make(const LiveRun& run) {
   add_plants(simulation, *snapshot);
   add_strain(simulation, *snapshot);
   add_bodies(simulation, *snapshot);
+  for (const SceneTies::One& tie : simulation.ties().all())
+    if (const auto course = simulation.ties().course(tie))
+      snapshot->ties.push_back({tie.number, *course});
   add_contacts(simulation, *snapshot);
   add_robot(simulation, *snapshot);
   snapshot->pull = run.pull().snapshot();

@@ -30,6 +30,9 @@ struct ContactPoint {
   /// each newton on it, other contacts of this plant not counted. It acts in series with
   /// `stiffness`; `gap` is that before it gives way.
   double give = 0.0;
+  /// Which of several places where one collider touches one shape; stable over steps. 0: the only
+  /// one.
+  int place = 0;
   /// Where two parts of a plant touch: of the spring that stiffens with the overlap of both.
   struct Stiffening {
     double stiffness = 0.0;  ///< N/m, where it begins

@@ -161,6 +161,7 @@ class JoinedElements {
 }  // namespace
 
 std::optional<std::vector<LoopPart>> loop_parts(const RodModel& model) {
+  if (!model.strands.empty()) return std::nullopt;  // they join trees, which no lane has beside it
   JoinedElements joined(model);
   std::vector<std::vector<int>> elements, welds;  // by part
   std::vector<int> part(model.size(), -1), place(model.size(), -1);

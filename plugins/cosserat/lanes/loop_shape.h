@@ -85,7 +85,7 @@ struct LoopPart {
 };
 
 /// All of them, in the order of their first elements: every weld is one of a part. Nothing where
-/// some part is too large for LoopShape.
+/// some part is too large for LoopShape, or where the model has strands.
 std::optional<std::vector<LoopPart>> loop_parts(const RodModel& model);
 
 }  // namespace pedicel::cosserat

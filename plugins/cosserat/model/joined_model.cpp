@@ -76,8 +76,8 @@ void JoinedModel::add_air_and_laws(std::span<const RodModel* const> plants) {
     if (!first) first = plant;
     for (const Shared& one : shared_values)
       if (plant->*one.value != first->*one.value)
-        throw UsageError("plants that touch each other: the " + std::string(one.name) + " of \"" +
-                         plant->name + "\" is not that of \"" + first->name +
+        throw UsageError("plants that touch or hold each other: the " + std::string(one.name) +
+                         " of \"" + plant->name + "\" is not that of \"" + first->name +
                          "\": must be the same");
   }
   if (first)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pedicel/cosserat/model/rod_state.h"
@@ -30,6 +31,9 @@ class JoinedModel {
 
   const RodModel& model() const { return model_; }
   const std::vector<Part>& parts() const { return parts_; }
+
+  /// Strings between places of the plants, by the joined elements.
+  void set_strands(std::vector<Strand> strands) { model_.strands = std::move(strands); }
 
   /// Takes over supports that were moved, added or taken away.
   void read_supports(std::span<const RodModel* const> plants);

@@ -100,6 +100,15 @@ struct Weld {
   Quat rest_rotation = Quat::Identity();  ///< a's frame to b's, unloaded
 };
 
+/// A string between two places: it pulls both where it is longer than `length`, and bears no
+/// pressure. Only the model that plants were joined to has any (JoinedModel).
+struct Strand {
+  int a = 0, b = 0;                   ///< elements, two of them
+  double back_a = 0.0, back_b = 0.0;  ///< m
+  double length = 0.0;                ///< m, where it becomes taut
+  double stiffness = 0.0;             ///< N/m
+};
+
 /// A tapered capsule between two places of a segment (a sphere where they are the same), which may
 /// touch other things.
 struct CollisionShape {
@@ -133,6 +142,7 @@ struct RodModel {
   std::vector<Fruit> fruits;
   std::vector<Support> supports;
   std::vector<Weld> welds;
+  std::vector<Strand> strands;
   std::vector<CollisionShape> shapes;  ///< made by finish(): one a segment, then one a fruit
 
   // Extensions (direct solver only). Empty: none; else one entry an element.

@@ -29,6 +29,44 @@ Hinge hinge_of(const RodState& state, const Weld& weld) {
                weld.bend_stiffness);
 }
 
+// A string that pulls, between two points.
+struct Pull {
+  double stretch = 0.0;         // m, <= 0: it is slack
+  Vec3 along = Vec3::Zero();    // unit, W, from the first point to the second
+  double force = 0.0;           // N
+  Mat3 hessian = Mat3::Zero();  // N/m, W
+};
+
+// Along the string its stiffness, across it that of a taut string, tension over length: both are
+// positive, so that the Hessian is exact and positive semidefinite.
+Pull pull_between(const Vec3& from, const Vec3& to, double length, double stiffness) {
+  Pull pull;
+  const Vec3 way = to - from;
+  const double distance = way.norm();
+  pull.stretch = distance - length;
+  // Two ends in one place pull nowhere.
+  if (pull.stretch <= 0.0 || distance == 0.0) return {};
+  pull.along = way / distance;
+  pull.force = stiffness * pull.stretch;
+  const Mat3 projector = pull.along * pull.along.transpose();
+  pull.hessian = stiffness * projector + pull.force / distance * (Mat3::Identity() - projector);
+  return pull;
+}
+
+Vec3 arm_of(const RodState& state, int element, double back) {
+  return -back * (state.orientation[element] * Vec3::UnitZ());
+}
+
+Pull pull_of(const RodState& state, const Strand& strand) {
+  return pull_between(state.position[strand.a] + arm_of(state, strand.a, strand.back_a),
+                      state.position[strand.b] + arm_of(state, strand.b, strand.back_b),
+                      strand.length, strand.stiffness);
+}
+
+bool holds(const RodState& state, const Strand& strand) {
+  return state.alive[strand.a] && state.alive[strand.b];
+}
+
 }  // namespace
 
 double tension(const RodState& state, const Tie& tie) {
@@ -68,6 +106,8 @@ double Attachments::sum(const RodModel& model, const RodState& state,
     if (state.alive[loads_[i].element]) energy += load(state, i, blocks);
   for (const Tie& one : ties_)
     if (state.alive[one.element]) energy += tie(state, one, blocks);
+  for (const Strand& one : model.strands)
+    if (holds(state, one)) energy += strand(state, one, blocks);
   for (const Support& one : model.supports)
     if (state.alive[one.element]) energy += support(state, one, blocks);
   if (!welds_) return energy;
@@ -89,23 +129,28 @@ double Attachments::load(const RodState& state, int index, DiagonalBlocks* block
          load.moment_W.dot(turned);
 }
 
-// Along the string its stiffness, across it that of a taut string, tension over length: both are
-// positive, so that the Hessian is exact and positive semidefinite.
 double Attachments::tie(const RodState& state, const Tie& tie, DiagonalBlocks* blocks) const {
   const int e = tie.element;
-  const Vec3 arm = -tie.back * (state.orientation[e] * Vec3::UnitZ());
-  const Vec3 way = tie.anchor_W - (state.position[e] + arm);
-  const double distance = way.norm(), stretch = distance - tie.length;
-  if (stretch <= 0.0) return 0.0;
+  const Vec3 arm = arm_of(state, e, tie.back);
+  const Pull pull = pull_between(state.position[e] + arm, tie.anchor_W, tie.length, tie.stiffness);
+  if (pull.stretch <= 0.0) return 0.0;
+  if (blocks) add_point_spring(*blocks, e, arm, pull.hessian, pull.force * pull.along);
+  return 0.5 * tie.stiffness * pull.stretch * pull.stretch;
+}
+
+// Both ends get the one force.
+double Attachments::strand(const RodState& state, const Strand& strand,
+                           DiagonalBlocks* blocks) const {
+  const Pull pull = pull_of(state, strand);
+  if (pull.stretch <= 0.0) return 0.0;
   if (blocks) {
-    const Vec3 along = way / distance;
-    const double pull = tie.stiffness * stretch;
-    const Mat3 projector = along * along.transpose();
-    add_point_spring(*blocks, e, arm,
-                     tie.stiffness * projector + pull / distance * (Mat3::Identity() - projector),
-                     pull * along);
+    const Vec3 force = pull.force * pull.along;
+    add_point_spring(*blocks, strand.a, arm_of(state, strand.a, strand.back_a), pull.hessian,
+                     force);
+    add_point_spring(*blocks, strand.b, arm_of(state, strand.b, strand.back_b), pull.hessian,
+                     -force);
   }
-  return 0.5 * tie.stiffness * stretch * stretch;
+  return 0.5 * strand.stiffness * pull.stretch * pull.stretch;
 }
 
 double Attachments::support(const RodState& state, const Support& support,
@@ -145,6 +190,20 @@ Mat6 weld_coupling(const RodState& state, const Weld& weld) {
   if (!state.alive[weld.a] || !state.alive[weld.b]) return block;
   block.topLeftCorner<3, 3>() = -weld.position_stiffness * Mat3::Identity();
   block.bottomRightCorner<3, 3>() = -hinge_of(state, weld).hessian;
+  return block;
+}
+
+// The stretch is of the way from a to b, so what one end gives to the other has the other sign.
+Mat6 strand_coupling(const RodState& state, const Strand& strand) {
+  Mat6 block = Mat6::Zero();
+  if (!holds(state, strand)) return block;
+  const Mat3 hessian = pull_of(state, strand).hessian;
+  const Mat3 lever_a = -skew(arm_of(state, strand.a, strand.back_a));  // d point / d rotation
+  const Mat3 lever_b = -skew(arm_of(state, strand.b, strand.back_b));
+  block.topLeftCorner<3, 3>() = -hessian;
+  block.topRightCorner<3, 3>() = -hessian * lever_a;
+  block.bottomLeftCorner<3, 3>() = -lever_b.transpose() * hessian;
+  block.bottomRightCorner<3, 3>() = -lever_b.transpose() * hessian * lever_a;
   return block;
 }
 

@@ -21,7 +21,8 @@ struct Tie {
 /// N, with which it pulls in a state.
 double tension(const RodState& state, const Tie& tie);
 
-/// Loads, ties, supports and welds of one plant as terms of the incremental potential of a step.
+/// Loads, ties, strands, supports and welds of one plant as terms of the incremental potential of a
+/// step.
 class Attachments {
  public:
   /// `welds`: whether they are among them; else the rows have them.
@@ -30,7 +31,8 @@ class Attachments {
   /// The step starts at `start`: there loads have done no work.
   void prepare(const RodState& start, std::span<const Load> loads, std::span<const Tie> ties);
 
-  /// Adds gradient (negative, as right side) and Hessian at `state`, without what a weld couples;
+  /// Adds gradient (negative, as right side) and Hessian at `state`, without what welds and strands
+  /// couple;
   /// returns the potential (J). `state` becomes the one from which dead moments count their work.
   double linearise(const RodModel& model, const RodState& state, DiagonalBlocks& blocks);
 
@@ -42,6 +44,7 @@ class Attachments {
   double sum(const RodModel& model, const RodState& state, DiagonalBlocks* blocks) const;
   double load(const RodState& state, int index, DiagonalBlocks* blocks) const;
   double tie(const RodState& state, const Tie& tie, DiagonalBlocks* blocks) const;
+  double strand(const RodState& state, const Strand& strand, DiagonalBlocks* blocks) const;
   double support(const RodState& state, const Support& support, DiagonalBlocks* blocks) const;
   double weld(const RodState& state, const Weld& weld, DiagonalBlocks* blocks) const;
 
@@ -54,5 +57,7 @@ class Attachments {
 
 /// What a weld couples: rows of its element b, columns of its a.
 Mat6 weld_coupling(const RodState& state, const Weld& weld);
+/// Likewise of a strand.
+Mat6 strand_coupling(const RodState& state, const Strand& strand);
 
 }  // namespace pedicel::cosserat

@@ -25,6 +25,10 @@ class Elimination {
       PEDICEL_ASSERT(weld.a != weld.b);
       join(weld.a, weld.b);
     }
+    for (const Strand& strand : model.strands) {
+      PEDICEL_ASSERT(strand.a != strand.b);
+      join(strand.a, strand.b);
+    }
     for (int e = 0; e < model.size(); ++e) left_.insert(key(e));
   }
 
@@ -66,7 +70,9 @@ class Elimination {
 }  // namespace
 
 BlockStructure::BlockStructure(const RodModel& model)
-    : place_(model.elements.size()), elements_(model.size()) {
+    : place_(model.elements.size()),
+      elements_(model.size()),
+      welds_(static_cast<int>(model.welds.size())) {
   order(model);
   number_blocks(model);
   for (const Column& column : columns)
@@ -79,6 +85,8 @@ BlockStructure::BlockStructure(const RodModel& model)
   }
   for (std::size_t w = 0; w < model.welds.size(); ++w)
     add_move(weld(static_cast<int>(w)), model.welds[w].b, model.welds[w].a);
+  for (std::size_t s = 0; s < model.strands.size(); ++s)
+    add_move(strand(static_cast<int>(s)), model.strands[s].b, model.strands[s].a);
 }
 
 void BlockStructure::add_move(int from, int row, int column) {
@@ -102,7 +110,7 @@ void BlockStructure::order(const RodModel& model) {
 }
 
 void BlockStructure::number_blocks(const RodModel& model) {
-  blocks_ = weld(static_cast<int>(model.welds.size()));
+  blocks_ = strand(static_cast<int>(model.strands.size()));
   for (const Column& column : columns)
     for (int i = column.begin; i < column.end; ++i)
       entries[i].block = entries[i].row == model.elements[column.element].parent

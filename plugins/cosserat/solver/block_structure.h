@@ -12,7 +12,8 @@ namespace pedicel::cosserat {
 /// The element with the fewest neighbours and children left is eliminated next, and the last one of
 /// equals (minimum degree, children before parents where that costs nothing). In a tree this is the
 /// order from the last element to the first, and each element has one block, towards its parent: no
-/// fill. A weld adds blocks along the paths that it joins.
+/// fill. A weld adds blocks along the paths that it joins, and so does a strand; one strand between
+/// two trees makes them one, without fill.
 ///
 /// What comes off a plant only empties blocks, so the structure made from the whole plant lasts.
 class BlockStructure {
@@ -33,7 +34,7 @@ class BlockStructure {
   };
 
   /// A block of the matrix that is not added up where the factor has it: couplings to parents that
-  /// are eliminated before their children, and welds.
+  /// are eliminated before their children, welds, and strands.
   struct Move {
     int from = 0, to = 0;
     bool transposed = false;
@@ -47,10 +48,11 @@ class BlockStructure {
   std::vector<Move> moves;  ///< before the first elimination
 
   /// Storage: the diagonal blocks, the couplings to the parents (unused where that is the clamp),
-  /// the welds, then what else the factor has.
+  /// the welds, the strands, then what else the factor has.
   int diagonal(int element) const { return element; }
   int coupling(int element) const { return elements_ + element; }
   int weld(int index) const { return 2 * elements_ + index; }
+  int strand(int index) const { return weld(welds_) + index; }
   int blocks() const { return blocks_; }
 
  private:
@@ -60,7 +62,7 @@ class BlockStructure {
   int block_of(int first, int later) const;
 
   std::vector<int> place_;  // in `columns`, of each element
-  int elements_ = 0, blocks_ = 0;
+  int elements_ = 0, welds_ = 0, blocks_ = 0;
 };
 
 }  // namespace pedicel::cosserat

@@ -10,8 +10,8 @@
 namespace pedicel::cosserat {
 
 /// A symmetric positive definite system with one 6x6 block an element, coupled to the parent's and,
-/// where the plant has loops, across its welds. Unknowns of an element: (position, rotation
-/// vector), both in W.
+/// where the plant has loops, across its welds, and across strands. Unknowns of an element:
+/// (position, rotation vector), both in W.
 ///
 /// Solved by a block Cholesky factorisation whose symbolic phase, BlockStructure, is made once from
 /// the whole plant; nothing allocates afterwards. In a tree that is: eliminate every element into
@@ -27,6 +27,8 @@ class BlockSystem {
   Mat6& coupling(int element) { return blocks_[structure_.coupling(element)]; }
   /// Rows: the weld's b; columns: its a.
   Mat6& weld(int index) { return blocks_[structure_.weld(index)]; }
+  /// Rows: the strand's b; columns: its a.
+  Mat6& strand(int index) { return blocks_[structure_.strand(index)]; }
   Vec6& right_side(int element) { return right_[element]; }
 
   /// Overwrites the blocks with their factors. False where the matrix is not positive definite.

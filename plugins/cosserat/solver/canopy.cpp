@@ -43,9 +43,13 @@ void begin_memory(const RodModel& model, RodState& state) {
 
 }  // namespace
 
-/// What the sources of all plants find, each asked about its own plant.
+/// What the sources of all plants find, each asked about its own plant: those of a plant with
+/// itself, or all others.
 class Canopy::Sources : public ContactSource {
  public:
+  explicit Sources(bool within) : within_(within) {}
+  bool is_within_plant() const override { return within_; }
+
   // The plants of the step that begins.
   void take(const JoinedModel& joined, std::span<const PlantStep> plants) {
     joined_ = &joined;
@@ -55,7 +59,7 @@ class Canopy::Sources : public ContactSource {
       part.model = plants[p].model;
       part.sources.clear();
       for (ContactSource* source : plants[p].contacts)
-        if (!source->is_within_plant()) part.sources.push_back(source);
+        if (source->is_within_plant() == within_) part.sources.push_back(source);
       const RodState& state = *plants[p].state;
       part.start.alive = part.iterate.alive = state.alive;
       part.start.fruit_gone = part.iterate.fruit_gone = state.fruit_gone;
@@ -94,7 +98,12 @@ class Canopy::Sources : public ContactSource {
         // What no joint presses is no joint's.
         if (driven.empty()) part.driven.resize(part.driven.size() + part.found.size() - first);
       }
-      for (ContactPoint& point : part.found) point.shape = joined_->shape(p, point.shape);
+      for (ContactPoint& point : part.found) {
+        point.shape = joined_->shape(p, point.shape);
+        if (within_)
+          point.collider =
+              self_contact_base + joined_->shape(p, point.collider - self_contact_base);
+      }
     };
     const int count = static_cast<int>(parts_.size());
     if (pool_)
@@ -142,20 +151,38 @@ class Canopy::Sources : public ContactSource {
       for (ContactSource* source : part.sources) task(part, *source);
   }
 
+  bool within_ = false;
   const JoinedModel* joined_ = nullptr;
   ThreadPool* pool_ = nullptr;
   std::vector<Part> parts_;
   std::vector<DrivenContact> driven_;
 };
 
-Canopy::Canopy(const RodSettings& settings, const SelfContactSettings& contact,
-               std::span<const PlantStep> plants, int threads)
-    : joined_(std::make_unique<JoinedModel>(models_of(plants))),
-      solver_(std::make_unique<DirectSolver>(settings_for_leaning(settings),
-                                             std::array{&joined_->model()}, threads)),
-      contact_(std::make_unique<SelfContact>(joined_->model(), contact, first_elements(*joined_))),
-      sources_(std::make_unique<Sources>()),
-      forces_(plants.size()) {}
+Canopy::Canopy(const RodSettings& settings, const std::optional<SelfContactSettings>& contact,
+               std::span<const PlantStep> plants, int threads, std::span<const PlantString> strings)
+    : sources_(std::make_unique<Sources>(false)),
+      strings_(strings.begin(), strings.end()),
+      forces_(plants.size()) {
+  join(plants);
+  solver_ = std::make_unique<DirectSolver>(settings_for_leaning(settings),
+                                           std::array{&joined_->model()}, threads);
+  if (contact)
+    contact_ = std::make_unique<SelfContact>(joined_->model(), *contact, first_elements(*joined_));
+  else
+    own_ = std::make_unique<Sources>(true);
+}
+
+void Canopy::join(std::span<const PlantStep> plants) {
+  joined_ = std::make_unique<JoinedModel>(models_of(plants));
+  const auto element = [&](const PlantString::End& end) {
+    return joined_->parts()[end.plant].first_element + end.element;
+  };
+  std::vector<Strand> strands;
+  for (const PlantString& one : strings_)
+    strands.push_back(
+        {element(one.a), element(one.b), one.a.back, one.b.back, one.length, one.stiffness});
+  joined_->set_strands(std::move(strands));
+}
 
 Canopy::~Canopy() = default;
 
@@ -166,13 +193,15 @@ void Canopy::step(std::span<PlantStep> plants, double dt, const Vec3& gravity, T
   const bool model_changed = any(&PlantStep::model_changed);
   const bool state_changed = any(&PlantStep::state_changed);
   fresh_ = false;
-  if (model_changed) joined_ = std::make_unique<JoinedModel>(models_of(plants));
+  if (model_changed) join(plants);
   models_ = models_of(plants);
   joined_->read_supports(models_);
   read(plants);
   if (state_changed) gather(plants);
   sources_->take(*joined_, plants);
-  const std::array<ContactSource*, 2> contacts{contact_.get(), sources_.get()};
+  if (own_) own_->take(*joined_, plants);
+  ContactSource* const within = own_ ? static_cast<ContactSource*>(own_.get()) : contact_.get();
+  const std::array<ContactSource*, 2> contacts{within, sources_.get()};
   PlantStep all{&joined_->model(), &state_, loads_,  contacts, model_changed,
                 state_changed,     {},      clamps_, ties_,    air_};
   solver_->step({&all, 1}, dt, gravity, pool);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,20 +17,35 @@ constexpr bool is_other_plant(int collider) {
   return collider >= other_plant_base;
 }
 
+/// A string between places of two plants, or of one: it pulls both where it is longer than
+/// `length`, and bears no pressure.
+struct PlantString {
+  struct End {
+    int plant = 0, element = 0;
+    double back = 0.0;  ///< m
+  };
+  End a, b;                ///< not of one element
+  double length = 0.0;     ///< m, where it becomes taut
+  double stiffness = 0.0;  ///< N/m
+};
+
 /// Plants that touch each other and themselves, solved as one plant of several trees (JoinedModel).
 /// So both sides of a contact get the same force in the same step, friction and line search see all
 /// plants, and the result depends neither on the order of contacts nor on threads. What they touch
 /// beside each other is found plant by plant, as it is without a canopy.
+///
+/// Strings from one to another are part of that one system, whose blocks then are factorised in
+/// place of its lanes: both ends feel one force, and Newton sees both at once.
 ///
 /// The price: all plants take as many iterations as the one that needs most.
 class Canopy {
  public:
   using PlantStep = DirectSolver::PlantStep;
 
-  /// For these plants, in this order; what it keeps of them is read again in each step. Throws
-  /// UsageError where JoinedModel does.
-  Canopy(const RodSettings& settings, const SelfContactSettings& contact,
-         std::span<const PlantStep> plants, int threads);
+  /// For these plants, in this order; what it keeps of them is read again in each step. Without
+  /// `contact` they do not touch each other. Throws UsageError where JoinedModel does.
+  Canopy(const RodSettings& settings, const std::optional<SelfContactSettings>& contact,
+         std::span<const PlantStep> plants, int threads, std::span<const PlantString> strings = {});
   ~Canopy();
 
   /// Steps all of them. Sources of a plant that find its contact with itself are left out. A report
@@ -42,6 +58,7 @@ class Canopy {
   JoinedModel::Shape touched(int collider) const;
 
   void change_settings(const RodSettings& settings);
+  /// Only where plants touch each other.
   void change_settings(const SelfContactSettings& settings) { contact_->change_settings(settings); }
   /// Forgets history, after a state was set from outside.
   void reset() { solver_->reset(); }
@@ -51,12 +68,16 @@ class Canopy {
 
   void read(std::span<const PlantStep> plants);
   void gather(std::span<const PlantStep> plants);
+  void join(std::span<const PlantStep> plants);
   void share_out(std::span<PlantStep> plants, const StepReport& report);
 
   std::unique_ptr<JoinedModel> joined_;
   std::unique_ptr<DirectSolver> solver_;
+  // Of the plants with themselves: with each other, too, or each as its own sources find it.
   std::unique_ptr<SelfContact> contact_;
-  std::unique_ptr<Sources> sources_;
+  std::unique_ptr<Sources> own_;
+  std::unique_ptr<Sources> sources_;  // all others
+  std::vector<PlantString> strings_;
   std::vector<const RodModel*> models_;
   RodState state_;  // of all
   std::vector<Clamp> clamps_;

@@ -139,9 +139,9 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
   row.stiffness[lane] = series_stiffness(point, gives_[contact]);
   // The first step of a contact has no memory, and so no friction: see the head of this class.
   // A joint that presses may touch a shape with one collider in several places, which stay, so
-  // these are told apart by place, too. All others are one contact for each pair.
+  // these are told apart by where they are, too. All others have a number for each of their places.
   const FrictionMemory::Spring* const memory =
-      pressed ? memory_.find(point) : memory_.find(point.shape, point.collider);
+      pressed ? memory_.find_by_back(point) : memory_.find(point);
   cosserat::put(row.stretch, lane, memory ? memory->stretch_W : Vec3(0, 0, 0));
   // N is of the step before and so a constant of this one. With N of the iterate the potential
   // would not be one, and a line search would have nothing to descend.
@@ -226,10 +226,11 @@ ContactTerms::Carried ContactTerms::remember(std::size_t first, std::size_t end)
     const int lane = static_cast<int>(i % lane_count);
     const double normal = last.normal[lane];
     memory_.springs()[i] = {vector_at(last.stretch, lane), normal, row.collider[lane],
-                            static_cast<float>(row.back[lane])};
+                            static_cast<float>(row.back[lane]), 0};
     // A spring of 0 N is no memory. It stands among the others all the same, so that springs and
     // contacts have the same numbers.
     if (normal == 0.0) continue;
+    memory_.springs()[i].place = found_[i].place;
     ++carried.contacts;
     carried.deepest = std::max(carried.deepest, -gap_of(i));
   }

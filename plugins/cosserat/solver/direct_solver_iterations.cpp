@@ -133,7 +133,8 @@ bool DirectSolver::follow_contacts(int index, const PlantStep& step) {
   return true;
 }
 
-// Welds couple elements that are no neighbours in the tree: a block system solves the whole plant.
+// Welds and strands couple elements that are no neighbours in the tree: a block system solves the
+// whole plant.
 void DirectSolver::solve_loops(int index, const RodModel& model) {
   Plant& plant = plants_[index];
   BlockSystem& system = *plant.loops;
@@ -153,6 +154,8 @@ void DirectSolver::solve_loops(int index, const RodModel& model) {
   // extras already.
   for (int w = 0; w < static_cast<int>(model.welds.size()); ++w)
     system.weld(w) = weld_coupling(plant.iterate, model.welds[w]);
+  for (int s = 0; s < static_cast<int>(model.strands.size()); ++s)
+    system.strand(s) = strand_coupling(plant.iterate, model.strands[s]);
   // Without a solution the energy is no number, which ends the plant's step in start_search().
   if (system.solve())
     rows_.elimination.set_change(index, system);

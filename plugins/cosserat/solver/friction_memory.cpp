@@ -13,13 +13,15 @@ constexpr double same_place = 1.0e-6;
 
 }  // namespace
 
-const FrictionMemory::Spring* FrictionMemory::find(int shape, int collider) const {
-  for (int i = last_of_shape_[shape]; i >= 0; i = before_[i])
-    if (springs_[i].collider == collider && springs_[i].normal != 0.0) return &springs_[i];
+const FrictionMemory::Spring* FrictionMemory::find(const ContactPoint& point) const {
+  for (int i = last_of_shape_[point.shape]; i >= 0; i = before_[i])
+    if (springs_[i].collider == point.collider && springs_[i].place == point.place &&
+        springs_[i].normal != 0.0)
+      return &springs_[i];
   return nullptr;
 }
 
-const FrictionMemory::Spring* FrictionMemory::find(const ContactPoint& point) const {
+const FrictionMemory::Spring* FrictionMemory::find_by_back(const ContactPoint& point) const {
   for (int i = last_of_shape_[point.shape]; i >= 0; i = before_[i]) {
     const Spring& spring = springs_[i];
     if (spring.collider == point.collider && spring.normal != 0.0 &&

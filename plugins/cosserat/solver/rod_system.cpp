@@ -88,7 +88,7 @@ void RodSystem::step(double dt, const Vec3& gravity) {
   if (plants_.empty()) return;  // a world of robots and bodies alone
   // Plants that touch are solved as one, and beds would be of no use: each one's Newton would have
   // to wait for the others' contacts.
-  if (touching_) {
+  if (touching_ || !strings_.empty()) {
     step_canopy(dt, gravity);
   } else if (settings_.solver == SolverKind::direct) {
     if (beds_.empty()) make_beds();
@@ -138,16 +138,46 @@ void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
     throw UsageError("RodSystem::let_plants_touch: position-based solver, must be the direct one");
   // A running canopy keeps what its contacts remember. A new one is made with these settings
   // anyway.
-  if (canopy_) canopy_->change_settings(settings);
+  if (canopy_ && touching_)
+    canopy_->change_settings(settings);
+  else
+    canopy_.reset();
   touching_ = settings;
   beds_.clear();
+}
+
+int RodSystem::add_string(const PlantString& string) {
+  if (settings_.solver != SolverKind::direct)
+    throw UsageError("RodSystem::add_string: position-based solver, must be the direct one");
+  for (const PlantString::End& end : {string.a, string.b})
+    if (end.plant < 0 || end.plant >= size() || end.element < 0 ||
+        end.element >= model(end.plant).size())
+      throw UsageError("RodSystem::add_string: an end on no element of a plant, must be on one");
+  if (string.a.plant == string.b.plant && string.a.element == string.b.element)
+    throw UsageError("RodSystem::add_string: both ends on one element, must be on two");
+  strings_.push_back(string);
+  canopy_.reset();
+  beds_.clear();
+  return static_cast<int>(strings_.size()) - 1;
+}
+
+std::optional<Vec3> RodSystem::place_of(const PlantString::End& end) const {
+  if (!state(end.plant).alive[end.element]) return {};
+  return point_on(model(end.plant), state(end.plant), end.element, end.back);
+}
+
+double RodSystem::tension(const PlantString& string) const {
+  const auto a = place_of(string.a), b = place_of(string.b);
+  if (!a || !b) return 0.0;
+  return string.stiffness * std::max(0.0, (*b - *a).norm() - string.length);
 }
 
 void RodSystem::step_canopy(double dt, const Vec3& gravity) {
   steps_.clear();
   // Filled in each step: the flags, loads and spans are of this step only.
   for (Plant& plant : plants_) steps_.push_back(step_of(plant));
-  if (!canopy_) canopy_ = std::make_unique<Canopy>(settings_, *touching_, steps_, pool_.threads());
+  if (!canopy_)
+    canopy_ = std::make_unique<Canopy>(settings_, touching_, steps_, pool_.threads(), strings_);
   canopy_->step(steps_, dt, gravity, pool_);
   for (int p = 0; p < size(); ++p) plants_[p].report = steps_[p].report;
 }

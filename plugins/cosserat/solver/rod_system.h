@@ -13,8 +13,8 @@
 
 namespace pedicel::cosserat {
 
-/// All the plants of a world, stepped side by side, or where they touch each other as one. Any
-/// number of threads gives the same bits.
+/// All the plants of a world, stepped side by side, or where they touch or hold each other as one.
+/// Any number of threads gives the same bits.
 class RodSystem {
  public:
   explicit RodSystem(const RodSettings& settings, int threads = 1);
@@ -63,6 +63,16 @@ class RodSystem {
   /// Strings that hold it until they are changed (direct solver only).
   std::vector<Tie>& ties(int plant) { return plants_[plant].ties; }
   const std::vector<Tie>& ties(int plant) const { return plants_[plant].ties; }
+
+  /// From the next step on that string holds its two plants together: all plants are then solved as
+  /// one (Canopy). Returns its index in strings(). Throws UsageError for a solver that cannot do
+  /// so, for a place that is not there, and where both ends are on one element.
+  int add_string(const PlantString& string);
+  const std::vector<PlantString>& strings() const { return strings_; }
+  /// N, with which it pulls now.
+  double tension(const PlantString& string) const;
+  /// m, W, of one of its ends now; nothing where that came off.
+  std::optional<Vec3> place_of(const PlantString::End& end) const;
 
   /// m/s, W: the air about each element, in place of what its model says, until it is changed;
   /// empty: as the model says (direct solver only).
@@ -123,7 +133,8 @@ class RodSystem {
   std::vector<Plant> plants_;
   std::vector<Bed> beds_;  // direct solver; made by the first step after add_plant()
   std::optional<SelfContactSettings> touching_;
-  std::unique_ptr<Canopy> canopy_;              // where plants touch; made by the first step
+  std::vector<PlantString> strings_;
+  std::unique_ptr<Canopy> canopy_;  // where plants touch or hold each other; made by a step
   std::vector<DirectSolver::PlantStep> steps_;  // of the canopy
   struct alignas(64) Ahead {
     FetchAhead next_bed;

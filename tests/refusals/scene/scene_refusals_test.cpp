@@ -209,6 +209,8 @@ TEST(SceneRefusals, OneFaultIsToldOnce) {
   const std::string plant = head + "plants: [{name: a, built_in: cantilever}]\n";
   for (const std::string body : {"ties: [5]",
                                  "ties: [{organ: a/x}]",
+                                 "ties: [{organ: a/x, to_organ: b/x}]",
+                                 "ties: [{organ: a/x, to: [0, 0, 1], to_at: 0.5}]",
                                  "wind: {}",
                                  "wind: 5",
                                  "wind: {velocity: fast}",

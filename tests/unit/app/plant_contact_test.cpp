@@ -139,6 +139,38 @@ TEST(SceneTies, HoldEachPlantOfAGrid) {
   }
 }
 
+// Three stems hang from a wire by strings to the nearest place of it; the wire bears what they
+// pull.
+TEST(SceneTies, HangPlantsFromAWire) {
+  SceneCase files;
+  files.write("stem.plant.yaml", stem_file("[0, 0, 0]", "[0, 0, 0.5]", 0.003, 2.0e7));
+  files.write("wire.plant.yaml", stem_file("[-0.3, 0.02, 0.8]", "[1.3, 0.02, 0.8]", 0.002, 2.0e11,
+                                           "supports:\n  - {curve: stem, at: 1}\n", 7850, "0.05"));
+  const std::string plants =
+      "plants:\n  - {name: row, file: stem.plant.yaml, repeat: {count: [3, 1], spacing: [0.5, "
+      "1]}}\n"
+      "  - {name: wire, file: wire.plant.yaml}\n";
+  const std::string tie = "ties:\n  - {organ: row/stem, at: 0.9, to_organ: wire/stem";
+  const auto sim = files.simulation(plants + tie + ", stiffness: 3000}\n");
+  ASSERT_EQ(sim->ties().all().size(), 3u);
+  for (const SceneTies::One& one : sim->ties().all()) {
+    const auto course = sim->ties().course(one);
+    ASSERT_TRUE(course);
+    EXPECT_NEAR(course->to_W.x(), 0.5 * one.plant, 1e-9);  // straight above
+    EXPECT_NEAR(course->length, std::hypot(0.35, 0.02), 1e-9);
+    EXPECT_EQ(course->tension, 0.0);
+  }
+  const auto short_one = files.simulation(plants + tie + ", stiffness: 3000, length: 0.34}\n");
+  const auto untied = files.simulation(plants);
+  for (int i = 0; i < 480; ++i) {
+    short_one->step();
+    untied->step();
+  }
+  EXPECT_LT(lowest(*short_one, 3), lowest(*untied, 3) - 1e-3);
+  for (const SceneTies::One& one : short_one->ties().all())
+    EXPECT_GT(short_one->ties().tension(one), 0.01) << one.name;
+}
+
 TEST(SceneTies, AnOrganThatIsNotThereIsAnError) {
   SceneCase files;
   files.write("stem.plant.yaml", stem_file("[0, 0, 0]", "[0, 0, 0.5]", 0.004, 1.0e9));
@@ -154,6 +186,14 @@ TEST(SceneTies, AnOrganThatIsNotThereIsAnError) {
   EXPECT_THAT(fault_of("{organ: stem/branch, to: [0, 0, 1]}"), HasSubstr("stem/branch"));
   EXPECT_THAT(fault_of("{organ: tree/stem, to: [0, 0, 1]}"), HasSubstr("expected PLANT/CURVE"));
   EXPECT_THAT(fault_of("{organ: stem/stem}"), HasSubstr("exactly one of to"));
+  EXPECT_THAT(fault_of("{organ: stem/stem, to: [0, 0, 1], to_organ: stem/stem}"),
+              HasSubstr("exactly one of to"));
+  EXPECT_THAT(fault_of("{organ: stem/stem, to_organ: stem/branch}"), HasSubstr("stem/branch"));
+  EXPECT_THAT(fault_of("{organ: stem/stem, to_organ: stem/stem}"),
+              HasSubstr("both ends are on one segment"));
+  EXPECT_THAT(fault_of("{organ: stem/stem, to: [0, 0, 1], to_at: 0.5}"),
+              HasSubstr("expected only beside to_organ"));
+  EXPECT_THAT(fault_of("{organ: stem/stem, to_organ: stem/stem, to_at: 2}"), HasSubstr("to_at"));
 }
 
 }  // namespace

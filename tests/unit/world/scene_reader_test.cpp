@@ -47,6 +47,7 @@ loads:
 ties:
   - {organ: truss/stem, at: 0.9, offset: [0, 0, 1], length: 0.95, stiffness: 500}
   - {organ: tree/trunk, to: [0, 0.1, 1.5]}
+  - {organ: truss/stem, to_organ: tree/trunk, to_at: 0.75}
 cuts:
   - {organ: tree/trunk, at: 0.5, time: 2}
   - {organ: truss_0/stem, by_tool: true, reach: 0.03}
@@ -102,6 +103,8 @@ TEST_F(SceneReader, ReadsEveryKey) {
   EXPECT_TRUE(scene->ties.at(0).is_offset);
   EXPECT_EQ(scene->ties.at(0).length, 0.95);
   EXPECT_FALSE(scene->ties.at(1).length);
+  EXPECT_EQ(scene->ties.at(2).to_organ, "tree/trunk");
+  EXPECT_EQ(scene->ties.at(2).to_at, 0.75);
   EXPECT_EQ(scene->cuts.at(0).time, 2.0);
   EXPECT_FALSE(scene->cuts.at(1).time);
   EXPECT_EQ(scene->wind->length, 4.0);
@@ -124,7 +127,7 @@ TEST_F(SceneReader, WhatIsWrittenReadsAgain) {
   const auto again = parse_scene(written, folder_ / "try.scene.yaml", diagnostics);
   ASSERT_TRUE(again) << diagnostics.text() << written;
   EXPECT_EQ(scene_text(*again, folder_), written);
-  EXPECT_EQ(again->ties.size(), 2u);
+  EXPECT_EQ(again->ties.size(), 3u);
   EXPECT_EQ(again->cuts.at(1).reach, 0.03);
   ASSERT_TRUE(again->wind);
   EXPECT_EQ(again->wind->roughness, 0.02);
