@@ -121,7 +121,8 @@ std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
   return text;
 }
 
-std::string answer(const Setting& s) {
+std::string answer(const Setting& s, const std::vector<Drive>& drives,
+                   const std::vector<Outside>& outside) {
   std::string text =
       "# What is hidden. The diagnosis does not read it.\nseed: " + std::to_string(s.seed) +
       "\nhidden:" + (s.hidden.empty() ? " []\n" : "\n");
@@ -130,6 +131,10 @@ std::string answer(const Setting& s) {
     for (const auto& [key, values] : one.numbers) text += ", " + key + ": " + list(values);
     text += "}\n";
   }
+  for (std::size_t d = 0; d < drives.size(); ++d)
+    if (outside[d].acts)
+      text += "# In " + drives[d].name + " it acts from " + list({outside[d].from}) + " s on, at " +
+              list(outside[d].place) + " m.\n";
   return text;
 }
 
@@ -231,16 +236,21 @@ class Tables {
 
 }  // namespace
 
-void write_case(const std::filesystem::path& folder, const Setting& setting) {
+std::vector<Outside> write_case(const std::filesystem::path& folder, const Setting& setting) {
   const std::vector<Drive> drives = drives_of(setting);
   write(folder / "reacher.urdf", urdf());
   write(folder / "plant.yaml", plant(setting));
   write(folder / "scene.yaml", scene(setting, drives.front().joints.front()));
   write(folder / "experiment.yaml", experiment(setting, drives));
-  write(folder / "answer.yaml", answer(setting));
-  for (std::size_t d = 0; d < drives.size(); ++d)
-    Tables(setting, drives[d], simulate(setting, drives[d]), folder / drives[d].name)
+  std::vector<Outside> outside;
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    const Run run = simulate(setting, drives[d]);
+    Tables(setting, drives[d], run, folder / drives[d].name)
         .write_all(1000 * setting.seed + 10 * d);
+    outside.push_back(run.outside);
+  }
+  write(folder / "answer.yaml", answer(setting, drives, outside));
+  return outside;
 }
 
 }  // namespace pedicel::scene_case

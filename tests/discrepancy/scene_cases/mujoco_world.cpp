@@ -17,6 +17,7 @@ namespace {
 constexpr double dt = 2.5e-4;        // s
 constexpr double segment = 0.01;     // m
 constexpr double immovable = 1.0e4;  // kg m2 or kg, of driven joints
+constexpr double string_stiffness = 150.0;  // N/m
 constexpr double pi = 3.14159265358979323846;
 double damping_time(const Setting& s) {
   return s.damping_time * hidden_number(s, "damping_time", "factor", 1.0);
@@ -99,6 +100,9 @@ class Chain {
         out_ << "<site name='m" << m << "' pos='0 0 " << text(place - from) << "'/>\n";
       ++m;
     }
+    const double tied = hidden_number(s_, "string", "at", -1.0) * s_.height;
+    if (tied > from && tied <= to)
+      out_ << "<site name='tied' pos='0 0 " << text(tied - from) << "'/>\n";
   }
 
   const Setting& s_;
@@ -210,6 +214,7 @@ class World {
     for (std::size_t m = 0; m < markers_of(s).size(); ++m)
       sites_.push_back(mj_name2id(model_.get(), mjOBJ_SITE, ("m" + std::to_string(m)).c_str()));
     sites_.push_back(mj_name2id(model_.get(), mjOBJ_SITE, "nail"));
+    tied_ = mj_name2id(model_.get(), mjOBJ_SITE, "tied");
   }
 
   Run run() {
@@ -224,6 +229,7 @@ class World {
       push();
       mj_forward(model_.get(), data_.get());
       note(out, k > 0);
+      note_outside(out.outside);
       mj_Euler(model_.get(), data_.get());
     }
     out.wrench.front() = out.wrench[1];
@@ -257,6 +263,7 @@ class World {
         const int v = model_->jnt_dofadr[joint];
         data_->qfrc_applied[v] = -damping_time(s_) * model_->jnt_stiffness[joint] * data_->qvel[v];
       }
+    pull();
     const Vec3 a = (told(time_ + dt) - 2.0 * told(time_) + told(time_ - dt)) / (dt * dt);
     std::vector<mjtNum> mass(static_cast<std::size_t>(model_->nv * model_->nv));
     if (giving_.front() >= 0) mj_fullM(model_.get(), mass.data(), data_->qM);
@@ -270,6 +277,25 @@ class World {
                   a[static_cast<long>(i)];
       data_->qfrc_applied[giving_[j]] = effort;
     }
+  }
+
+  // N, of a string between a place of the stem and a fixed one: it pulls where it is taut.
+  Vec3 tension() const {
+    if (tied_ < 0) return Vec3::Zero();
+    Vec3 anchor;
+    for (int a = 0; a < 3; ++a)
+      anchor[a] = hidden_number(s_, "string", "anchor", 0.0, static_cast<std::size_t>(a));
+    const Vec3 way = anchor - of(data_->site_xpos + 3 * tied_);
+    const double beyond = way.norm() - hidden_number(s_, "string", "length", 0.0);
+    return beyond > 0.0 ? Vec3(string_stiffness * beyond * way.normalized()) : Vec3(0, 0, 0);
+  }
+  // Sites are where the step before left them: a wire of 150 N/m does not mind.
+  void pull() {
+    const Vec3 force = tension();
+    if (force.isZero(0.0)) return;
+    const mjtNum none[3] = {0, 0, 0};
+    mj_applyFT(model_.get(), data_.get(), force.data(), none, data_->site_xpos + 3 * tied_,
+               model_->site_bodyid[tied_], data_->qfrc_applied);
   }
 
   // Upright stems stand as they are drawn; a twentieth of a second takes what is left.
@@ -324,6 +350,26 @@ class World {
     out.wrench.push_back(wrench);
   }
 
+  // When something from outside first acts on the stem with more than a trifle.
+  void note_outside(Outside& out) const {
+    if (out.acts) return;
+    const auto take = [&](double force, const mjtNum* place) {
+      if (force < 0.02) return;  // N
+      out.acts = true;
+      out.from = time_;
+      out.place = of(place);
+    };
+    if (tied_ >= 0) take(tension().norm(), data_->site_xpos + 3 * tied_);
+    for (int c = 0; c < data_->ncon; ++c) {
+      const mjContact& contact = data_->contact[c];
+      if (model_->geom_bodyid[contact.geom1] != 0 && model_->geom_bodyid[contact.geom2] != 0)
+        continue;  // of the finger: only a post stands in the world
+      mjtNum local[6];
+      mj_contactForce(model_.get(), data_.get(), c, local);
+      take(of(local).norm(), contact.pos);
+    }
+  }
+
   void add_contacts(Vec3& force, Vec3& moment) const {
     for (int c = 0; c < data_->ncon; ++c) {
       const mjContact& contact = data_->contact[c];
@@ -351,7 +397,7 @@ class World {
   Data data_;
   double time_ = 0.0;
   std::vector<int> driven_, giving_, beyond_, sites_;
-  int hand_ = 0, first_of_arm_ = 0;
+  int hand_ = 0, first_of_arm_ = 0, tied_ = -1;
   Vec3 linear_ = Vec3::Zero(), angular_ = Vec3::Zero();
 };
 
