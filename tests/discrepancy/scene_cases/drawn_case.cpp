@@ -73,6 +73,10 @@ Hidden draw_hidden(const std::string& name, const Setting& s, Draw& draw) {
   if (name == "wrench_gain") return {name, {{"gain", {draw.factor(1.06, 1.2)}}}};
   if (name == "youngs_modulus") return {name, {{"factor", {draw.factor(1.1, 1.3)}}}};
   if (name == "damping_time") return {name, {{"factor", {draw.factor(1.8, 2.6)}}}};
+  if (name == "camera_pose")
+    return {name, {{"offset", draw.vector(0.002, 0.01)}, {"rotation", draw.vector(0.003, 0.02)}}};
+  if (name == "camera_focal") return {name, {{"factor", {draw.factor(1.01, 1.05)}}}};
+  if (name == "lens_distortion") return {name, {{"k1", {draw.sign() * draw.size(0.1, 0.4)}}}};
   if (name == "post") {
     // Beyond the stem, on a side to which a finger pushes it: half of its way there is left.
     const double z = s.height * (draw.chance(0.5) ? draw.between(0.3, 0.42) : draw.between(0.75, 0.92));
@@ -93,6 +97,10 @@ Hidden draw_hidden(const std::string& name, const Setting& s, Draw& draw) {
   throw std::invalid_argument(name + ": there is nothing of this name to hide");
 }
 
+bool is_of_camera(const std::string& name) {
+  return name.starts_with("camera_") || name == "lens_distortion";
+}
+
 using Names = std::vector<std::string>;
 
 // Kinds, names and how many of each.
@@ -104,23 +112,27 @@ struct Stratum {
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = {
       {"null", {}, 30},
-      {"effect", {"contact_friction"}, 4},
-      {"effect", {"plant_pose"}, 4},
-      {"effect", {"tool_pose"}, 4},
-      {"effect", {"joint_offset"}, 4},
-      {"effect", {"robot_latency"}, 4},
-      {"effect", {"reaction"}, 4},
-      {"effect", {"payload"}, 4},
-      {"effect", {"wrench_bias"}, 4},
-      {"effect", {"wrench_gain"}, 4},
-      {"effect", {"youngs_modulus"}, 4},
-      {"effect", {"damping_time"}, 4},
+      {"effect", {"contact_friction"}, 3},
+      {"effect", {"plant_pose"}, 3},
+      {"effect", {"tool_pose"}, 3},
+      {"effect", {"joint_offset"}, 3},
+      {"effect", {"robot_latency"}, 3},
+      {"effect", {"reaction"}, 3},
+      {"effect", {"payload"}, 3},
+      {"effect", {"wrench_bias"}, 3},
+      {"effect", {"wrench_gain"}, 3},
+      {"effect", {"camera_pose"}, 3},
+      {"effect", {"camera_focal"}, 3},
+      {"effect", {"lens_distortion"}, 3},
+      {"effect", {"youngs_modulus"}, 3},
+      {"effect", {"damping_time"}, 3},
       {"pair", {"contact_friction", "robot_latency"}, 2},
       {"pair", {"contact_friction", "wrench_bias"}, 2},
       {"pair", {"plant_pose", "payload"}, 2},
       {"pair", {"reaction", "wrench_bias"}, 2},
       {"pair", {"tool_pose", "contact_friction"}, 2},
       {"pair", {"plant_pose", "robot_latency"}, 2},
+      {"pair", {"camera_pose", "wrench_gain"}, 2},
       {"outside", {"post"}, 7},
       {"outside", {"string"}, 7},
   };
@@ -156,6 +168,7 @@ Setting drawn(const Order& order, std::uint64_t seed) {
   Setting setting;
   setting.seed = seed * 1000 + static_cast<std::uint64_t>(order.number);
   draw(setting);
+  setting.camera = order.number % 2 == 1 || std::ranges::any_of(order.names, is_of_camera);
   Draw draw_of(setting.seed * 104729 + 31);
   for (const std::string& name : order.names)
     setting.hidden.push_back(draw_hidden(name, setting, draw_of));

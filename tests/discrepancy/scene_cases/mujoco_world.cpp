@@ -16,6 +16,7 @@ namespace {
 
 constexpr double dt = 2.5e-4;        // s
 constexpr double segment = 0.01;     // m
+constexpr int stretching = 4;        // segments to one that gives along the stem
 constexpr double immovable = 1.0e4;  // kg m2 or kg, of driven joints
 constexpr double string_stiffness = 150.0;  // N/m
 constexpr double pi = 3.14159265358979323846;
@@ -51,6 +52,7 @@ class Chain {
     const double area = pi * s.radius * s.radius, second = 0.25 * area * s.radius * s.radius;
     bend_ = factor * s.modulus * second / length_;
     twist_ = bend_ / 1.35;  // GJ = 2 I E / (2 (1 + nu))
+    stretch_ = factor * s.modulus * area / (length_ * stretching);
     const double density = s.density * hidden_number(s, "density", "factor", 1.0);
     mass_ = density * area * length_;
   }
@@ -66,6 +68,7 @@ class Chain {
       const double end = i < count_ ? length_ : 0.5 * length_;
       out_ << "<body name='s" << i << "' pos='0 0 " << text(i == 1 ? 0.5 * length_ : length_)
            << "'>\n";
+      if (i % stretching == stretching / 2) stretch(i);
       hinge("x", "1 0 0", i, bend_);
       hinge("y", "0 1 0", i, bend_);
       hinge("z", "0 0 1", i, twist_);
@@ -81,6 +84,11 @@ class Chain {
     // MuJoCo reckons contacts with, too; its own damping is not, and they would creep.
     out_ << "<joint name='" << axis << i << "' type='hinge' axis='" << vector << "' stiffness='"
          << text(stiffness) << "' armature='" << text(dt * damping_time(s_) * stiffness) << "'/>\n";
+  }
+  // A stem that sticks to a finger is held by its stretch, which is some 10 um/N.
+  void stretch(int i) {
+    out_ << "<joint name='a" << i << "' type='slide' axis='0 0 1' stiffness='" << text(stretch_)
+         << "' armature='" << text(dt * damping_time(s_) * stretch_) << "'/>\n";
   }
   void piece(double length) {
     const double r2 = s_.radius * s_.radius, mass = mass_ * length / length_;
@@ -108,7 +116,7 @@ class Chain {
   const Setting& s_;
   std::ostringstream& out_;
   int count_ = 0;
-  double length_ = 0.0, bend_ = 0.0, twist_ = 0.0, mass_ = 0.0;
+  double length_ = 0.0, bend_ = 0.0, twist_ = 0.0, stretch_ = 0.0, mass_ = 0.0;
 };
 
 // A joint of the arm: driven, and beyond it a spring where joints give way.

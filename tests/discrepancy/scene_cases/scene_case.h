@@ -23,6 +23,7 @@ struct Hidden {
 struct Setting {
   std::uint64_t seed = 1;  ///< of sizes, and of the noise
   int trials = 2;          ///< 1 to 4: push, from the other side, higher, slide
+  bool camera = false;     ///< a camera beside the plant has seen the markers
   std::vector<Hidden> hidden;
 
   // Drawn from the seed.
