@@ -12,6 +12,8 @@ namespace pedicel::scene_case {
 namespace {
 
 constexpr double joint_std = 2.0e-5, position_std = 3.0e-4, force_std = 0.03, moment_std = 2.0e-3;
+constexpr double pixel_std = 0.4;  // px
+constexpr double focal = 900.0;    // px
 constexpr double joint_rate = 250.0, marker_rate = 100.0, wrench_rate = 250.0;  // Hz
 
 std::string list(const std::vector<double>& values) {
@@ -103,6 +105,45 @@ std::string scene(const Setting& s, const Vec3& start) {
   return out.str();
 }
 
+// A pinhole beside the plant: x to the right, y down, z forward.
+const Vec3 camera_place(0.5, -0.9, 0.35), camera_target(0.45, 0.0, 0.2);
+const Eigen::Vector2d camera_centre(640.0, 360.0);
+
+Eigen::Matrix3d camera_axes() {
+  const Vec3 forward = (camera_target - camera_place).normalized();
+  const Vec3 right = forward.cross(Vec3(0, 0, 1)).normalized();
+  Eigen::Matrix3d axes;
+  axes << right, forward.cross(right), forward;
+  return axes;
+}
+
+Vec3 hidden_vector(const Setting& s, const std::string& name, const std::string& parameter) {
+  return {hidden_number(s, name, parameter, 0.0, 0), hidden_number(s, name, parameter, 0.0, 1),
+          hidden_number(s, name, parameter, 0.0, 2)};
+}
+
+// Where the camera really sees a place.
+Eigen::Vector2d seen(const Setting& s, const Vec3& place) {
+  const Vec3 turn = hidden_vector(s, "camera_pose", "rotation");
+  Eigen::Matrix3d axes = camera_axes();
+  if (turn.norm() > 0.0)
+    axes = axes * Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  const Vec3 p = axes.transpose() *
+                 (place - camera_place - hidden_vector(s, "camera_pose", "offset"));
+  const Eigen::Vector2d flat = p.head<2>() / p.z();
+  const double bent = 1.0 + hidden_number(s, "lens_distortion", "k1", 0.0) * flat.squaredNorm();
+  return focal * hidden_number(s, "camera_focal", "factor", 1.0) * bent * flat + camera_centre;
+}
+
+std::string camera() {
+  const Eigen::Quaterniond turn(camera_axes());
+  return "cameras:\n  - {name: left, position: " + list(camera_place) + ", orientation: " +
+         list(std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}) +
+         ", focal: " + list(std::vector<double>{focal, focal}) +
+         ", centre: " + list(std::vector<double>{camera_centre.x(), camera_centre.y()}) +
+         ", size: [1280, 720]}\n";
+}
+
 std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
   std::string text =
       "format: pedicel-experiment\nversion: 1\ntitle: a finger pushes a stem and lets it go\n"
@@ -112,6 +153,7 @@ std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
     text += "  - {name: m" + std::to_string(m++) + ", plant: bush, curve: " + curve +
             ", at: " + list({at}) + "}\n";
   text += "  - {name: nail, link: finger, offset: " + list(nail) + "}\n";
+  if (s.camera) text += camera();
   text += "wrenches:\n  - {name: wrist, link: hand}\nnoise: {joint_std: " + list({joint_std}) +
           ", position_std: " + list({position_std}) + ", force_std: " + list({force_std}) +
           ", moment_std: " + list({moment_std}) + "}\ntrials:\n";
@@ -121,7 +163,8 @@ std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
   return text;
 }
 
-std::string answer(const Setting& s) {
+std::string answer(const Setting& s, const std::vector<Drive>& drives,
+                   const std::vector<Outside>& outside) {
   std::string text =
       "# What is hidden. The diagnosis does not read it.\nseed: " + std::to_string(s.seed) +
       "\nhidden:" + (s.hidden.empty() ? " []\n" : "\n");
@@ -130,6 +173,10 @@ std::string answer(const Setting& s) {
     for (const auto& [key, values] : one.numbers) text += ", " + key + ": " + list(values);
     text += "}\n";
   }
+  for (std::size_t d = 0; d < drives.size(); ++d)
+    if (outside[d].acts)
+      text += "# In " + drives[d].name + " it acts from " + list({outside[d].from}) + " s on, at " +
+              list(outside[d].place) + " m.\n";
   return text;
 }
 
@@ -167,6 +214,7 @@ class Tables {
     write_joints(seed);
     write_markers(seed + 1);
     write_wrench(seed + 2);
+    if (s_.camera) write_pixels(seed + 3);
   }
 
  private:
@@ -204,6 +252,23 @@ class Tables {
     write(folder_ / "markers.csv", table.text());
   }
 
+  void write_pixels(std::uint64_t seed) {
+    std::string head;
+    for (std::size_t m = 0; m + 1 < run_.markers.front().size(); ++m)
+      for (const char axis : {'u', 'v'}) head += "m" + std::to_string(m) + "." + axis + ",";
+    Table table(head + "nail.u,nail.v", seed);
+    for (int r = 0; r <= static_cast<int>(drive_.duration * marker_rate); ++r) {
+      const double t = r / marker_rate;
+      table.row(t);
+      for (const Vec3& place : run_.markers[step(t)]) {
+        const Eigen::Vector2d point = seen(s_, place);
+        for (int a = 0; a < 2; ++a) table.value(point[a], pixel_std);
+      }
+      table.end();
+    }
+    write(folder_ / "pixels_left.csv", table.text());
+  }
+
   void write_wrench(std::uint64_t seed) {
     const double gain = hidden_number(s_, "wrench_gain", "gain", 1.0);
     Table table("fx,fy,fz,tx,ty,tz", seed);
@@ -231,16 +296,21 @@ class Tables {
 
 }  // namespace
 
-void write_case(const std::filesystem::path& folder, const Setting& setting) {
+std::vector<Outside> write_case(const std::filesystem::path& folder, const Setting& setting) {
   const std::vector<Drive> drives = drives_of(setting);
   write(folder / "reacher.urdf", urdf());
   write(folder / "plant.yaml", plant(setting));
   write(folder / "scene.yaml", scene(setting, drives.front().joints.front()));
   write(folder / "experiment.yaml", experiment(setting, drives));
-  write(folder / "answer.yaml", answer(setting));
-  for (std::size_t d = 0; d < drives.size(); ++d)
-    Tables(setting, drives[d], simulate(setting, drives[d]), folder / drives[d].name)
+  std::vector<Outside> outside;
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    const Run run = simulate(setting, drives[d]);
+    Tables(setting, drives[d], run, folder / drives[d].name)
         .write_all(1000 * setting.seed + 10 * d);
+    outside.push_back(run.outside);
+  }
+  write(folder / "answer.yaml", answer(setting, drives, outside));
+  return outside;
 }
 
 }  // namespace pedicel::scene_case

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double dt = 2.5e-4;        // s
 constexpr double segment = 0.01;     // m
+constexpr int stretching = 4;        // segments to one that gives along the stem
 constexpr double immovable = 1.0e4;  // kg m2 or kg, of driven joints
+constexpr double string_stiffness = 150.0;  // N/m
 constexpr double pi = 3.14159265358979323846;
 double damping_time(const Setting& s) {
   return s.damping_time * hidden_number(s, "damping_time", "factor", 1.0);
@@ -50,6 +52,7 @@ class Chain {
     const double area = pi * s.radius * s.radius, second = 0.25 * area * s.radius * s.radius;
     bend_ = factor * s.modulus * second / length_;
     twist_ = bend_ / 1.35;  // GJ = 2 I E / (2 (1 + nu))
+    stretch_ = factor * s.modulus * area / (length_ * stretching);
     const double density = s.density * hidden_number(s, "density", "factor", 1.0);
     mass_ = density * area * length_;
   }
@@ -65,6 +68,7 @@ class Chain {
       const double end = i < count_ ? length_ : 0.5 * length_;
       out_ << "<body name='s" << i << "' pos='0 0 " << text(i == 1 ? 0.5 * length_ : length_)
            << "'>\n";
+      if (i % stretching == stretching / 2) stretch(i);
       hinge("x", "1 0 0", i, bend_);
       hinge("y", "0 1 0", i, bend_);
       hinge("z", "0 0 1", i, twist_);
@@ -80,6 +84,11 @@ class Chain {
     // MuJoCo reckons contacts with, too; its own damping is not, and they would creep.
     out_ << "<joint name='" << axis << i << "' type='hinge' axis='" << vector << "' stiffness='"
          << text(stiffness) << "' armature='" << text(dt * damping_time(s_) * stiffness) << "'/>\n";
+  }
+  // A stem that sticks to a finger is held by its stretch, which is some 10 um/N.
+  void stretch(int i) {
+    out_ << "<joint name='a" << i << "' type='slide' axis='0 0 1' stiffness='" << text(stretch_)
+         << "' armature='" << text(dt * damping_time(s_) * stretch_) << "'/>\n";
   }
   void piece(double length) {
     const double r2 = s_.radius * s_.radius, mass = mass_ * length / length_;
@@ -99,12 +108,15 @@ class Chain {
         out_ << "<site name='m" << m << "' pos='0 0 " << text(place - from) << "'/>\n";
       ++m;
     }
+    const double tied = hidden_number(s_, "string", "at", -1.0) * s_.height;
+    if (tied > from && tied <= to)
+      out_ << "<site name='tied' pos='0 0 " << text(tied - from) << "'/>\n";
   }
 
   const Setting& s_;
   std::ostringstream& out_;
   int count_ = 0;
-  double length_ = 0.0, bend_ = 0.0, twist_ = 0.0, mass_ = 0.0;
+  double length_ = 0.0, bend_ = 0.0, twist_ = 0.0, stretch_ = 0.0, mass_ = 0.0;
 };
 
 // A joint of the arm: driven, and beyond it a spring where joints give way.
@@ -210,6 +222,7 @@ class World {
     for (std::size_t m = 0; m < markers_of(s).size(); ++m)
       sites_.push_back(mj_name2id(model_.get(), mjOBJ_SITE, ("m" + std::to_string(m)).c_str()));
     sites_.push_back(mj_name2id(model_.get(), mjOBJ_SITE, "nail"));
+    tied_ = mj_name2id(model_.get(), mjOBJ_SITE, "tied");
   }
 
   Run run() {
@@ -224,6 +237,7 @@ class World {
       push();
       mj_forward(model_.get(), data_.get());
       note(out, k > 0);
+      note_outside(out.outside);
       mj_Euler(model_.get(), data_.get());
     }
     out.wrench.front() = out.wrench[1];
@@ -257,6 +271,7 @@ class World {
         const int v = model_->jnt_dofadr[joint];
         data_->qfrc_applied[v] = -damping_time(s_) * model_->jnt_stiffness[joint] * data_->qvel[v];
       }
+    pull();
     const Vec3 a = (told(time_ + dt) - 2.0 * told(time_) + told(time_ - dt)) / (dt * dt);
     std::vector<mjtNum> mass(static_cast<std::size_t>(model_->nv * model_->nv));
     if (giving_.front() >= 0) mj_fullM(model_.get(), mass.data(), data_->qM);
@@ -270,6 +285,25 @@ class World {
                   a[static_cast<long>(i)];
       data_->qfrc_applied[giving_[j]] = effort;
     }
+  }
+
+  // N, of a string between a place of the stem and a fixed one: it pulls where it is taut.
+  Vec3 tension() const {
+    if (tied_ < 0) return Vec3::Zero();
+    Vec3 anchor;
+    for (int a = 0; a < 3; ++a)
+      anchor[a] = hidden_number(s_, "string", "anchor", 0.0, static_cast<std::size_t>(a));
+    const Vec3 way = anchor - of(data_->site_xpos + 3 * tied_);
+    const double beyond = way.norm() - hidden_number(s_, "string", "length", 0.0);
+    return beyond > 0.0 ? Vec3(string_stiffness * beyond * way.normalized()) : Vec3(0, 0, 0);
+  }
+  // Sites are where the step before left them: a wire of 150 N/m does not mind.
+  void pull() {
+    const Vec3 force = tension();
+    if (force.isZero(0.0)) return;
+    const mjtNum none[3] = {0, 0, 0};
+    mj_applyFT(model_.get(), data_.get(), force.data(), none, data_->site_xpos + 3 * tied_,
+               model_->site_bodyid[tied_], data_->qfrc_applied);
   }
 
   // Upright stems stand as they are drawn; a twentieth of a second takes what is left.
@@ -324,6 +358,26 @@ class World {
     out.wrench.push_back(wrench);
   }
 
+  // When something from outside first acts on the stem with more than a trifle.
+  void note_outside(Outside& out) const {
+    if (out.acts) return;
+    const auto take = [&](double force, const mjtNum* place) {
+      if (force < 0.02) return;  // N
+      out.acts = true;
+      out.from = time_;
+      out.place = of(place);
+    };
+    if (tied_ >= 0) take(tension().norm(), data_->site_xpos + 3 * tied_);
+    for (int c = 0; c < data_->ncon; ++c) {
+      const mjContact& contact = data_->contact[c];
+      if (model_->geom_bodyid[contact.geom1] != 0 && model_->geom_bodyid[contact.geom2] != 0)
+        continue;  // of the finger: only a post stands in the world
+      mjtNum local[6];
+      mj_contactForce(model_.get(), data_.get(), c, local);
+      take(of(local).norm(), contact.pos);
+    }
+  }
+
   void add_contacts(Vec3& force, Vec3& moment) const {
     for (int c = 0; c < data_->ncon; ++c) {
       const mjContact& contact = data_->contact[c];
@@ -351,7 +405,7 @@ class World {
   Data data_;
   double time_ = 0.0;
   std::vector<int> driven_, giving_, beyond_, sites_;
-  int hand_ = 0, first_of_arm_ = 0;
+  int hand_ = 0, first_of_arm_ = 0, tied_ = -1;
   Vec3 linear_ = Vec3::Zero(), angular_ = Vec3::Zero();
 };
 

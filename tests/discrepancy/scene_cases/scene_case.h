@@ -14,7 +14,7 @@ using Vec3 = Eigen::Vector3d;
 
 /// One thing that is hidden. `numbers` as the effect's parameters say, in their units.
 struct Hidden {
-  std::string name;  ///< an effect's, or "post"
+  std::string name;  ///< an effect's, or "post", or "string"
   std::vector<std::pair<std::string, std::vector<double>>> numbers;
 };
 
@@ -23,6 +23,7 @@ struct Hidden {
 struct Setting {
   std::uint64_t seed = 1;  ///< of sizes, and of the noise
   int trials = 2;          ///< 1 to 4: push, from the other side, higher, slide
+  bool camera = false;     ///< a camera beside the plant has seen the markers
   std::vector<Hidden> hidden;
 
   // Drawn from the seed.
@@ -41,9 +42,16 @@ double hidden_number(const Setting& setting, const std::string& name, const std:
                      double otherwise, std::size_t axis = 0);
 bool is_hidden(const Setting& setting, const std::string& name);
 
-/// Writes the experiment, and answer.yaml with what is hidden. Throws std::runtime_error where
-/// MuJoCo fails.
-void write_case(const std::filesystem::path& folder, const Setting& setting);
+/// Where and when something from outside first acts on the stem in a trial.
+struct Outside {
+  bool acts = false;
+  double from = 0.0;          ///< s
+  Vec3 place = Vec3::Zero();  ///< m, W, on the stem
+};
+
+/// Writes the experiment, and answer.yaml with what is hidden. Returns what acts from outside, by
+/// trial. Throws std::runtime_error where MuJoCo fails.
+std::vector<Outside> write_case(const std::filesystem::path& folder, const Setting& setting);
 
 /// One trial as it is driven: joints (rad, rad, m) at a time.
 struct Drive {
@@ -61,6 +69,7 @@ struct Run {
   std::vector<Vec3> joints;                         ///< of the encoders, exact
   std::vector<std::vector<Vec3>> markers;           ///< m, W: of the plant, then of the finger
   std::vector<Eigen::Matrix<double, 6, 1>> wrench;  ///< N, N m: of the hand, its frame
+  Outside outside;
 };
 Run simulate(const Setting& setting, const Drive& drive);
 

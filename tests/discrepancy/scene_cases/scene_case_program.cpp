@@ -1,9 +1,9 @@
-// scene_case --out FOLDER [--seed N] [--trials N] [--hide "NAME KEY=V[,V,V] ..."]...
+// scene_case --out FOLDER [--seed N] [--trials N] [--hide "NAME KEY=V[,V,V] ..."]... [--bench N]
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <sstream>
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "discrepancy/scene_cases/drawn_case.h"
 
 namespace {
 
@@ -31,14 +31,24 @@ int main(int argc, char** argv) {
   std::string out;
   pedicel::scene_case::Setting setting;
   std::vector<std::string> hide;
+  int bench = -1;
   app.add_option("--out", out, "folder to write")->required();
   app.add_option("--seed", setting.seed, "of sizes and noise");
   app.add_option("--trials", setting.trials, "how many")->check(CLI::Range(1, 4));
-  app.add_option("--hide", hide, "\"NAME KEY=V[,V,V]\": an effect, or post")
-      ->allow_extra_args(false);
+  auto* hidden = app.add_option("--hide", hide, "\"NAME KEY=V[,V,V]\": an effect, post or string")
+                     ->allow_extra_args(false);
+  app.add_option("--bench", bench, "the case of this number of `scene_bench --seed N`")
+      ->check(CLI::Range(0, 99))
+      ->excludes(hidden);
   CLI11_PARSE(app, argc, argv);
   try {
-    pedicel::scene_case::draw(setting);
+    if (bench >= 0) {
+      const int trials = setting.trials;
+      setting = drawn(pedicel::scene_case::orders()[static_cast<std::size_t>(bench)], setting.seed);
+      setting.trials = trials;
+    } else {
+      pedicel::scene_case::draw(setting);
+    }
     for (const std::string& text : hide) setting.hidden.push_back(hidden_of(text));
     pedicel::scene_case::write_case(out, setting);
   } catch (const std::exception& fault) {
