@@ -216,9 +216,9 @@ Result SessionFiles::save_scene(const fs::path& path, bool overwrite) {
   const bool has_text = is_scene(before) && is_there(before);
   changed.path = path;
   const std::string was = same && is_there(path) ? io::read_file(path) : std::string();
-  const std::string text = has_text
-                               ? changed_scene_text(changed, io::read_file(before), before, path)
-                               : new_scene_text(changed, path);
+  const std::string text = has_text ? changed_scene_text(changed, io::read_file(before),
+                                                         files_.known(before), before, path)
+                                    : new_scene_text(changed, path);
   if (text != was) write_with_backup(path, text);
   (text == was ? saved.kept : saved.written).push_back(path);
   files_.remember(path, text);

@@ -50,6 +50,11 @@ bool FileTexts::has_changed(const std::filesystem::path& file) const {
                         : !is_same_plant(now, known->second);
 }
 
+std::string FileTexts::known(const std::filesystem::path& file) const {
+  const auto known = texts_.find(key_of(file));
+  return known == texts_.end() ? io::read_file(file) : known->second;
+}
+
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   return !a.empty() && !b.empty() && key_of(a) == key_of(b);
 }

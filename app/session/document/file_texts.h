@@ -18,6 +18,8 @@ class FileTexts {
   /// Whether a scene or plant file says something else than it did; false where it is not there,
   /// or was never read. Comments and layout do not count.
   bool has_changed(const std::filesystem::path& file) const;
+  /// What it said then; as it is now where it was never read.
+  std::string known(const std::filesystem::path& file) const;
 
  private:
   std::map<std::filesystem::path, std::string> texts_;

@@ -57,11 +57,12 @@ Scene drawn_scene(const Document& document, const Scene& before) {
   return scene;
 }
 
-/// With those that another program added to the text, in their places.
-void keep_unknown_plants(const Document& document, const Scene& before, Scene& now) {
+/// With those that another program added to the text since it was `known`, in their places. The
+/// others that are missing now were deleted or renamed.
+void keep_unknown_plants(const Scene& known, const Scene& before, Scene& now) {
   for (std::size_t i = 0; i < before.plants.size(); ++i) {
     const ScenePlant& plant = before.plants[i];
-    if (has_plant(now, plant.name) || has_plant(*document.scene, plant.name)) continue;
+    if (has_plant(now, plant.name) || has_plant(known, plant.name)) continue;
     now.plants.insert(now.plants.begin() + static_cast<long>(std::min(i, now.plants.size())),
                       plant);
   }
@@ -96,10 +97,11 @@ std::string without_recorded(Scene scene, const std::filesystem::path& folder) {
 }  // namespace
 
 std::string changed_scene_text(const Document& document, const std::string& text,
-                               const std::filesystem::path& of, const std::filesystem::path& to) {
+                               const std::string& known, const std::filesystem::path& of,
+                               const std::filesystem::path& to) {
   const Scene before = parsed(text, of);
   Scene now = with_head_of(drawn_scene(document, before), before);
-  keep_unknown_plants(document, before, now);
+  if (known != text) keep_unknown_plants(parsed(known, of), before, now);
   check_sources(before, now);
   io::YamlText changed(io::merge_yaml(text, without_recorded(before, folder_of(of)),
                                       without_recorded(now, folder_of(to))));

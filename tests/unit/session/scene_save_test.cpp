@@ -192,6 +192,41 @@ TEST_F(SavedScene, PlantsComeAndGo) {
   EXPECT_EQ(other.document().plant("third"), session.document().plant("third"));
 }
 
+// A plant that is in the file since an earlier save is known, and goes when it is deleted, renamed
+// or undone.
+TEST_F(SavedScene, PlantsOfAnEarlierSaveGo) {
+  const auto add = [&] {
+    run("new plant third");
+    run("draw stem third s 0,0,0;0,0,0.2 0.003");
+    must(session.files().save());
+    EXPECT_THAT(text(), HasSubstr("third"));
+  };
+  add();
+  run("delete plant third");
+  must(session.files().save());
+  EXPECT_EQ(text(), scene_text);
+  add();
+  run("rename plant third fourth");
+  must(session.files().save());
+  EXPECT_THAT(text(), HasSubstr("- {name: fourth, "));
+  EXPECT_THAT(text(), ::testing::Not(HasSubstr("name: third")));
+  for (int i = 0; i < 3; ++i) run("undo");
+  must(session.files().save());
+  EXPECT_EQ(text(), scene_text);
+}
+
+// One that another program added stays where its file is written over.
+TEST_F(SavedScene, PlantsOfAnotherProgramStay) {
+  std::ofstream(file) << with(scene_text, "  - name: right ",
+                              "  - {name: other, file: left.plant.yaml}\n  - name: right ");
+  run("delete plant right");
+  EXPECT_FALSE(session.files().save().ok);
+  must(session.files().save({}, {"", true}));
+  EXPECT_THAT(text(), HasSubstr("{name: other, file: left.plant.yaml}"));
+  EXPECT_THAT(text(), ::testing::Not(HasSubstr("right")));
+  must(session.files().save());
+}
+
 TEST_F(SavedScene, AnImportedPlantBecomesAFileOnceItIsEdited) {
   std::ofstream(folder / "small.mtg") << "CODE :\tFORM-A\nFEATURES:\nXX\tREAL\nMTG:\n"
                                          "ENTITY-CODE\tXX\tYY\tZZ\tTopDia\n"
