@@ -47,7 +47,7 @@ class DrawPanel : public Panel {
     if (wide_button(d.on ? "Drawing (Esc leaves)" : "Draw (D)")) d.on = !d.on;
     if (was) ImGui::PopStyleColor();
     heading(ui, "What");
-    thing_buttons(ui, d);
+    thing_buttons(d);
     if (d.thing == DrawThing::stem) stem_options(ui, d);
     if (d.thing == DrawThing::fruit) fruit_options(ui, d);
     if (d.thing == DrawThing::tie) tie_options(ui, d);
@@ -59,17 +59,15 @@ class DrawPanel : public Panel {
   }
 
  private:
-  static void thing_buttons(const Ui& ui, DrawMode& d) {
+  static void thing_buttons(DrawMode& d) {
     // In the order of DrawThing.
     constexpr std::array<const char*, 5> names = {"Stem", "Fruit", "Leaf", "Cut", "Tie"};
-    const float gap = 4.0f * ui.scale;
-    const float width = (rest_width() - 4.0f * gap) / 5.0f;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const bool chosen = d.thing == static_cast<DrawThing>(i);
-      if (i) ImGui::SameLine(0, gap);
+      if (i) stay_in_row(names[i]);
       if (chosen)
         ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_TabActive));
-      if (ImGui::Button(names[i], ImVec2(width, 0))) d.thing = static_cast<DrawThing>(i);
+      if (ImGui::Button(names[i])) d.thing = static_cast<DrawThing>(i);
       if (chosen) ImGui::PopStyleColor();
     }
   }

@@ -111,11 +111,13 @@ void SceneTies::add(const world::SceneTie& tie, const std::string& organ, const 
     if (end.plant == place.plant && end.element == place.element)
       throw UsageError("a tie from " + in_quotes(organ) + " to " + in_quotes(other) +
                        ": both ends are on one segment, expected two places");
-    one.slot =
-        static_cast<std::size_t>(rods_.add_string({{place.plant, place.element, place.back},
-                                                   {end.plant, end.element, end.back},
-                                                   tie.length.value_or((now(end) - from).norm()),
-                                                   tie.stiffness}));
+    cosserat::PlantString string;
+    string.a = {place.plant, place.element, place.back};
+    string.b = {end.plant, end.element, end.back};
+    const Vec3 way = *rods_.place_of(string.b) - *rods_.place_of(string.a);
+    string.length = tie.length.value_or(way.norm());
+    string.stiffness = tie.stiffness;
+    one.slot = static_cast<std::size_t>(rods_.add_string(string));
   } else {
     cosserat::Tie held;
     held.element = place.element;

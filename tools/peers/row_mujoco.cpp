@@ -6,7 +6,8 @@
 // Springs act on the joints as in mujoco.cpp, linearly implicit by damping = dt stiffness.
 //
 // Usage: peer_row_mujoco CAPSULES PLANTS DT SECONDS SOLVER; CAPSULES as `pedicel_row` writes it;
-// SOLVER 0 PGS, 1 CG, 2 Newton. Prints one JSON object.
+// SOLVER 0 PGS, 1 CG, 2 Newton. Prints one JSON object;
+// "full": more touched than there was room for.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -27,6 +28,8 @@ namespace {
 using peers::Vector3d;
 
 constexpr double apart = 0.3;  // m
+// Room for so many contacts a plant: memory grows with the square of all.
+constexpr int most_contacts = 40;
 
 [[noreturn]] void fail(const std::string& why) {
   std::fprintf(stderr, "row_mujoco: %s\n", why.c_str());
@@ -111,7 +114,10 @@ std::string xml_of(const std::vector<Capsule>& plant, int plants) {
     (plant[e].parent < 0 ? roots : children[plant[e].parent]).push_back(static_cast<int>(e));
   std::string xml =
       "<mujoco><compiler balanceinertia=\"true\"/>"
-      "<size njmax=\"20000\" nconmax=\"5000\"/>"
+      "<size njmax=\"" +
+      std::to_string(4 * most_contacts * plants) + "\" nconmax=\"" +
+      std::to_string(most_contacts * plants) +
+      "\"/>"
       "<option integrator=\"Euler\" jacobian=\"sparse\"/><worldbody>";
   for (int p = 0; p < plants; ++p)
     for (const int root : roots) write_body(xml, plant, children, p, root);
@@ -183,11 +189,13 @@ int main(int argc, char** argv) {
     contacts += data->ncon;
     most = std::max(most, data->ncon);
   }
+  const bool full =
+      data->warning[mjWARN_CONTACTFULL].number > 0 || data->warning[mjWARN_CNSTRFULL].number > 0;
   std::printf(
       "{\"bodies\": %d, \"dofs\": %d, \"contacts\": %.1f, \"most_contacts\": %d, \"steps\": %ld, "
-      "\"seconds\": %.4f, \"stable\": %s}\n",
+      "\"seconds\": %.4f, \"stable\": %s, \"full\": %s}\n",
       model->nbody - 1, model->nv, contacts / static_cast<double>(std::max(steps, 1L)), most, steps,
-      passed, finite ? "true" : "false");
+      passed, finite ? "true" : "false", full ? "true" : "false");
   mj_deleteData(data);
   mj_deleteModel(model);
 }

@@ -162,8 +162,10 @@ int RodSystem::add_string(const PlantString& string) {
 }
 
 std::optional<Vec3> RodSystem::place_of(const PlantString::End& end) const {
-  if (!state(end.plant).alive[end.element]) return {};
-  return point_on(model(end.plant), state(end.plant), end.element, end.back);
+  const RodState& held = state(end.plant);
+  if (!held.alive[end.element]) return {};
+  // On the segment's axis, where the solver has it, and not between its nodes, which strain parts.
+  return held.position[end.element] - end.back * (held.orientation[end.element] * Vec3::UnitZ());
 }
 
 double RodSystem::tension(const PlantString& string) const {
