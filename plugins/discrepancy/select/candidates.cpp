@@ -227,7 +227,7 @@ class Refits {
  private:
   // Share of the time that the first parts take, where they are fitted, and what is done when a
   // share of the rest is.
-  static constexpr double first_parts = 0.4;
+  static constexpr double first_parts = 0.4, fine_fits = 0.85;
   double done(double of_rest) const {
     return fitted_first_ ? first_parts + (1.0 - first_parts) * of_rest : of_rest;
   }
@@ -454,6 +454,7 @@ class Refits {
   // near with a few iterations, which tell whether they will be.
   void end_with_fine() {
     std::set<std::string> begun;
+    double from = fine_fits;
     while (!stopped()) {
       std::vector<Candidate*> open;
       for (int i = 0; i < std::min<int>(budget_.leaders, std::ssize(candidates_)); ++i) {
@@ -464,7 +465,9 @@ class Refits {
       }
       // Fine fits change the order, and the order says who needs one: until both agree.
       if (open.empty()) return;
-      share_out(fine_, static_cast<int>(open.size()), options_, done(0.85), 1.0,
+      // How often the order changes is not known: each round takes half of what is left.
+      const double to = 0.5 * (1.0 + from);
+      share_out(fine_, static_cast<int>(open.size()), options_, done(from), done(to),
                 [&](Evaluator& evaluator, int i) {
                   // Asked before the fit: afterwards the order may be another one, and then the
                   // loop comes round again.
@@ -477,6 +480,7 @@ class Refits {
                   open[i]->fit = refit(evaluator, open[i]->fit, options);
                   open[i]->fine = to_the_end || open[i]->fit.converged;
                 });
+      from = to;
       for (const Candidate* candidate : open) begun.insert(candidate->cause);
       rank(open, fine_);
     }
@@ -515,7 +519,10 @@ class Refits {
       // All keys before the threads begin: a map may not grow under them.
       for (const Candidate* candidate : changed) kept_[candidate->cause] = {};
     }
-    share_out(workers, static_cast<int>(changed.size()), options_, 1.0, 1.0,
+    // Says nothing of its progress: it is a small part, and comes again after every change.
+    RefitOptions quietly = options_;
+    quietly.progress = {};
+    share_out(workers, static_cast<int>(changed.size()), quietly, 0.0, 0.0,
               [&](Evaluator& evaluator, int i) {
                 kept_.at(changed[i]->cause) = held_out_model(evaluator, changed[i]->fit, check);
               });
