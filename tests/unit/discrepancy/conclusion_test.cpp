@@ -497,6 +497,21 @@ TEST(Conclusion, SaysWhichSymptomIsGone) {
             "residual falls from 2 to 1.01 times the noise in the fitted trials.");
 }
 
+// Not the first that shows: of two that speak for the cause the one with more deviations.
+TEST(Conclusion, SaysTheClearestSymptom) {
+  Case c;
+  Symptom bend, turn, clearer;
+  bend.value = turn.value = clearer.value = 1.0;
+  bend.standard_error = 0.1, turn.standard_error = 0.01, clearer.standard_error = 0.001;
+  bend.speaks_for = turn.speaks_for = {"base_compliance"};
+  bend.sentence = "It is bent.";
+  turn.sentence = "It is turned.";
+  clearer.sentence = "It is late.";
+  clearer.speaks_for = {"latency"};
+  c.findings.symptoms = {bend, turn, clearer};
+  EXPECT_THAT(c.concluded().causes[0].because, ::testing::StartsWith("It is turned. With a root"));
+}
+
 TEST(Conclusion, NamesOutliersBesideWhatIsKnown) {
   for (const Outcome outcome : {Outcome::adequate, Outcome::named, Outcome::unknown}) {
     Case c;
