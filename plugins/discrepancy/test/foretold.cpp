@@ -24,6 +24,32 @@ bool is_left(const SymptomContext& context, const StaticStretch& stretch) {
                              [&](const Hold& hold) { return hold.release <= from + 1e-9; });
 }
 
+constexpr double last_part = 0.2;      // of a record
+constexpr double hardly_moves = 0.05;  // of the way, RMS
+
+// The end of a trial whose swing has nearly died out: precise data ask a resting plant for more
+// stillness than it has.
+std::optional<StaticStretch> last_swings(const SymptomContext& context, int t) {
+  if (!context.usable(t)) return {};
+  const std::vector<double>& time = context.trial(t).markers.time;
+  const double begins = time.back() - last_part * (time.back() - time.front());
+  const auto from = static_cast<int>(std::ranges::lower_bound(time, begins) - time.begin());
+  const auto to = static_cast<int>(time.size());
+  if (to - from < 16) return {};
+  const Eigen::MatrixXd end = context.predictions[t].markers.middleRows(from, to - from);
+  const Eigen::RowVectorXd mean = end.colwise().mean();
+  double way = 0.0;
+  for (int m = 0; m < context.markers(); ++m) {
+    const plant::CurvePlace& place = context.experiment.markers[m].place;
+    for (const plant::PlantCurve& curve : context.experiment.plant.curves)
+      if (curve.name == place.curve)
+        way += (mean.segment<3>(3 * m).transpose() - drawn_point(curve, place.at)).squaredNorm();
+  }
+  const double motion = (end.rowwise() - mean).squaredNorm() / (to - from);
+  if (std::sqrt(motion) > hardly_moves * std::sqrt(way)) return {};
+  return stretch_of(context, t, from, to);
+}
+
 // The residual at rest along the way from the drawn shape to where the model rests, over that way:
 // a plant that is softer throughout goes as much farther at all its markers.
 std::optional<Foretold> at_rest(const SymptomContext& context, const StaticStretch& stretch) {
@@ -105,8 +131,11 @@ std::vector<Foretold> foretold(const Experiment& experiment, const DataSet& data
     const auto last = std::ranges::find_if(
         stretches.rbegin(), stretches.rend(),
         [&](const StaticStretch& s) { return s.trial == t && is_left(context, s); });
-    if (last != stretches.rend())
-      if (const auto rest = at_rest(context, *last)) found.push_back(*rest);
+    std::optional<StaticStretch> stretch;
+    if (last != stretches.rend()) stretch = *last;
+    if (!stretch) stretch = last_swings(context, t);
+    if (stretch && is_left(context, *stretch))
+      if (const auto rest = at_rest(context, *stretch)) found.push_back(*rest);
     for (const Symptom& symptom : swings)
       if (symptom.name == "frequency" && symptom.subject == experiment.trials[t].name)
         found.push_back(
