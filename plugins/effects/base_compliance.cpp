@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
@@ -35,8 +37,15 @@ EffectDefinition define_base_compliance() {
     return starts;
   };
   // By rank: a turn about the root is its own sign, and all others it shares with the modulus.
-  d.speaks_for = {
-      {"frequency", 4}, {"force_scale", 3}, {"base_rotation", 1}, {"dynamic_over_static", 3}};
+  d.speaks_for = {{"frequency", 4},
+                  {"force_scale", 3},
+                  // In degrees. The moment there is about that of the sharpest bend of the trials.
+                  {"base_rotation", 1, "stiffness",
+                   [](double degrees, const StartContext& c) {
+                     return c.scales.root_stiffness * c.scales.length * c.scales.curvature /
+                            (degrees * std::numbers::pi / 180.0);
+                   }},
+                  {"dynamic_over_static", 3}};
   d.tells_apart = "put a marker on the collar at the root";
   return d;
 }

@@ -27,8 +27,10 @@ EffectDefinition define_creep() {
                            .positive("time", 2.0 * longest, longest, 50.0 * longest));
     return starts;
   };
-  d.speaks_for = {
-      {"force_drift", 2}, {"clock_trend", 2}, {"dynamic_over_static", 2}, {"drive_history", 2}};
+  d.speaks_for = {{"force_drift", 2},
+                  {"clock_trend", 2},
+                  {"dynamic_over_static", 2, "fraction", decayed_by_stiffness},
+                  {"drive_history", 2, "fraction", decayed_by_history}};
   d.tells_apart = "hold a load for ten minutes, and watch the recovery for as long";
   // A fit that ends at the lower bound says relaxation, and is not told as a second cause.
   d.limits = {{"time", false, "relaxation"}};

@@ -38,6 +38,17 @@ inline cosserat::RelaxationStart relaxation_start(const plant::Effect& effect) {
                                      : cosserat::RelaxationStart::settled;
 }
 
+/// The fraction by which the plant is stiffer swinging than at rest (%): at rest it has decayed.
+inline double decayed_by_stiffness(double percent, const StartContext&) {
+  return 1.0 - 1.0 / (1.0 + 0.01 * percent);
+}
+
+/// The fraction by the part of the force that goes by where the drive was (%): what has decayed is
+/// missing there.
+inline double decayed_by_history(double percent, const StartContext&) {
+  return -0.01 * percent;
+}
+
 inline void add_decaying_moment(ModelTarget& t) {
   const cosserat::RelaxationStart start = relaxation_start(t.effect);
   t.each_law([&](int, cosserat::JointLaw& law) {

@@ -46,7 +46,9 @@ EffectDefinition define_force_gain() {
                 // up the other. Evidence gives the offset its price back where it is not needed.
                 .vector("offset", Vec3::Zero(), 0.01, 100.0)};
   };
-  d.speaks_for = {{"force_scale", 1}};
+  // In per cent of the model's force.
+  d.speaks_for = {{"force_scale", 1, "gain",
+                   [](double percent, const StartContext&) { return 1.0 + 0.01 * percent; }}};
   d.tells_apart = "hang a known mass on the force sensor";
   return d;
 }

@@ -26,7 +26,9 @@ EffectDefinition define_marker_scale() {
     // a per cent.
     return {Start("marker_scale").positive("factor", 1.001, 0.3, 3.0)};
   };
-  d.speaks_for = {{"length_scale", 1}};
+  // In per cent of the model's lengths.
+  d.speaks_for = {{"length_scale", 1, "factor",
+                   [](double percent, const StartContext&) { return 1.0 + 0.01 * percent; }}};
   // The plant itself cannot: a smaller plant with another modulus swings alike.
   d.tells_apart = "measure the distance of two markers with a ruler";
   return d;

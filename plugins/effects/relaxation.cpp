@@ -36,9 +36,9 @@ EffectDefinition define_relaxation() {
   };
   d.speaks_for = {{"loop_area", 2},
                   {"force_drift", 1},
-                  {"dynamic_over_static", 1},
+                  {"dynamic_over_static", 1, "fraction", decayed_by_stiffness},
                   {"loop_area_by_rate", 2},
-                  {"drive_history", 1}};
+                  {"drive_history", 1, "fraction", decayed_by_history}};
   d.tells_apart = "hold a push for minutes, and watch the recovery for as long";
   // With a time as long as the trials it is creep, and is not told beside it.
   d.limits = {{"time", true, "creep"}};

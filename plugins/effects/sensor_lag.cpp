@@ -46,7 +46,11 @@ EffectDefinition define_sensor_lag() {
     add("markers");
     return starts;
   };
-  d.speaks_for = {{"time_shift", 2}, {"force_lag", 1}, {"delay_by_frequency", 1}};
+  // Of what changes slowly beside its time a lag makes a delay of that time.
+  constexpr auto seconds = [](double ms, const StartContext&) { return 1.0e-3 * ms; };
+  d.speaks_for = {{"time_shift", 2, "time", seconds, "markers"},
+                  {"force_lag", 1, "time", seconds, "force"},
+                  {"delay_by_frequency", 1}};
   // A delay keeps the size of what it shows. A filter of first order makes it smaller by 1 / sqrt(1
   // + (w time)^2).
   d.tells_apart =

@@ -32,7 +32,10 @@ EffectDefinition define_stiffness_drift() {
                                           5.0 / longest));
     return starts;
   };
-  d.speaks_for = {{"clock_trend", 1}};
+  // In per cent, from the first trial to the last.
+  d.speaks_for = {{"clock_trend", 1, "rate", [](double percent, const StartContext& c) {
+                     return 0.01 * percent / std::max(c.clock_span, c.scales.duration);
+                   }}};
   // Nothing but the clock is then another one.
   d.tells_apart = "repeat the first trial at the end";
   return d;

@@ -9,10 +9,7 @@
 
 namespace pedicel::discrepancy {
 
-namespace {
-
-// What starts of effects depend on.
-effects::StartContext context_of(const Experiment& experiment, const Scales& scales) {
+effects::StartContext start_context(const Experiment& experiment, const Scales& scales) {
   effects::StartContext context{experiment.plant, scales, 0.0, {}, {}, false};
   double first = 1e300, last = -1e300;
   for (const Trial& trial : experiment.trials) {
@@ -30,8 +27,6 @@ effects::StartContext context_of(const Experiment& experiment, const Scales& sca
   for (const Marker& marker : experiment.markers) context.markers.push_back(marker.name);
   return context;
 }
-
-}  // namespace
 
 Hypothesis baseline() {
   Hypothesis all;
@@ -89,7 +84,7 @@ bool is_discretisation(const FitSummary& model, int count, const Evidence& evide
 }
 
 std::vector<Cause> fitted_causes(const Experiment& experiment, const Scales& scales) {
-  const effects::StartContext context = context_of(experiment, scales);
+  const effects::StartContext context = start_context(experiment, scales);
   std::vector<Cause> causes;
   for (const effects::EffectDefinition& one : effects::effect_definitions()) {
     if (!one.starts || one.home == effects::Home::material) continue;

@@ -15,7 +15,15 @@ namespace pedicel::discrepancy {
 struct Cause {
   std::string name;
   std::vector<Hypothesis> starts;
+  /// Further starts, with sizes from symptoms of the data; empty where none gives one.
+  std::vector<Hypothesis> led = {};
+  /// How clearly symptoms speak for it: the largest of their deviations over their ranks. 0: none
+  /// does.
+  double spoken_for = 0.0;
 };
+
+/// What an experiment is, as far as first values of effects depend on it.
+effects::StartContext start_context(const Experiment& experiment, const Scales& scales);
 
 /// The parameters that a refit may always change: factors on modulus, density and damping.
 Hypothesis baseline();

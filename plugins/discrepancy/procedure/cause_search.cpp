@@ -4,6 +4,7 @@
 
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/select/evidence.h"
+#include "pedicel/discrepancy/select/symptom_starts.h"
 #include "pedicel/discrepancy/test/score_test.h"
 #include "pedicel/effects/registry/effect_definition.h"
 
@@ -55,7 +56,20 @@ RefitOptions CauseSearch::refit_options(double from, double to, const std::strin
   return refit;
 }
 
+// The symptoms of a model, in the trials that are fitted, lead the causes on top of it.
+void CauseSearch::lead_by_symptoms(const FitSummary& model, std::vector<Cause>& causes) {
+  std::vector<Prediction> predicted =
+      state_.setup->predictions(std::span(&model.hypothesis, 1)).front();
+  // Those held out are to judge what is found, so nothing starts from them.
+  for (const int t : state_.result.check_trials) predicted[t].healthy = false;
+  const Experiment& experiment = state_.experiment();
+  const std::string led = lead(causes, symptoms(experiment, state_.setup->data(), predicted),
+                               start_context(experiment, scales_of(experiment)));
+  if (!led.empty()) state_.log.note("Symptoms say where to start: " + led + ".");
+}
+
 void CauseSearch::search() {
+  lead_by_symptoms(state_.result.base, state_.causes);
   // At the mesh, the step and with the corrections that the baseline ended with.
   state_.simulators->renew_fine();
   state_.result.ranking =
@@ -114,10 +128,12 @@ void CauseSearch::extend() {
       state_.result.after.raised = false;
       return;
     }
+    state_.simulators->renew_fine();
     const double from = 0.62 + 0.1 * static_cast<double>(state_.findings.chain.size());
     // The most significant directions alone: each candidate takes a fit.
-    const std::vector<Cause> likely =
+    std::vector<Cause> likely =
         screened(state_.causes, directions, state_.settings().budget.screened);
+    lead_by_symptoms(state_.result.best, likely);
     const std::vector<Candidate> next =
         refit_all(state_.simulators->workers(), state_.result.best, likely, directions,
                   refit_options(from, from + 0.1, "looking for another cause"));
@@ -151,6 +167,8 @@ std::vector<Direction> CauseSearch::look_again() {
     state_.result.best = state_.findings.chain.back().fit =
         refit(evaluator, state_.result.best, state_.fit_options());
   }
+  // What the search kept in memory is not needed for a look.
+  state_.simulators->drop_fine();
   check_.anchor_at(state_.result.best);
   std::vector<Direction> directions = check_.directions_at(state_.result.best);
   state_.result.after = check_.judged(directions, state_.result.best);

@@ -24,6 +24,7 @@ class CauseSearch {
  private:
   bool one_force_does_more();
   std::vector<Direction> look_again();
+  void lead_by_symptoms(const FitSummary& model, std::vector<Cause>& causes);
   RefitOptions refit_options(double from, double to, const std::string& what);
   bool leaves_much(const FitSummary& model) const;
   bool is_worth_more(const Candidate& next) const;

@@ -353,6 +353,17 @@ double scatter(const Findings& findings, const std::vector<int>& trials) {
 
 }  // namespace
 
+bool knows_parameters(const Findings& findings, const FitSummary& model) {
+  constexpr double certain = 3.0;  // deviations
+  return std::ranges::all_of(Shift::names, [&](const char* name) {
+    const int p = model.hypothesis.factor_on(name);
+    if (p < 0) return true;
+    const double u = std::log(model.hypothesis.value(p));
+    return std::abs(u) + certain * findings.spread(model) * model.standard_error[p] <
+           std::log1p(known_to(findings, name));
+  });
+}
+
 std::vector<NamedCause> parameters_off(const Findings& findings, const NeededParameters& needed,
                                        const FitSummary& best) {
   std::vector<NamedCause> causes;

@@ -14,6 +14,10 @@ void measure_errors(const Findings& findings, Diagnosis& diagnosis);
 /// Outcome, causes, competing models and remainder.
 void conclude(const Findings& findings, Diagnosis& diagnosis);
 
+/// Whether modulus, density and damping of a model are all within what is known of them, three
+/// deviations included: then none of them can be a cause.
+bool knows_parameters(const Findings& findings, const FitSummary& model);
+
 /// Of the parameters that are needed beside the causes of `best`, those that leave what is known of
 /// them (`known_to`), with the numbers of the model that has the others at their nominal values.
 std::vector<NamedCause> parameters_off(const Findings& findings, const NeededParameters& needed,

@@ -103,6 +103,8 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& asked) 
   // who ask.
   DiagnosisOptions options = asked;
   options.stop = deadline.flag();
+  // Over both procedures, where all begins anew.
+  options.progress = rising(asked.progress);
   Procedure first(experiment, options, deadline);
   Diagnosis found = first.run();
   if (!first.exchanged()) return found;

@@ -2,10 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 #include "pedicel/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
+
+std::function<void(const std::string&, double)> rising(
+    std::function<void(const std::string&, double)> to) {
+  if (!to) return {};
+  struct Highest {
+    std::mutex mutex;
+    double share = 0.0;
+  };
+  // Shared, because a function is copied.
+  return [to = std::move(to), highest = std::make_shared<Highest>()](const std::string& what,
+                                                                     double share) {
+    // Held while `to` runs: else a thread with a higher share could overtake it there.
+    const std::lock_guard lock(highest->mutex);
+    highest->share = std::max(highest->share, std::min(share, 1.0));
+    to(what, highest->share);
+  };
+}
 
 // Shares are those of the time that one named cause takes; a second cause takes about as long
 // again.

@@ -8,6 +8,12 @@
 
 namespace pedicel::discrepancy {
 
+/// Passes on what is done, with shares that never fall: threads report out of turn, and what begins
+/// anew goes through stages that it has had. May be called from any thread, one call at a time
+/// reaches `to`. Empty where `to` is.
+std::function<void(const std::string&, double)> rising(
+    std::function<void(const std::string&, double)> to);
+
 /// What a diagnosis says while it runs: its progress, and each finding as a sentence, which is kept
 /// for the report.
 class DiagnosisLog {

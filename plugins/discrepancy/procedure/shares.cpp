@@ -219,8 +219,13 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
     // The noise was read anew since the best model was fitted.
     // Else its cost would be in the old noise units, and a parameter would seem needed that is not.
     const FitSummary best = refit(evaluator, diagnosis.best, options);
-    needed = needed_parameters(evaluator, best, {}, options);
-    parameters = parameters_off(findings, needed, best);
+    // Where all are what the file says, none is asked for by refits without it.
+    if (knows_parameters(findings, best)) {
+      needed = {{}, best, {}};
+    } else {
+      needed = needed_parameters(evaluator, best, {}, options);
+      parameters = parameters_off(findings, needed, best);
+    }
     // Beside causes of which one is right they wait: settle_ambiguity() says on which side they
     // stand.
     if (!is_ambiguous) std::ranges::move(parameters, std::back_inserter(verdict.causes));

@@ -6,6 +6,7 @@
 #include "pedicel/discrepancy/report/plant_sketch.h"
 #include "pedicel/discrepancy/report/report_words.h"
 #include "pedicel/discrepancy/report/verdict_tables.h"
+#include "pedicel/discrepancy/test/foretold.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
@@ -91,6 +92,26 @@ void add_symptom(io::HtmlReport& page, const ReportData& report,
   page.plots(plots);
 }
 
+// Where the plant rests and how fast it swings, by the best model: what an engineer would ask of it
+// first. Judged on the trials that were held out.
+void add_foretold(io::HtmlReport& page, const ReportData& report) {
+  const Diagnosis& d = report.diagnosis;
+  const std::vector<Foretold> all = foretold(report.experiment, report.data,
+                                             d.predictions[report.extended ? extended : refitted]);
+  const std::string words = foretold_text(report.experiment, all, d.check_trials);
+  if (words.empty()) return;
+  page.subheading("What it foretells");
+  page.paragraph(words);
+  std::vector<std::vector<std::string>> rows;
+  for (const Foretold& one : all) {
+    const bool held_out = std::ranges::find(d.check_trials, one.trial) != d.check_trials.end();
+    rows.push_back({report.experiment.trials[one.trial].name, held_out ? "held out" : "fitted",
+                    one.what == Foretold::What::rest ? "way to where it rests" : "frequency",
+                    with_error(100.0 * one.off, 100.0 * one.error, "%")});
+  }
+  page.table({"trial", "", "what", "measured less foretold"}, rows);
+}
+
 void add_rivals(io::HtmlReport& page, const Diagnosis& d) {
   if (d.ranking.size() < 2) return;
   page.subheading("What else it could have been");
@@ -173,6 +194,7 @@ void add_card(io::HtmlReport& page, const ReportData& report,
     page.subheading(v.outcome == Outcome::unknown ? "What is left" : "What it gains");
     page.paragraph(gain);
   }
+  if (report.predicted && concluded(v)) add_foretold(page, report);
   add_rivals(page, d);
   if (concluded(v)) add_hiding(page, v);
   add_next(page, d);

@@ -101,9 +101,13 @@ Hypothesis joined(const Hypothesis& base, const Hypothesis& start, bool from_nom
 std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base,
                                     const Cause& cause, FitOptions options, std::size_t keep) {
   std::vector<Hypothesis> starts;
-  for (const Hypothesis& start : cause.starts)
-    for (const double share : {1.0, 0.2})
-      starts.push_back(joined(base.hypothesis, start.shrunk(share), false));
+  for (const Hypothesis& start : cause.starts) {
+    starts.push_back(joined(base.hypothesis, start, false));
+    // Where a symptom says how large it is, no small size is guessed at.
+    if (cause.led.empty()) starts.push_back(joined(base.hypothesis, start.shrunk(0.2), false));
+  }
+  for (const Hypothesis& start : cause.led) starts.push_back(joined(base.hypothesis, start, false));
+  const std::size_t about_refitted = starts.size();
   for (const Hypothesis& start : cause.starts)
     starts.push_back(joined(base.hypothesis, start, true));
   options.horizon = options.settings->budget.candidate_horizon;
@@ -115,7 +119,7 @@ std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base
   // The best about the refitted baseline, and the best about the nominal one: these are two
   // valleys, and a baseline that took over most of the cause makes its own look nearer than it
   // leads.
-  const auto about_nominal = [&](std::size_t i) { return i >= 2 * cause.starts.size(); };
+  const auto about_nominal = [&](std::size_t i) { return i >= about_refitted; };
   if (keep > 1)
     std::stable_partition(order.begin() + 1, order.end(), [&](std::size_t i) {
       return about_nominal(i) != about_nominal(order.front());
@@ -221,8 +225,8 @@ std::optional<Hypothesis> best_plain_start(Evaluator& evaluator, const FitSummar
                                            const Cause& cause, const FitOptions& options) {
   const Budget& budget = options.settings->budget;
   std::vector<Hypothesis> starts;
-  for (const Hypothesis& start : cause.starts)
-    starts.push_back(joined(base.hypothesis, start, false));
+  for (const auto* own : {&cause.starts, &cause.led})
+    for (const Hypothesis& start : *own) starts.push_back(joined(base.hypothesis, start, false));
   Scan found = scan(evaluator, starts, options);
   // One threshold does nothing, and the next one too much.
   for (int round = 0; round < budget.ladder_rounds && is_ladder(cause, budget); ++round) {

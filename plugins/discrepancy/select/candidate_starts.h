@@ -24,8 +24,8 @@ bool has_place(const Hypothesis& hypothesis);
 Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wanted,
                              const DiagnosisSettings& settings);
 
-/// The best `keep` of a cause's own starts (sizes, places, from the refitted and from the nominal
-/// parameters), by a look at the first part of the records.
+/// The best `keep` of a cause's own starts and of those that symptoms give (sizes, places, from the
+/// refitted and from the nominal parameters), by a look at the first part of the records.
 std::vector<Hypothesis> best_starts(Evaluator& evaluator, const FitSummary& base,
                                     const Cause& cause, FitOptions options, std::size_t keep);
 

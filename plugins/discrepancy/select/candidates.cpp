@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -17,8 +16,10 @@
 #include "pedicel/discrepancy/select/continuation.h"
 #include "pedicel/discrepancy/select/evidence.h"
 #include "pedicel/discrepancy/select/place_search.h"
+#include "pedicel/discrepancy/select/symptom_starts.h"
 #include "pedicel/discrepancy/test/score_test.h"
 #include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 
@@ -40,9 +41,10 @@ void keep_better(FitSummary& best, FitSummary&& found) {
 }
 
 FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
-                          FitOptions options, std::size_t count) {
+                          FitOptions options, std::size_t count, double out_of_reach) {
   const Budget& budget = options.settings->budget;
   FitSummary best;
+  options.out_of_reach = out_of_reach;
   const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
   // Over the first part only: in a long record a start that is out of phase falls into the next
   // swing.
@@ -51,8 +53,12 @@ FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Ca
   // Steps that gain less than a nat are given up: this is a ranking, and ranks are hundreds of nats
   // apart where the base is far from the data.
   options.least_step = budget.rough_step;
-  for (const Hypothesis& start : starts)
-    keep_better(best, fit(evaluator, start, options, base.jacobian));
+  Eigen::MatrixXd known = base.jacobian;
+  for (const Hypothesis& start : starts) {
+    FitSummary found = fit(evaluator, start, options, known);
+    known = found.jacobian;
+    keep_better(best, std::move(found));
+  }
   return best;
 }
 
@@ -91,36 +97,57 @@ std::vector<Hypothesis> by_cost(const std::vector<Hypothesis>& starts, const Sca
   return sorted;
 }
 
+// Whether two starts have come into one valley: places within a hundredth of their curve, sizes
+// within a tenth. The better one of them is fitted on.
+bool have_met(const Hypothesis& a, Hypothesis b) {
+  constexpr double near = 0.1;  // of an unknown
+  const Eigen::VectorXd here = a.unknowns();
+  if (a.size() != b.size()) return false;
+  if ((here - b.unknowns()).cwiseAbs().maxCoeff() >= near) return false;
+  // In words, curves and numbers that are not free they must be alike.
+  b.set_unknowns(here);
+  return std::ranges::equal(a.effects, b.effects, {}, plant::effect_text, plant::effect_text);
+}
+
 // The best fit from any of these starts, the closest first: a few iterations from each, the rest
 // for those that lead. Where all starts do worse than the base they are out of phase: the closest
 // one is also fitted over growing parts of the records.
+// `known` are derivatives near by, or those by the base's numbers: a fit begins with steps of the
+// right size, in place of finding out.
 FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
                     const std::vector<Hypothesis>& starts, const FitOptions& options,
-                    const Look& look, const Limits& limits) {
+                    const Look& look, const Limits& limits, Eigen::MatrixXd known) {
   FitOptions few = options, rest = options;
   few.iterations = std::min(look.iterations, options.iterations);
   rest.iterations = options.iterations - few.iterations;
   const Budget& budget = options.settings->budget;
   const double most = limits.at(budget.lost_early);
+  // Nor does a start go on that is as far behind the best start of its own cause.
+  Limits own = limits;
+  own.base = base.cost;
   std::vector<FitSummary> found;
   std::vector<double> closeness;
   // One simulation each before any derivative is taken. A fit from a start takes as many as it has
   // numbers, in each iteration.
   const Scan scanned = scan(evaluator, starts, options);
   for (const Hypothesis& start : by_cost(starts, scanned)) {
-    found.push_back(fit(evaluator, start, few, base.jacobian));
+    found.push_back(fit(evaluator, start, few, known));
+    known = found.back().jacobian;
     closeness.push_back(-objective(found.back()));
+    own.least = std::min(own.least, found.back().cost);
+    // What the cause's own best start reached, the others must be able to come near.
+    few.out_of_reach = std::min(few.out_of_reach, own.at(budget.lost_early));
     // The closest start is this far off, so those behind it are lost as well.
     if (found.front().cost > limits.at(budget.lost_at_once)) break;
   }
-  // Nor does a start go on that is as far behind the best start of its own cause.
-  Limits own = limits;
-  own.base = base.cost;
-  // Against the best of all causes first, and then against the cause's own best start.
-  for (const FitSummary& one : found) own.least = std::min(own.least, one.cost);
   FitSummary best;
+  std::vector<Hypothesis> ahead;
   for (const int i : first_by(closeness, look.leading)) {
-    const bool goes_on = rest.iterations > 0 && found[i].cost <= own.at(budget.lost_early);
+    const bool met = std::ranges::any_of(
+        ahead, [&](const Hypothesis& other) { return have_met(found[i].hypothesis, other); });
+    // Against the best of all causes first, and then against the cause's own best start.
+    const bool goes_on = rest.iterations > 0 && !met && found[i].cost <= own.at(budget.lost_early);
+    ahead.push_back(found[i].hypothesis);
     keep_better(best, goes_on ? refit(evaluator, found[i], rest) : std::move(found[i]));
   }
   const std::array growing_horizons{0.5 * budget.candidate_horizon, budget.candidate_horizon, 1.0};
@@ -227,7 +254,7 @@ class Refits {
  private:
   // Share of the time that the first parts take, where they are fitted, and what is done when a
   // share of the rest is.
-  static constexpr double first_parts = 0.4;
+  static constexpr double first_parts = 0.4, fine_fits = 0.85;
   double done(double of_rest) const {
     return fitted_first_ ? first_parts + (1.0 - first_parts) * of_rest : of_rest;
   }
@@ -244,12 +271,26 @@ class Refits {
     // A second start for those that the linear model believes in.
     // Starts are dear here: all causes are tried, most of them in vain.
     for (const int i : first_by(score_, budget_.whole_candidates)) starts[i] = 2;
-    std::vector<int> all(causes_.size());
-    std::iota(all.begin(), all.end(), 0);
-    longest_first(all);
-    share_causes("first_parts", all, 0.0, first_parts, [&](Evaluator& evaluator, int i) {
-      candidates_[i].fit = fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
-    });
+    // Those that symptoms speak for set the mark for the others.
+    const std::vector<int> all = symptoms_first(causes_, score_);
+    const auto others = all.begin() + std::min<std::ptrdiff_t>(budget_.first_led, std::ssize(all));
+    std::vector<int> led(all.begin(), others), rest(others, all.end());
+    Limits limits{&budget_, early_cost, early_cost};
+    const auto fit_parts = [&](std::vector<int>& chosen, double from, double to) {
+      longest_first(chosen);
+      // What cannot gain as much as a cause needs to be fitted whole is given up. No symptom
+      // decides that: a cause that none speaks for is given up by what it could gain alone.
+      const double most = limits.at(1.0 - budget_.far_behind);
+      share_causes("first_parts", chosen, from, to, [&](Evaluator& evaluator, int i) {
+        candidates_[i].fit =
+            fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i], most);
+      });
+    };
+    fit_parts(led, 0.0, 0.4 * first_parts);
+    for (const int i : led)
+      if (candidates_[i].fit.why != "not run")
+        limits.least = std::min(limits.least, candidates_[i].fit.cost);
+    fit_parts(rest, 0.4 * first_parts, first_parts);
     std::vector<double> gain;
     for (Candidate& candidate : candidates_) {
       // Stopped before it was its turn: no gain.
@@ -323,7 +364,9 @@ class Refits {
   void fit_whole(Evaluator& evaluator, int i, const Limits& limits) {
     const bool placed = has_place(causes_[i].starts.front());
     // A place has to be moved along a narrow valley, each step of which is short.
-    const FitOptions few = rough((placed ? 2 : 1) * budget_.whole_iterations);
+    FitOptions few = rough((placed ? 2 : 1) * budget_.whole_iterations);
+    // How near it has to come in the end, asked of what its numbers can explain from where it is.
+    few.out_of_reach = limits.at(budget_.lost_early);
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
     // What the first part found is a start like any other.
@@ -338,10 +381,12 @@ class Refits {
     if (starts.empty())
       starts.push_back(joined(base_.hypothesis, causes_[i].starts.front().shrunk(0.1), false));
     const std::vector<Direction> back = continuations(candidate.cause);
+    const Eigen::MatrixXd known =
+        candidate.fit.jacobian.size() > 0 ? std::move(candidate.fit.jacobian) : base_.jacobian;
     candidate.fit = best_fit(evaluator, base_, starts, few,
                              placed ? Look{budget_.place_iterations, all_starts}
                                     : Look{budget_.size_iterations, budget_.size_starts},
-                             limits);
+                             limits, known);
     // Sliding and twins refine a fit. They are dear, and do not save one that is lost.
     if (candidate.fit.cost > limits.at(budget_.lost_early) && back.empty()) return;
     candidate.fit = slide_along(evaluator, std::move(candidate.fit), few);
@@ -374,7 +419,7 @@ class Refits {
       starts.resize(std::min(static_cast<std::size_t>(budget_.special_starts), starts.size()));
       keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * budget_.whole_iterations),
                                     Look{budget_.extended_iterations, budget_.extended_starts},
-                                    Limits{&budget_}));
+                                    Limits{&budget_}, base_.jacobian));
     }
   }
 
@@ -454,6 +499,7 @@ class Refits {
   // near with a few iterations, which tell whether they will be.
   void end_with_fine() {
     std::set<std::string> begun;
+    double from = fine_fits;
     while (!stopped()) {
       std::vector<Candidate*> open;
       for (int i = 0; i < std::min<int>(budget_.leaders, std::ssize(candidates_)); ++i) {
@@ -464,7 +510,9 @@ class Refits {
       }
       // Fine fits change the order, and the order says who needs one: until both agree.
       if (open.empty()) return;
-      share_out(fine_, static_cast<int>(open.size()), options_, done(0.85), 1.0,
+      // How often the order changes is not known: each round takes half of what is left.
+      const double to = 0.5 * (1.0 + from);
+      share_out(fine_, static_cast<int>(open.size()), options_, done(from), done(to),
                 [&](Evaluator& evaluator, int i) {
                   // Asked before the fit: afterwards the order may be another one, and then the
                   // loop comes round again.
@@ -477,6 +525,7 @@ class Refits {
                   open[i]->fit = refit(evaluator, open[i]->fit, options);
                   open[i]->fine = to_the_end || open[i]->fit.converged;
                 });
+      from = to;
       for (const Candidate* candidate : open) begun.insert(candidate->cause);
       rank(open, fine_);
     }
@@ -515,7 +564,10 @@ class Refits {
       // All keys before the threads begin: a map may not grow under them.
       for (const Candidate* candidate : changed) kept_[candidate->cause] = {};
     }
-    share_out(workers, static_cast<int>(changed.size()), options_, 1.0, 1.0,
+    // Says nothing of its progress: it is a small part, and comes again after every change.
+    RefitOptions quietly = options_;
+    quietly.progress = {};
+    share_out(workers, static_cast<int>(changed.size()), quietly, 0.0, 0.0,
               [&](Evaluator& evaluator, int i) {
                 kept_.at(changed[i]->cause) = held_out_model(evaluator, changed[i]->fit, check);
               });

@@ -79,10 +79,13 @@ std::string Findings::because(const std::string& cause, const Errors& errors) co
     return symptom.shows() &&
            std::ranges::find(symptom.speaks_for, cause) != symptom.speaks_for.end();
   };
-  // The first one that shows. Symptoms stand in the order of their finders, those at rest first,
-  // which are the easiest to check by eye.
-  const auto found = std::ranges::find_if(symptoms, is_about);
-  std::string sentence = found == symptoms.end() ? "" : found->sentence + " ";
+  // The clearest one, of whichever kind. Of two that are equally clear the first: symptoms stand in
+  // the order of their finders, those at rest first, which are the easiest to check by eye.
+  const Symptom* clearest = nullptr;
+  for (const Symptom& symptom : symptoms)
+    if (is_about(symptom) && (!clearest || symptom.significance() > clearest->significance()))
+      clearest = &symptom;
+  const std::string sentence = clearest ? clearest->sentence + " " : "";
   return sentence + "With " + effects::plain_name(cause) +
          text(" the residual falls from %.3g to %.3g times the noise",
               errors.refitted.value_or(0.0), errors.extended.value_or(0.0)) +

@@ -21,6 +21,7 @@ class SearchSimulators {
   /// The fine ones anew, at the mesh, the step and with the corrections of the setup.
   void renew_fine();
   void drop();
+  void drop_fine();
 
   /// Those of both kinds, which must have been made.
   Workers workers() { return {coarse_workers_, fine_workers_}; }
@@ -34,7 +35,6 @@ class SearchSimulators {
 
  private:
   void drop_coarse();
-  void drop_fine();
 
   FitSetup& setup_;
   std::unique_ptr<CoarseModel> coarse_;

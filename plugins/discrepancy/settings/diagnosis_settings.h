@@ -100,6 +100,7 @@ struct Budget {
   double law_place_share = 0.5;      ///< of the law's evidence
   int iterations = 60;
   int first_iterations = 6;
+  int first_led = 6;
   int whole_iterations = 10;
   int size_iterations = 2;
   int place_iterations = 6;

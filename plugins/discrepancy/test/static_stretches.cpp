@@ -14,6 +14,8 @@ constexpr double patience = 0.1;  // s, in which a resting plant moves by less t
 constexpr double least_length = 0.2;  // s
 constexpr int least_samples = 8;
 
+}  // namespace
+
 // Means of every marker's residual over a stretch. What is left of a swing that the model has too
 // little of widens the error: its mean over some periods is of the order of its scatter by root n.
 // A mean by generalised least squares: with noise that has a memory, samples at the ends of a
@@ -44,8 +46,6 @@ StaticStretch stretch_of(const SymptomContext& context, int t, int from, int to)
   }
   return stretch;
 }
-
-}  // namespace
 
 std::vector<StaticStretch> static_stretches(const SymptomContext& context) {
   std::vector<StaticStretch> stretches;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "pedicel/core/random.h"
 #include "pedicel/effects/registry/effect_definition.h"
@@ -24,14 +25,20 @@ Hypothesis with(const Hypothesis& base, const Hypothesis& start) {
 // What the starts of `which` directions change of the base's prediction.
 void measure_changes(Evaluator& evaluator, const FitSummary& base, const FitOptions& options,
                      const std::vector<std::size_t>& which, std::vector<Direction>& directions) {
-  std::vector<Hypothesis> models{base.hypothesis};
-  for (const std::size_t d : which) models.push_back(with(base.hypothesis, directions[d].start));
-  const Eigen::MatrixXd residuals = evaluator.residuals(models, options);
-  // Residual is measured less predicted, so this is the prediction with the cause less that without
-  // it. What was measured cancels.
-  for (std::size_t i = 0; i < which.size(); ++i)
-    directions[which[i]].change =
-        residuals.col(0) - residuals.col(static_cast<Eigen::Index>(i) + 1);
+  // Some at a time: predictions of all together would take most of a diagnosis's memory.
+  constexpr std::size_t at_once = 32;
+  const Eigen::VectorXd without =
+      evaluator.residuals(std::span(&base.hypothesis, 1), options).col(0);
+  for (std::size_t first = 0; first < which.size(); first += at_once) {
+    const std::span some = std::span(which).subspan(first, std::min(at_once, which.size() - first));
+    std::vector<Hypothesis> models;
+    for (const std::size_t d : some) models.push_back(with(base.hypothesis, directions[d].start));
+    const Eigen::MatrixXd residuals = evaluator.residuals(models, options);
+    // Residual is measured less predicted, so this is the prediction with the cause less that
+    // without it. What was measured cancels.
+    for (std::size_t i = 0; i < some.size(); ++i)
+      directions[some[i]].change = without - residuals.col(static_cast<Eigen::Index>(i));
+  }
 }
 
 // The parameters take of each change what they can, as far as that goes with what is known of them.

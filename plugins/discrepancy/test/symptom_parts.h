@@ -41,6 +41,8 @@ struct StaticStretch {
   Eigen::VectorXd position;         ///< m, predicted mean
 };
 std::vector<StaticStretch> static_stretches(const SymptomContext& context);
+/// The same of samples from <= i < to, whatever moves there: what does widens the error.
+StaticStretch stretch_of(const SymptomContext& context, int t, int from, int to);
 /// "weights, 12 to 16 s"
 std::string stretch_name(const SymptomContext& context, const StaticStretch& stretch);
 

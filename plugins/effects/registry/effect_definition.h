@@ -90,6 +90,12 @@ struct NoChange {};
 struct Sign {
   std::string symptom;
   int rank = 1;
+  /// The parameter whose value the symptom's own number gives, to first order; empty: the symptom
+  /// says which effect it may be, and not how large.
+  std::string parameter = {};
+  /// That value from the symptom's, which is in the unit in which the symptom is told.
+  double (*value)(double symptom, const StartContext&) = nullptr;
+  std::string word = {};  ///< of the starts that this is about; empty: of all
 };
 
 /// A bound of a parameter at which the effect is, or goes over into, another one: relaxation with a

@@ -2,6 +2,7 @@
 // first, with its size, and the alarm must be about it. Without it there must be no alarm.
 #include "pedicel/discrepancy/select/candidates.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,6 +102,70 @@ TEST(Candidates, PutTheHiddenCauseFirstWithItsSize) {
   // Nothing but noise is left: the cost is half of chi-square with as many numbers, sqrt(n / 2).
   const int samples = hidden.data.samples(hidden.options.trials);
   EXPECT_NEAR(best.fit.cost, 0.5 * samples, 5.0 * std::sqrt(0.5 * samples));
+}
+
+// The same where the data are far from the base, so that first parts rank: whatever symptoms speak
+// for, the cause that none speaks for is not cut. What is done only grows.
+TEST(Candidates, AreNotCutWhereOtherSymptomsLead) {
+  const double stiffness = 1.5 * scales_of(Hidden::made({})).root_stiffness;
+  Hidden hidden({testing::effect("base_compliance", "stiffness", {stiffness})});
+  ASSERT_GT(2.0 * hidden.base.cost,
+            2.0 * Evidence{}.far_from_data * hidden.data.samples(hidden.options.trials));
+  std::vector<Direction> directions =
+      directions_of(hidden.workers[0], hidden.base, hidden.causes, hidden.options);
+  judge(directions, hidden.base, {}, 1, {});
+  DiagnosisSettings settings;
+  settings.budget.first_led = 2;
+  // Far below what is there, so that the mark counts.
+  settings.budget.large_gain = 10.0;
+  settings.budget.lost_by = 5.0;
+  hidden.options.settings = &settings;
+  for (Cause& cause : hidden.causes)
+    if (cause.name == "latency" || cause.name == "marker_scale") {
+      cause.spoken_for = 1e3;
+      cause.led = {cause.starts.front().shrunk(3.0)};
+    }
+  std::vector<double> shares;
+  std::vector<Evaluator> one{hidden.workers[0]};
+  const std::vector<Candidate> ranking =
+      refit_all({one, one}, hidden.base, hidden.causes, directions,
+                {hidden.options, {1}, [&](double share) { shares.push_back(share); }, nullptr});
+  ASSERT_EQ(ranking.size(), hidden.causes.size());
+  EXPECT_EQ(ranking.front().cause, "base_compliance");
+  const FitSummary& best = ranking.front().fit;
+  EXPECT_NEAR(std::log(best.hypothesis.value(best.hypothesis.size() - 1) / stiffness), 0.0,
+              5.0 * best.standard_error[best.hypothesis.size() - 1]);
+  ASSERT_GT(shares.size(), 6u);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_LE(shares.back(), 1.0);
+  EXPECT_GT(shares.back(), 0.9);
+}
+
+// Asked for more than its numbers can explain, a fit ends after three steps; asked for what they
+// can, it ends where it would have ended anyway.
+TEST(Candidates, FitsAreGivenUpThatCannotComeNearEnough) {
+  const double stiffness = 1.5 * scales_of(Hidden::made({})).root_stiffness;
+  Hidden hidden({testing::effect("base_compliance", "stiffness", {stiffness})});
+  FitOptions options = hidden.options;
+  options.least_step = 0.0;  // so that no fit has ended before
+  const auto start_of = [&](const std::string& name) {
+    const auto cause = std::ranges::find(hidden.causes, name, &Cause::name);
+    return joined(hidden.base.hypothesis, cause->starts.front(), false);
+  };
+  options.out_of_reach = hidden.data.samples(options.trials);
+  const FitSummary wrong = fit(hidden.workers[0], start_of("latency"), options);
+  EXPECT_THAT(wrong.why, ::testing::HasSubstr("given up"));
+  EXPECT_FALSE(wrong.converged);
+  EXPECT_GT(wrong.cost, options.out_of_reach);
+  // Near enough for the first order to see what is there.
+  Hypothesis near = start_of("base_compliance");
+  near.set_value(near.size() - 1, 1.3 * stiffness);
+  const FitSummary right = fit(hidden.workers[0], near, options);
+  options.out_of_reach = INFINITY;
+  const FitSummary asked = fit(hidden.workers[0], near, options);
+  EXPECT_EQ(right.why, asked.why);
+  EXPECT_EQ(right.cost, asked.cost);
+  EXPECT_LT(right.cost, hidden.data.samples(options.trials));
 }
 
 TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {

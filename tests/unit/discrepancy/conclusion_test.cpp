@@ -497,6 +497,41 @@ TEST(Conclusion, SaysWhichSymptomIsGone) {
             "residual falls from 2 to 1.01 times the noise in the fitted trials.");
 }
 
+// Not the first that shows: of two that speak for the cause the one with more deviations.
+TEST(Conclusion, SaysTheClearestSymptom) {
+  Case c;
+  Symptom bend, turn, clearer;
+  bend.value = turn.value = clearer.value = 1.0;
+  bend.standard_error = 0.1, turn.standard_error = 0.01, clearer.standard_error = 0.001;
+  bend.speaks_for = turn.speaks_for = {"base_compliance"};
+  bend.sentence = "It is bent.";
+  turn.sentence = "It is turned.";
+  clearer.sentence = "It is late.";
+  clearer.speaks_for = {"latency"};
+  c.findings.symptoms = {bend, turn, clearer};
+  EXPECT_THAT(c.concluded().causes[0].because, ::testing::StartsWith("It is turned. With a root"));
+}
+
+// A modulus that is known to 1 %: within it for certain, within it by chance, and off.
+TEST(Conclusion, KnowsParametersThatCannotBeOff) {
+  Case c;
+  FitSummary model = c.diagnosis.base;
+  model.cost = 0.5 * c.findings.samples();
+  const auto knows = [&](double factor, double error) {
+    model.hypothesis.set_value(0, factor);
+    model.standard_error[0] = error;
+    return knows_parameters(c.findings, model);
+  };
+  EXPECT_TRUE(knows(1.001, 0.002));
+  EXPECT_TRUE(knows(0.999, 0.002));
+  EXPECT_FALSE(knows(1.001, 0.004));
+  EXPECT_FALSE(knows(1.2, 0.001));
+  EXPECT_FALSE(knows(1.0, INFINITY));
+  // Where more than noise is left its error is larger by that.
+  model.cost *= 9.0;
+  EXPECT_FALSE(knows(1.001, 0.002));
+}
+
 TEST(Conclusion, NamesOutliersBesideWhatIsKnown) {
   for (const Outcome outcome : {Outcome::adequate, Outcome::named, Outcome::unknown}) {
     Case c;
