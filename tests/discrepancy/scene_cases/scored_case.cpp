@@ -230,13 +230,14 @@ std::string rates_text(const std::vector<SceneScore>& scores) {
     longest = std::max(longest, s.seconds);
   }
   const hidden::Share held = hidden::share(inside, entries);
-  text += "| true numbers within their 95 % intervals | " +
-          (entries > 0 ? percent(held.value) + " | " + percent(held.low) + " to " +
-                             percent(held.high)
-                       : std::string("- | -")) +
-          " | " + std::to_string(entries) + " numbers | |\n";
+  text +=
+      "| true numbers within their 95 % intervals | " +
+      (entries > 0 ? percent(held.value) + " | " + percent(held.low) + " to " + percent(held.high)
+                   : std::string("- | -")) +
+      " | " + std::to_string(entries) + " numbers | |\n";
   if (!scores.empty())
-    text += "\nA diagnosis took " + io::format_number(seconds / static_cast<double>(scores.size()), 3) +
+    text += "\nA diagnosis took " +
+            io::format_number(seconds / static_cast<double>(scores.size()), 3) +
             " s on average, and at most " + io::format_number(longest, 3) + " s.\n";
   return text;
 }
@@ -255,7 +256,8 @@ std::string confusion_text(const std::vector<SceneScore>& scores) {
   std::string text = "| hidden | said (cases) |\n|---|---|\n";
   for (const auto& [hidden, row] : cells) {
     std::vector<std::pair<std::string, int>> sorted(row.begin(), row.end());
-    std::ranges::stable_sort(sorted, std::ranges::greater{}, [](const auto& c) { return c.second; });
+    std::ranges::stable_sort(sorted, std::ranges::greater{},
+                             [](const auto& c) { return c.second; });
     text += "| " + hidden + " | ";
     for (std::size_t i = 0; i < sorted.size(); ++i)
       text += (i > 0 ? "; " : "") + sorted[i].first + " " + std::to_string(sorted[i].second);
