@@ -93,7 +93,8 @@ ordered_json optional_number(const std::optional<double>& value) {
 }
 
 std::string percent(double share) {
-  return io::format_number(100.0 * share, 3) + " %";
+  // Bounds of none are 0 but for rounding.
+  return io::format_number(share < 1.0e-9 ? 0.0 : 100.0 * share, 3) + " %";
 }
 
 }  // namespace
@@ -212,6 +213,7 @@ std::string rates_text(const std::vector<SceneScore>& scores) {
   row("- of 0.7 noise units or more", "85 %", is_clear, call("right"));
   row("- a wrong name with confidence", "3 %", kind("effect"), call("wrong"));
   row("- \"cannot tell\", the truth among the names", "", kind("effect"), call("held"));
+  row("- \"cannot tell\", the truth not among them", "", kind("effect"), call("not_held"));
   row("- unknown, missed, or one of two names", "", kind("effect"), [](const SceneScore& s) {
     return s.call == "unknown" || s.call == "missed" || s.call == "partial";
   });

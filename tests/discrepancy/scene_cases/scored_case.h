@@ -22,7 +22,7 @@ struct SceneScore {
   std::string outcome, call;
   double nominal = 0.0, size = 0.0, left = 0.0;  ///< noise units beyond the noise: as the files
                                                  ///< say; with the material refitted; as concluded
-  std::optional<double> place_off, time_off;  ///< m and s, of something outside
+  std::optional<double> place_off, time_off;     ///< m and s, of something outside
   int inside = 0, entries = 0;  ///< true numbers, and those within their 95 % intervals
   double seconds = 0.0;
   std::string fault;  ///< why there is no verdict
