@@ -12,8 +12,8 @@ namespace pedicel::scene_case {
 namespace {
 
 constexpr double joint_std = 2.0e-5, position_std = 3.0e-4, force_std = 0.03, moment_std = 2.0e-3;
-constexpr double pixel_std = 0.4;  // px
-constexpr double focal = 900.0;    // px
+constexpr double pixel_std = 0.4;                                               // px
+constexpr double focal = 900.0;                                                 // px
 constexpr double joint_rate = 250.0, marker_rate = 100.0, wrench_rate = 250.0;  // Hz
 
 std::string list(const std::vector<double>& values) {
@@ -128,8 +128,8 @@ Eigen::Vector2d seen(const Setting& s, const Vec3& place) {
   Eigen::Matrix3d axes = camera_axes();
   if (turn.norm() > 0.0)
     axes = axes * Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  const Vec3 p = axes.transpose() *
-                 (place - camera_place - hidden_vector(s, "camera_pose", "offset"));
+  const Vec3 p =
+      axes.transpose() * (place - camera_place - hidden_vector(s, "camera_pose", "offset"));
   const Eigen::Vector2d flat = p.head<2>() / p.z();
   const double bent = 1.0 + hidden_number(s, "lens_distortion", "k1", 0.0) * flat.squaredNorm();
   return focal * hidden_number(s, "camera_focal", "factor", 1.0) * bent * flat + camera_centre;
@@ -137,8 +137,8 @@ Eigen::Vector2d seen(const Setting& s, const Vec3& place) {
 
 std::string camera() {
   const Eigen::Quaterniond turn(camera_axes());
-  return "cameras:\n  - {name: left, position: " + list(camera_place) + ", orientation: " +
-         list(std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}) +
+  return "cameras:\n  - {name: left, position: " + list(camera_place) +
+         ", orientation: " + list(std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}) +
          ", focal: " + list(std::vector<double>{focal, focal}) +
          ", centre: " + list(std::vector<double>{camera_centre.x(), camera_centre.y()}) +
          ", size: [1280, 720]}\n";
@@ -155,8 +155,10 @@ std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
   text += "  - {name: nail, link: finger, offset: " + list(nail) + "}\n";
   if (s.camera) text += camera();
   text += "wrenches:\n  - {name: wrist, link: hand}\nnoise: {joint_std: " + list({joint_std}) +
-          ", position_std: " + list({position_std}) + ", force_std: " + list({force_std}) +
-          ", moment_std: " + list({moment_std}) + "}\ntrials:\n";
+          ", position_std: " + list({position_std}) +
+          (s.camera ? ", pixel_std: " + list({pixel_std}) : "") +
+          ", force_std: " + list({force_std}) + ", moment_std: " + list({moment_std}) +
+          "}\ntrials:\n";
   for (const Drive& drive : drives)
     text +=
         "  - {name: " + drive.name + ", folder: " + drive.name + ", robot: {follows: joints}}\n";

@@ -53,8 +53,7 @@ Hidden draw_hidden(const std::string& name, const Setting& s, Draw& draw) {
   }
   if (name == "plant_pose") return {name, {{"offset", draw.vector(0.002, 0.008)}}};
   if (name == "tool_pose")
-    return {name,
-            {{"offset", draw.vector(0.0015, 0.006)}, {"rotation", draw.vector(0.015, 0.05)}}};
+    return {name, {{"offset", draw.vector(0.0015, 0.006)}, {"rotation", draw.vector(0.015, 0.05)}}};
   if (name == "joint_offset") {
     std::vector<double> offset(3, 0.0);
     const auto joint = static_cast<std::size_t>(draw.between(0.0, 3.0));
@@ -79,7 +78,8 @@ Hidden draw_hidden(const std::string& name, const Setting& s, Draw& draw) {
   if (name == "lens_distortion") return {name, {{"k1", {draw.sign() * draw.size(0.1, 0.4)}}}};
   if (name == "post") {
     // Beyond the stem, on a side to which a finger pushes it: half of its way there is left.
-    const double z = s.height * (draw.chance(0.5) ? draw.between(0.3, 0.42) : draw.between(0.75, 0.92));
+    const double z =
+        s.height * (draw.chance(0.5) ? draw.between(0.3, 0.42) : draw.between(0.75, 0.92));
     const double way = bent(z, 0.55 * s.height, 0.03) * draw.between(0.4, 0.65);
     return {name, {{"position", {s.root.x(), draw.sign() * (way + s.radius), z}}}};
   }
@@ -89,10 +89,9 @@ Hidden draw_hidden(const std::string& name, const Setting& s, Draw& draw) {
     const Vec3 anchor = s.root + Vec3(draw.between(-0.04, 0.04), draw.sign() * aside,
                                       at * s.height + draw.between(-0.05, 0.05));
     const double taut = (anchor - s.root - Vec3(0, 0, at * s.height)).norm();
-    return {name,
-            {{"at", {at}},
-             {"anchor", {anchor.x(), anchor.y(), anchor.z()}},
-             {"length", {taut + way}}}};
+    return {
+        name,
+        {{"at", {at}}, {"anchor", {anchor.x(), anchor.y(), anchor.z()}}, {"length", {taut + way}}}};
   }
   throw std::invalid_argument(name + ": there is nothing of this name to hide");
 }

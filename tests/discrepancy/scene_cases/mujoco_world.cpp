@@ -14,10 +14,10 @@ namespace pedicel::scene_case {
 
 namespace {
 
-constexpr double dt = 2.5e-4;        // s
-constexpr double segment = 0.01;     // m
-constexpr int stretching = 4;        // segments to one that gives along the stem
-constexpr double immovable = 1.0e4;  // kg m2 or kg, of driven joints
+constexpr double dt = 2.5e-4;               // s
+constexpr double segment = 0.01;            // m
+constexpr int stretching = 4;               // segments to one that gives along the stem
+constexpr double immovable = 1.0e4;         // kg m2 or kg, of driven joints
 constexpr double string_stiffness = 150.0;  // N/m
 constexpr double pi = 3.14159265358979323846;
 double damping_time(const Setting& s) {
@@ -173,7 +173,7 @@ std::string model_text(const Setting& s) {
          "tolerance='1e-9' noslip_iterations='20'/>\n"
       << "<size nconmax='200' njmax='2000'/>\n"
       << "<default><geom condim='3' friction='" << text(friction)
-      << " 0.005 0.0001' solref='0.001 1' solimp='0.6 0.6 0.001'/>\n"
+      << " 0.005 0.0001' solref='0.001 1' solimp='0.3 0.3 0.001'/>\n"
       << "<default class='plant'><geom contype='1' conaffinity='2'/></default>\n"
       << "<default class='finger'><geom contype='2' conaffinity='1'/></default></default>\n"
       << "<worldbody>\n";

@@ -36,7 +36,8 @@ class Bench {
       for (int i = 0; i < a.count; ++i) wanted.push_back(a.first + i);
     const std::vector<Order> all = orders();
     for (const int number : wanted) {
-      if (number < 0 || number >= static_cast<int>(all.size()) || scores_.contains(number)) continue;
+      if (number < 0 || number >= static_cast<int>(all.size()) || scores_.contains(number))
+        continue;
       const Order& order = all[static_cast<std::size_t>(number)];
       if (a.kind.empty() || a.kind == order.kind) todo_.push_back(order);
     }

@@ -35,6 +35,7 @@ std::string name_of(const testing::TestParamInfo<int>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Nothing, SceneCases, testing::Values(0, 1, 4, 5), name_of);
+INSTANTIATE_TEST_SUITE_P(Something, SceneCases, testing::Values(2, 3, 7, 8, 9), name_of);
 
 }  // namespace
 }  // namespace pedicel::scene_case

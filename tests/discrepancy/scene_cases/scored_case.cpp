@@ -93,7 +93,8 @@ ordered_json optional_number(const std::optional<double>& value) {
 }
 
 std::string percent(double share) {
-  return io::format_number(100.0 * share, 3) + " %";
+  // Bounds of none are 0 but for rounding.
+  return io::format_number(share < 1.0e-9 ? 0.0 : 100.0 * share, 3) + " %";
 }
 
 }  // namespace
@@ -212,6 +213,7 @@ std::string rates_text(const std::vector<SceneScore>& scores) {
   row("- of 0.7 noise units or more", "85 %", is_clear, call("right"));
   row("- a wrong name with confidence", "3 %", kind("effect"), call("wrong"));
   row("- \"cannot tell\", the truth among the names", "", kind("effect"), call("held"));
+  row("- \"cannot tell\", the truth not among them", "", kind("effect"), call("not_held"));
   row("- unknown, missed, or one of two names", "", kind("effect"), [](const SceneScore& s) {
     return s.call == "unknown" || s.call == "missed" || s.call == "partial";
   });
@@ -230,13 +232,14 @@ std::string rates_text(const std::vector<SceneScore>& scores) {
     longest = std::max(longest, s.seconds);
   }
   const hidden::Share held = hidden::share(inside, entries);
-  text += "| true numbers within their 95 % intervals | " +
-          (entries > 0 ? percent(held.value) + " | " + percent(held.low) + " to " +
-                             percent(held.high)
-                       : std::string("- | -")) +
-          " | " + std::to_string(entries) + " numbers | |\n";
+  text +=
+      "| true numbers within their 95 % intervals | " +
+      (entries > 0 ? percent(held.value) + " | " + percent(held.low) + " to " + percent(held.high)
+                   : std::string("- | -")) +
+      " | " + std::to_string(entries) + " numbers | |\n";
   if (!scores.empty())
-    text += "\nA diagnosis took " + io::format_number(seconds / static_cast<double>(scores.size()), 3) +
+    text += "\nA diagnosis took " +
+            io::format_number(seconds / static_cast<double>(scores.size()), 3) +
             " s on average, and at most " + io::format_number(longest, 3) + " s.\n";
   return text;
 }
@@ -255,7 +258,8 @@ std::string confusion_text(const std::vector<SceneScore>& scores) {
   std::string text = "| hidden | said (cases) |\n|---|---|\n";
   for (const auto& [hidden, row] : cells) {
     std::vector<std::pair<std::string, int>> sorted(row.begin(), row.end());
-    std::ranges::stable_sort(sorted, std::ranges::greater{}, [](const auto& c) { return c.second; });
+    std::ranges::stable_sort(sorted, std::ranges::greater{},
+                             [](const auto& c) { return c.second; });
     text += "| " + hidden + " | ";
     for (std::size_t i = 0; i < sorted.size(); ++i)
       text += (i > 0 ? "; " : "") + sorted[i].first + " " + std::to_string(sorted[i].second);

@@ -20,8 +20,8 @@ struct SceneScore {
   std::string kind;
   std::vector<std::string> hidden, said;  ///< sorted
   std::string outcome, call;
-  double nominal = 0.0, size = 0.0, left = 0.0;  ///< noise units beyond the noise: as the files say;
-                                                 ///< with the material refitted; as concluded
+  double nominal = 0.0, size = 0.0, left = 0.0;  ///< noise units beyond the noise: as the files
+                                                 ///< say; with the material refitted; as concluded
   std::optional<double> place_off, time_off;     ///< m and s, of something outside
   int inside = 0, entries = 0;  ///< true numbers, and those within their 95 % intervals
   double seconds = 0.0;
