@@ -59,11 +59,10 @@ BoundedSolution solve_bounded(const ceres::CostFunction& cost, const Eigen::Vect
   };
   RefusedAtBound refused(u, low, high);
   settings.update_state_every_iteration = true;
-  const std::vector<ceres::IterationCallback*> given = settings.callbacks;
   BoundedSolution result;
   std::vector<int> held;
   for (int round = 0; round < most_rounds; ++round) {
-    settings.callbacks = given;
+    settings.callbacks.clear();
     if (held.empty() && round + 1 < most_rounds) settings.callbacks.push_back(&refused);
     problem.SetManifold(u.data(), held.empty() ? nullptr : new ceres::SubsetManifold(n, held));
     ceres::Solver::Summary summary;
@@ -73,8 +72,6 @@ BoundedSolution solve_bounded(const ceres::CostFunction& cost, const Eigen::Vect
     result.why = summary.message;
     settings.max_num_iterations -= std::max(1, static_cast<int>(summary.iterations.size()) - 1);
     if (settings.max_num_iterations <= 0) break;
-    // A caller's own callback gave it up.
-    if (summary.termination_type == ceres::USER_FAILURE) break;
     if (refused.happened) {
       held = at_bounds(u, low, high);
       for (const int p : held) u[p] = u[p] - low[p] < near ? low[p] : high[p];

@@ -72,11 +72,6 @@ class Problem : public ceres::CostFunction {
   const Eigen::VectorXd& residual() const { return residual_; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
   double spread() const { return spread_; }
-  /// Half the square of what no change of the unknowns explains, to first order about the point
-  /// that was computed last.
-  double least_within_reach() const {
-    return 0.5 * projected_out(jacobian_, residual_).squaredNorm();
-  }
 
  private:
   double prior(int p) const {
@@ -97,26 +92,6 @@ class Problem : public ceres::CostFunction {
   int samples_;
   mutable Eigen::VectorXd at_, residual_;
   mutable Eigen::MatrixXd jacobian_;
-};
-
-// Ends a fit that cannot come as near to the data as it has to.
-class OutOfReach : public ceres::IterationCallback {
- public:
-  OutOfReach(const Problem& problem, double most) : problem_(problem), most_(most) {}
-
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    // The first steps go from a guess to where the model can be judged by its derivatives.
-    if (summary.iteration < least_steps || problem_.least_within_reach() <= most_)
-      return ceres::SOLVER_CONTINUE;
-    happened = true;
-    return ceres::SOLVER_ABORT;
-  }
-  bool happened = false;
-
- private:
-  static constexpr int least_steps = 3;
-  const Problem& problem_;
-  double most_;
 };
 
 Eigen::VectorXd bounded(const Hypothesis& start) {
@@ -267,12 +242,9 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
     // region looks at anyway; where that fails the region shrinks.
     settings.max_num_line_search_step_size_iterations = 1;
     settings.logging_type = ceres::SILENT;
-    OutOfReach out_of_reach(problem, options.out_of_reach);
-    if (std::isfinite(options.out_of_reach)) settings.callbacks.push_back(&out_of_reach);
     BoundedSolution found = solve_bounded(problem, start.low(), start.high(), settings, u);
     result.converged = found.converged;
-    result.why = out_of_reach.happened ? "given up: it cannot come near enough to the data"
-                                       : std::move(found.why);
+    result.why = std::move(found.why);
   }
   problem.compute(u);
   result.hypothesis.set_unknowns(u);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,9 +20,6 @@ struct FitOptions {
   /// It stops when a step gains less (nats; where the model leaves more than noise, in units of
   /// what it leaves).
   double least_step = Budget{}.least_step;
-  /// It is given up where what no change of its unknowns explains, to first order, costs more than
-  /// this (FitSummary::cost) after a few steps.
-  double out_of_reach = std::numeric_limits<double>::infinity();
   const DiagnosisSettings* settings = &default_settings();  ///< must outlive it
 };
 

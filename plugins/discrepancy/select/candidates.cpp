@@ -41,10 +41,9 @@ void keep_better(FitSummary& best, FitSummary&& found) {
 }
 
 FitSummary fit_first_part(Evaluator& evaluator, const FitSummary& base, const Cause& cause,
-                          FitOptions options, std::size_t count, double out_of_reach) {
+                          FitOptions options, std::size_t count) {
   const Budget& budget = options.settings->budget;
   FitSummary best;
-  options.out_of_reach = out_of_reach;
   const std::vector<Hypothesis> starts = best_starts(evaluator, base, cause, options, count);
   // Over the first part only: in a long record a start that is out of phase falls into the next
   // swing.
@@ -135,8 +134,6 @@ FitSummary best_fit(Evaluator& evaluator, const FitSummary& base,
     known = found.back().jacobian;
     closeness.push_back(-objective(found.back()));
     own.least = std::min(own.least, found.back().cost);
-    // What the cause's own best start reached, the others must be able to come near.
-    few.out_of_reach = std::min(few.out_of_reach, own.at(budget.lost_early));
     // The closest start is this far off, so those behind it are lost as well.
     if (found.front().cost > limits.at(budget.lost_at_once)) break;
   }
@@ -271,26 +268,20 @@ class Refits {
     // A second start for those that the linear model believes in.
     // Starts are dear here: all causes are tried, most of them in vain.
     for (const int i : first_by(score_, budget_.whole_candidates)) starts[i] = 2;
-    // Those that symptoms speak for set the mark for the others.
+    // Those that symptoms speak for come first: a search that is cut short has tried them.
     const std::vector<int> all = symptoms_first(causes_, score_);
     const auto others = all.begin() + std::min<std::ptrdiff_t>(budget_.first_led, std::ssize(all));
     std::vector<int> led(all.begin(), others), rest(others, all.end());
-    Limits limits{&budget_, early_cost, early_cost};
     const auto fit_parts = [&](std::vector<int>& chosen, double from, double to) {
       longest_first(chosen);
-      // What cannot gain as much as a cause needs to be fitted whole is given up. No symptom
-      // decides that: a cause that none speaks for is given up by what it could gain alone.
-      const double most = limits.at(1.0 - budget_.far_behind);
       share_causes("first_parts", chosen, from, to, [&](Evaluator& evaluator, int i) {
-        candidates_[i].fit =
-            fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i], most);
+        candidates_[i].fit = fit_first_part(evaluator, base_, causes_[i], options_.fit, starts[i]);
       });
     };
-    fit_parts(led, 0.0, 0.4 * first_parts);
-    for (const int i : led)
-      if (candidates_[i].fit.why != "not run")
-        limits.least = std::min(limits.least, candidates_[i].fit.cost);
-    fit_parts(rest, 0.4 * first_parts, first_parts);
+    const double of_led =
+        first_parts * static_cast<double>(led.size()) / std::max<std::size_t>(1, all.size());
+    fit_parts(led, 0.0, of_led);
+    fit_parts(rest, of_led, first_parts);
     std::vector<double> gain;
     for (Candidate& candidate : candidates_) {
       // Stopped before it was its turn: no gain.
@@ -365,8 +356,6 @@ class Refits {
     const bool placed = has_place(causes_[i].starts.front());
     // A place has to be moved along a narrow valley, each step of which is short.
     FitOptions few = rough((placed ? 2 : 1) * budget_.whole_iterations);
-    // How near it has to come in the end, asked of what its numbers can explain from where it is.
-    few.out_of_reach = limits.at(budget_.lost_early);
     Candidate& candidate = candidates_[i];
     std::vector<Hypothesis> starts;
     // What the first part found is a start like any other.

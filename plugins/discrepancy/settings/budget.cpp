@@ -37,9 +37,9 @@ void add_candidates(Budget& b, SettingRows& rows) {
   rows.count("first_iterations", b.first_iterations, "Iterations over the first part.",
              {budget, time_only, "Searches for large effects take longer."});
   rows.count("first_led", b.first_led,
-             "Causes that symptoms speak for most clearly whose first parts are fitted first, to "
-             "tell how near the others have to come.",
-             {budget, time_only, "More first parts are fitted to their end."});
+             "Causes that symptoms speak for most clearly whose first parts are fitted before the "
+             "others'.",
+             {budget, time_only, "A search that is cut short has tried fewer of them."});
   rows.count("whole_iterations", b.whole_iterations,
              "Iterations of a candidate over the whole records before the leaders go on.",
              {budget, time_only, "Searches take up to twice as long."});

@@ -141,33 +141,6 @@ TEST(Candidates, AreNotCutWhereOtherSymptomsLead) {
   EXPECT_GT(shares.back(), 0.9);
 }
 
-// Asked for more than its numbers can explain, a fit ends after three steps; asked for what they
-// can, it ends where it would have ended anyway.
-TEST(Candidates, FitsAreGivenUpThatCannotComeNearEnough) {
-  const double stiffness = 1.5 * scales_of(Hidden::made({})).root_stiffness;
-  Hidden hidden({testing::effect("base_compliance", "stiffness", {stiffness})});
-  FitOptions options = hidden.options;
-  options.least_step = 0.0;  // so that no fit has ended before
-  const auto start_of = [&](const std::string& name) {
-    const auto cause = std::ranges::find(hidden.causes, name, &Cause::name);
-    return joined(hidden.base.hypothesis, cause->starts.front(), false);
-  };
-  options.out_of_reach = hidden.data.samples(options.trials);
-  const FitSummary wrong = fit(hidden.workers[0], start_of("latency"), options);
-  EXPECT_THAT(wrong.why, ::testing::HasSubstr("given up"));
-  EXPECT_FALSE(wrong.converged);
-  EXPECT_GT(wrong.cost, options.out_of_reach);
-  // Near enough for the first order to see what is there.
-  Hypothesis near = start_of("base_compliance");
-  near.set_value(near.size() - 1, 1.3 * stiffness);
-  const FitSummary right = fit(hidden.workers[0], near, options);
-  options.out_of_reach = INFINITY;
-  const FitSummary asked = fit(hidden.workers[0], near, options);
-  EXPECT_EQ(right.why, asked.why);
-  EXPECT_EQ(right.cost, asked.cost);
-  EXPECT_LT(right.cost, hidden.data.samples(options.trials));
-}
-
 TEST(Candidates, OfNothingHiddenRaiseNoAlarm) {
   Hidden nothing({});
   std::vector<Direction> directions =
