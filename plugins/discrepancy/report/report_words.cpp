@@ -179,11 +179,14 @@ std::pair<std::vector<std::string>, std::vector<std::string>> detectable_limit_t
     }
     // Where the plain model stands at 1 or at infinity, effects hide on that side.
     const effects::EffectParameter* size = effects::find_parameter(hide.name, hide.parameter);
-    const bool stiff = size && size->vanishes == effects::Vanishes::at_infinity;
-    const bool factor = size && size->vanishes == effects::Vanishes::at_one;
+    const effects::Vanishes vanishes = size ? size->vanishes : hide.vanishes;
+    const bool stiff = vanishes == effects::Vanishes::at_infinity;
+    const bool factor = vanishes == effects::Vanishes::at_one;
+    const bool beside = vanishes == effects::Vanishes::at_nominal;
     lists.first.push_back(hide.name + ": " + hide.parameter +
                           (stiff    ? " above "
                            : factor ? " off 1 by less than "
+                           : beside ? " off what the file says by less than "
                                     : " below ") +
                           short_number(factor ? std::abs(hide.smallest - 1.0) : hide.smallest) +
                           unit_text(hide.unit));

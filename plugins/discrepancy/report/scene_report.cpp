@@ -184,6 +184,7 @@ std::string scene_report_text(const SceneExperiment& experiment, const SceneDiag
     page.paragraph(gain);
   }
   add_competing(page, d);
+  add_hiding(page, v);
   page.subheading("What to do next");
   page.paragraph(next_of(v));
   page.end_card();

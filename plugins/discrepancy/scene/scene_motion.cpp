@@ -1,7 +1,9 @@
 #include "pedicel/discrepancy/scene/scene_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "pedicel/cosserat/model/rotation.h"
 #include "pedicel/cosserat/solver/rod_system.h"
@@ -41,6 +43,7 @@ class SceneRun {
         makers_(makers),
         member_(member),
         margin_(numerics.margin),
+        dt_(numerics.dt),
         report_(colliders_),
         joints_(*member.arm, *member.state, numerics.dt) {
     settings_ = member.state->coupling;
@@ -180,9 +183,11 @@ class SceneRun {
     std::string what;
     int plant = 0, link = 0;
     plant::PlacedPoint place;
-    Vec3 position_L;  // m, of the held point
-    Quat rotation;    // E to L
-    Vec3 turning;     // N m/rad
+    Vec3 position_L;    // m, of the held point
+    Quat rotation;      // E to L
+    Vec3 turning;       // N m/rad
+    double mass = 0.0;  // kg, of a fruit: once it is off the plant, the link carries it
+    std::array<Vec3, 2> before{Vec3::Zero(), Vec3::Zero()};  // m, W, at the last two steps
   };
 
   // By the link that is named, else by the tool. Of a curve the place nearest to the link's origin.
@@ -200,6 +205,7 @@ class SceneRun {
       for (const cosserat::Fruit& fruit : model.fruits)
         if (fruit.name == event.what) {
           held.place = {fruit.element, fruit.back};
+          held.mass = 4.0 / 3.0 * std::numbers::pi * std::pow(fruit.radius, 3) * fruit.density;
           found = true;
         }
       const int curve = experiment_.plants[p].file.curve_index(event.what);
@@ -220,6 +226,7 @@ class SceneRun {
       held.rotation = link.rotation.conjugate() * state.orientation[held.place.element];
       held.turning = hold_turning * model.elements[held.place.element].bend_stiffness;
     }
+    held.before.fill(link * held.position_L);
     if (found) held_.push_back(std::move(held));
   }
 
@@ -237,10 +244,19 @@ class SceneRun {
 
   // What the held organs exert on their links.
   void record_held(const cosserat::RodSystem& rods, int row) {
-    for (const Held& held : held_) {
+    for (Held& held : held_) {
       const cosserat::RodModel& model = rods.model(first_ + held.plant);
       const cosserat::RodState& state = rods.state(first_ + held.plant);
-      if (!state.alive[held.place.element]) continue;
+      const Vec3 here = arm_.links[static_cast<std::size_t>(held.link)] * held.position_L;
+      const Vec3 acceleration = (here - 2.0 * held.before[1] + held.before[0]) / (dt_ * dt_);
+      held.before = {held.before[1], here};
+      if (!state.alive[held.place.element]) {
+        coupling::ContactSum sum;
+        sum.force_W = held.mass * (experiment_.scene.gravity - acceleration);
+        sum.place_W = here;
+        add_contact(held.link, sum, row);
+        continue;
+      }
       const cosserat::Support support = support_of(held);
       const Vec3 place = cosserat::point_on(model, state, held.place.element, held.place.back);
       coupling::ContactSum sum;
@@ -414,6 +430,7 @@ class SceneRun {
   std::span<const std::unique_ptr<PlantMaker>> makers_;
   const SceneMember& member_;
   double margin_;  // m
+  double dt_;      // s
   coupling::CouplingSettings settings_;
   coupling::ColliderSet colliders_;
   coupling::ContactReport report_;

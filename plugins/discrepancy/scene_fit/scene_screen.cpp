@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/discrepancy/scene_fit/plant_causes.h"
+
 namespace pedicel::discrepancy {
 
 namespace {
@@ -21,6 +23,8 @@ struct Start {
 
 bool does_nothing(const SceneFit& start) {
   return std::ranges::all_of(start.free, [&](const effects::FreeParameter& free) {
+    // A place or a direction is not among the numbers.
+    if (free.vanishes == effects::Vanishes::never) return false;
     const double value =
         start.effect.numbers.at(free.name)[static_cast<std::size_t>(free.component)];
     return (free.vanishes == effects::Vanishes::at_zero && value == 0.0) ||
@@ -73,7 +77,7 @@ class Screen {
     starts_.push_back(std::move(start));
   }
 
-  std::vector<ScreenedCause> run() {
+  std::vector<ScreenedCause> run(std::vector<SeenFrom>* seen) {
     Eigen::MatrixXd all(base_.residual.size(), static_cast<long>(wanted_.size()));
     for (std::size_t first = 0; first < wanted_.size(); first += most_at_once) {
       const std::size_t count = std::min(most_at_once, wanted_.size() - first);
@@ -81,7 +85,10 @@ class Screen {
           evaluator_.residuals(std::span(wanted_).subspan(first, count), trials_);
     }
     std::vector<ScreenedCause> screened;
-    for (const Start& start : starts_) screened.push_back(judged(start, all));
+    for (const Start& start : starts_) {
+      screened.push_back(judged(start, all));
+      if (seen) keep_clearest(*seen, seen_from(start, all));
+    }
     std::ranges::stable_sort(screened, {}, &ScreenedCause::promised);
     return screened;
   }
@@ -109,6 +116,66 @@ class Screen {
     return out;
   }
 
+  // Noise units RMS that a change makes beyond what the base's own numbers can make.
+  double clear_of_base(const Eigen::VectorXd& change) const {
+    const Eigen::MatrixXd& j = base_.jacobian;
+    Eigen::VectorXd left = change;
+    if (j.cols() > 0) {
+      Eigen::MatrixXd normal = j.transpose() * j;
+      for (long p = 0; p < j.cols(); ++p) {
+        const double width = base_.model.free[static_cast<std::size_t>(p)].width();
+        normal(p, p) += 1.0 / (width * width);
+      }
+      left -= j * normal.ldlt().solve(j.transpose() * change);
+    }
+    return left.norm() / std::sqrt(std::max(1.0, static_cast<double>(base_.sum.count)));
+  }
+
+  SeenFrom seen_from(const Start& start, const Eigen::MatrixXd& all) const {
+    SeenFrom out;
+    out.name = start.name;
+    const int old = base_.model.size();
+    for (int p = old; p < start.model.size(); ++p) {
+      const effects::FreeParameter& free = start.model.free[static_cast<std::size_t>(p)];
+      if (free.vanishes == effects::Vanishes::never) continue;
+      if (out.parameter.empty()) {
+        out.parameter = free.name;
+        out.unit = free.unit;
+        out.vanishes = free.vanishes;
+        out.nominal = free.nominal;
+      }
+      // Others of its numbers have other units, and say little by themselves.
+      if (free.name != out.parameter) continue;
+      const double step = start.step[static_cast<std::size_t>(p - old)];
+      const double value = start.model.value(p);
+      double way = 0.0;
+      Eigen::VectorXd change;
+      if (start.at < 0) {
+        change = base_.residual - all.col(start.moved[static_cast<std::size_t>(p - old)]);
+        way = free.logarithmic ? std::abs(step) : std::abs(free.scale * step);
+      } else {
+        change = base_.residual - all.col(start.at);
+        using effects::Vanishes;
+        way = free.vanishes == Vanishes::at_zero       ? std::abs(value)
+              : free.vanishes == Vanishes::at_one      ? std::abs(std::log(value))
+              : free.vanishes == Vanishes::at_infinity ? 1.0 / value
+                                                       : std::abs(value - free.nominal);
+      }
+      if (const double size = clear_of_base(change); size > 0.0)
+        out.a_unit = std::min(out.a_unit, way / size);
+    }
+    return out;
+  }
+
+  // Of several starts the one that shows most.
+  static void keep_clearest(std::vector<SeenFrom>& seen, const SeenFrom& one) {
+    const auto known = std::ranges::find(seen, one.name, &SeenFrom::name);
+    if (known == seen.end())
+      seen.push_back(one);
+    else if (one.a_unit < known->a_unit)
+      *known = one;
+  }
+
   SceneEvaluator& evaluator_;
   const SceneFitResult& base_;
   std::span<const int> trials_;
@@ -118,9 +185,15 @@ class Screen {
 
 }  // namespace
 
+double SeenFrom::size(double noise_units) const {
+  const double way = a_unit * noise_units;
+  if (vanishes == effects::Vanishes::at_one) return std::exp(way);
+  return vanishes == effects::Vanishes::at_infinity ? 1.0 / way : way;
+}
+
 std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneFitResult& base,
                                          const std::vector<std::string>& has,
-                                         std::span<const int> trials) {
+                                         std::span<const int> trials, std::vector<SeenFrom>* seen) {
   Screen screen(evaluator, base, trials);
   const SceneExperiment& experiment = evaluator.simulator().experiment();
   for (const SceneEffectDefinition& definition : scene_effect_definitions()) {
@@ -133,7 +206,10 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneF
       if (!in_base) screen.add(definition.name, start);
     }
   }
-  return screen.run();
+  for (const SceneFit& start : plant_causes(experiment))
+    if (std::ranges::find(has, start.effect.name) == has.end())
+      screen.add(start.effect.name, start);
+  return screen.run(seen);
 }
 
 }  // namespace pedicel::discrepancy

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,25 @@ struct ScreenedCause {
   double promised = 0.0;  ///< nats, half the sum of squares that the linear expects
 };
 
+/// How large a cause would have to be to be seen beside the base's own numbers, as far as the
+/// linear goes.
+struct SeenFrom {
+  std::string name, parameter, unit;
+  effects::Vanishes vanishes = effects::Vanishes::never;
+  double nominal = 0.0;  ///< the value with which it vanishes `at_nominal`
+  /// In the number's own way from where it vanishes (a difference, a logarithm, an inverse), for
+  /// one noise unit RMS; infinite where nothing shows it.
+  double a_unit = std::numeric_limits<double>::infinity();
+  /// Its value for so many noise units RMS; `at_nominal` the difference from it.
+  double size(double noise_units) const;
+};
+
 /// All causes of scenes and of plants that `base` has not, at once: residuals of each at its starts
 /// and the derivatives of its numbers there, side by side, on top of the base's own derivatives.
-/// Best first.
+/// Best first. `seen`: how large each would have to be.
 std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneFitResult& base,
                                          const std::vector<std::string>& has,
-                                         std::span<const int> trials);
+                                         std::span<const int> trials,
+                                         std::vector<SeenFrom>* seen = nullptr);
 
 }  // namespace pedicel::discrepancy

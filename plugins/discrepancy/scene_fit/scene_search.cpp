@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "pedicel/discrepancy/scene_fit/scene_screen.h"
+#include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy {
@@ -17,6 +17,7 @@ constexpr double known_to = 0.02, clear = 3.0;
 /// Of the mean square beyond the noise: a number more must take so much of it.
 constexpr double price_of_number = 0.003;
 constexpr int baseline_iterations = 6, first_iterations = 4, last_iterations = 4;
+constexpr int most_renewals = 3;
 /// A leader whose linear promise is worse than so many times what the best has reached is left out.
 constexpr double behind = 4.0;
 
@@ -27,6 +28,59 @@ double cost_of(const SceneFitResult& fit) {
 
 double square(double x) {
   return x * x;
+}
+
+// An unseen plant's place in the baseline: beyond what its numbers are sure of, and 1 mm.
+bool is_moved(const SceneFitResult& fit) {
+  constexpr double least = 1.0e-3;  // m
+  for (int p = 0; p < fit.model.size(); ++p) {
+    const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+    const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
+    if (effect.name != "plant_pose" || free.name != "offset" || free.prior == 0.0) continue;
+    const double error = std::hypot(fit.standard_error[p] * free.scale, least);
+    if (std::abs(fit.model.value(p)) > clear * error) return true;
+  }
+  return false;
+}
+
+// Damping is what solvers differ by most, and density is seen through little but weight.
+double allowance(const std::string& name) {
+  return name == "damping_time" ? 10.0 * known_to : name == "density" ? 2.0 * known_to : known_to;
+}
+
+// 1, relative: how well a plant's file says it knows a number of its material; 0: it does not say.
+double stated_of(const SceneExperiment& experiment, const std::string& name) {
+  const effects::EffectDefinition* known = effects::find_effect(name);
+  double most = 0.0;
+  for (const ScenePlantFile& plant : experiment.plants)
+    if (known && known->known_to)
+      most = std::max(most, (plant.file.material.known_to.*(known->known_to)).value_or(0.0));
+  return most;
+}
+
+/// Whether a model is another one with a number more, or has gone over into it: a wind of no speed
+/// is drag, and a weak stretch of no length at the root is a root that turns.
+bool goes_over(const SceneCandidate& general, const SceneCandidate& plain) {
+  for (const std::string& name : general.names) {
+    const effects::EffectDefinition* known = effects::find_effect(name);
+    if (!known) continue;
+    for (const std::string& other : plain.names) {
+      if (other == name) continue;
+      if (effects::is_special_case(other, name)) return true;
+      for (const effects::Limit& limit : known->limits) {
+        if (limit.becomes != other) continue;
+        const Hypothesis& model = general.fit.model;
+        for (int p = 0; p < model.size(); ++p) {
+          const effects::FreeParameter& free = model.free[static_cast<std::size_t>(p)];
+          const bool own = model.effects[static_cast<std::size_t>(free.effect)].name == name;
+          if (!own || free.name != limit.parameter) continue;
+          const double bound = limit.high ? free.high : free.low;
+          if (std::abs(model.value(p) - bound) < 0.05 * std::abs(bound)) return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
 class Search {
@@ -44,8 +98,8 @@ class Search {
     found_.baseline = fit(first_baseline(), baseline_iterations, options_.trials);
     if (!found_.baseline.converged && found_.baseline.model.size() > 3)
       found_.baseline = fit(found_.baseline.model, baseline_iterations, options_.trials);
-    found_.baseline_excess = SceneDataSet::beyond_noise(found_.baseline.sum);
-    found_.baseline_check = held_out(found_.baseline.model);
+    judge_baseline();
+    renew_at_baseline();
     look_for_causes();
     conclude();
     found_.partial = stopped();
@@ -72,14 +126,65 @@ class Search {
     return starts[static_cast<std::size_t>(best)];
   }
 
+  void judge_baseline() {
+    found_.baseline_excess = SceneDataSet::beyond_noise(found_.baseline.sum);
+    found_.baseline_check = held_out(found_.baseline.model);
+  }
+
+  // Misfits can be compared only under one noise.
+  void renew_noise(const std::vector<plant::Effect>& effects) {
+    options_.renew_noise(effects);
+    const Hypothesis plain;
+    found_.nominal_excess = SceneDataSet::beyond_noise(
+        evaluator_.sum(evaluator_.residuals({&plain, 1}, options_.trials).col(0), options_.trials));
+    found_.nominal_check = held_out(plain);
+  }
+
+  // An unseen plant's place is part of the baseline, and with it when the tool touches: what
+  // predictions do not know of themselves was taken at other times.
+  void renew_at_baseline() {
+    if (!options_.renew_noise || found_.baseline.model.size() <= 3) return;
+    if (found_.baseline_excess <= options_.floor) return;
+    for (int again = 0; again < most_renewals && !stopped(); ++again) {
+      const double before = found_.baseline_excess;
+      renew_noise(found_.baseline.model.effects);
+      found_.baseline = fit(found_.baseline.model, baseline_iterations, options_.trials);
+      judge_baseline();
+      if (found_.baseline_excess <= options_.floor || found_.baseline_excess > 0.8 * before) return;
+    }
+  }
+
+  // A cause moves touches, too. Where the best leaves too much, all are judged again with the noise
+  // of its predictions, and those that came near are fitted on.
+  void renew_at_best() {
+    if (!options_.renew_noise || found_.candidates.empty() || stopped()) return;
+    const SceneCandidate& best = found_.candidates.front();
+    if (is_enough(best) || best.excess > 0.5 * found_.baseline_excess) return;
+    const double near = behind * std::max(best.excess, allowed());
+    tell("taking the noise of predictions anew", 0.55);
+    const std::vector<plant::Effect> effects = best.fit.model.effects;
+    renew_noise(effects);
+    found_.baseline = look_at(evaluator_, found_.baseline.model, options_.trials);
+    judge_baseline();
+    for (SceneCandidate& one : found_.candidates) {
+      if (stopped()) return;
+      one.fit = one.excess <= near ? fit(one.fit.model, last_iterations, options_.trials)
+                                   : look_at(evaluator_, one.fit.model, options_.trials);
+      judge(one);
+    }
+    sort_candidates();
+  }
+
   void look_for_causes() {
     if (stopped()) return;
     add_round(found_.baseline, found_.baseline_excess, {}, 0.2, 0.55);
+    renew_at_best();
     for (int more = 1; more < options_.most_causes && !stopped(); ++more) {
       if (found_.candidates.empty()) return;
       const SceneCandidate best = found_.candidates.front();
       if (static_cast<int>(best.names.size()) < more || is_enough(best)) return;
       add_round(best.fit, best.excess, best.names, 0.55, 0.9);
+      renew_at_best();
     }
   }
 
@@ -99,7 +204,10 @@ class Search {
   void add_round(const SceneFitResult& base, double base_excess,
                  const std::vector<std::string>& names, double from, double to) {
     tell("looking at all causes", from);
-    std::vector<ScreenedCause> screened = screen_causes(evaluator_, base, names, options_.trials);
+    // Beside the baseline, once: what else could hide is asked of the data and not of a model.
+    std::vector<SeenFrom>* seen = found_.seen.empty() ? &found_.seen : nullptr;
+    std::vector<ScreenedCause> screened =
+        screen_causes(evaluator_, base, names, options_.trials, seen);
     std::erase_if(screened, [&](const ScreenedCause& one) {
       return square(base_excess) - square(excess_of(one.promised, base.sum)) < options_.least_gain;
     });
@@ -126,9 +234,13 @@ class Search {
       found_.candidates.push_back(std::move(candidate));
       ++done;
     }
+    sort_candidates();
+    keep_best_of_each();
+  }
+
+  void sort_candidates() {
     std::ranges::stable_sort(found_.candidates, {},
                              [this](const SceneCandidate& one) { return score(one); });
-    keep_best_of_each();
   }
 
   double excess_of(double cost, const SceneDataSet::Sum& sum) const {
@@ -216,6 +328,7 @@ class Search {
 
   void conclude() {
     using Outcome = SceneFindings::Outcome;
+    found_.seen_units = allowed();
     const bool best_does = !found_.candidates.empty() && is_enough(found_.candidates.front());
     if (best_does && pays(found_.candidates.front())) {
       found_.outcome = Outcome::named;
@@ -233,6 +346,10 @@ class Search {
   }
 
   bool pays(const SceneCandidate& one) const {
+    // Laws of the stem bend to what two honest solvers differ by: many of them, in many places.
+    const bool of_plants = std::ranges::any_of(
+        one.names, [](const std::string& name) { return !find_scene_effect(name); });
+    if (of_plants && found_.baseline_excess <= options_.floor) return false;
     return square(found_.baseline_excess) - square(one.excess) >= options_.least_gain;
   }
 
@@ -241,6 +358,7 @@ class Search {
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
+      if (goes_over(one, best)) continue;
       if (score(one) - score(best) < 0.5 * square(best.excess) + 0.02) found_.rivals.push_back(i);
     }
   }
@@ -250,28 +368,11 @@ class Search {
       const int p = fit.model.factor_on(name);
       if (p < 0) continue;
       const double off = std::log(fit.model.value(p));
-      const double error = std::hypot(fit.standard_error[p], allowance(name));
+      const double error =
+          std::hypot(fit.standard_error[p], allowance(name), stated_of(experiment_, name));
       if (std::abs(off) > clear * error) found_.material.push_back(name);
     }
     if (is_moved(fit)) found_.material.push_back("plant_pose");
-  }
-
-  // An unseen plant's place in the baseline: beyond what its numbers are sure of, and 1 mm.
-  static bool is_moved(const SceneFitResult& fit) {
-    constexpr double least = 1.0e-3;  // m
-    for (int p = 0; p < fit.model.size(); ++p) {
-      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
-      const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
-      if (effect.name != "plant_pose" || free.name != "offset" || free.prior == 0.0) continue;
-      const double error = std::hypot(fit.standard_error[p] * free.scale, least);
-      if (std::abs(fit.model.value(p)) > clear * error) return true;
-    }
-    return false;
-  }
-
-  // Damping is what solvers differ by most, and density is seen through little but weight.
-  static double allowance(const std::string& name) {
-    return name == "damping_time" ? 10.0 * known_to : name == "density" ? 2.0 * known_to : known_to;
   }
 
   // What is outside acts in some trials, and in some of their time: the baseline is that of the

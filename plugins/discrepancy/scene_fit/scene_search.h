@@ -7,6 +7,7 @@
 
 #include "pedicel/discrepancy/scene_fit/outside_force.h"
 #include "pedicel/discrepancy/scene_fit/scene_fit.h"
+#include "pedicel/discrepancy/scene_fit/scene_screen.h"
 
 namespace pedicel::discrepancy {
 
@@ -32,6 +33,8 @@ struct SceneSearchOptions {
   int threads = 1;
   std::function<void(const std::string&, double)> progress;  ///< what is done, and its share
   std::function<bool()> stop;  ///< true: what is known so far is to be concluded
+  /// Takes the predictions' own noise anew, at a model (widen_noise()); none: it stays.
+  std::function<void(const std::vector<plant::Effect>&)> renew_noise;
 };
 
 struct SceneFindings {
@@ -45,9 +48,11 @@ struct SceneFindings {
   std::vector<std::size_t> rivals;  ///< of the best: candidates that do nearly as well
   /// Of a number beside the causes, that left what is known of it: "youngs_modulus", "plant_pose".
   std::vector<std::string> material;
-  OutsideForce outside;    ///< where nothing explains the data
-  std::vector<int> clean;  ///< trials that the baseline alone explains, likewise
-  bool partial = false;    ///< it was stopped
+  std::vector<SeenFrom> seen;  ///< how large each cause would have to be, beside the baseline
+  double seen_units = 0.0;     ///< noise units that a cause must make to be looked for
+  OutsideForce outside;        ///< where nothing explains the data
+  std::vector<int> clean;      ///< trials that the baseline alone explains, likewise
+  bool partial = false;        ///< it was stopped
 
   bool explained() const { return outcome == Outcome::named || outcome == Outcome::ambiguous; }
   /// The model that is told: with the causes, or the baseline.

@@ -43,6 +43,13 @@ Felt less(const Samples& measured, const Eigen::MatrixXd& own) {
   return felt;
 }
 
+/// The scene in which nothing is taken hold of.
+SceneExperiment without_events(const SceneExperiment& experiment) {
+  SceneExperiment own = experiment;
+  for (SceneTrial& trial : own.trials) trial.events.clear();
+  return own;
+}
+
 /// The scene with places along all curves as further markers of one trial, of one sample.
 SceneExperiment with_curves(const SceneExperiment& experiment, int trial, double time,
                             std::vector<SceneMarker>& places) {
@@ -73,6 +80,8 @@ class RobotAlone {
              double moment_std)
       : simulator_(simulator),
         experiment_(simulator.experiment()),
+        empty_(without_events(experiment_)),
+        alone_(empty_, simulator.numerics(), 1),
         model_(model),
         force_std_(force_std),
         moment_std_(moment_std),
@@ -109,7 +118,7 @@ class RobotAlone {
     away.numbers["offset"] = {0.0, 0.0, -100.0};
     variant.effects.push_back(away);
     const SceneSimulator::Request request{&variant, t};
-    return simulator_.run({&request, 1}).front();
+    return alone_.run({&request, 1}).front();
   }
 
   // Where one force would give the moment: nearest to what all samples of a firm push say.
@@ -259,6 +268,8 @@ class RobotAlone {
 
   SceneSimulator& simulator_;
   const SceneExperiment& experiment_;
+  SceneExperiment empty_;
+  SceneSimulator alone_;
   const std::vector<plant::Effect>& model_;
   double force_std_, moment_std_;
   SceneState state_;

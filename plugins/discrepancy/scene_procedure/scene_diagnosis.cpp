@@ -98,6 +98,9 @@ class Procedure {
     how.progress = [this](const std::string& what, double share) {
       tell(what, 0.05 + 0.75 * share);
     };
+    how.renew_noise = [&](const std::vector<plant::Effect>& effects) {
+      widen_noise(simulator, data, {effects}, predictions_of(fine_, {effects}));
+    };
     out_.findings = search_scene(evaluator, how);
     // The simulator goes with this function, and its count with it.
     more_ += simulator.simulations();
@@ -126,6 +129,9 @@ class Procedure {
       widen_noise(fine_, data_, {found.candidates.front().fit.model.effects});
       refit(found.candidates.front().fit);
     } else if (!keep_baseline) {
+      // An unseen plant's place moves touches as a cause does.
+      if (found.baseline.model.size() > 3)
+        widen_noise(fine_, data_, {found.baseline.model.effects});
       refit(found.baseline);
     }
     out_.model = found.model().model.effects;

@@ -136,6 +136,7 @@ class Symptoms {
       for (std::size_t c = 0; c < trial.pixels.size(); ++c)
         image(trial, trial.pixels[c], model.pixels[c], experiment_.cameras[c]);
       standing(trial, model);
+      detachment(trial, model);
     }
     std::ranges::stable_sort(found_, [](const SymptomNumber& a, const SymptomNumber& b) {
       // By significance, as the numbers have different units.
@@ -332,6 +333,9 @@ class Symptoms {
     // Four numbers need more than four places, and places along one stem lie nearly on a line.
     if (count < 10) return;
     const Eigen::Vector4d fit = normal.ldlt().solve(right);
+    // A camera that turns moves its image by the focal length an angle, whatever the distance.
+    const Vec3 turn(fit[1] / camera.focal.y(), -fit[0] / camera.focal.x(), -fit[2]);
+    const auto mrad = [](double angle) { return io::format_number(1.0e3 * angle, 2); };
     const double error =
         data_.deviation(SceneChannel::pixel) / std::sqrt(static_cast<double>(count));
     found_.push_back(symptom("image_motion", trial.name, fit.head<2>().norm(), 2.0 * error + 0.02,
@@ -339,7 +343,9 @@ class Symptoms {
     found_.back().sentence = "The image of " + camera.name + " is moved by (" +
                              io::format_number(fit[0], 2) + ", " + io::format_number(fit[1], 2) +
                              ") px, turned by " + io::format_number(1.0e3 * fit[2], 2) +
-                             " mrad and scaled by " + io::format_number(1.0 + fit[3], 5) + ".";
+                             " mrad and scaled by " + io::format_number(1.0 + fit[3], 5) +
+                             ", as a camera would that is turned by (" + mrad(turn.x()) + ", " +
+                             mrad(turn.y()) + ", " + mrad(turn.z()) + ") mrad in its own frame.";
   }
 
   // The mean offset of the plant's markers before anything moves.
@@ -372,6 +378,27 @@ class Symptoms {
                              io::format_number(1.0e3 * mean.x(), 2) + ", " +
                              io::format_number(1.0e3 * mean.y(), 2) + ", " +
                              io::format_number(1.0e3 * mean.z(), 2) + ") mm on average.";
+  }
+
+  // When fruits came off, recorded less simulated.
+  void detachment(const SceneTrial& trial, const SceneReadings& model) {
+    constexpr double known_to = 0.01;  // s, of a recorded moment
+    for (const SceneEvent& event : trial.events) {
+      if (event.event != "detached") continue;
+      const auto told = std::ranges::find_if(model.events, [&](const SceneEvent& one) {
+        return one.event == "detached" && one.what == event.what;
+      });
+      const std::string when = event.what + " came off at " + io::format_number(event.time, 4) +
+                               " s in " + trial.name + ", ";
+      // One that stays on in the model is later by the rest of the trial at least.
+      const bool stays = told == model.events.end();
+      found_.push_back(symptom("detachment", trial.name,
+                               event.time - (stays ? trial.duration() : told->time), known_to, "s",
+                               {"detachment_threshold", "detachment_law"}));
+      found_.back().sentence =
+          when + (stays ? "and stays on in the simulation."
+                        : "simulated at " + io::format_number(told->time, 4) + " s.");
+    }
   }
 
   const SceneExperiment& experiment_;

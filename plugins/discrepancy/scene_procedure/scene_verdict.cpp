@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/discrepancy/scene_procedure/scene_decoys.h"
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 
@@ -62,8 +64,11 @@ class Conclusion {
     // The search counts causes only. A plant that is softer than its file says is no cause, but a
     // user has to change the file.
     if (v_.outcome == Outcome::adequate && !v_.causes.empty()) v_.outcome = Outcome::named;
+    if (found_.explained() && !v_.causes.empty()) tell_decoys();
     if (v_.outcome == Outcome::unknown) tell_unknown();
     if (v_.outcome == Outcome::ambiguous) tell_next();
+    // Behind what nobody knows anything may hide.
+    if (v_.outcome != Outcome::unknown) tell_what_could_hide();
   }
 
  private:
@@ -196,6 +201,7 @@ class Conclusion {
       cause.parameters[free.name].push_back(estimate_of(fit, p));
       // Which link, which camera: part of what was found, as much as its numbers.
       cause.words = effect.words;
+      cause.where = effect.place;
     }
     const SceneEffectDefinition* known = find_scene_effect(name);
     if (known) cause.plain = known->plain_name;
@@ -329,7 +335,34 @@ class Conclusion {
     cause.change.pixel = rms(3, 2.0);
   }
 
+  // A cause must gain by its shape, not by its size: a decoy has the same size.
+  void tell_decoys() {
+    const Decoys decoys = scene_decoys(experiment_, data_, d_.fit_trials, d_.refitted, d_.extended);
+    const auto nats = [](double value) { return io::format_number(value, 3); };
+    v_.causes.front().because += ". Decoys of it gain less: " + nats(decoys.reversed) +
+                                 " nats backwards in time, " + nats(decoys.exchanged) +
+                                 " at other markers, of " + nats(decoys.own);
+    if (decoys.lose(Levels{}.clear_margin)) return;
+    v_.outcome = Outcome::unknown;
+    v_.remainder =
+        "the same change backwards in time, or at other markers, explains the data as well";
+  }
+
+  void tell_what_could_hide() {
+    for (const SeenFrom& one : found_.seen) {
+      const bool named = std::ranges::any_of(
+          v_.causes, [&](const NamedCause& cause) { return cause.name == one.name; });
+      if (named) continue;
+      DetectableLimit limit{one.name, one.parameter, one.size(found_.seen_units), one.unit,
+                            one.vanishes};
+      // Nothing shows it.
+      if (!std::isfinite(one.a_unit)) limit.smallest = std::nan("");
+      v_.detectable_limits.push_back(limit);
+    }
+  }
+
   void tell_unknown() {
+    if (!v_.remainder.empty()) return;
     // What the refitted model leaves, since no other one is believed.
     const std::string left = io::format_number(found_.baseline_excess, 3);
     // No force at one place of a plant: then it may be something that acts on the arm, or in

@@ -43,6 +43,12 @@ Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::
         reversed.segment(first, size) = change.segment(first, size).reverse();
     }
   }
+  return decoys_of(residual, change, reversed, exchanged, too_alike);
+}
+
+Decoys decoys_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& change,
+                 const Eigen::VectorXd& reversed, const Eigen::VectorXd& exchanged,
+                 double too_alike) {
   return {gain_along(residual, change), decoy_gain(residual, change, reversed, too_alike),
           decoy_gain(residual, change, exchanged, too_alike)};
 }

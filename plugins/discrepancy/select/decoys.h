@@ -23,4 +23,9 @@ struct Decoys {
 Decoys decoys_of(const DataSet& data, std::span<const int> trials, const Eigen::VectorXd& residual,
                  const Eigen::VectorXd& change, double too_alike);
 
+/// The same of a change whose decoys are at hand.
+Decoys decoys_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& change,
+                 const Eigen::VectorXd& reversed, const Eigen::VectorXd& exchanged,
+                 double too_alike);
+
 }  // namespace pedicel::discrepancy

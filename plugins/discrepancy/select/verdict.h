@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/effects/registry/free_parameter.h"
 #include "pedicel/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
@@ -69,6 +70,8 @@ struct DetectableLimit {
   std::string name, parameter;
   double smallest = 0.0;
   std::string unit;
+  /// Where the effect does nothing, for effects of scenes; those of plants are known by their name.
+  effects::Vanishes vanishes = effects::Vanishes::never;
 };
 
 /// A respect in which the data differ from the refitted model: measured less simulated.

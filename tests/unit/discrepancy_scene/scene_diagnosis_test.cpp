@@ -2,9 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "arm_at_stem.h"
+#include "diagnosed_scene.h"
 #include "pedicel/discrepancy/scene/run_effects.h"
-#include "pedicel/discrepancy/scene/scene_observe.h"
 #include "pedicel/discrepancy/scene_procedure/extended_scene.h"
 #include "pedicel/world/scene_reader.h"
 
@@ -13,48 +12,6 @@ namespace {
 
 using testing::Contains;
 using testing::Field;
-
-// Data of a variant with the instruments' noise, diagnosed with the same mesh and step.
-class DiagnosedScene : public testing::Test {
- protected:
-  DiagnosedScene() {
-    numerics_.distance = 0.05;
-    numerics_.dt = 2.0e-3;
-  }
-  SceneDiagnosis diagnose(const std::vector<std::string>& hidden,
-                          const std::vector<SceneForce>& forces = {}) {
-    at_.write_all();
-    const SceneExperiment plain = at_.read();
-    SceneVariant variant;
-    for (const std::string& text : hidden) variant.effects.push_back(scene_effect(text, plain));
-    variant.forces = forces;
-    SceneObserveOptions how;
-    how.numerics = numerics_;
-    made_ = observed_scene(plain, variant, how);
-    SceneDiagnosisOptions options;
-    options.numerics = options.search = numerics_;
-    if (stops_) {
-      options.stop = &stop_;
-      options.progress = [this](const std::string& what, double) {
-        if (cut_ == 0 && what.find("simulating") == std::string::npos) stop_ = true;
-      };
-      options.cut_short = [this] { stop_ = false, ++cut_; };
-    }
-    return diagnose_scene(made_, options);
-  }
-  static const NamedCause* cause(const SceneDiagnosis& diagnosis, const std::string& name) {
-    for (const NamedCause& one : diagnosis.verdict.causes)
-      if (one.name == name) return &one;
-    return nullptr;
-  }
-
-  ArmAtStem at_;
-  SceneNumerics numerics_;
-  SceneExperiment made_;
-  bool stops_ = false;  // as soon as the search has begun
-  std::atomic<bool> stop_ = false;
-  int cut_ = 0;
-};
 
 TEST_F(DiagnosedScene, NothingHiddenIsAdequate) {
   const SceneDiagnosis found = diagnose({});

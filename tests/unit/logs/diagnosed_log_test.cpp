@@ -12,9 +12,10 @@ using discrepancy::ArmAtStem;
 
 class DiagnosedLog : public ::testing::Test {
  protected:
-  /// Runs a scene whose stem has that modulus (Pa) three times, with other motions of the arm, and
-  /// diagnoses their logs by the scene as it is believed to be: 1e9 Pa.
-  discrepancy::SceneDiagnosis diagnose(const std::string& modulus) {
+  /// Runs a scene in which something is other than believed three times, with other motions of the
+  /// arm, and diagnoses their logs by the scene as it is believed to be: a stem of 1e9 Pa, 30 mm
+  /// beside the finger.
+  discrepancy::SceneDiagnosis diagnose(const std::function<void(ArmAtStem&)>& hide = {}) {
     ArmAtStem believed;
     believed.coupling = "{friction: 0.5, contact_stiffness: 1.0e5}";
     believed.write_all();
@@ -23,7 +24,7 @@ class DiagnosedLog : public ::testing::Test {
     for (const double swing : {0.12, 0.16, 0.09}) {
       const LoggedRun run("0.03", 1.2, [&](ArmAtStem& files) {
         files.swing = swing;
-        files.modulus = modulus;
+        if (hide) hide(files);
         // Measured things touch when they touch.
         files.coupling = "{friction: 0.5, contact_stiffness: 1.0e5, margin: 1.0e-5}";
       });
@@ -45,19 +46,29 @@ class DiagnosedLog : public ::testing::Test {
 };
 
 TEST_F(DiagnosedLog, OfTheSceneItselfIsAdequate) {
-  const discrepancy::SceneDiagnosis found = diagnose("1.0e9");
+  const discrepancy::SceneDiagnosis found = diagnose();
   EXPECT_EQ(found.verdict.outcome, discrepancy::Outcome::adequate) << found.text;
   EXPECT_TRUE(found.verdict.causes.empty()) << found.text;
 }
 
 TEST_F(DiagnosedLog, NamesWhatTheRunHad) {
-  const discrepancy::SceneDiagnosis found = diagnose("1.2e9");
+  const discrepancy::SceneDiagnosis found =
+      diagnose([](ArmAtStem& files) { files.modulus = "1.2e9"; });
   EXPECT_EQ(found.verdict.outcome, discrepancy::Outcome::named) << found.text;
   ASSERT_EQ(found.verdict.causes.size(), 1U) << found.text;
   const discrepancy::NamedCause& cause = found.verdict.causes.front();
   EXPECT_EQ(cause.name, "youngs_modulus") << found.text;
   // The run's mesh is that of its file, 50 mm, and the diagnosis takes a finer one.
   EXPECT_NEAR(cause.parameters.at("factor").front().value, 1.2, 0.05);
+}
+
+TEST_F(DiagnosedLog, NamesAPlantThatStoodElsewhere) {
+  const discrepancy::SceneDiagnosis found = diagnose([](ArmAtStem& files) { files.gap = "0.033"; });
+  EXPECT_EQ(found.verdict.outcome, discrepancy::Outcome::named) << found.text;
+  ASSERT_EQ(found.verdict.causes.size(), 1U) << found.text;
+  const discrepancy::NamedCause& cause = found.verdict.causes.front();
+  EXPECT_EQ(cause.name, "plant_pose") << found.text;
+  EXPECT_NEAR(cause.parameters.at("offset")[1].value, 0.003, 3.0e-4) << found.text;
 }
 
 }  // namespace

@@ -15,12 +15,21 @@ SceneEffectDefinition define_detachment_threshold() {
     t.each_plant([&](SceneState::Plant& plant) { plant.threshold *= t.number("factor"); });
   };
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
+    // One that is grasped and stays on says something, too.
     const bool recorded = std::ranges::any_of(c.experiment.trials, [](const SceneTrial& trial) {
-      return std::ranges::any_of(trial.events,
-                                 [](const SceneEvent& e) { return e.event == "detached"; });
+      return std::ranges::any_of(trial.events, [](const SceneEvent& e) {
+        return e.event == "detached" || e.event == "grasped";
+      });
     });
-    if (!recorded) return {};
-    return {effects::Start("detachment_threshold").positive("factor", 1.0, 0.1, 10.0)};
+    const bool fruits = std::ranges::any_of(
+        c.experiment.plants, [](const ScenePlantFile& p) { return !p.file.fruits.empty(); });
+    if (!recorded || !fruits) return {};
+    std::vector<effects::Start> starts;
+    // Where nothing comes off in the model, or everything at once, it has no slope.
+    for (const double factor : {0.4, 0.6, 0.8, 1.25, 1.6, 2.5})
+      starts.push_back(
+          effects::Start("detachment_threshold").positive("factor", factor, 0.1, 10.0));
+    return starts;
   };
   d.tells_apart = "pull a fruit with a force gauge until it comes off";
   return d;

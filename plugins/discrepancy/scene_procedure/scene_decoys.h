@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "pedicel/discrepancy/scene/scene_data.h"
+#include "pedicel/discrepancy/select/decoys.h"
+
+namespace pedicel::discrepancy {
+
+/// What a model gains (nats) over another one by its own change, and what the same change would
+/// gain backwards in time, or at each marker's neighbour, over these trials. Wrenches and torques
+/// have no neighbours: they are left out of the latter.
+Decoys scene_decoys(const SceneExperiment& experiment, const SceneDataSet& data,
+                    std::span<const int> trials, std::span<const SceneReadings> without,
+                    std::span<const SceneReadings> with);
+
+}  // namespace pedicel::discrepancy
