@@ -29,6 +29,10 @@ namespace pedicel::app {
 
 namespace {
 
+bool is_quiet_run(const RunOptions& options) {
+  return options.quiet || verbosity() < Verbosity::lines;
+}
+
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto place =
@@ -355,25 +359,15 @@ class Run {
     if (const std::string text = rough_.warning(); !text.empty())
       say(Verbosity::warnings, "%s", text.c_str());
     if (!result_.error.empty()) say(Verbosity::errors, "error: %s", result_.error.c_str());
-    if (is_quiet()) return;
-    std::fprintf(
-        stderr,
-        "%ld steps, %.3f s simulated, %.2f s wall, %.3f ms/step p50, %.3f p95, %.2f x real "
-        "time, largest stretch %.4f, %zu break%s, state %016llx\n",
-        result_.steps, result_.simulated, result_.wall, result_.ms_per_step_p50,
-        result_.ms_per_step_p95, result_.real_time_factor(), result_.largest_stretch,
-        result_.events.size(), result_.events.size() == 1 ? "" : "s",
-        static_cast<unsigned long long>(result_.state_hash));
-    for (const world::ExpectationResult& verdict : result_.verdicts)
-      std::fprintf(stderr, "%s\n", world::to_string(verdict).c_str());
-    if (!result_.comparison) return;
+    say_result(result_, options_);
+    if (is_quiet() || !result_.comparison) return;
     for (const ColumnComparison& column : result_.comparison->columns)
       std::fprintf(stderr, "%s\n", to_string(column, result_.comparison->tolerance).c_str());
     for (const std::string& column : result_.comparison->left_out)
       std::fprintf(stderr, "%s: not in the log, not compared\n", column.c_str());
   }
 
-  bool is_quiet() const { return options_.quiet || verbosity() < Verbosity::lines; }
+  bool is_quiet() const { return is_quiet_run(options_); }
 
   void show_progress(long done, long all) {
     if (is_quiet() || !isatty(2)) return;
@@ -409,6 +403,19 @@ class Run {
 };
 
 }  // namespace
+
+void say_result(const SceneResult& result, const RunOptions& options) {
+  if (is_quiet_run(options)) return;
+  std::fprintf(stderr,
+               "%ld steps, %.3f s simulated, %.2f s wall, %.3f ms/step p50, %.3f p95, %.2f x real "
+               "time, largest stretch %.4f, %zu break%s, state %016llx\n",
+               result.steps, result.simulated, result.wall, result.ms_per_step_p50,
+               result.ms_per_step_p95, result.real_time_factor(), result.largest_stretch,
+               result.events.size(), result.events.size() == 1 ? "" : "s",
+               static_cast<unsigned long long>(result.state_hash));
+  for (const world::ExpectationResult& verdict : result.verdicts)
+    std::fprintf(stderr, "%s\n", world::to_string(verdict).c_str());
+}
 
 const std::vector<std::string>& files_of_a_run() {
   static const std::vector<std::string> names = {

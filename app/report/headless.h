@@ -69,6 +69,10 @@ struct SceneResult {
 /// What every run may write into its folder, beside its pictures.
 const std::vector<std::string>& files_of_a_run();
 
+/// The lines on standard error that end a run: steps, speed, breaks and state, then what was
+/// expected. Not where `options` are quiet, or the program is.
+void say_result(const SceneResult& result, const RunOptions& options);
+
 /// Runs a scene off screen, once, without its sweep: steps it, records it, takes its pictures and
 /// its video, and judges its expectations (those over a sweep are left out). Throws InvalidFile for
 /// a scene that cannot be built, Stopped while it is built, and io::WriteError for an output that

@@ -96,6 +96,44 @@ Result of_verdicts(std::span<const world::Expectation> expectations,
   return list;
 }
 
+Result of_gentleness(const SceneResult& r) {
+  const Gentleness::Total& all = r.gentleness;
+  Result organs = Result::array();
+  for (const HandledOrgan& one : r.handled)
+    organs.push_back(
+        {{"organ", one.name},
+         {"fruit", one.fruit},
+         {"broken", one.record.broken},
+         {"numbers",
+          of_numbers(std::array{one.record.peak_force, one.record.impulse, one.record.first_touch,
+                                one.record.strain_energy, one.record.margin_used})}});
+  return {{"numbers",
+           of_numbers(std::array{all.peak_force, all.impulse, all.strain_energy, all.margin_used})},
+          {"touched", all.touched},
+          {"broken", all.broken},
+          {"organs", organs}};
+}
+
+void take_gentleness(const Result& json, SceneResult& r) {
+  const std::vector<double> sums = to_numbers(json.at("numbers"));
+  if (sums.size() != 4) throw std::out_of_range("gentleness has 4 numbers");
+  r.gentleness = {sums[0],
+                  sums[1],
+                  sums[2],
+                  sums[3],
+                  json.at("touched").get<int>(),
+                  json.at("broken").get<int>()};
+  for (const Result& one : json.at("organs")) {
+    const std::vector<double> n = to_numbers(one.at("numbers"));
+    if (n.size() != 5) throw std::out_of_range("an organ that was handled has 5 numbers");
+    HandledOrgan organ{one.at("organ").get<std::string>(), one.at("fruit").get<bool>(), {}};
+    organ.record.peak_force = n[0], organ.record.impulse = n[1], organ.record.first_touch = n[2];
+    organ.record.strain_energy = n[3], organ.record.margin_used = n[4];
+    organ.record.broken = one.at("broken").get<bool>();
+    r.handled.push_back(organ);
+  }
+}
+
 Result of_result(std::span<const world::Expectation> expectations, const SceneResult& r) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(r.state_hash));
@@ -113,6 +151,7 @@ Result of_result(std::span<const world::Expectation> expectations, const SceneRe
                  {"residual", r.residual},
                  {"verdicts", of_verdicts(expectations, r.verdicts)},
                  {"events", of_events(r.events)},
+                 {"gentleness", of_gentleness(r)},
                  {"limits", Result::array()},
                  {"pictures", Result::array()}};
   for (const StalkLimits& limit : r.limits)
@@ -145,6 +184,7 @@ SceneResult to_result(const Result& json, const std::filesystem::path& folder,
     r.verdicts.push_back({expectations[at], to_numbers(one.at("measured")), one.at("met")});
   }
   r.events = to_events(json.at("events"));
+  take_gentleness(json.at("gentleness"), r);
   for (const Result& limit : json.at("limits"))
     r.limits.push_back(
         {limit.at("fruit"), to_number(limit.at("stretch")), to_number(limit.at("bend_rad"))});

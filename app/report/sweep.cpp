@@ -20,30 +20,18 @@ std::string text_of(double value) {
   return world::to_number(text) == value ? text : io::exact_number(value);
 }
 
-// "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
-void say(const std::string& label, const SceneResult& result) {
-  std::string text = "sweep " + label + ":";
-  for (const world::ExpectationResult& verdict : result.verdicts)
-    text +=
-        " " + verdict.expectation.quantity + " " +
-        (verdict.measured.empty() ? "nothing" : io::format_number(verdict.measured.front(), 4)) +
-        ",";
-  std::fprintf(stderr, "%s %.2f x real time\n", text.c_str(), result.real_time_factor());
-}
-
 std::vector<SweepRun> run_sweep(const world::Scene& scene, const RunOptions& options,
                                 io::OutputFolder* output) {
   std::vector<SweepRun> runs;
   for (const double value : scene.sweep->values) {
     RunOptions one = options_of_value(options);
-    const std::string label = scene.sweep->key + "=" + text_of(value);
     if (output) one.out = output->file(folder_of_value(scene, value) + "/");
     try {
       runs.push_back({value, run_scene(scene_of_value(scene, value), one)});
     } catch (const Stopped&) {
       break;
     }
-    if (!options.quiet) say(label, runs.back().result);
+    say_value(scene, runs.back(), options);
     if (stop_requested) break;
   }
   return runs;
@@ -62,6 +50,18 @@ std::optional<SolverComparison> whole_comparison(const world::Scene& scene,
 }
 
 }  // namespace
+
+// "sweep detach.stretch=0.1: detach_time_s 3.33, 8.2 x real time"
+void say_value(const world::Scene& scene, const SweepRun& run, const RunOptions& options) {
+  if (options.quiet) return;
+  std::string text = "sweep " + scene.sweep->key + "=" + text_of(run.value) + ":";
+  for (const world::ExpectationResult& verdict : run.result.verdicts)
+    text +=
+        " " + verdict.expectation.quantity + " " +
+        (verdict.measured.empty() ? "nothing" : io::format_number(verdict.measured.front(), 4)) +
+        ",";
+  std::fprintf(stderr, "%s %.2f x real time\n", text.c_str(), run.result.real_time_factor());
+}
 
 RunOptions options_of_value(const RunOptions& options) {
   RunOptions one = options;

@@ -19,6 +19,9 @@ RunOptions options_of_value(const RunOptions& options);
 /// Its folder, "sweep_detach.stretch=0.1".
 std::string folder_of_value(const world::Scene& scene, double value);
 
+/// The line on standard error that tells of one value; not where `options` are quiet.
+void say_value(const world::Scene& scene, const SweepRun& run, const RunOptions& options);
+
 /// What run_with_sweep() makes of the scene's own run and those of the values, wherever they were
 /// done: judges what is expected over the sweep, compares solvers, writes the report into the
 /// output of `result`. `result` comes back with the sweep's verdicts.

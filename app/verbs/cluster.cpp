@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <iterator>
 #include <optional>
 
 #include "pedicel/app/report/version.h"
@@ -170,11 +171,28 @@ int cancel(const fs::path& folder) {
   return exit_ok;
 }
 
-/// The call that wrote the task file, once more: it finds what is done.
+/// The verb's own folder (--out), of the folder of its run or of a stage. It is where the run lies
+/// now, which another folder may be a copy of. Throws UsageError for a run that lies elsewhere.
+fs::path out_of(const fs::path& run) {
+  fs::path folder = fs::absolute(run).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  if (folder.filename() != "cluster") folder = folder.parent_path();
+  if (folder.filename() != "cluster")
+    throw UsageError(
+        run.string() +
+        ": lies in no folder of the name cluster, expected it where --cluster made it");
+  return folder.parent_path();
+}
+
+/// The call that wrote the task file, once more: it finds what is done. Results come into the
+/// folder where the run lies now.
 int call_again(const fs::path& folder, bool collect_only) {
   const cluster::TaskHead head = cluster::read_task_head(cluster::RunFolder(folder).tasks());
   std::vector<std::string> words{head.file.string()};
-  words.insert(words.end(), head.again.begin(), head.again.end());
+  const fs::path out = out_of(folder);
+  std::ranges::copy_if(head.again, std::back_inserter(words),
+                       [](const std::string& word) { return !word.starts_with("--out="); });
+  words.push_back("--out=" + out.string());
   if (collect_only) words.emplace_back("--collect-only");
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);

@@ -91,9 +91,12 @@ void ProgressLine::show(const std::string& what, double share) {
   const std::lock_guard lock(mutex_);
   if (!on_terminal() && what == last_) return;
   clear();
+  if (!first_share_) first_share_ = share, start_ = Clock::now();
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double done = share - *first_share_;
   std::fprintf(stderr, "%3.0f %% %s", 100.0 * share, what.c_str());
-  if (share > 0.05) std::fprintf(stderr, ", about %.0f s left", seconds * (1.0 - share) / share);
+  if (done > 0.05 * (1.0 - *first_share_))
+    std::fprintf(stderr, ", about %.0f s left", seconds * (1.0 - share) / done);
   if (!on_terminal()) std::fprintf(stderr, "\n");
   last_ = what;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,7 +70,9 @@ class ProgressLine {
 
   using Clock = std::chrono::steady_clock;
   std::mutex mutex_;
-  Clock::time_point start_ = Clock::now();
+  // Of the first time that anything was shown: what was done before took none of the time since.
+  std::optional<double> first_share_;
+  Clock::time_point start_;
   std::string last_;
 };
 

@@ -89,6 +89,11 @@ std::string param_sweep_csv(const world::Scene& scene, const io::CsvTable& table
   return text;
 }
 
+void say_row(std::size_t row, const SceneResult& run) {
+  say(Verbosity::lines, "%s: exit code %d, %.2f x real time", folder_of_row(row).c_str(),
+      code_of(run), run.real_time_factor());
+}
+
 SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table,
                             const RunOptions& options) {
   const std::vector<world::Scene> scenes = scenes_of_rows(scene, table);
@@ -108,8 +113,7 @@ SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table
     try {
       const SceneResult run = run_scene(scenes[row], one);
       text += line_of(table, row, run);
-      say(Verbosity::lines, "%s: exit code %d, %.2f x real time", folder_of_row(row).c_str(),
-          code_of(run), run.real_time_factor());
+      say_row(row, run);
       if (run.exit_code == exit_unstable) all.exit_code = exit_unstable;
     } catch (const Stopped&) {
     }

@@ -22,6 +22,9 @@ std::string folder_of_row(std::size_t row);
 std::string param_sweep_csv(const world::Scene& scene, const io::CsvTable& table,
                             const std::vector<std::pair<std::size_t, SceneResult>>& runs);
 
+/// The line that tells of one row, where the program says as much.
+void say_row(std::size_t row, const SceneResult& run);
+
 /// Runs a scene once for each row, into the folders run_001, run_002, ... of `options.out`, without
 /// video, and writes sweep.csv beside them: the row, the exit code of its run, what the scene
 /// expects something of, as measured. What is expected is not judged: that is of the scene's own

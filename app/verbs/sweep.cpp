@@ -77,6 +77,7 @@ void check_arguments(const SweepArguments& a) {
   if (!a.cluster.wanted() && a.part < 0) return;
   const std::pair<const char*, const std::string*> of_one_run[] = {{"--log", &a.log},
                                                                    {"--events", &a.events},
+                                                                   {"--gltf", &a.gltf},
                                                                    {"--compare", &a.compare},
                                                                    {"--save-state", &a.save_state}};
   for (const auto& [option, given] : of_one_run)

@@ -72,12 +72,15 @@ SceneResult merged_values(const SweepCases& cases, const cluster::Campaign& camp
   if (!own)
     throw std::runtime_error("the scene's own run is missing, so there is nothing to merge");
   SceneResult main = placed(cases, 0, *own, taken(options.out));
+  say_result(main, options);
   io::OutputFolder& output = *main.output;
   std::vector<SweepRun> runs;
   // As without tasks: where the scene's own run is unstable its sweep says nothing.
   for (int i = 1; i < cases.size() && main.exit_code != exit_unstable; ++i)
-    if (const auto from = campaign.output(i))
+    if (const auto from = campaign.output(i)) {
       runs.push_back({cases.scene().sweep->values[i - 1], placed_below(cases, i, *from, output)});
+      say_value(cases.scene(), runs.back(), options);
+    }
   return end_sweep(cases.scene(), options, std::move(main), runs);
 }
 
@@ -87,8 +90,10 @@ SceneResult merged_rows(const SweepCases& cases, const cluster::Campaign& campai
   all.output = taken(all.folder);
   std::vector<std::pair<std::size_t, SceneResult>> runs;
   for (int i = 0; i < cases.size(); ++i)
-    if (const auto from = campaign.output(i))
+    if (const auto from = campaign.output(i)) {
       runs.emplace_back(i, placed_below(cases, i, *from, *all.output));
+      say_row(i, runs.back().second);
+    }
   for (const auto& [row, run] : runs)
     if (run.exit_code == exit_unstable) all.exit_code = exit_unstable;
   io::write_file_atomically(all.output->file("sweep.csv"),

@@ -33,6 +33,15 @@ double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
 
+std::string how_to_go_on(const RunFolder& folder) {
+  return "; what is done stays, and `pedicel cluster resume " + folder.path().string() +
+         "` goes on";
+}
+
+std::string stopped_text(const RunFolder& folder) {
+  return "stopped" + how_to_go_on(folder);
+}
+
 void nap(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
@@ -97,21 +106,25 @@ Campaign::~Campaign() = default;
 
 // The block's length is known once one case is. That one is done here, as a task would do it, and
 // its results count.
-void Campaign::measure_case(const ClusterOptions& options, const ProgramAbout& about,
-                            const Progress& progress) {
-  double seconds = options.case_seconds;
+void Campaign::measure_case(const Progress& progress, const Say& say) {
+  double seconds = options_.case_seconds;
   if (seconds == 0.0 && survey_.done() > 0) seconds = survey_.seconds / survey_.done();
   if (seconds == 0.0) {
     if (progress) progress("one case, to see how long it takes", 0.0);
     InputCheck inputs(tasks_.head);
     const auto begin = Clock::now();
     const Case& one = tasks_.cases[survey_.missing.front()];
-    const CaseRunOptions run{folder_, options.mode == "slurm" ? fs::path() : options.scratch,
-                             about.instruction_set(tasks_.head.instruction_set)};
-    run_case(tasks_.head, one, inputs, run);
+    const CaseRunOptions run{folder_, options_.mode == "slurm" ? fs::path() : options_.scratch,
+                             about_.instruction_set(tasks_.head.instruction_set)};
+    try {
+      run_case(tasks_.head, one, inputs, run);
+    } catch (const Stopped&) {
+      say(stopped_text(folder_));
+      throw;
+    }
     seconds = seconds_since(begin);
   }
-  make_blocks(tasks_, options.block_seconds, seconds);
+  make_blocks(tasks_, options_.block_seconds, seconds);
   write_task_file(folder_.tasks(), tasks_);
   surveyor_ = std::make_unique<Surveyor>(folder_, tasks_);
   survey_ = surveyor_->look(true);
@@ -168,9 +181,7 @@ void Campaign::interrupted(Queue& queue, const Say& say) const {
   if (queue.left().empty() || options_.on_interrupt == "cancel") {
     const std::string job = queue.left();
     queue.cancel();
-    say((job.empty() ? "stopped" : job + " is cancelled") +
-        "; what is done stays, and `pedicel cluster resume " + folder_.path().string() +
-        "` goes on");
+    say(job.empty() ? stopped_text(folder_) : job + " is cancelled" + how_to_go_on(folder_));
   } else {
     say(queue.left() + " goes on; `pedicel cluster resume " + folder_.path().string() +
         "` waits for it again, `pedicel cluster cancel` ends it");
@@ -179,9 +190,11 @@ void Campaign::interrupted(Queue& queue, const Say& say) const {
 
 void Campaign::run(const Progress& progress, const Say& say) {
   if (!options_.collect_only && !survey_.missing.empty()) {
-    if (tasks_.head.block_seconds == 0.0) measure_case(options_, about_, progress);
     const std::unique_ptr<Queue> queue = make_queue(folder_, tasks_.head, options_);
     bool attached = !queue->state().empty();
+    // Before a case is done here: where nothing can be handed in, its time would be lost.
+    if (!attached) queue->check();
+    if (tasks_.head.block_seconds == 0.0) measure_case(progress, say);
     for (int round = 0; round < most_rounds && !survey_.missing.empty(); ++round) {
       if (!attached) submit(*queue);
       attached = false;

@@ -30,7 +30,8 @@ class Campaign {
 
   /// Hands in what is missing, and waits for it, with progress. What was lost with a node is handed
   /// in again. Comes back when all is done, has failed or was stopped (stop_requested), or at once
-  /// where the options say so. Throws std::runtime_error where the queue refuses.
+  /// where the options say so. Throws std::runtime_error where the queue refuses, Stopped in the
+  /// case that is measured.
   void run(const Progress& progress, const Say& say);
 
   const TaskFile& tasks() const { return tasks_; }
@@ -42,7 +43,7 @@ class Campaign {
   std::string missing_text() const;
 
  private:
-  void measure_case(const ClusterOptions& options, const ProgramAbout& about, const Progress& say);
+  void measure_case(const Progress& progress, const Say& say);
   void submit(Queue& queue);
   bool wait(Queue& queue, const Progress& progress, const Say& say);
   void interrupted(Queue& queue, const Say& say) const;

@@ -90,27 +90,30 @@ void add_cluster_options(CLI::App& verb, ClusterOptions& o) {
 }
 
 ClusterOptions with_profile(ClusterOptions o) {
+  const ClusterOptions given = o;
   if (!o.profile.empty()) take_profile(read_profile(o.profile), o);
-  const std::pair<const char*, bool> needs_cluster[] = {{"--jobs", o.jobs > 0},
-                                                        {"--block-seconds", o.block_seconds > 0.0},
-                                                        {"--case-seconds", o.case_seconds > 0.0},
-                                                        {"--scratch", !o.scratch.empty()},
-                                                        {"--collect-only", o.collect_only}};
-  const std::pair<const char*, bool> needs_slurm[] = {{"--partition", !o.partition.empty()},
-                                                      {"--account", !o.account.empty()},
-                                                      {"--time", !o.time.empty()},
-                                                      {"--memory", !o.memory.empty()},
-                                                      {"--on-interrupt", !o.on_interrupt.empty()},
-                                                      {"--no-wait", o.no_wait}};
-  const bool of_profile = !o.profile.empty();
-  for (const auto& [option, given] : needs_cluster)
-    if (given && !o.wanted() && !of_profile)
-      throw UsageError(std::string(option) + ": expected it with --cluster");
-  for (const auto& [option, given] : needs_slurm)
-    if (given && o.mode != "slurm" && !of_profile)
-      throw UsageError(std::string(option) + ": expected it with --cluster slurm");
-  if (of_profile && !o.wanted())
+  if (!o.profile.empty() && !o.wanted())
     throw UsageError("--cluster-profile: says nothing of the mode, expected --cluster, too");
+  // Of the command line: a profile may keep what one of its modes does not need.
+  const std::pair<const char*, bool> needs_cluster[] = {
+      {"--jobs", given.jobs > 0},
+      {"--block-seconds", given.block_seconds > 0.0},
+      {"--case-seconds", given.case_seconds > 0.0},
+      {"--scratch", !given.scratch.empty()},
+      {"--collect-only", given.collect_only}};
+  const std::pair<const char*, bool> needs_slurm[] = {
+      {"--partition", !given.partition.empty()},
+      {"--account", !given.account.empty()},
+      {"--time", !given.time.empty()},
+      {"--memory", !given.memory.empty()},
+      {"--on-interrupt", !given.on_interrupt.empty()},
+      {"--no-wait", given.no_wait}};
+  for (const auto& [option, is_given] : needs_cluster)
+    if (is_given && !o.wanted())
+      throw UsageError(std::string(option) + ": expected it with --cluster");
+  for (const auto& [option, is_given] : needs_slurm)
+    if (is_given && o.mode != "slurm")
+      throw UsageError(std::string(option) + ": expected it with --cluster slurm");
   if (o.collect_only && o.no_wait)
     throw UsageError("--collect-only and --no-wait: expected one of them");
   if (o.mode == "local" && !o.scratch.empty()) o.scratch = expanded(o.scratch);

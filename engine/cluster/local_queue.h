@@ -15,6 +15,7 @@ class LocalQueue : public Queue {
  public:
   LocalQueue(RunFolder folder, const TaskHead& head, const ClusterOptions& options);
 
+  void check() override {}
   void submit(const std::vector<int>& blocks) override;
   State state() override;
   void cancel() override;

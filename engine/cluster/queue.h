@@ -15,6 +15,8 @@ class Queue {
   };
 
   virtual ~Queue() = default;
+  /// Throws std::runtime_error where nothing can be handed in from here, with what was expected.
+  virtual void check() = 0;
   /// Throws std::runtime_error where it refuses.
   virtual void submit(const std::vector<int>& blocks) = 0;
   virtual State state() = 0;

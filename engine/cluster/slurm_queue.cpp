@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "pedicel/cluster/process.h"
+#include "pedicel/core/stop.h"
 #include "pedicel/io/atomic_file.h"
 
 namespace pedicel::cluster {
@@ -83,6 +84,17 @@ std::vector<std::string> SlurmQueue::command(const std::vector<int>& indices, in
   words.push_back(folder_.job_script().string());
   words.push_back(std::to_string(offset));
   return words;
+}
+
+void SlurmQueue::check() {
+  try {
+    output_of({"sbatch", "--version"});
+    array_size();
+  } catch (const std::runtime_error& fault) {
+    throw_if_stopped();
+    throw std::runtime_error(std::string("Slurm does not answer (") + fault.what() +
+                             "), expected a node where sbatch works, or --cluster local");
+  }
 }
 
 void SlurmQueue::submit(const std::vector<int>& blocks) {

@@ -16,6 +16,7 @@ class SlurmQueue : public Queue {
  public:
   SlurmQueue(RunFolder folder, const TaskHead& head, const ClusterOptions& options);
 
+  void check() override;
   void submit(const std::vector<int>& blocks) override;
   State state() override;
   void cancel() override;

@@ -58,6 +58,18 @@ TEST_F(Site, OptionsWithoutAClusterAreRefused) {
   EXPECT_THROW(with_profile(given), UsageError);
 }
 
+TEST_F(Site, OptionsOfSlurmAreRefusedWithALocalProfile) {
+  io::write_file_atomically(
+      "site.yaml", "format: pedicel-cluster\nversion: 1\ncluster: local\npartition: short\n");
+  ClusterOptions given;
+  given.profile = "site.yaml";
+  EXPECT_EQ(with_profile(given).mode, "local");
+  given.no_wait = true;
+  EXPECT_THROW(with_profile(given), UsageError);
+  given.mode = "slurm";
+  EXPECT_TRUE(with_profile(given).no_wait);
+}
+
 TEST_F(Site, ScratchMayBeAVariableOfTheNode) {
   ClusterOptions given;
   given.mode = "local";
