@@ -11,7 +11,7 @@ namespace {
 constexpr double around = 0.4;  // s shown before and after the fall
 
 /// The force's size and its part along the pull, in a stretch of the record.
-plots::LinePlot plot_of(const ForceCourse& course, const Pick& pick, const std::string& title,
+plots::LinePlot plot_of(const PickForce& course, const Pick& pick, const std::string& title,
                         std::optional<std::pair<double, double>> stretch) {
   plots::LinePlot plot;
   plot.title = title;
@@ -54,7 +54,7 @@ void write_pick_report(const std::filesystem::path& file, const std::vector<Judg
     const Pick& pick = judged.pick;
     report.heading(judged.record.file);
     report.note(pick.sentence(), pick.end == Pick::End::came_off);
-    const ForceCourse course(judged.record, settings.rest);
+    const PickForce course(judged.record, settings.rest);
     if (course.size() < 2) continue;
     std::vector<std::string> plots = {plots::to_svg(plot_of(course, pick, "the record", {}))};
     if (pick.fall)

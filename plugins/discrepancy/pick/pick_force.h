@@ -8,10 +8,10 @@
 namespace pedicel::discrepancy {
 
 /// A record made ready to be judged: without its zero, missing rows and lone spikes, at most 2 kHz.
-class ForceCourse {
+class PickForce {
  public:
   /// `rest`: s at the start of the record whose median is the zero.
-  ForceCourse(const PickRecord& record, double rest);
+  PickForce(const PickRecord& record, double rest);
 
   int size() const { return static_cast<int>(time_.size()); }
   int axes() const { return static_cast<int>(force_.cols()); }
