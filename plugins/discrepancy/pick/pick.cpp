@@ -77,7 +77,7 @@ Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
   return pick;
 }
 
-std::optional<double> Pick::moment() const {
+std::optional<double> Pick::time() const {
   if (!fall || (end != End::came_off && end != End::slipped)) return std::nullopt;
   return fall->onset;
 }

@@ -92,8 +92,8 @@ void PickForce::thin() {
   force_.conservativeResize(kept, Eigen::NoChange);
 }
 
-int PickForce::first_at(double moment) const {
-  return static_cast<int>(std::ranges::lower_bound(time_, moment) - time_.begin());
+int PickForce::first_at(double time) const {
+  return static_cast<int>(std::ranges::lower_bound(time_, time) - time_.begin());
 }
 
 Eigen::VectorXd PickForce::mean(double from, double to) const {

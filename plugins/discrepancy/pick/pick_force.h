@@ -21,7 +21,7 @@ class PickForce {
   double interval() const { return interval_; }  ///< s, median between two samples
 
   /// The first sample at or after a time; size() where there is none.
-  int first_at(double moment) const;
+  int first_at(double time) const;
   /// Mean over [from, to), N; of the sample nearest to it where it holds none.
   Eigen::VectorXd mean(double from, double to) const;
   /// Whether samples lie in at least half of [from, to), s.

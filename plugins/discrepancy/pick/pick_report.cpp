@@ -28,8 +28,8 @@ plots::LinePlot plot_of(const PickForce& course, const Pick& pick, const std::st
   }
   plot.series.push_back(size);
   if (pick.fall) plot.series.push_back(along);
-  if (const auto moment = pick.moment())
-    plot.events.push_back({*moment, pick.end == Pick::End::came_off ? "came off" : "slips"});
+  if (const auto time = pick.time())
+    plot.events.push_back({*time, pick.end == Pick::End::came_off ? "came off" : "slips"});
   return plot;
 }
 
@@ -43,11 +43,10 @@ void write_pick_report(const std::filesystem::path& file, const std::vector<Judg
     const Pick& pick = judged.pick;
     rows.push_back({judged.record.file, pick.outcome(),
                     pick.probability ? text("%.3f", *pick.probability) : "",
-                    pick.moment() ? text("%.3f", *pick.moment()) : "",
-                    text("%.4g", pick.peak_force),
+                    pick.time() ? text("%.3f", *pick.time()) : "", text("%.4g", pick.peak_force),
                     pick.fall && pick.fall->half ? text("%.3g", 1e3 * *pick.fall->half) : ""});
   }
-  report.table({"record", "outcome", "probability that it came off", "moment, s", "peak force, N",
+  report.table({"record", "outcome", "probability that it came off", "time, s", "peak force, N",
                 "half of the load lost in, ms"},
                rows);
   for (const JudgedPick& judged : all) {
