@@ -112,7 +112,8 @@ TEST_F(Edits, FruitsAndLeavesAlongAStem) {
   EXPECT_EQ(plant().fruits[0].place.at, 0.9);
   run("set organ p berry stretch 0");
   EXPECT_FALSE(plant().fruits[0].detach.stretch.has_value());
-  EXPECT_THAT(refusal("set organ p berry force -1"), HasSubstr("force = -1, expected a number > 0"));
+  EXPECT_THAT(refusal("set organ p berry force -1"),
+              HasSubstr("force = -1, expected a number > 0"));
   run("add fruit p pea stem 0.5 0.004");
   EXPECT_EQ(plant().fruits[1].density, 950.0);
   run("delete organ p pea");
