@@ -7,7 +7,7 @@
 #include "pedicel/app/editors/diagnosis_part.h"
 #include "pedicel/app/panels/panel.h"
 #include "pedicel/app/session/measured/experiment_reading.h"
-#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/measured/measured_instant.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/plot.h"
 #include "pedicel/app/ui/theme.h"
@@ -185,7 +185,7 @@ class DataPanel : public Panel {
   void markers(Ui& ui, const discrepancy::Experiment& experiment) {
     MeasuredView& view = ui.view.measured;
     const MeasuredData& data = ui.session.measured().data();
-    const auto now = moment_of(data, view.trial, static_cast<Model>(view.model), view.time);
+    const auto now = instant_of(data, view.trial, static_cast<Model>(view.model), view.time);
     heading(ui, "Error of markers, mm");
     if (!now) return note("No markers were measured in this trial.");
     const int rows = std::min<int>(static_cast<int>(experiment.markers.size()), 8) + 1;
@@ -226,7 +226,7 @@ class DataPanel : public Panel {
     }
   }
 
-  void marker_row(Ui& ui, const discrepancy::Experiment& experiment, const MeasuredMoment& now,
+  void marker_row(Ui& ui, const discrepancy::Experiment& experiment, const MeasuredInstant& now,
                   const std::vector<int>& columns, int marker) {
     MeasuredView& view = ui.view.measured;
     const auto i = static_cast<std::size_t>(marker);

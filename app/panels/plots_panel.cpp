@@ -6,7 +6,7 @@
 #include <map>
 
 #include "pedicel/app/panels/panel.h"
-#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/measured/measured_instant.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/free_file_name.h"
 #include "pedicel/app/ui/plot.h"

@@ -132,7 +132,7 @@ void SceneTies::add(const world::SceneTie& tie, const std::string& organ, const 
 }
 
 double SceneTies::tension(const One& one) const {
-  if (one.is_between) return rods_.tension(rods_.strings()[one.slot]);
+  if (one.is_between) return cosserat::tension(rods_, rods_.strings()[one.slot]);
   return cosserat::tension(rods_.state(one.plant), rods_.ties(one.plant)[one.slot]);
 }
 
@@ -140,7 +140,7 @@ std::optional<SceneTies::Course> SceneTies::course(const One& one) const {
   Course course;
   if (one.is_between) {
     const cosserat::PlantString& string = rods_.strings()[one.slot];
-    const auto from = rods_.place_of(string.a), to = rods_.place_of(string.b);
+    const auto from = cosserat::place_of(rods_, string.a), to = cosserat::place_of(rods_, string.b);
     if (!from || !to) return {};
     course = {*from, *to, string.length, 0.0};
   } else {

@@ -146,8 +146,8 @@ void add_drawing(PlantClass& plant) {
           "add_stem", &add_stem, "name"_a, "points"_a, "radius"_a, "interpolation"_a = "smooth",
           "points (points, 3), m; radius in m: one number, or one a point. A stem that begins near "
           "another one is its branch; the first stem's first point becomes the root.")
-      .def("add_fruit", &add_fruit, "name"_a, "stem"_a, "at"_a, "radius"_a, "density"_a = 1000.0,
-           "detach"_a = std::map<std::string, double>{},
+      .def("add_fruit", &add_fruit, "name"_a, "stem"_a, "at"_a, "radius"_a,
+           "density"_a = plant::usual_fruit_density, "detach"_a = std::map<std::string, double>{},
            "A sphere of radius (m) and density (kg/m3) at a fraction of the stem's length. detach: "
            "thresholds by name: stretch (1), bend (rad), force (N), moment, torsion (N m).")
       .def("add_leaf", &add_leaf, "name"_a, "stem"_a, "at"_a, "template"_a, "size"_a,

@@ -74,7 +74,7 @@ void GivingRobot::act(const coupling::ContactReport& contacts,
   const Eigen::VectorXd given = joints_.deflection(),
                         speed = joints_.row().segment(dofs, dofs).transpose();
   place(q_ + given, qd_ + speed);
-  robot_.set_given(given);
+  robot_.drives().set_deflection(given);
   for (int i = 0; i < static_cast<int>(dofs); ++i)
     robot_.robot().add_motor_load(i, -(stiffness_ * given[i] + damping_ * speed[i]));
 }

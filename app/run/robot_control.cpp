@@ -70,17 +70,16 @@ void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
   // and the motors go on to hold it.
   if (goal_)
     approach_goal(world.dt());
-  else if (!trajectory_.empty())
+  else if (!program_.empty())
     // A target is where the joint shall be at the end of this step.
-    part_at(world.time() + world.dt()).sample(program_time(world.time() + world.dt()), q_, qd_);
-  if (lag_ > 0.0 && !led_) lag_behind(world.dt());
-  const bool lags = lag_ > 0.0;
+    program_.sample(world.time() + world.dt(), q_, qd_);
+  // The program goes on as it is told: what lags is what the motors get.
+  const JointTargets* lagged =
+      led_ ? nullptr : drives_.follow(q_, qd_, robot_.positions(), world.dt());
+  const Eigen::VectorXd &q = lagged ? lagged->q : q_, &qd = lagged ? lagged->qd : qd_;
   // Led by its motors, nobody but the one who leads sets targets.
   for (int i = 0; i < q_.size() && !led_; ++i) {
-    if (mode_ == "position" && lags)
-      robot_.motors().set_position_target(i, lagged_[i], lagged_speed_[i]);
-    else if (mode_ == "position")
-      robot_.motors().set_position_target(i, q_[i], qd_[i]);
+    if (mode_ == "position") robot_.motors().set_position_target(i, q[i], qd[i]);
     if (mode_ == "velocity") robot_.motors().set_velocity_target(i, qd_[i]);
     // Without anyone who leads it a robot in torque mode is limp. Set in each step: a torque that
     // was led before would else act on.
@@ -96,39 +95,24 @@ void RobotControl::go_to(const Eigen::VectorXd& q) {
   // A goal by hand ends the program, and only a new one takes over again.
   goal_ = robot_.model().clamped(q);
   // Else the program would go on where it was, as soon as the goal is reached.
-  trajectory_ = lap_ = {};
+  program_ = {};
   led_ = false;
 }
 
 void RobotControl::lead_by_motors() {
   goal_.reset();
-  trajectory_ = lap_ = {};
+  program_ = {};
   led_ = true;
-}
-
-// The way to the first lap, or the lap.
-const robot::Trajectory& RobotControl::part_at(double world_time) const {
-  // The way to the lap is gone once; only the lap comes again.
-  const bool leads = lap_.empty() || world_time - start_ <= trajectory_.duration();
-  return leads ? trajectory_ : lap_;
-}
-
-double RobotControl::program_time(double world_time) const {
-  const double time = world_time - start_;
-  if (&part_at(world_time) == &trajectory_) return time;
-  // The lap ends where it begins, so that the jump in time is none in place.
-  return std::fmod(time - trajectory_.duration(), lap_.duration());
 }
 
 Eigen::VectorXd RobotControl::goal() const {
   if (goal_) return *goal_;
   if (led_) return robot_.positions();
-  if (trajectory_.empty()) return q_;
+  if (program_.empty()) return q_;
   Eigen::VectorXd q = q_, qd = qd_;
   // Where it is told to go in the end, not where the program is now: panels show this beside where
   // it is.
-  const robot::Trajectory& last = lap_.empty() ? trajectory_ : lap_;
-  last.sample(last.duration(), q, qd);
+  program_.sample_end(q, qd);
   return q;
 }
 
@@ -140,15 +124,6 @@ void RobotControl::approach_goal(double dt) {
     q_[i] += step;
     qd_[i] = step / dt;
   }
-}
-
-// First order, exact for a target that goes evenly within a step.
-void RobotControl::lag_behind(double dt) {
-  if (lagged_.size() == 0) lagged_ = robot_.positions();
-  const double kept = std::exp(-dt / lag_);
-  const Eigen::VectorXd before = lagged_;
-  lagged_ = q_ - lag_ * qd_ + kept * (before - q_ + dt * qd_ + lag_ * qd_);
-  lagged_speed_ = (lagged_ - before) / dt;
 }
 
 void RobotControl::Reader::act(world::SimWorld&, world::WorldReport& report) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/app/run/drive_error.h"
+#include "pedicel/app/run/followed_program.h"
 #include "pedicel/core/diagnostics.h"
 #include "pedicel/core/state_hash.h"
 #include "pedicel/robot/robot.h"
@@ -44,28 +46,19 @@ class RobotControl : public world::Participant {
   Pose tool_pose() const;
   /// To be followed; its time 0 is at `start` (s) of the world.
   void set_trajectory(robot::Trajectory trajectory, double start = 0.0) {
-    trajectory_ = std::move(trajectory);
-    lap_ = {};
-    start_ = start;
+    set_program({std::move(trajectory), {}, start});
+  }
+  void set_program(FollowedProgram program) {
+    program_ = std::move(program);
     goal_.reset();
     led_ = false;
   }
-  /// The same, and after its end a lap (from its time 0 on) over and over. The lap should end where
-  /// it begins.
-  void set_loop(robot::Trajectory lead, robot::Trajectory lap, double start) {
-    set_trajectory(std::move(lead), start);
-    lap_ = std::move(lap);
-  }
   /// Gives up the program or the goal: it stays where it is now.
   void stop() { go_to(robot_.positions()); }
-  /// Its position targets are followed with a lag of first order; 0: at once.
-  void set_lag(double time) { lag_ = time; }  // s
-  /// How far its links are beyond what its encoders read, rad or m.
-  void set_given(const Eigen::VectorXd& given) { given_ = given; }
+  /// How its drives differ from what they are told and what is read of them.
+  DriveError& drives() { return drives_; }
   /// What a joint's encoder reads, rad or m.
-  double reading(int joint) const {
-    return robot_.positions()[joint] - (given_.size() > 0 ? given_[joint] : 0.0);
-  }
+  double reading(int joint) const { return drives_.reading(joint, robot_.positions()[joint]); }
   /// Gives up the program: from where it is, every joint moves evenly to `q` (rad or m,
   /// moved into the limits), at its speed limit at most, at 1 rad/s or 0.25 m/s where that is
   /// lower.
@@ -76,12 +69,9 @@ class RobotControl : public world::Participant {
   bool led_by_motors() const { return led_; }
   /// Where it is told to go in the end (rad or m); led by its motors, where it is.
   Eigen::VectorXd goal() const;
-  bool follows_program() const { return !trajectory_.empty() && !goal_; }
-  bool loops() const { return follows_program() && !lap_.empty(); }
-  /// s, of the program followed: how long since its start (of a lap: since the lap began), and how
-  /// long it takes.
-  double program_time(double world_time) const;
-  double program_duration(double world_time) const { return part_at(world_time).duration(); }
+  bool follows_program() const { return !program_.empty() && !goal_; }
+  /// What set_trajectory() or set_program() said, also while a goal goes before it.
+  const FollowedProgram& program() const { return program_; }
 
   void add_to(StateHash& hash) const { robot_.add_to(hash); }
 
@@ -100,27 +90,22 @@ class RobotControl : public world::Participant {
   robot::Robot robot_;
   Reader reader_;
   void approach_goal(double dt);
-  void lag_behind(double dt);
-  const robot::Trajectory& part_at(double world_time) const;
 
-  robot::Trajectory trajectory_, lap_;
-  double start_ = 0.0;                   // s, of the trajectory
+  FollowedProgram program_;
   std::optional<Eigen::VectorXd> goal_;  // of go_to()
   Eigen::VectorXd speed_;                // rad/s or m/s, of go_to()
   bool led_ = false;                     // by its motors
   int tool_link_ = 0, gripper_ = -1;
   Vec3 tool_offset_;
   Eigen::VectorXd q_, qd_, start_of_step_;
-  double lag_ = 0.0;                       // s
-  Eigen::VectorXd lagged_, lagged_speed_;  // targets behind the lag
-  Eigen::VectorXd given_;                  // empty: nothing gives way
+  DriveError drives_;
 };
 
 /// What a scene's effects change of how its robot is led.
 struct LedRobot {
   const robot::RobotDescription* believed = nullptr;  ///< that programs are planned for; null: it
   double log_delay = 0.0;  ///< s: a row of its trajectory's file at t holds what was at t - delay
-  double lag = 0.0;        ///< s, RobotControl::set_lag()
+  double lag = 0.0;        ///< s, DriveError::set_lag()
 };
 
 /// How fast each joint goes where it is sent by hand, rad/s or m/s.

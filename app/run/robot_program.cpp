@@ -130,7 +130,7 @@ std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
                                                  const LedRobot& led, Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();
   auto control = std::make_unique<RobotControl>(scene, description, world);
-  control->set_lag(led.lag);
+  control->drives().set_lag(led.lag);
   plan(scene, *control, find, led, diagnostics);
   if (diagnostics.error_count() > before) return nullptr;
   // Without motors an arm is meant to fall.

@@ -23,7 +23,7 @@ namespace {
 constexpr const char* first_line = "# pedicel journal 1";
 constexpr const char* ending = ".journal";
 
-/// One a process and moment.
+/// One a process and millisecond.
 std::string unique_name() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(now).count()) + "_" +

@@ -16,9 +16,9 @@ namespace {
 std::string time_text(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto written = std::filesystem::last_write_time(file, ignored);
-  const auto moment = std::chrono::file_clock::to_sys(written);
+  const auto instant = std::chrono::file_clock::to_sys(written);
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
-      std::chrono::time_point_cast<std::chrono::system_clock::duration>(moment));
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(instant));
   std::tm utc{};
   gmtime_r(&seconds, &utc);
   char text[32];

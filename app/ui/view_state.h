@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pedicel/core/frames.h"
+#include "pedicel/plant/plant_numbers.h"
 #include "pedicel/world/recorder.h"
 
 namespace pedicel::app {
@@ -114,13 +115,13 @@ struct DrawMode {
   double taper_start = 0.0, taper_end = 1.0;       ///< 1, share of the way from max to min
   PlaneChoice plane = PlaneChoice::upright;
   DrawDepth depth = DrawDepth::surface;
-  bool only_first = true;         ///< depth taken from the stroke's start
-  double offset = 0.0;            ///< m, from the surface
-  double fruit_radius = 0.012;    ///< m
-  double fruit_density = 1000.0;  ///< kg/m3
-  double fruit_stretch = 0.15;    ///< 1, threshold of its stalk
-  double fruit_force = 3.0;       ///< N, threshold of its stalk: what a ripe cherry tomato takes
-  double leaf_size = 0.08;        ///< m
+  bool only_first = true;                             ///< depth taken from the stroke's start
+  double offset = 0.0;                                ///< m, from the surface
+  double fruit_radius = 0.012;                        ///< m
+  double fruit_density = plant::usual_fruit_density;  ///< kg/m3
+  double fruit_stretch = 0.15;                        ///< 1, threshold of its stalk
+  double fruit_force = 3.0;  ///< N, threshold of its stalk: what a ripe cherry tomato takes
+  double leaf_size = 0.08;   ///< m
   std::string leaf_template = "tomato";  ///< of those beside the program
 
   double tie_stiffness = 1.0e4;  ///< N/m

@@ -17,7 +17,7 @@ namespace pedicel::app {
 /// What this program says of itself to tasks.
 cluster::ProgramAbout program_about();
 
-/// --instruction-set, which counts from the moment that it is parsed.
+/// --instruction-set, which counts from when it is parsed.
 void add_instruction_set_option(CLI::App& verb);
 
 /// Runs a campaign with a line of progress, and says what is missing at the end. `out` is the

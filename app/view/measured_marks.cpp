@@ -131,23 +131,23 @@ void MeasuredMarks::update(ViewState& view, const Session& session, const Snapsh
 
 void MeasuredMarks::add_model(const MeasuredData& data, const ViewState& view, int model,
                               const Pose& place_W) {
-  const auto moment =
-      moment_of(data, view.measured.trial, static_cast<Model>(model), view.measured.time);
-  if (!moment) return;
-  if (view.measured.shape) add_shape(data, *moment, view, model, place_W);
-  add_markers(*moment, view.measured, model, place_W);
+  const auto instant =
+      instant_of(data, view.measured.trial, static_cast<Model>(model), view.measured.time);
+  if (!instant) return;
+  if (view.measured.shape) add_shape(data, *instant, view, model, place_W);
+  add_markers(*instant, view.measured, model, place_W);
 }
 
-void MeasuredMarks::add_shape(const MeasuredData& data, const MeasuredMoment& moment,
+void MeasuredMarks::add_shape(const MeasuredData& data, const MeasuredInstant& instant,
                               const ViewState& view, int model, const Pose& place_W) {
   const TrialPath* path = data.path(static_cast<Model>(model), view.measured.trial);
-  if (!path || moment.shape.empty()) return;
+  if (!path || instant.shape.empty()) return;
   const auto& curves = data.experiment()->plant.curves;
   const bool coloured = view.colours == ColourMap::residual && view.measured.residual_scale > 0.0;
   for (const ShapeCurve& curve : data.shape()) {
     std::vector<render::TubePoint> points;
     for (std::size_t i = 0; i < curve.at.size(); ++i) {
-      const Vec3& point = moment.shape[static_cast<std::size_t>(curve.first) + i];
+      const Vec3& point = instant.shape[static_cast<std::size_t>(curve.first) + i];
       if (!point.allFinite()) continue;
       Colour colour = render::shadings::stem.colour;
       if (coloured)
@@ -161,12 +161,12 @@ void MeasuredMarks::add_shape(const MeasuredData& data, const MeasuredMoment& mo
   }
 }
 
-void MeasuredMarks::add_markers(const MeasuredMoment& moment, const MeasuredView& view, int model,
+void MeasuredMarks::add_markers(const MeasuredInstant& instant, const MeasuredView& view, int model,
                                 const Pose& place_W) {
   const render::Shading seen{measured_colour, 0.4f, 0.4f};
   const render::Shading said{model_colour(model), 0.4f, 0.4f};
-  for (std::size_t m = 0; m < moment.markers.size(); ++m) {
-    const MarkerMoment& one = moment.markers[m];
+  for (std::size_t m = 0; m < instant.markers.size(); ++m) {
+    const MarkerInstant& one = instant.markers[m];
     const BeadSizes size = bead_sizes(stem_radii_[m], static_cast<int>(m) == view.marker);
     if (view.markers && one.measured.allFinite())
       list_.spheres.push_back({place_W * one.measured, size.measured, seen});

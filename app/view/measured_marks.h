@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/measured/measured_instant.h"
 #include "pedicel/app/ui/view_state.h"
 #include "pedicel/render/draw_list.h"
 
@@ -35,9 +35,9 @@ class MeasuredMarks {
   void follow(const Session& session, const std::shared_ptr<const cosserat::RodModel>& model,
               const Pose& place_W);
   void add_model(const MeasuredData& data, const ViewState& view, int model, const Pose& place_W);
-  void add_shape(const MeasuredData& data, const MeasuredMoment& moment, const ViewState& view,
+  void add_shape(const MeasuredData& data, const MeasuredInstant& instant, const ViewState& view,
                  int model, const Pose& place_W);
-  void add_markers(const MeasuredMoment& moment, const MeasuredView& view, int model,
+  void add_markers(const MeasuredInstant& instant, const MeasuredView& view, int model,
                    const Pose& place_W);
 
   Places places_;

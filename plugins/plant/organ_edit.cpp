@@ -6,6 +6,7 @@
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_edit.h"
 #include "pedicel/plant/plant_edit_parts.h"
+#include "pedicel/plant/plant_numbers.h"
 
 namespace pedicel::plant {
 
@@ -27,18 +28,15 @@ double above_zero(const std::string& what, double value) {
   throw UsageError(what + " = " + io::format_number(value) + ", expected a number above 0");
 }
 
+double within_bounds(const PlantNumber& number, double value) {
+  if (io::within(value, number.bounds) && std::isfinite(value)) return value;
+  throw UsageError(std::string(number.name()) + " = " + io::format_number(value) + ", expected " +
+                   io::bounds_text(number.bounds));
+}
+
 void check_place(const PlantFile& plant, const CurvePlace& place) {
   find_stem(plant, place.curve);
   check_fraction(place.at);
-}
-
-std::optional<double>* threshold(DetachLimits& limits, const std::string& key) {
-  if (key == "stretch") return &limits.stretch;
-  if (key == "bend") return &limits.bend;
-  if (key == "force") return &limits.force;
-  if (key == "moment") return &limits.moment;
-  if (key == "torsion") return &limits.torsion;
-  return nullptr;
 }
 
 void set_fruit(PlantFruit& fruit, const std::string& key, double value) {
@@ -46,27 +44,13 @@ void set_fruit(PlantFruit& fruit, const std::string& key, double value) {
     fruit.radius = above_zero(key, value);
   } else if (key == "density") {
     fruit.density = above_zero(key, value);
-  } else if (std::optional<double>* limit = threshold(fruit.detach, key)) {
-    *limit = value == 0.0 ? std::nullopt : std::optional(above_zero(key, value));
+  } else if (const PlantNumber* limit = find_number_of<DetachLimits>(key)) {
+    member_of(fruit.detach, *limit) =
+        value == 0.0 ? std::nullopt : std::optional(within_bounds(*limit, value));
   } else {
-    throw UsageError("\"" + key +
-                     "\" of a fruit, expected one of: radius, density, stretch, bend, force, "
-                     "moment, torsion");
+    throw UsageError("\"" + key + "\" of a fruit, expected one of: radius, density, " +
+                     names_of_numbers<DetachLimits>());
   }
-}
-
-std::optional<double>* material_value(MaterialValues& material, const std::string& key) {
-  if (key == "youngs_modulus") return &material.youngs_modulus;
-  if (key == "poisson_ratio") return &material.poisson_ratio;
-  if (key == "density") return &material.density;
-  if (key == "damping_time") return &material.damping_time;
-  return nullptr;
-}
-
-bool fits(const std::string& key, double value) {
-  if (key == "poisson_ratio") return value > -1.0 && value <= 0.5;
-  if (key == "damping_time") return value >= 0.0 && std::isfinite(value);
-  return value > 0.0 && std::isfinite(value);
 }
 
 template <typename Items>
@@ -84,8 +68,9 @@ void add_fruit(PlantFile& plant, PlantFruit fruit) {
   check_place(plant, fruit.place);
   above_zero("radius", fruit.radius);
   above_zero("density", fruit.density);
-  for (const char* key : {"stretch", "bend", "force", "moment", "torsion"})
-    if (const auto& limit = *threshold(fruit.detach, key)) above_zero(key, *limit);
+  for_numbers_of<DetachLimits>([&](const PlantNumber& number, auto member) {
+    if (const auto& limit = fruit.detach.*member) within_bounds(number, *limit);
+  });
   plant.fruits.push_back(std::move(fruit));
 }
 
@@ -150,19 +135,16 @@ void remove_support(PlantFile& plant, int index) {
 void set_material(PlantFile& plant, const std::string& stem, const std::string& key, double value) {
   MaterialValues& material =
       stem.empty() ? plant.material : plant.curves[find_stem(plant, stem)].material;
-  std::optional<double>* held = material_value(material, key);
-  if (!held)
+  const PlantNumber* number = find_number_of<MaterialValues>(key);
+  if (!number)
     throw UsageError("\"" + key +
-                     "\" of a material, expected one of: youngs_modulus, poisson_ratio, density, "
-                     "damping_time");
-  if (!stem.empty() && value == 0.0 && !fits(key, 0.0)) {
-    held->reset();
-  } else if (fits(key, value)) {
-    *held = value;
-  } else {
-    throw UsageError(key + " = " + io::format_number(value) +
-                     ", expected a value that a plant file may hold");
-  }
+                     "\" of a material, expected one of: " + names_of_numbers<MaterialValues>());
+  std::optional<double>& held = member_of(material, *number);
+  // 0 takes a stem's own number away, where it is none that a material can have.
+  if (!stem.empty() && value == 0.0 && !io::within(0.0, number->bounds))
+    held.reset();
+  else
+    held = within_bounds(*number, value);
 }
 
 void set_sampling(PlantFile& plant, const std::string& key, double value) {

@@ -4,6 +4,7 @@
 
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_file.h"
+#include "pedicel/plant/plant_numbers.h"
 
 namespace pedicel::plant {
 
@@ -142,10 +143,9 @@ class Checker {
   }
 
   void check_materials() {
-    check_material("youngs_modulus", &MaterialValues::youngs_modulus);
-    check_material("poisson_ratio", &MaterialValues::poisson_ratio);
-    check_material("density", &MaterialValues::density);
-    check_material("damping_time", &MaterialValues::damping_time);
+    for_numbers_of<MaterialValues>([&](const PlantNumber& number, auto value) {
+      check_material(std::string(number.name()), value);
+    });
   }
 
   void check_root() {

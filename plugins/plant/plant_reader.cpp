@@ -19,6 +19,14 @@ std::optional<double> optional_number(YamlMap& map, const std::string& key,
   return node->number(key, bounds);
 }
 
+// Every number of a group that plant_numbers() describes.
+template <typename Group>
+void read_numbers(YamlMap& map, Group& group) {
+  for_numbers_of<Group>([&](const PlantNumber& number, auto member) {
+    group.*member = optional_number(map, std::string(number.name()), number.bounds);
+  });
+}
+
 // A direction: its length does not count, but it must have one.
 Vec3 direction(const YamlNode& node, const std::string& what) {
   const Vec3 value = node.vector(what);
@@ -40,13 +48,7 @@ MaterialKnowledge read_known_to(const YamlNode& node) {
 MaterialValues read_material(const YamlNode& node) {
   YamlMap map(node, "material");
   MaterialValues material;
-  material.youngs_modulus =
-      optional_number(map, "youngs_modulus", number_bounds("material.youngs_modulus"));
-  material.poisson_ratio =
-      optional_number(map, "poisson_ratio", number_bounds("material.poisson_ratio"));
-  material.density = optional_number(map, "density", number_bounds("material.density"));
-  material.damping_time =
-      optional_number(map, "damping_time", number_bounds("material.damping_time"));
+  read_numbers(map, material);
   if (const auto known_to = map.optional("known_to")) material.known_to = read_known_to(*known_to);
   map.finish();
   return material;
@@ -98,11 +100,7 @@ PlantCurve read_curve(const YamlNode& node) {
 DetachLimits read_limits(const YamlNode& node) {
   YamlMap map(node, "detach");
   DetachLimits limits;
-  limits.stretch = optional_number(map, "stretch", number_bounds("detach.stretch"));
-  limits.bend = optional_number(map, "bend", number_bounds("detach.bend"));
-  limits.force = optional_number(map, "force", number_bounds("detach.force"));
-  limits.moment = optional_number(map, "moment", number_bounds("detach.moment"));
-  limits.torsion = optional_number(map, "torsion", number_bounds("detach.torsion"));
+  read_numbers(map, limits);
   map.finish();
   return limits;
 }

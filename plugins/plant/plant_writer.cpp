@@ -1,6 +1,7 @@
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/yaml_words.h"
 #include "pedicel/plant/plant_file.h"
+#include "pedicel/plant/plant_numbers.h"
 
 namespace pedicel::plant {
 
@@ -49,16 +50,22 @@ class FlowMap {
   std::string text_;
 };
 
+/// Every number of a group that plant_numbers() describes, where it is given.
+template <typename Group>
+FlowMap numbers_map(const Group& group) {
+  FlowMap map;
+  for_numbers_of<Group>([&](const PlantNumber& number, auto member) {
+    map.add(std::string(number.name()), group.*member);
+  });
+  return map;
+}
+
 FlowMap material_map(const MaterialValues& material) {
   const FlowMap known_to = FlowMap()
                                .add("youngs_modulus", material.known_to.youngs_modulus)
                                .add("density", material.known_to.density)
                                .add("damping_time", material.known_to.damping_time);
-  FlowMap map;
-  map.add("youngs_modulus", material.youngs_modulus)
-      .add("poisson_ratio", material.poisson_ratio)
-      .add("density", material.density)
-      .add("damping_time", material.damping_time);
+  FlowMap map = numbers_map(material);
   if (!known_to.empty()) map.add("known_to", known_to.text());
   return map;
 }
@@ -91,12 +98,7 @@ std::string fruit_text(const PlantFruit& fruit) {
   FlowMap map;
   map.add("name", word(fruit.name)).add(fruit.place);
   map.add("radius", fruit.radius).add("density", fruit.density);
-  const FlowMap detach = FlowMap()
-                             .add("stretch", fruit.detach.stretch)
-                             .add("bend", fruit.detach.bend)
-                             .add("force", fruit.detach.force)
-                             .add("moment", fruit.detach.moment)
-                             .add("torsion", fruit.detach.torsion);
+  const FlowMap detach = numbers_map(fruit.detach);
   if (!detach.empty()) map.add("detach", detach.text());
   return map.text();
 }

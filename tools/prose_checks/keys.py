@@ -18,6 +18,8 @@ PARAMETER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*&s\.")
 WORD = re.compile(r"\{\"(\w+)\",\s*\{\"")
 NUMBER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*[-\d.e]+,\s*[-\d.e]+,")
 DOTTED = re.compile(r"\{\"((?:material|detach|sampling)\.\w+)\"")
+MATERIAL = re.compile(r"\{\"material\.(\w+)\"")
+DETACH = re.compile(r"\{\"detach\.(\w+)\"")
 EFFECT = re.compile(r"\bd\.name = \"(\w+)\"")
 EFFECT_NUMBER = re.compile(r"\{\.name = \"([a-z_0-9]+)\"")
 JSON = re.compile(r"(?:\{|json\[)\"([a-z_0-9]+)\"[,\]]")
@@ -42,7 +44,9 @@ class Rule:
 
 READER = (ASKED, NAMED, EITHER)
 RULES = [
-    Rule("plant_file.md", ("plugins/plant/plant_reader.cpp",), READER, 35),
+    Rule("plant_file.md", ("plugins/plant/plant_reader.cpp",), READER, 30),
+    Rule("plant_file.md", ("plugins/plant/plant_numbers.cpp",), (MATERIAL,), 4),
+    Rule("plant_file.md", ("plugins/plant/plant_numbers.cpp",), (DETACH,), 5),
     Rule("plant_file.md", ("plugins/skeleton/skeleton_columns.cpp",), (TABLE_COLUMN,), 51, end=""),
     Rule("leaf_template.md", ("plugins/plant/leaf_template.cpp",), READER, 12),
     Rule("scene_file.md", ("engine/world/scene_reader.cpp", "engine/world/scene_bodies.cpp",

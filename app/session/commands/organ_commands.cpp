@@ -2,8 +2,10 @@
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/document/effective_plant.h"
 #include "pedicel/core/check.h"
+#include "pedicel/io/csv.h"
 #include "pedicel/plant/organ_edit.h"
 #include "pedicel/plant/plant_edit.h"
+#include "pedicel/plant/plant_numbers.h"
 
 /// Fruits, leaves, masses, supports and materials as commands: thin covers of plant/organ_edit.h.
 namespace pedicel::app {
@@ -30,7 +32,7 @@ void add_fruit(Document& document, const Command& c) {
   fruit.name = c.word("name");
   fruit.place = {c.word("stem"), c.number("at"), {}};
   fruit.radius = c.number("radius");
-  fruit.density = c.number_or("density", 950.0);
+  fruit.density = c.number_or("density", plant::usual_fruit_density);
   fruit.detach = {limit(c, "stretch"), limit(c, "bend"), limit(c, "force"), limit(c, "moment"),
                   limit(c, "torsion")};
   plant::add_fruit(edited(document, c), std::move(fruit));
@@ -165,7 +167,8 @@ std::vector<CommandDescription> organ_commands() {
         stem_name,
         place,
         {"radius", Kind::number, true, "m"},
-        {"density", Kind::number, false, "kg/m3 (950)"},
+        {"density", Kind::number, false,
+         "kg/m3 (" + io::format_number(plant::usual_fruit_density) + ")"},
         {"stretch", Kind::number, false, "strain at which it comes off"},
         {"bend", Kind::number, false, "rad, at which it comes off"},
         {"force", Kind::number, false, "N, at which it comes off"},

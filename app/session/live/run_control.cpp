@@ -97,7 +97,7 @@ void RunControl::play_loop(robot::Trajectory lead, robot::Trajectory lap) {
   impl_->thread.ask([lead = std::move(lead), lap = std::move(lap)](RunPlayer& player) {
     player.act([lead, lap](LiveRun& run) {
       if (RobotControl* robot = run.simulation().robot())
-        robot->set_loop(lead, lap, run.simulation().world().time());
+        robot->set_program({lead, lap, run.simulation().world().time()});
     });
   });
 }

@@ -130,10 +130,10 @@ void SnapshotMaker::add_robot(const Simulation& simulation, Snapshot& snapshot) 
                     robot->robot().motor_torques(),
                     robot->tool_pose(),
                     robot->follows_program(),
-                    robot->loops()};
+                    robot->follows_program() && robot->program().loops()};
   if (!robot->follows_program()) return;
-  snapshot.robot.program_time = robot->program_time(snapshot.time);
-  snapshot.robot.program_duration = robot->program_duration(snapshot.time);
+  snapshot.robot.program_time = robot->program().time(snapshot.time);
+  snapshot.robot.program_duration = robot->program().duration(snapshot.time);
 }
 
 }  // namespace pedicel::app

@@ -93,14 +93,14 @@ void RodSystem::step(double dt, const Vec3& gravity) {
   } else if (settings_.solver == SolverKind::direct) {
     if (beds_.empty()) make_beds();
     if (beds_.size() == 1)
-      step_bed(beds_[0], dt, gravity, &pool_);
+      beds_[0].step(plants_, dt, gravity, &pool_, nullptr);
     else
       // A bed is stepped by the same thread in every step, whose cache has it still. Handing beds
       // out to whoever is free would balance better and move the memory to and fro. No bed looks at
       // another one, so the bits do not depend on the order.
       pool_.for_each(pool_.threads(), [&](int thread) {
         for (Bed& bed : beds_)
-          if (bed.thread == thread) step_bed(bed, dt, gravity, nullptr);
+          if (bed.thread == thread) bed.step(plants_, dt, gravity, nullptr, what_follows(bed));
       });
   } else {
     pool_.for_each(size(), [&](int i) {
@@ -120,16 +120,16 @@ void RodSystem::step(double dt, const Vec3& gravity) {
   }
 }
 
-DirectSolver::PlantStep RodSystem::step_of(Plant& plant) {
+DirectSolver::PlantStep RodSystem::Plant::step() {
   DirectSolver::PlantStep step;
-  step.model = &plant.model;
-  step.state = &plant.state;
-  step.loads = plant.loads;
-  step.contacts = plant.source_pointers;
-  step.model_changed = plant.model_changed;
-  step.state_changed = plant.state_changed;
-  step.ties = plant.ties;
-  step.air = plant.air;
+  step.model = &model;
+  step.state = &state;
+  step.loads = loads;
+  step.contacts = source_pointers;
+  step.model_changed = model_changed;
+  step.state_changed = state_changed;
+  step.ties = ties;
+  step.air = air;
   return step;
 }
 
@@ -161,23 +161,10 @@ int RodSystem::add_string(const PlantString& string) {
   return static_cast<int>(strings_.size()) - 1;
 }
 
-std::optional<Vec3> RodSystem::place_of(const PlantString::End& end) const {
-  const RodState& held = state(end.plant);
-  if (!held.alive[end.element]) return {};
-  // On the segment's axis, where the solver has it, and not between its nodes, which strain parts.
-  return held.position[end.element] - end.back * (held.orientation[end.element] * Vec3::UnitZ());
-}
-
-double RodSystem::tension(const PlantString& string) const {
-  const auto a = place_of(string.a), b = place_of(string.b);
-  if (!a || !b) return 0.0;
-  return string.stiffness * std::max(0.0, (*b - *a).norm() - string.length);
-}
-
 void RodSystem::step_canopy(double dt, const Vec3& gravity) {
   steps_.clear();
   // Filled in each step: the flags, loads and spans are of this step only.
-  for (Plant& plant : plants_) steps_.push_back(step_of(plant));
+  for (Plant& plant : plants_) steps_.push_back(plant.step());
   if (!canopy_)
     canopy_ = std::make_unique<Canopy>(settings_, touching_, steps_, pool_.threads(), strings_);
   canopy_->step(steps_, dt, gravity, pool_);
@@ -215,20 +202,16 @@ void RodSystem::make_beds() {
   ahead_.resize(threads);
 }
 
-// Without a pool it is one of several beds, and a thread steps it alone.
-void RodSystem::step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool) {
-  for (std::size_t i = 0; i < bed.steps.size(); ++i) {
-    Plant& plant = plants_[bed.first + i];
-    bed.steps[i] = step_of(plant);
-  }
+void RodSystem::Bed::step(std::vector<Plant>& plants, double dt, const Vec3& gravity,
+                          ThreadPool* pool, FetchAhead* next) {
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = plants[first + i].step();
   if (pool)
-    bed.solver->step(bed.steps, dt, gravity, *pool);
+    solver->step(steps, dt, gravity, *pool);
   else
     // A thread that works alone has memory to wait for, and asks meanwhile for that of its next
     // bed.
-    bed.solver->step(bed.steps, dt, gravity, what_follows(bed));
-  for (std::size_t i = 0; i < bed.steps.size(); ++i)
-    plants_[bed.first + i].report = bed.steps[i].report;
+    solver->step(steps, dt, gravity, next);
+  for (std::size_t i = 0; i < steps.size(); ++i) plants[first + i].report = steps[i].report;
 }
 
 // The bed that its thread steps next, in the next step the first one again; nullptr where that is
@@ -329,6 +312,19 @@ void RodSystem::add_to(StateHash& hash) const {
     // What joints remember is state as well: two plants of one pose may go on differently.
     for (const Vec3& z : plant.state.joint_memory) hash.add(z);
   }
+}
+
+std::optional<Vec3> place_of(const RodSystem& system, const PlantString::End& end) {
+  const RodState& held = system.state(end.plant);
+  if (!held.alive[end.element]) return {};
+  // On the segment's axis, where the solver has it, and not between its nodes, which strain parts.
+  return held.position[end.element] - end.back * (held.orientation[end.element] * Vec3::UnitZ());
+}
+
+double tension(const RodSystem& system, const PlantString& string) {
+  const auto a = place_of(system, string.a), b = place_of(system, string.b);
+  if (!a || !b) return 0.0;
+  return string.stiffness * std::max(0.0, (*b - *a).norm() - string.length);
 }
 
 }  // namespace pedicel::cosserat

@@ -69,10 +69,6 @@ class RodSystem {
   /// so, for a place that is not there, and where both ends are on one element.
   int add_string(const PlantString& string);
   const std::vector<PlantString>& strings() const { return strings_; }
-  /// N, with which it pulls now.
-  double tension(const PlantString& string) const;
-  /// m, W, of one of its ends now; nothing where that came off.
-  std::optional<Vec3> place_of(const PlantString::End& end) const;
 
   /// m/s, W: the air about each element, in place of what its model says, until it is changed;
   /// empty: as the model says (direct solver only).
@@ -112,6 +108,9 @@ class RodSystem {
     std::vector<Vec3> air;
     StepReport report;
     std::vector<DetachEvent> detached;
+
+    /// What its solver is handed; it points into this plant.
+    DirectSolver::PlantStep step();
   };
   /// Plants that are solved together: as many as stay in a core's cache from one phase of a step to
   /// the next; one plant that is larger than a thread's share goes with all the others, and threads
@@ -121,11 +120,14 @@ class RodSystem {
     int first = 0;   // its first plant
     int thread = 0;  // that steps it, where there are several beds
     std::vector<DirectSolver::PlantStep> steps;
+
+    /// `plants`: all of the system. `pool`: null where it is one of several beds, which a thread
+    /// steps alone. `next`: what that thread reads afterwards; null: nothing else.
+    void step(std::vector<Plant>& plants, double dt, const Vec3& gravity, ThreadPool* pool,
+              FetchAhead* next);
   };
-  static DirectSolver::PlantStep step_of(Plant& plant);
   void make_beds();
   void step_canopy(double dt, const Vec3& gravity);
-  void step_bed(Bed& bed, double dt, const Vec3& gravity, ThreadPool* pool);
   FetchAhead* what_follows(const Bed& bed);
 
   RodSettings settings_;
@@ -141,5 +143,10 @@ class RodSystem {
   };
   std::vector<Ahead> ahead_;  // by thread
 };
+
+/// m, W, of one end of a string now; nothing where that came off.
+std::optional<Vec3> place_of(const RodSystem& system, const PlantString::End& end);
+/// N, with which a string pulls now.
+double tension(const RodSystem& system, const PlantString& string);
 
 }  // namespace pedicel::cosserat

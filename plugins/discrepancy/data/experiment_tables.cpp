@@ -84,7 +84,7 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
     for (const char* axis : axes) expected.push_back(marker.name + "." + axis);
     all += " " + marker.name;
   }
-  const std::vector<int> columns = source.find(expected, io::Quantity::length, all, Axes::present);
+  const std::vector<int> columns = source.find(expected, io::Quantity::length, all, NeededAxes::present);
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
 }
@@ -93,7 +93,7 @@ Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics, 
   SampleTable source(file, true, rows, diagnostics);
   if (!source.good()) return {};
   const std::vector<int> columns =
-      source.find({"fx", "fy", "fz"}, io::Quantity::force, "time,fx,fy,fz", Axes::present);
+      source.find({"fx", "fy", "fz"}, io::Quantity::force, "time,fx,fy,fz", NeededAxes::present);
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
 }
@@ -103,7 +103,7 @@ Samples read_wrench(const std::filesystem::path& file, Diagnostics& diagnostics,
   if (!source.good()) return {};
   const std::vector<int> columns =
       source.find({"fx", "fy", "fz", "tx", "ty", "tz"}, io::Quantity::force,
-                  "time,fx,fy,fz,tx,ty,tz", Axes::any);
+                  "time,fx,fy,fz,tx,ty,tz", NeededAxes::any);
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
 }

@@ -15,7 +15,7 @@ namespace pedicel::discrepancy {
 enum class Rows { time, rest };
 
 /// Which of its columns a table must have.
-enum class Axes {
+enum class NeededAxes {
   all,      ///< every one
   present,  ///< at least one of each point's three
   any,      ///< at least one
@@ -43,7 +43,7 @@ class SampleTable {
   /// Each of `expected` once and nothing else: their indices, -1 where one may be missing and is.
   /// `all` says them in a sentence.
   std::vector<int> find(const std::vector<std::string>& expected, io::Quantity quantity,
-                        const std::string& all, Axes axes = Axes::all);
+                        const std::string& all, NeededAxes axes = NeededAxes::all);
   struct Wanted {
     std::string name;
     io::Quantity quantity;

@@ -26,12 +26,12 @@ struct Place {
 };
 
 /// s, the last place at which a fall could be found.
-double last_place(const ForceCourse& course, const PickSettings& s) {
+double last_place(const PickForce& course, const PickSettings& s) {
   return course.time(course.size() - 1) - s.settle - least_level * s.level;
 }
 
 /// Where the level falls most, along what was pulled just before.
-std::optional<Place> largest_fall(const ForceCourse& course, const PickSettings& s) {
+std::optional<Place> largest_fall(const PickForce& course, const PickSettings& s) {
   const double first = course.time(0) + s.level, last = last_place(course, s);
   std::optional<Place> best;
   for (int i = course.first_at(first); i < course.size() && course.time(i) <= last; ++i) {
@@ -51,7 +51,7 @@ std::optional<Place> largest_fall(const ForceCourse& course, const PickSettings&
 /// The load along the pull.
 class Line {
  public:
-  Line(const ForceCourse& course, const Place& place, const PickSettings& s)
+  Line(const PickForce& course, const Place& place, const PickSettings& s)
       : course_(course), pull_(place.pull), place_(place), s_(s) {}
 
   double level_before() const {
@@ -97,7 +97,7 @@ class Line {
     return values;
   }
 
-  const ForceCourse& course_;
+  const PickForce& course_;
   const Eigen::VectorXd& pull_;
   const Place& place_;
   const PickSettings& s_;
@@ -140,13 +140,13 @@ double onset_of(const Line& line, const Half& half, double lost, double width, d
 }
 
 /// At least one, at most what fits into a level.
-double samples_to_average(const ForceCourse& course, double lost, const PickSettings& s) {
+double samples_to_average(const PickForce& course, double lost, const PickSettings& s) {
   const double wanted = std::ceil(std::pow(0.5 * least_contrast * course.noise() / lost, 2.0));
   return std::clamp(wanted, 1.0, std::max(1.0, std::floor(s.level / course.interval())));
 }
 
 /// N along the load, in the level before the last place.
-double level_at_end(const ForceCourse& course, const LargestLoad& load, const PickSettings& s) {
+double level_at_end(const PickForce& course, const LargestLoad& load, const PickSettings& s) {
   const double to = last_place(course, s);
   return course.mean(to - s.level, to).dot(load.pull);
 }
@@ -166,7 +166,7 @@ std::string check(const PickSettings& s) {
   return {};
 }
 
-std::optional<Fall> find_fall(const ForceCourse& course, const PickSettings& s) {
+std::optional<Fall> find_fall(const PickForce& course, const PickSettings& s) {
   if (course.size() < 3) return std::nullopt;
   const std::optional<Place> place = largest_fall(course, s);
   if (!place) return std::nullopt;
@@ -193,7 +193,7 @@ std::optional<Fall> find_fall(const ForceCourse& course, const PickSettings& s) 
   return fall;
 }
 
-LargestLoad largest_load(const ForceCourse& course, const PickSettings& s) {
+LargestLoad largest_load(const PickForce& course, const PickSettings& s) {
   LargestLoad load;
   load.pull = Eigen::VectorXd::Zero(course.axes());
   for (int i = 0; i < course.size(); ++i) {
@@ -204,7 +204,7 @@ LargestLoad largest_load(const ForceCourse& course, const PickSettings& s) {
   return load;
 }
 
-Fall whole_fall(const ForceCourse& course, const LargestLoad& load, const PickSettings& s) {
+Fall whole_fall(const PickForce& course, const LargestLoad& load, const PickSettings& s) {
   Fall fall;
   fall.pull = load.pull;
   fall.time = fall.onset = load.time;
@@ -214,7 +214,7 @@ Fall whole_fall(const ForceCourse& course, const LargestLoad& load, const PickSe
   return fall;
 }
 
-Beginning beginning_of(const ForceCourse& course, const Fall& fall, const PickSettings& s) {
+Beginning beginning_of(const PickForce& course, const Fall& fall, const PickSettings& s) {
   const double lost = fall.before - fall.after, half_width = 0.5 * s.response;
   const double end =
       fall.half ? fall.time + s.settle + 2.0 * s.level : course.time(course.size() - 1);
@@ -233,7 +233,7 @@ Beginning beginning_of(const ForceCourse& course, const Fall& fall, const PickSe
   return {tenth_gone - back, std::hypot(back, half_width, course.interval())};
 }
 
-bool ends_in_a_fall(const ForceCourse& course, const LargestLoad& load, const PickSettings& s) {
+bool ends_in_a_fall(const PickForce& course, const LargestLoad& load, const PickSettings& s) {
   const double end = course.time(course.size() - 1);
   const double last = course.mean(end - s.response, end + course.interval()).dot(load.pull);
   const double before = level_at_end(course, load, s), left = (1.0 - s.share) * load.force;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pedicel/discrepancy/pick/force_course.h"
+#include "pedicel/discrepancy/pick/pick_force.h"
 
 namespace pedicel::discrepancy {
 
@@ -29,7 +29,7 @@ struct LargestLoad {
   Eigen::VectorXd pull;  ///< unit, along it
 };
 /// For records of three samples or more.
-LargestLoad largest_load(const ForceCourse& course, const PickSettings& settings);
+LargestLoad largest_load(const PickForce& course, const PickSettings& settings);
 
 /// A lasting fall of the load in a record.
 struct Fall {
@@ -48,22 +48,22 @@ struct Fall {
 
 /// The largest one within the time of two levels. Nothing where the record is too short for a level
 /// before and after.
-std::optional<Fall> find_fall(const ForceCourse& course, const PickSettings& settings);
+std::optional<Fall> find_fall(const PickForce& course, const PickSettings& settings);
 
 /// From the largest load to what is left at the end of the record, however long that took: without
 /// a time to half.
-Fall whole_fall(const ForceCourse& course, const LargestLoad& load, const PickSettings& settings);
+Fall whole_fall(const PickForce& course, const LargestLoad& load, const PickSettings& settings);
 
 /// Where a slow fall begins, s, with a standard error: the straight line through its first half, a
 /// tenth to a half of what is lost.
 struct Beginning {
   double time = 0.0, error = 0.0;
 };
-Beginning beginning_of(const ForceCourse& course, const Fall& fall, const PickSettings& settings);
+Beginning beginning_of(const PickForce& course, const Fall& fall, const PickSettings& settings);
 
 /// Whether most of the largest load goes at the very end, with no time left to see that it stays
 /// away.
-bool ends_in_a_fall(const ForceCourse& course, const LargestLoad& load,
+bool ends_in_a_fall(const PickForce& course, const LargestLoad& load,
                     const PickSettings& settings);
 
 }  // namespace pedicel::discrepancy

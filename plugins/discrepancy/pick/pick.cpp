@@ -13,7 +13,7 @@ namespace {
 constexpr double least_peak = 8.0;       // noise units: so far chance alone does not come
 constexpr double odds_spread = 1.81380;  // pi / sqrt 3, standard deviation of the logistic
 
-void find_peak(const ForceCourse& course, Pick& pick) {
+void find_peak(const PickForce& course, Pick& pick) {
   for (int i = 0; i < course.size(); ++i)
     if (const double size = course.force(i).norm(); size > pick.peak_force) {
       pick.peak_force = size;
@@ -30,7 +30,7 @@ Pick unclear(Pick pick, const std::string& why) {
 /// The share of the largest load that a fall must begin with, to be one of the load.
 constexpr double least_load = 0.25;
 
-Pick with_probability(Pick pick, const ForceCourse& course, const PickSettings& s) {
+Pick with_probability(Pick pick, const PickForce& course, const PickSettings& s) {
   Fall& fall = *pick.fall;
   pick.limit = std::hypot(s.response, pick.interval, 0.5 * fall.smoothing);
   const double half = fall.half.value_or(s.settle + 2.0 * s.level);
@@ -54,7 +54,7 @@ double probability_of_break(double half, double error, double limit, double shar
 
 Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
   if (const std::string fault = check(settings); !fault.empty()) throw UsageError(fault);
-  const ForceCourse course(record, settings.rest);
+  const PickForce course(record, settings.rest);
   Pick pick;
   if (course.size() < 3) return unclear(pick, "fewer than three samples have all their values");
   pick.noise = course.noise();
@@ -77,7 +77,7 @@ Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
   return pick;
 }
 
-std::optional<double> Pick::moment() const {
+std::optional<double> Pick::time() const {
   if (!fall || (end != End::came_off && end != End::slipped)) return std::nullopt;
   return fall->onset;
 }

@@ -29,7 +29,7 @@ struct Pick {
   std::optional<Fall> fall;  ///< the largest lasting one
 
   /// Where it came off or began to slip, s.
-  std::optional<double> moment() const;
+  std::optional<double> time() const;
   /// "detached", "failed" or "unclear".
   std::string outcome() const;
   /// What happened, in one sentence.

@@ -11,7 +11,7 @@ namespace {
 constexpr double around = 0.4;  // s shown before and after the fall
 
 /// The force's size and its part along the pull, in a stretch of the record.
-plots::LinePlot plot_of(const ForceCourse& course, const Pick& pick, const std::string& title,
+plots::LinePlot plot_of(const PickForce& course, const Pick& pick, const std::string& title,
                         std::optional<std::pair<double, double>> stretch) {
   plots::LinePlot plot;
   plot.title = title;
@@ -28,8 +28,8 @@ plots::LinePlot plot_of(const ForceCourse& course, const Pick& pick, const std::
   }
   plot.series.push_back(size);
   if (pick.fall) plot.series.push_back(along);
-  if (const auto moment = pick.moment())
-    plot.events.push_back({*moment, pick.end == Pick::End::came_off ? "came off" : "slips"});
+  if (const auto time = pick.time())
+    plot.events.push_back({*time, pick.end == Pick::End::came_off ? "came off" : "slips"});
   return plot;
 }
 
@@ -43,18 +43,17 @@ void write_pick_report(const std::filesystem::path& file, const std::vector<Judg
     const Pick& pick = judged.pick;
     rows.push_back({judged.record.file, pick.outcome(),
                     pick.probability ? text("%.3f", *pick.probability) : "",
-                    pick.moment() ? text("%.3f", *pick.moment()) : "",
-                    text("%.4g", pick.peak_force),
+                    pick.time() ? text("%.3f", *pick.time()) : "", text("%.4g", pick.peak_force),
                     pick.fall && pick.fall->half ? text("%.3g", 1e3 * *pick.fall->half) : ""});
   }
-  report.table({"record", "outcome", "probability that it came off", "moment, s", "peak force, N",
+  report.table({"record", "outcome", "probability that it came off", "time, s", "peak force, N",
                 "half of the load lost in, ms"},
                rows);
   for (const JudgedPick& judged : all) {
     const Pick& pick = judged.pick;
     report.heading(judged.record.file);
     report.note(pick.sentence(), pick.end == Pick::End::came_off);
-    const ForceCourse course(judged.record, settings.rest);
+    const PickForce course(judged.record, settings.rest);
     if (course.size() < 2) continue;
     std::vector<std::string> plots = {plots::to_svg(plot_of(course, pick, "the record", {}))};
     if (pick.fall)

@@ -38,7 +38,7 @@ Json json_of(const JudgedPick& judged) {
   const auto of_fall = [fall](double Fall::*value) {
     return fall ? number(fall->*value) : Json(nullptr);
   };
-  const bool moment = pick.moment().has_value();
+  const bool has_time = pick.time().has_value();
   const bool timed = fall && fall->half;
   return {{"format", "pedicel-pick"},
           {"version", 1},
@@ -47,8 +47,8 @@ Json json_of(const JudgedPick& judged) {
           {"outcome", pick.outcome()},
           {"end", name_of(pick.end)},
           {"probability_detached", number(pick.probability)},
-          {"moment_s", number(pick.moment())},
-          {"moment_error_s", moment ? number(fall->onset_error) : Json(nullptr)},
+          {"moment_s", number(pick.time())},
+          {"moment_error_s", has_time ? number(fall->onset_error) : Json(nullptr)},
           {"peak_force_N", number(pick.peak_force)},
           {"peak_force_error_N", number(pick.noise)},
           {"peak_time_s", number(pick.peak_time)},
@@ -99,12 +99,12 @@ std::string to_table(const std::vector<JudgedPick>& all) {
     return row + "\n";
   };
   std::string table =
-      line({"file", "outcome", "end", "P detached", "moment, s", "peak, N", "half, ms", "lost, %"});
+      line({"file", "outcome", "end", "P detached", "time, s", "peak, N", "half, ms", "lost, %"});
   for (const JudgedPick& judged : all) {
     const Pick& pick = judged.pick;
     const std::optional<double> half = pick.fall ? pick.fall->half : std::nullopt;
     table += line({std::filesystem::path(judged.record.file).filename().string(), pick.outcome(),
-                   name_of(pick.end), cell("%.3f", pick.probability), cell("%.3f", pick.moment()),
+                   name_of(pick.end), cell("%.3f", pick.probability), cell("%.3f", pick.time()),
                    text("%.4g", pick.peak_force), half ? text("%.3g", 1e3 * *half) : "-",
                    pick.fall ? text("%.0f", 100.0 * pick.fall->share) : "-"});
   }

@@ -86,7 +86,7 @@ FitSummary slide_along(Evaluator& evaluator, FitSummary found, const FitOptions&
   if (parameter < 0 || found.jacobian.size() == 0) return found;
   const Budget& budget = options.settings->budget;
   const int rounds =
-      is_of_moment(found.hypothesis.free[parameter]) ? budget.moment_rounds : budget.place_rounds;
+      is_of_moment(found.hypothesis.free[parameter]) ? budget.instant_rounds : budget.place_rounds;
   FitOptions few = options;
   few.iterations = budget.slide_iterations;
   for (int round = 0; round < rounds; ++round) {

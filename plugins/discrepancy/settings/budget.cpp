@@ -125,9 +125,9 @@ void add_starts(Budget& b, SettingRows& rows) {
             {derived, "one deviation", "Lower thresholds are chosen."});
   rows.count("place_rounds", b.place_rounds, "Times that a place is moved along its curve.",
              {budget, time_only, "Candidates with a place take longer."});
-  rows.count("moment_rounds", b.moment_rounds, "Times that a moment is moved.",
+  rows.count("instant_rounds", b.instant_rounds, "Times that a point of time is moved.",
              {budget, time_only, "Slips take longer."});
-  rows.count("slide_iterations", b.slide_iterations, "Iterations from each place or moment.",
+  rows.count("slide_iterations", b.slide_iterations, "Iterations from each place or point of time.",
              {budget, time_only, "Candidates with a place take longer."});
   rows.nats("worth_a_fit", b.worth_a_fit, "Nats that another place must predict for a fit.",
             {budget, "less than the clear odds", "Places end farther from the best one."});

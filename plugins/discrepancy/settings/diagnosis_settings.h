@@ -118,7 +118,7 @@ struct Budget {
   int ladder_parts = 5;
   int ladder_rounds = 3;
   int place_rounds = 3;
-  int moment_rounds = 6;
+  int instant_rounds = 6;
   int slide_iterations = 10;
   int continuation_starts = 2;
   int continuation_iterations = 3;

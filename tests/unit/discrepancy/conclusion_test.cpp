@@ -94,8 +94,8 @@ TEST(Conclusion, NamesTheBestWithItsNumbers) {
 }
 
 // A delay that the data alone would give to 0.01 ms, from fits with steps of 2 ms: uniformly within
-// one, with a deviation of 2 ms / sqrt(12). A time that is no moment stays as sharp as the data.
-TEST(Conclusion, KnowsAMomentToAStepAtBest) {
+// one, with a deviation of 2 ms / sqrt(12). A time constant stays as sharp as the data.
+TEST(Conclusion, KnowsATimeToAStepAtBest) {
   Case c;
   c.findings.step = 0.002;
   Candidate& late = c.diagnosis.ranking.front();

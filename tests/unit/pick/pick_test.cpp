@@ -27,7 +27,7 @@ TEST(Pick, FindsTheMomentOfABreak) {
     const Pick pick = judge_pick(make_pick(made));
     if (pick.end != Pick::End::came_off) continue;
     ++named;
-    const double error = std::abs(*pick.moment() - made.moment);
+    const double error = std::abs(*pick.time() - made.moment);
     within += error <= 0.03;
     covered += error <= 2.0 * pick.fall->onset_error;
   }
@@ -45,7 +45,7 @@ TEST(Pick, TellsSlipsFromBreaks) {
     const MadePick made = drawn_pick(MadePick::End::slips, static_cast<std::uint64_t>(seed));
     const Pick pick = judge_pick(make_pick(made));
     named += pick.outcome() == "failed";
-    began += pick.moment() && std::abs(*pick.moment() - made.moment) <= 0.1;
+    began += pick.time() && std::abs(*pick.time() - made.moment) <= 0.1;
   }
   RecordProperty("named", named);
   RecordProperty("began_within_100_ms", began);
@@ -130,7 +130,7 @@ TEST(Pick, OneAxisIsEnough) {
   record.force = Eigen::MatrixXd(-(record.force.col(2)));  // a sensor mounted upside down
   const Pick pick = judge_pick(record);
   EXPECT_EQ(pick.end, Pick::End::came_off);
-  EXPECT_NEAR(*pick.moment(), *whole.moment(), 0.01);
+  EXPECT_NEAR(*pick.time(), *whole.time(), 0.01);
 }
 
 TEST(Pick, PassesOverGapsAndSpikes) {
@@ -141,7 +141,7 @@ TEST(Pick, PassesOverGapsAndSpikes) {
   record.force(200, 0) = NAN;
   const Pick pick = judge_pick(record);
   EXPECT_EQ(pick.end, Pick::End::came_off);
-  EXPECT_NEAR(*pick.moment(), 2.0, 0.01);
+  EXPECT_NEAR(*pick.time(), 2.0, 0.01);
   EXPECT_LT(pick.peak_force, 20.0);
 }
 
@@ -150,7 +150,7 @@ TEST(Pick, FastRecordsGiveTheSame) {
   made.rate = 5000.0;
   const Pick pick = judge_pick(make_pick(made));
   EXPECT_EQ(pick.end, Pick::End::came_off);
-  EXPECT_NEAR(*pick.moment(), made.moment, 0.01);
+  EXPECT_NEAR(*pick.time(), made.moment, 0.01);
 }
 
 PickRecord cut(PickRecord record, int rows) {
@@ -164,7 +164,7 @@ TEST(Pick, SaysWhyItCannotTell) {
   const auto why = [](const PickRecord& one) {
     const Pick pick = judge_pick(one);
     EXPECT_EQ(pick.outcome(), "unclear");
-    EXPECT_FALSE(pick.moment());
+    EXPECT_FALSE(pick.time());
     return pick.why;
   };
   EXPECT_THAT(why({}), HasSubstr("fewer than three samples"));

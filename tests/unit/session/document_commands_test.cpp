@@ -112,6 +112,11 @@ TEST_F(Edits, FruitsAndLeavesAlongAStem) {
   EXPECT_EQ(plant().fruits[0].place.at, 0.9);
   run("set organ p berry stretch 0");
   EXPECT_FALSE(plant().fruits[0].detach.stretch.has_value());
+  EXPECT_THAT(refusal("set organ p berry force -1"),
+              HasSubstr("force = -1, expected a number > 0"));
+  run("add fruit p pea stem 0.5 0.004");
+  EXPECT_EQ(plant().fruits[1].density, 950.0);
+  run("delete organ p pea");
   run("add leaf p leaf stem 0.4 0.05 normal=0,0,1");
   run("turn leaf p leaf 0,1,1 direction=1,0,0");
   EXPECT_EQ(plant().leaves[0].normal, Vec3(0, 1, 1));

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "pedicel/app/session/measured/experiment_reading.h"
-#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/measured/measured_instant.h"
 #include "pedicel/app/session/session_files.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/core/timer.h"
@@ -58,8 +58,8 @@ TEST_F(Measured, ASoftRootShowsAsError) {
   ASSERT_NE(path, nullptr);
   EXPECT_GT(path->rms, 2e-3);
   // At the end of the stem after the release, not where it is held.
-  const auto held = moment_of(session.measured().data(), 0, nominal, 0.0);
-  const auto free = moment_of(session.measured().data(), 0, nominal, 0.2);
+  const auto held = instant_of(session.measured().data(), 0, nominal, 0.0);
+  const auto free = instant_of(session.measured().data(), 0, nominal, 0.2);
   ASSERT_TRUE(held && free);
   EXPECT_LT(held->markers[1].error().norm(), 1e-3);
   EXPECT_GT(free->rms, 2e-3);
@@ -72,26 +72,26 @@ TEST_F(Measured, AMomentIsBetweenItsSamplesAndGapsStay) {
   data.open(e);
   data.wait();
   const double t = e.trials[0].markers.time[2];
-  const auto here = moment_of(data, 0, nominal, t + 0.01);
+  const auto here = instant_of(data, 0, nominal, t + 0.01);
   ASSERT_TRUE(here);
   const Vec3 middle = 0.5 * (e.trials[0].markers.value.block<1, 3>(2, 3) +
                              e.trials[0].markers.value.block<1, 3>(3, 3))
                                 .transpose();
   EXPECT_LT((here->markers[1].measured - middle).norm(), 1e-9);
-  const auto gap = moment_of(data, 0, nominal, e.trials[0].markers.time[5]);
+  const auto gap = instant_of(data, 0, nominal, e.trials[0].markers.time[5]);
   EXPECT_FALSE(gap->markers[0].measured.allFinite());
   EXPECT_TRUE(gap->markers[1].measured.allFinite());
   EXPECT_TRUE(std::isfinite(gap->rms));
   // Beyond the end it is the end; without such a trial nothing.
-  EXPECT_EQ(moment_of(data, 0, nominal, 99.0)->time, e.trials[0].markers.time.back());
-  EXPECT_FALSE(moment_of(data, 2, nominal, 0.0));
+  EXPECT_EQ(instant_of(data, 0, nominal, 99.0)->time, e.trials[0].markers.time.back());
+  EXPECT_FALSE(instant_of(data, 2, nominal, 0.0));
 }
 
 TEST_F(Measured, TheShapePassesThroughTheSimulatedMarkers) {
   MeasuredData data;
   data.open(pedicel::testing::MeasuredStem().experiment());
   data.wait();
-  const auto now = moment_of(data, 0, nominal, 0.2);
+  const auto now = instant_of(data, 0, nominal, 0.2);
   ASSERT_TRUE(now);
   ASSERT_EQ(now->shape.size(), data.shape().front().at.size());
   EXPECT_LT((now->shape.back() - now->markers[1].simulated).norm(), 1e-6);

@@ -7,22 +7,22 @@
 namespace pedicel::app {
 
 /// A marker at a time of a trial. Places are NaN where nothing was measured or simulated.
-struct MarkerMoment {
+struct MarkerInstant {
   Vec3 measured, simulated;  ///< m, W
   Vec3 error() const { return measured - simulated; }
 };
 
 /// What was measured and what a model says at a time of a trial, linear between samples.
-struct MeasuredMoment {
-  double time = 0.0;                  ///< s, within the trial
-  std::vector<MarkerMoment> markers;  ///< in the experiment's order
-  double rms = 0.0;                   ///< m, of the markers that were seen; NaN: none was
-  std::vector<Vec3> shape;            ///< m, W, points of MeasuredData::shape(); empty: not known
+struct MeasuredInstant {
+  double time = 0.0;                   ///< s, within the trial
+  std::vector<MarkerInstant> markers;  ///< in the experiment's order
+  double rms = 0.0;                    ///< m, of the markers that were seen; NaN: none was
+  std::vector<Vec3> shape;             ///< m, W, points of MeasuredData::shape(); empty: not known
 };
 
 /// Time is kept within the trial; nothing where there is no such trial or it has no markers.
-std::optional<MeasuredMoment> moment_of(const MeasuredData& data, int trial,
-                                        discrepancy::Model model, double time);
+std::optional<MeasuredInstant> instant_of(const MeasuredData& data, int trial,
+                                          discrepancy::Model model, double time);
 
 /// One coordinate of a marker, or of the force, over a trial, for plots.
 struct MeasuredSeries {

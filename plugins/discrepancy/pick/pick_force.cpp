@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/pick/force_course.h"
+#include "pedicel/discrepancy/pick/pick_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ double middle_of(std::vector<double> values) {
   return *middle;
 }
 
-ForceCourse::ForceCourse(const PickRecord& record, double rest) {
+PickForce::PickForce(const PickRecord& record, double rest) {
   take_rows(record);
   if (time_.empty()) return;
   const int resting = std::max(1, first_at(time_.front() + rest));
@@ -56,7 +56,7 @@ ForceCourse::ForceCourse(const PickRecord& record, double rest) {
   for (int i = 0; i < size(); ++i) sums_.row(i + 1) = sums_.row(i) + force_.row(i);
 }
 
-void ForceCourse::take_rows(const PickRecord& record) {
+void PickForce::take_rows(const PickRecord& record) {
   force_.resize(record.force.rows(), record.force.cols());
   for (Eigen::Index i = 0; i < record.force.rows(); ++i) {
     if (!record.force.row(i).allFinite()) continue;
@@ -67,14 +67,14 @@ void ForceCourse::take_rows(const PickRecord& record) {
 }
 
 // A sample apart from both its neighbours is no force. An edge stays where it is.
-void ForceCourse::take_spikes_out() {
+void PickForce::take_spikes_out() {
   const Eigen::MatrixXd raw = force_;
   for (Eigen::Index axis = 0; axis < raw.cols(); ++axis)
     for (Eigen::Index i = 1; i + 1 < raw.rows(); ++i)
       force_(i, axis) = middle_of_three(raw(i - 1, axis), raw(i, axis), raw(i + 1, axis));
 }
 
-void ForceCourse::thin() {
+void PickForce::thin() {
   int kept = 0;
   for (int i = 0; i < size();) {
     int end = i + 1;
@@ -92,17 +92,17 @@ void ForceCourse::thin() {
   force_.conservativeResize(kept, Eigen::NoChange);
 }
 
-int ForceCourse::first_at(double moment) const {
-  return static_cast<int>(std::ranges::lower_bound(time_, moment) - time_.begin());
+int PickForce::first_at(double time) const {
+  return static_cast<int>(std::ranges::lower_bound(time_, time) - time_.begin());
 }
 
-Eigen::VectorXd ForceCourse::mean(double from, double to) const {
+Eigen::VectorXd PickForce::mean(double from, double to) const {
   const int first = first_at(from), end = first_at(to);
   if (end > first) return (sums_.row(end) - sums_.row(first)).transpose() / (end - first);
   return force(std::clamp(first, 0, size() - 1));
 }
 
-bool ForceCourse::covers(double from, double to) const {
+bool PickForce::covers(double from, double to) const {
   const int first = first_at(from), end = first_at(to);
   const double seen = end > first ? time(end - 1) - time(first) + interval_ : 0.0;
   return seen >= 0.5 * (to - from);

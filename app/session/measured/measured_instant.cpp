@@ -1,4 +1,4 @@
-#include "pedicel/app/session/measured/measured_moment.h"
+#include "pedicel/app/session/measured/measured_instant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,32 +32,32 @@ Vec3 point(const Eigen::MatrixXd& table, const Between& at, Eigen::Index column)
 
 }  // namespace
 
-std::optional<MeasuredMoment> moment_of(const MeasuredData& data, int trial,
-                                        discrepancy::Model model, double time) {
+std::optional<MeasuredInstant> instant_of(const MeasuredData& data, int trial,
+                                          discrepancy::Model model, double time) {
   const discrepancy::Experiment* experiment = data.experiment();
   if (!experiment || trial < 0 || trial >= static_cast<int>(experiment->trials.size()))
     return std::nullopt;
   const discrepancy::Samples& seen = experiment->trials[static_cast<std::size_t>(trial)].markers;
   if (seen.time.empty()) return std::nullopt;
-  MeasuredMoment moment;
-  moment.time = std::clamp(time, seen.time.front(), seen.time.back());
-  const Between at = find(seen.time, moment.time);
+  MeasuredInstant instant;
+  instant.time = std::clamp(time, seen.time.front(), seen.time.back());
+  const Between at = find(seen.time, instant.time);
   const TrialPath* path = data.path(model, trial);
   double sum = 0.0;
   int count = 0;
   for (std::size_t m = 0; m < experiment->markers.size(); ++m) {
     const auto column = static_cast<Eigen::Index>(3 * m);
-    MarkerMoment one{point(seen.value, at, column),
-                     Vec3::Constant(std::numeric_limits<double>::quiet_NaN())};
+    MarkerInstant one{point(seen.value, at, column),
+                      Vec3::Constant(std::numeric_limits<double>::quiet_NaN())};
     if (path) one.simulated = point(path->markers, at, column);
     if (one.error().allFinite()) sum += one.error().squaredNorm(), ++count;
-    moment.markers.push_back(one);
+    instant.markers.push_back(one);
   }
-  moment.rms = count ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
-  if (!path) return moment;
+  instant.rms = count ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
+  if (!path) return instant;
   for (Eigen::Index c = 0; c < path->shape.cols(); c += 3)
-    moment.shape.push_back(point(path->shape, at, c));
-  return moment;
+    instant.shape.push_back(point(path->shape, at, c));
+  return instant;
 }
 
 MeasuredSeries series_of(const MeasuredData& data, int trial, int marker, int axis) {

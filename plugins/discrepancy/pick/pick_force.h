@@ -8,10 +8,10 @@
 namespace pedicel::discrepancy {
 
 /// A record made ready to be judged: without its zero, missing rows and lone spikes, at most 2 kHz.
-class ForceCourse {
+class PickForce {
  public:
   /// `rest`: s at the start of the record whose median is the zero.
-  ForceCourse(const PickRecord& record, double rest);
+  PickForce(const PickRecord& record, double rest);
 
   int size() const { return static_cast<int>(time_.size()); }
   int axes() const { return static_cast<int>(force_.cols()); }
@@ -21,7 +21,7 @@ class ForceCourse {
   double interval() const { return interval_; }  ///< s, median between two samples
 
   /// The first sample at or after a time; size() where there is none.
-  int first_at(double moment) const;
+  int first_at(double time) const;
   /// Mean over [from, to), N; of the sample nearest to it where it holds none.
   Eigen::VectorXd mean(double from, double to) const;
   /// Whether samples lie in at least half of [from, to), s.
