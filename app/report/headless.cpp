@@ -347,7 +347,7 @@ class Run {
                                  : pictures_->available() ? pictures_->renderer_name()
                                                           : pictures_->why();
     std::fprintf(stderr, "pedicel %s (%s), scene %s, seed %d, %d thread%s, %d rod elements, %s\n",
-                 version().c_str(), git_hash().c_str(), scene_.name.c_str(), scene_.seed,
+                 version().c_str(), git_hash().c_str(), printable(scene_.name).c_str(), scene_.seed,
                  scene_.threads, scene_.threads == 1 ? "" : "s", elements, renderer.c_str());
   }
 
