@@ -39,7 +39,7 @@ void say(Verbosity level, const char* format, ...) {
   std::string shown;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    shown += printable(std::string_view(text).substr(at, end - at), text.size()) + '\n';
+    shown += printable(std::string_view(text).substr(at, end - at), 4 * text.size()) + '\n';
     at = end + 1;
   }
   std::fputs(shown.c_str(), stderr);

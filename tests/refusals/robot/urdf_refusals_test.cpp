@@ -109,7 +109,7 @@ const Case link_cases[] = {
     {"OriginBeyondNumbers", massive("<mass value='1'/>", "1", "<origin xyz='1e300 0 0'/>"),
      "origin: xyz \"1e300 0 0\", expected m, each a number between -10000000 and 10000000"},
     {"MassBeyondNumbers", massive("<mass value='1e300'/>"),
-     "value \"1e300\", expected at most 1000000000"},
+     "value \"1e300\", expected at most 1e+09"},
     {"SphereBeyondNumbers", shaped("<sphere radius='1e300'/>"),
      "sphere: radius \"1e300\", expected at most 10000000"},
     {"BoxBeyondNumbers", shaped("<box size='1 1e300 1'/>"), "expected at most 10000000 m"},
