@@ -19,6 +19,7 @@
 #include "pedicel/app/run/rough_spell.h"
 #include "pedicel/app/run/scene_assets.h"
 #include "pedicel/app/run/verbosity.h"
+#include "pedicel/core/diagnostics.h"
 #include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/core/timer.h"
