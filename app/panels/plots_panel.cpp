@@ -16,6 +16,7 @@
 #include "pedicel/app/view/measured_marks.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/io/csv_cell.h"
 
 namespace pedicel::app {
 
@@ -192,7 +193,7 @@ class PlotsPanel : public Panel {
     const std::vector<PlotLine> lines = make_lines(ui);
     if (lines.empty()) return ui.say("no line is shown: choose one first");
     std::string text = "time_s";
-    for (const PlotLine& line : lines) text += "," + line.name;
+    for (const PlotLine& line : lines) text += "," + io::csv_cell(line.name);
     text += "\n";
     for (std::size_t i = 0; i < lines.front().x.size(); ++i) {
       const double time = lines.front().x[i];

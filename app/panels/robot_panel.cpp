@@ -28,7 +28,7 @@ class RobotPanel : public Panel {
 
   void draw(Ui& ui) override {
     const RobotSnapshot& robot = ui.snapshot->robot;
-    if (robot.follows_program) note("Follows the scene's program. Moving it by hand takes over.");
+    if (robot.follows_program) note("Follows a program. Moving it by hand takes over.");
     joints(ui);
     tool(ui);
     program_.draw(ui);

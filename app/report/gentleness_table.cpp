@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pedicel/io/csv.h"
+#include "pedicel/io/csv_cell.h"
 
 namespace pedicel::app {
 
@@ -37,7 +38,7 @@ std::string to_csv(const std::vector<HandledOrgan>& organs) {
       "organ,touched_at_s,peak_force_N,impulse_N_s,margin_used_1,strain_energy_J,broken\n";
   for (const HandledOrgan& one : organs) {
     const Gentleness::Record& r = one.record;
-    text += one.name + "," + (r.touched() ? io::exact_number(r.first_touch) : "nan");
+    text += io::csv_cell(one.name) + "," + (r.touched() ? io::exact_number(r.first_touch) : "nan");
     for (const double value : {r.peak_force, r.impulse, r.margin_used, r.strain_energy})
       text += "," + io::exact_number(value);
     text += r.broken ? ",1\n" : ",0\n";

@@ -19,6 +19,7 @@
 #include "pedicel/app/run/rough_spell.h"
 #include "pedicel/app/run/scene_assets.h"
 #include "pedicel/app/run/verbosity.h"
+#include "pedicel/core/diagnostics.h"
 #include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/core/timer.h"
@@ -351,7 +352,7 @@ class Run {
                                  : pictures_->available() ? pictures_->renderer_name()
                                                           : pictures_->why();
     std::fprintf(stderr, "pedicel %s (%s), scene %s, seed %d, %d thread%s, %d rod elements, %s\n",
-                 version().c_str(), git_hash().c_str(), scene_.name.c_str(), scene_.seed,
+                 version().c_str(), git_hash().c_str(), printable(scene_.name).c_str(), scene_.seed,
                  scene_.threads, scene_.threads == 1 ? "" : "s", elements, renderer.c_str());
   }
 

@@ -1,8 +1,12 @@
 #include "pedicel/app/run/verbosity.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdarg>
 #include <cstdio>
+#include <string>
+
+#include "pedicel/core/diagnostics.h"
 
 namespace pedicel::app {
 
@@ -24,9 +28,21 @@ void say(Verbosity level, const char* format, ...) {
   if (level > verbosity()) return;
   std::va_list arguments;
   va_start(arguments, format);
-  std::vfprintf(stderr, format, arguments);
+  std::va_list again;
+  va_copy(again, arguments);
+  std::string text(static_cast<std::size_t>(std::max(0, std::vsnprintf(nullptr, 0, format, again))),
+                   '\0');
+  va_end(again);
+  std::vsnprintf(text.data(), text.size() + 1, format, arguments);
   va_end(arguments);
-  std::fputc('\n', stderr);
+  // Names of files and things may hold what a terminal obeys.
+  std::string shown;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    shown += printable(std::string_view(text).substr(at, end - at), 4 * text.size()) + '\n';
+    at = end + 1;
+  }
+  std::fputs(shown.c_str(), stderr);
 }
 
 }  // namespace pedicel::app

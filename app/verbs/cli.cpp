@@ -44,6 +44,7 @@
 #include "pedicel/io/csv.h"
 #include "pedicel/io/output_check.h"
 #include "pedicel/io/output_folder.h"
+#include "pedicel/io/output_kind.h"
 #include "pedicel/render/image.h"
 #include "pedicel/world/settings.h"
 
@@ -174,10 +175,10 @@ int play_verb(const RunArguments& a, const DesktopRequest& window) {
 
 /// "frame_%05d.png" is a name for each of many.
 void check_picture_places(const DesktopRequest& window) {
-  if (!window.screenshot.empty()) io::check_output_file(window.screenshot);
+  if (!window.screenshot.empty()) io::check_output_file(window.screenshot, io::OutputKind::picture);
   if (window.record.empty()) return;
   if (window.record.find('%') == std::string::npos)
-    io::check_output_file(window.record);
+    io::check_output_file(window.record, io::OutputKind::film);
   else
     io::check_place_for_files(std::filesystem::absolute(window.record).parent_path());
 }

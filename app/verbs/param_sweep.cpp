@@ -8,6 +8,7 @@
 #include "pedicel/core/exit_code.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv_cell.h"
 #include "pedicel/world/settings.h"
 
 namespace pedicel::app {
@@ -30,7 +31,7 @@ std::string header_of(const io::CsvTable& table, const world::Scene& scene) {
   for (const world::Expectation& e : scene.expectations)
     if (!e.over_sweep()) {
       std::string of = e.fruit + e.body + e.plant + e.link;
-      text += "," + e.quantity + (of.empty() ? "" : ":" + of);
+      text += "," + io::csv_cell(e.quantity + (of.empty() ? "" : ":" + of));
     }
   return text + ",breaks_1,stretch_max_1\n";
 }

@@ -11,7 +11,7 @@
 #include "pedicel/discrepancy/pick/pick_labels.h"
 #include "pedicel/discrepancy/pick/pick_report.h"
 #include "pedicel/discrepancy/pick/pick_text.h"
-#include "pedicel/io/output_check.h"
+#include "pedicel/io/output_kind.h"
 
 namespace pedicel::app {
 
@@ -84,7 +84,7 @@ void compare(const PickArguments& a, const std::vector<discrepancy::JudgedPick>&
 
 int run(const PickArguments& a) {
   if (const std::string fault = check(a.settings); !fault.empty()) throw UsageError("--" + fault);
-  if (!a.report.empty()) io::check_output_file(a.report);
+  if (!a.report.empty()) io::check_output_file(a.report, io::OutputKind::page);
   Faults faults;
   const std::vector<discrepancy::JudgedPick> all = judge_files(a, faults);
   for (const std::string& sentence : faults.notes.said)

@@ -5,7 +5,7 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
-#include "pedicel/io/output_check.h"
+#include "pedicel/io/output_kind.h"
 #ifdef PEDICEL_ROS
 #include "pedicel/app/ros/interfaces.h"
 #include "pedicel/app/ros/ros_name.h"
@@ -84,7 +84,7 @@ int ros_verb(const RosArguments& a, const RunArguments& run, bool paused) {
   options.paused = paused;
   options.log = run.log;
   options.pictures = !run.no_pictures;
-  if (!run.log.empty()) io::check_output_file(run.log);
+  if (!run.log.empty()) io::check_output_file(run.log, io::OutputKind::mcap);
   options.quiet = run.quiet;
   const world::Scene scene = load_scene(run);
   if (run.steps)

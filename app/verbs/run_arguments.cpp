@@ -17,6 +17,7 @@
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/bounds.h"
 #include "pedicel/io/output_check.h"
+#include "pedicel/io/output_kind.h"
 #include "pedicel/world/scene_reader.h"
 #include "pedicel/world/settings.h"
 
@@ -318,7 +319,11 @@ void check_files_out(const RunArguments& a, const std::filesystem::path& out) {
     if (is_the_runs && !is_itself)
       throw UsageError(std::string(option) + " " + *name +
                        ": the run writes a file of its own there, expected another name");
-    io::check_output_file(path);
+    const io::OutputKind kind = name == &a.events       ? io::OutputKind::events
+                                : name == &a.save_state ? io::OutputKind::state
+                                : name == &a.gltf       ? io::OutputKind::gltf
+                                                  : io::kind_of_name(*name, io::OutputKind::log);
+    io::check_output_file(path, kind, out);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/csv_cell.h"
 #include "pedicel/io/table_text.h"
 #include "pedicel/io/text_file.h"
 
@@ -191,7 +192,7 @@ void CsvWriter::row(std::span<const double> values) {
 void CsvWriter::text_row(const std::vector<std::string>& cells) {
   PEDICEL_ASSERT(cells.size() == columns_);
   std::string row;
-  for (std::size_t i = 0; i < cells.size(); ++i) row += (i ? "," : "") + cells[i];
+  for (std::size_t i = 0; i < cells.size(); ++i) row += (i ? "," : "") + csv_cell(cells[i]);
   file_ << row + '\n';
 }
 

@@ -23,10 +23,10 @@ std::string lower_case(std::string_view text) {
 }
 
 bool is_missing(std::string_view text) {
-  constexpr std::array<std::string_view, 22> words = {
-      "na",   "n/a",  "#n/a", "nan",     "-nan",   "+nan",     "1.#qnan", "-1.#ind",
-      "null", "none", "nil",  "missing", "nodata", "no data",  "-",       "--",
-      "---",  ".",    "..",   "?",       "<na>",   "-nan(ind)"};
+  constexpr std::array<std::string_view, 27> words = {
+      "na",   "n/a", "#n/a",    "nan",       "-nan",    "+nan", "1.#qnan", "-1.#ind", "null",
+      "none", "nil", "missing", "nodata",    "no data", "-",    "--",      "---",     ".",
+      "..",   "?",   "<na>",    "-nan(ind)", "n.a.",    "n.a",  "*",       "1.#ind",  "-1.#qnan"};
   if (text.empty()) return true;
   if (text.size() > 9) return false;
   const std::string lower = lower_case(text);

@@ -15,6 +15,7 @@
 
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/output_check.h"
+#include "pedicel/io/output_kind.h"
 
 namespace pedicel::io {
 
@@ -169,6 +170,14 @@ void check_output_folder(const fs::path& folder, const std::vector<std::string>&
   check_all_free(folder, names, earlier);
 }
 
+bool is_file_of_a_run(const fs::path& folder, const std::string& name) {
+  const int list = ::open((folder / list_name).c_str(), O_RDONLY | O_CLOEXEC);
+  if (list < 0) return false;
+  const std::vector<std::string> lines = lines_of(list);
+  ::close(list);
+  return std::ranges::find(lines, name) != lines.end();
+}
+
 OutputFolder::OutputFolder(fs::path folder, const std::vector<std::string>& names)
     : folder_(std::move(folder)) {
   std::error_code error;
@@ -281,9 +290,13 @@ std::string write_folder(const fs::path& folder,
 
 std::string name_of_file(const fs::path& path) {
   const std::string name = path.filename().string();
+  // A folder of dots alone is one above, or none of its own.
+  const auto is_dots = [](std::string_view text) { return text == "." || text == ".."; };
+  if (is_dots(name)) return "untitled";
   for (const std::string ending :
        {".scene.yaml", ".plant.yaml", ".leaf.yaml", ".yaml", ".yml", ".csv", ".mtg", ".urdf"})
-    if (name.size() > ending.size() && name.ends_with(ending))
+    if (name.size() > ending.size() && name.ends_with(ending) &&
+        !is_dots(std::string_view(name).substr(0, name.size() - ending.size())))
       return name.substr(0, name.size() - ending.size());
   return name;
 }

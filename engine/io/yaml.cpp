@@ -87,6 +87,9 @@ class Surveyor {
 }  // namespace
 
 std::string bounds_text(const Bounds& bounds) {
+  if (bounds.open_minimum && std::isfinite(bounds.maximum))
+    return "a number > " + format_number(bounds.minimum) + " and at most " +
+           format_number(bounds.maximum);
   if (std::isfinite(bounds.minimum) && std::isfinite(bounds.maximum))
     return "a number between " + format_number(bounds.minimum) + " and " +
            format_number(bounds.maximum);

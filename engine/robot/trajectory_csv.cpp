@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "pedicel/io/csv.h"
+#include "pedicel/io/csv_cell.h"
 #include "pedicel/robot/joint_range.h"
 #include "pedicel/robot/trajectory.h"
 
@@ -93,7 +94,7 @@ Trajectory read_trajectory_csv(const std::filesystem::path& path, const RobotDes
 std::string trajectory_csv(const Trajectory& trajectory, const KinematicModel& model) {
   constexpr int every_digit = 17;
   std::string text = "time_s";
-  for (const std::string& joint : model.joint_names()) text += "," + joint;
+  for (const std::string& joint : model.joint_names()) text += "," + io::csv_cell(joint);
   text += "\n";
   for (std::size_t row = 0; row < trajectory.times().size(); ++row) {
     text += io::format_number(trajectory.times()[row], every_digit);

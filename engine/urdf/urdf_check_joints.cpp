@@ -120,12 +120,13 @@ void check_joint(const UrdfXml& xml, const TiXmlElement& joint, const JointMap& 
   check_dynamics(xml, joint, what);
   check_mimic(xml, joint, joints, name, what);
   if (!type) return;
-  if (joint_types.contains(*type))
-    check_limit(xml, joint, *type, what, remarks);
-  else
-    xml.error(attribute_or_element(joint, "type"),
-              what + ": unknown joint type '" + *type +
-                  "', expected fixed, revolute, continuous or prismatic");
+  if (joint_types.contains(*type)) return check_limit(xml, joint, *type, what, remarks);
+  const bool in_the_standard = *type == "floating" || *type == "planar";
+  xml.error(attribute_or_element(joint, "type"),
+            what +
+                (in_the_standard ? ": joint type '" + *type + "' is not supported"
+                                 : ": unknown joint type '" + *type + "'") +
+                ", expected fixed, revolute, continuous or prismatic");
 }
 
 }  // namespace

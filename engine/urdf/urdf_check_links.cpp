@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "pedicel/io/csv.h"
+#include "pedicel/io/thing_bounds.h"
 #include "pedicel/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
@@ -8,12 +10,22 @@ namespace {
 
 const char* const inertia_names[] = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
 
+/// A number from 0 on, and not above what anything weighs or measures.
+void check_extent(const UrdfXml& xml, const TiXmlElement& element, const char* attribute,
+                  const std::string& what, double most) {
+  const auto value = xml.not_negative(element, attribute, what, true, false);
+  if (value && *value > most)
+    xml.error(attribute_or_element(element, attribute),
+              what + ": " + attribute + " \"" + element.Attribute(attribute) +
+                  "\", expected at most " + io::format_number(most));
+}
+
 void check_inertial(const UrdfXml& xml, const TiXmlElement& link, const std::string& what) {
   const TiXmlElement* inertial = link.FirstChildElement("inertial");
   if (inertial == nullptr) return;
   xml.check_origin(*inertial, what + ": inertial");
   if (const TiXmlElement* mass = inertial->FirstChildElement("mass"))
-    xml.not_negative(*mass, "value", what + ": mass", true, false);
+    check_extent(xml, *mass, "value", what + ": mass", io::mass_bounds.maximum);
   else
     xml.error(*inertial, what + ": inertial without <mass>, expected <mass value=\"...\"/>");
   const TiXmlElement* inertia = inertial->FirstChildElement("inertia");
@@ -47,16 +59,20 @@ void check_geometry(const UrdfXml& xml, const TiXmlElement& owner, const std::st
   if (kind == "mesh") {
     check_mesh(xml, *shape, what);
   } else if (kind == "sphere") {
-    xml.not_negative(*shape, "radius", what + ": sphere", true, false);
+    check_extent(xml, *shape, "radius", what + ": sphere", io::extent_bounds.maximum);
   } else if (kind == "cylinder" || kind == "capsule") {
-    xml.not_negative(*shape, "radius", what + ": " + kind, true, false);
-    xml.not_negative(*shape, "length", what + ": " + kind, true, false);
+    check_extent(xml, *shape, "radius", what + ": " + kind, io::extent_bounds.maximum);
+    check_extent(xml, *shape, "length", what + ": " + kind, io::extent_bounds.maximum);
   } else if (kind == "box") {
     if (!xml.text(*shape, "size", what + ": box")) return;
-    if (const auto size = xml.numbers(*shape, "size", 3, what + ": box"))
-      if (*std::min_element(size->begin(), size->end()) < 0.0)
+    if (const auto size = xml.numbers(*shape, "size", 3, what + ": box")) {
+      const std::string said = what + ": box size \"" + shape->Attribute("size") + "\", expected ";
+      const auto [low, high] = std::minmax_element(size->begin(), size->end());
+      if (*low < 0.0) xml.error(attribute_or_element(*shape, "size"), said + "0 or more");
+      if (*high > io::extent_bounds.maximum)
         xml.error(attribute_or_element(*shape, "size"),
-                  what + ": box size \"" + shape->Attribute("size") + "\", expected 0 or more");
+                  said + "at most " + io::format_number(io::extent_bounds.maximum) + " m");
+    }
   } else {
     xml.error(*shape, what + ": unknown geometry <" + kind +
                           ">, expected box, cylinder, sphere, capsule or mesh");

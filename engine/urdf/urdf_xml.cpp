@@ -1,11 +1,28 @@
 #include "pedicel/urdf/urdf_xml.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 
+#include "pedicel/io/thing_bounds.h"
+
 namespace pedicel::robot {
+
+namespace {
+
+/// How many numbers are there once every comma is a blank; 0 without a comma.
+std::size_t parted_by_commas(std::string text) {
+  if (text.find(',') == std::string::npos) return 0;
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream stream(text);
+  std::size_t count = 0;
+  for (std::string word; stream >> word;) ++count;
+  return count;
+}
+
+}  // namespace
 
 void UrdfXml::error(const TiXmlBase& where, std::string what) const {
   diagnostics_->error(position(where), std::move(what));
@@ -63,6 +80,12 @@ std::optional<std::vector<double>> UrdfXml::numbers(const TiXmlElement& element,
                                                     const std::string& what) const {
   const char* value = element.Attribute(attribute);
   if (value == nullptr) return {};
+  if (parted_by_commas(value) == count) {
+    error(attribute_or_element(element, attribute),
+          what + ": " + attribute + " \"" + value + "\" has commas, expected " +
+              std::to_string(count) + " numbers separated by blanks");
+    return {};
+  }
   std::istringstream stream(value);
   std::vector<double> result;
   std::size_t words = 0;
@@ -81,7 +104,14 @@ std::optional<std::vector<double>> UrdfXml::numbers(const TiXmlElement& element,
 void UrdfXml::check_origin(const TiXmlElement& parent, const std::string& what) const {
   const TiXmlElement* origin = parent.FirstChildElement("origin");
   if (origin == nullptr) return;
-  numbers(*origin, "xyz", 3, what + ": origin");
+  if (const auto xyz = numbers(*origin, "xyz", 3, what + ": origin"))
+    for (const double one : *xyz)
+      if (!io::within(one, io::place_bounds)) {
+        error(attribute_or_element(*origin, "xyz"),
+              what + ": origin: xyz \"" + origin->Attribute("xyz") + "\", expected m, each " +
+                  io::bounds_text(io::place_bounds));
+        break;
+      }
   numbers(*origin, "rpy", 3, what + ": origin");
   const auto q = numbers(*origin, "quat_xyzw", 4, what + ": origin");
   if (q && Eigen::Map<const Eigen::Vector4d>(q->data()).norm() < 1e-6)

@@ -1,3 +1,5 @@
+#include "pedicel/io/thing_bounds.h"
+#include "pedicel/io/yaml_words.h"
 #include "pedicel/world/scene_sections.h"
 
 namespace pedicel::world::sections {
@@ -6,7 +8,9 @@ namespace {
 
 Vec3 read_size(const io::YamlNode& node, const std::string& what) {
   const Vec3 size = node.vector(what);
-  if (!(size.minCoeff() > 0.0)) node.error(what + ": expected three numbers > 0");
+  if (!(size.minCoeff() > 0.0 && size.maxCoeff() <= io::extent_bounds.maximum))
+    node.error(what + ": expected three numbers > 0 and at most " +
+               io::yaml_number(io::extent_bounds.maximum) + ", in m");
   return size;
 }
 
@@ -14,8 +18,8 @@ BodyPart read_round(const io::YamlNode& node, BodyPart::Kind kind, const std::st
   BodyPart part;
   part.kind = kind;
   io::YamlMap map(node, what);
-  part.radius = map.number("radius", io::positive);
-  if (kind != BodyPart::Kind::sphere) part.length = map.number("length", io::positive);
+  part.radius = map.number("radius", io::extent_bounds);
+  if (kind != BodyPart::Kind::sphere) part.length = map.number("length", io::extent_bounds);
   map.finish();
   return part;
 }
@@ -24,7 +28,7 @@ std::vector<BodyPart> read_tray(const io::YamlNode& node) {
   io::YamlMap map(node, "tray");
   const auto size_node = map.required("size");
   const Vec3 size = size_node ? read_size(*size_node, "size") : Vec3::Ones();
-  const double wall = map.number("wall", io::positive);
+  const double wall = map.number("wall", io::extent_bounds);
   map.finish();
   if (2.0 * wall >= size.minCoeff()) map.error("tray: expected walls thinner than half its size");
   return tray_parts(size, wall);
@@ -62,7 +66,7 @@ BodyDescription read_body(const io::YamlNode& node) {
   io::YamlMap map(node, "a body");
   body.name = map.text("name");
   body.parts = read_shape(map);
-  body.mass = map.number("mass", io::not_negative, 0.0);
+  body.mass = map.number("mass", io::mass_bounds, 0.0);
   body.pose = read_pose(map);
   body.friction = map.number("friction", io::not_negative, body.friction);
   body.restitution = map.number("restitution", io::fraction, body.restitution);
@@ -74,7 +78,7 @@ BodyDescription read_body(const io::YamlNode& node) {
 GroundPlane read_ground(const io::YamlNode& node) {
   GroundPlane ground;
   io::YamlMap map(node, "ground");
-  ground.height = map.number("height", io::any_number, 0.0);
+  ground.height = map.number("height", io::place_bounds, 0.0);
   ground.friction = map.number("friction", io::not_negative, ground.friction);
   map.finish();
   return ground;

@@ -1,3 +1,4 @@
+#include "pedicel/io/thing_bounds.h"
 #include "pedicel/world/scene_sections.h"
 
 namespace pedicel::world::sections {
@@ -44,9 +45,17 @@ Anchor read_anchor(const io::YamlNode& node, const std::string& what) {
   return anchor;
 }
 
+Vec3 read_place(io::YamlMap& map, const std::string& key, std::optional<Vec3> otherwise) {
+  const Vec3 place = otherwise ? map.vector(key, *otherwise) : map.vector(key);
+  if (!(place.cwiseAbs().maxCoeff() <= io::place_bounds.maximum))
+    map.optional(key)->error(key + ": expected three numbers, each " +
+                             io::bounds_text(io::place_bounds).substr(9) + ", in m");
+  return place;
+}
+
 Pose read_pose(io::YamlMap& map) {
   Pose pose;
-  pose.position = map.vector("position", Vec3::Zero());
+  pose.position = read_place(map, "position", Vec3::Zero());
   pose.rotation = map.quaternion("orientation", Quat::Identity());
   return pose;
 }

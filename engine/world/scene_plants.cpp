@@ -1,3 +1,4 @@
+#include "pedicel/io/thing_bounds.h"
 #include "pedicel/io/unit_text.h"
 #include "pedicel/io/yaml_words.h"
 #include "pedicel/world/scene_sections.h"
@@ -46,7 +47,8 @@ void read_repeat(io::YamlMap& map, ScenePlant& plant) {
   if (spacing.size() != 2) repeat.error("repeat.spacing: expected [along X, along Y] in m");
   for (int i = 0; i < 2; ++i) {
     if (count.size() == 2) plant.repeat[i] = count[i].integer("repeat.count", 1, 10000);
-    if (spacing.size() == 2) plant.spacing[i] = spacing[i].number("repeat.spacing", io::positive);
+    if (spacing.size() == 2)
+      plant.spacing[i] = spacing[i].number("repeat.spacing", io::extent_bounds);
   }
   repeat.finish();
 }
@@ -98,7 +100,7 @@ SceneTie read_tie(const io::YamlNode& node) {
   if (to_at && !to_organ) to_at->error("to_at: expected only beside to_organ");
   if (to_at) tie.to_at = to_at->number("to_at", io::fraction);
   tie.is_offset = offset.has_value();
-  if (to || offset) tie.to = map.vector(tie.is_offset ? "offset" : "to");
+  if (to || offset) tie.to = read_place(map, tie.is_offset ? "offset" : "to");
   if (map.optional("length")) tie.length = map.number("length", io::not_negative);
   tie.stiffness = map.number("stiffness", {1.0e-3, 1.0e9}, tie.stiffness);
   map.finish();

@@ -55,6 +55,9 @@ void read_named(io::YamlMap& map, const char* key, std::vector<Item>& items, con
                         std::to_string(most_named));
     items.push_back(read(node));
     const std::string& name = items.back().name;
+    if (printable(name, name.size()) != name)
+      node.error("name " + in_quotes(name) + " in " + key +
+                 " has a line end or another control character, expected one without");
     if (!name.empty() && !names.insert(name).second)
       node.error("name \"" + name + "\" is used twice in " + key + ", expected once");
   }

@@ -30,7 +30,7 @@ SceneWaypoint read_waypoint(const io::YamlNode& node) {
   if (const auto at = map.optional("at")) waypoint.at = read_anchor(*at, "at");
   const char* key = waypoint.at.kind == Anchor::Kind::none ? "position" : "offset";
   const auto place = waypoint.at.kind == Anchor::Kind::none ? map.required(key) : map.optional(key);
-  if (place) waypoint.position = place->vector(key);
+  if (place) waypoint.position = read_place(map, key);
   const auto orientation = map.optional("orientation"), faces = map.optional("facing");
   if (orientation && faces) node.error("a waypoint: expected orientation or facing, not both");
   if (orientation) waypoint.orientation = orientation->quaternion("orientation");
@@ -104,7 +104,7 @@ SceneRobot read_robot(const io::YamlNode& node, const std::filesystem::path& fol
   read_joints(map, robot);
   robot.control = map.choice("control", {"position", "velocity", "torque"}, "position");
   robot.tool = map.text("tool", "");
-  robot.tool_offset = map.vector("tool_offset", Vec3::Zero());
+  robot.tool_offset = read_place(map, "tool_offset", Vec3::Zero());
   robot.gripper = map.text("gripper", "");
   robot.gripper_force = map.number("gripper_force", {0.0, largest_gripper_force}, 0.0);
   if (robot.gripper_force > 0.0 && robot.gripper.empty())

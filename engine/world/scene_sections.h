@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ std::vector<Setting> read_settings(const io::YamlNode& node, const std::string& 
 
 /// {fruit: NAME} | {body: NAME} | {plant: NAME} | {tool: true}
 Anchor read_anchor(const io::YamlNode& node, const std::string& what);
+
+/// A place or an offset in m; every coordinate within io::place_bounds. Needed without `otherwise`.
+Vec3 read_place(io::YamlMap& map, const std::string& key, std::optional<Vec3> otherwise = {});
 
 /// Keys `position` and `orientation`.
 Pose read_pose(io::YamlMap& map);

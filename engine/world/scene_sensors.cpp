@@ -79,8 +79,8 @@ SceneCamera read_camera(const io::YamlNode& node) {
   if (map.has("orientation")) {
     read_optical_pose(map, camera);
   } else {
-    camera.eye = map.vector("eye");
-    camera.target = map.vector("target", Vec3::Zero());
+    camera.eye = read_place(map, "eye");
+    camera.target = read_place(map, "target", Vec3::Zero());
   }
   camera.field_of_view = map.number("fov", {0.01, 3.0}, camera.field_of_view);
   read_focal(map, camera);

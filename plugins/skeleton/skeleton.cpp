@@ -97,6 +97,13 @@ std::optional<PlantFile> checked_skeleton_plant(const std::vector<SkeletonNode>&
                                                 Diagnostics& diagnostics) {
   if (nodes.empty()) return std::nullopt;
   PlantFile plant = skeleton_plant(nodes, name, options);
+  if (plant.curves.empty()) {
+    diagnostics.error(plant.where, nodes.size() == 1
+                                       ? std::string("one node only, expected two or more")
+                                       : "all " + std::to_string(nodes.size()) +
+                                             " nodes lie at one place, expected them apart");
+    return std::nullopt;
+  }
   if (!check_plant(plant, diagnostics)) return std::nullopt;
   return plant;
 }

@@ -47,6 +47,14 @@ TEST_F(Inspector, SaysTheTunedThreshold) {
   EXPECT_TRUE(place_of("left", "0.4321"));
 }
 
+// A pick or waypoints of a window are programs, too, and a scene may have none.
+TEST_F(Inspector, TheProgramIsNotSaidToBeTheScenes) {
+  desk_.show("Robot");
+  desk_.frames(4);
+  EXPECT_TRUE(place_of("right", "Follows a program."));
+  EXPECT_FALSE(place_of("right", "scene's program"));
+}
+
 TEST_F(Inspector, SaysWhereItIsAndLeadsTheToolThere) {
   desk_.show("Plants");
   run("stop robot");

@@ -5,6 +5,7 @@
 #include "pedicel/app/session/commands/scene_things.h"
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/io/thing_bounds.h"
 #include "pedicel/world/scene_reader.h"
 #include "pedicel/world/scene_writer.h"
 
@@ -19,16 +20,25 @@ using world::BodyPart;
 
 double above_zero(const Command& c, const std::string& name, const std::string& unit) {
   const double value = c.number(name);
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw UsageError(name + " " + io::format_number(value) + ", expected " + unit + " above 0");
+  if (!io::within(value, io::extent_bounds))
+    throw UsageError(name + " " + io::format_number(value) + ", expected " + unit +
+                     " above 0, at most " + io::format_number(io::extent_bounds.maximum));
   return value;
 }
 
 Vec3 size_of(const Command& c) {
   const Vec3 size = c.point("size");
-  if (!(size.minCoeff() > 0.0) || !size.allFinite())
-    throw UsageError("size, expected three numbers above 0, in m");
+  if (!io::within(size.minCoeff(), io::extent_bounds) ||
+      !io::within(size.maxCoeff(), io::extent_bounds))
+    throw UsageError("size, expected three numbers above 0, at most " +
+                     io::format_number(io::extent_bounds.maximum) + ", in m");
   return size;
+}
+
+void check_mass(double mass) {
+  if (!io::within(mass, io::mass_bounds))
+    throw UsageError("mass " + io::format_number(mass) + ", expected kg from 0 to " +
+                     io::format_number(io::mass_bounds.maximum));
 }
 
 void set_look(BodyDescription& body, const std::string& look) {
@@ -47,7 +57,7 @@ void add(Document& document, const Command& c, std::vector<BodyPart> parts) {
   body.parts = std::move(parts);
   body.pose = read_pose(c);
   body.mass = c.number_or("mass", 0.0);
-  if (!(body.mass >= 0.0)) throw UsageError("mass, expected kg from 0 on");
+  check_mass(body.mass);
   if (c.has("look")) set_look(body, c.word("look"));
   document.edit_scene().bodies.push_back(std::move(body));
 }
@@ -122,7 +132,7 @@ void set_body(Document& document, const Command& c) {
   if (!std::isfinite(value)) throw UsageError(key + ", expected a finite number");
   const bool at_least_0 = value >= 0.0;
   if (key == "mass" && at_least_0)
-    body.mass = value;
+    check_mass(value), body.mass = value;
   else if (key == "friction" && at_least_0)
     body.friction = value;
   else if (key == "restitution" && at_least_0 && value <= 1.0)
@@ -130,8 +140,9 @@ void set_body(Document& document, const Command& c) {
   else if (key == "mass" || key == "friction" || key == "restitution")
     throw UsageError(key + " " + io::format_number(value) + ", expected 0 or more" +
                      (key == "restitution" ? ", at most 1" : ""));
-  else if (!(value > 0.0))
-    throw UsageError(key + " " + io::format_number(value) + ", expected m above 0");
+  else if (!io::within(value, io::extent_bounds))
+    throw UsageError(key + " " + io::format_number(value) + ", expected m above 0, at most " +
+                     io::format_number(io::extent_bounds.maximum));
   else if (!set_extent(body, key, value))
     throw UsageError("\"" + key + "\" of \"" + body.name +
                      "\", expected mass, friction, restitution or an extent that it has: size_x, "
@@ -147,7 +158,9 @@ void set_ground(Document& document, const Command& c) {
   world::GroundPlane ground = document.scene->ground.value_or(world::GroundPlane{});
   ground.height = c.number_or("height", ground.height);
   ground.friction = c.number_or("friction", ground.friction);
-  if (!std::isfinite(ground.height)) throw UsageError("height, expected m");
+  if (!io::within(ground.height, io::place_bounds))
+    throw UsageError("height " + io::format_number(ground.height) +
+                     ", expected m: " + io::bounds_text(io::place_bounds));
   if (!(ground.friction >= 0.0)) throw UsageError("friction, expected 0 or more");
   document.edit_scene().ground = ground;
 }
@@ -158,8 +171,8 @@ void delete_ground(Document& document, const Command&) {
 }
 
 void put_camera(world::SceneCamera& camera, const Command& c) {
-  camera.eye = c.point("eye");
-  camera.target = c.point("target");
+  camera.eye = read_place(c, "eye");
+  camera.target = read_place(c, "target");
   camera.field_of_view = c.number_or("fov", camera.field_of_view);
   if (!((camera.eye - camera.target).norm() > 1e-6))
     throw UsageError("eye and target, expected them to be apart");

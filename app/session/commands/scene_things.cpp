@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "pedicel/core/check.h"
+#include "pedicel/core/diagnostics.h"
+#include "pedicel/io/thing_bounds.h"
 
 namespace pedicel::app {
 
@@ -51,6 +53,9 @@ void check_new_name(const Document& document, ThingKind kind, const std::string&
   const std::string word = word_of(kind);
   if (std::ranges::count(names_of(document, kind), name) > 0)
     throw UsageError("a " + word + " \"" + name + "\" is there already, expected a new name");
+  if (printable(name, name.size()) != name)
+    throw UsageError("a " + word + "'s name " + in_quotes(name) +
+                     ", expected one without line ends and control characters");
   // A plant file's own name may have a point; a scene refuses it when it is saved.
   const bool plant = kind == ThingKind::plant;
   if (name.empty() || name.find_first_of(plant ? "/" : "/.") != std::string::npos)
@@ -104,8 +109,15 @@ std::vector<double> turn_numbers(const Quat& turn) {
   return {turn.x(), turn.y(), turn.z(), turn.w()};
 }
 
+Vec3 read_place(const Command& command, const std::string& name) {
+  const Vec3 place = command.point(name);
+  if (!(place.cwiseAbs().maxCoeff() <= io::place_bounds.maximum))
+    throw UsageError(name + ", expected m, each " + io::bounds_text(io::place_bounds));
+  return place;
+}
+
 Pose read_pose(const Command& command, Pose pose) {
-  if (command.has("position")) pose.position = command.point("position");
+  if (command.has("position")) pose.position = read_place(command, "position");
   if (command.has("turn")) pose.rotation = read_turn(command.numbers("turn"));
   return pose;
 }

@@ -5,6 +5,7 @@
 #include "pedicel/discrepancy/data/sample_table.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/io/csv_cell.h"
 #include "pedicel/io/table_text.h"
 #include "pedicel/io/text_file.h"
 
@@ -37,7 +38,7 @@ std::vector<int> measured_columns(const Samples& samples) {
 std::string samples_text(const Samples& samples, const std::vector<std::string>& names, Rows rows) {
   const std::vector<int> columns = measured_columns(samples);
   std::string text = rows == Rows::time ? "time" : "";
-  for (const int c : columns) text += (text.empty() ? "" : ",") + names[c];
+  for (const int c : columns) text += (text.empty() ? "" : ",") + io::csv_cell(names[c]);
   text += "\n";
   for (int r = 0; r < samples.size(); ++r) {
     std::vector<double> values;
@@ -193,7 +194,8 @@ std::string wrench_text(const Samples& samples, Rows rows) {
 std::string events_text(const std::vector<MeasuredEvent>& events) {
   std::string text = "time,event,what\n";
   for (const MeasuredEvent& event : events)
-    text += io::exact_number(event.time) + "," + event.event + "," + event.what + "\n";
+    text +=
+        io::exact_number(event.time) + "," + event.event + "," + io::csv_cell(event.what) + "\n";
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pedicel/discrepancy/data/sample_table.h"
+#include "pedicel/io/csv_cell.h"
 #include "pedicel/io/table_text.h"
 #include "pedicel/io/text_file.h"
 
@@ -152,7 +153,7 @@ std::vector<SceneEvent> read_scene_events(const std::filesystem::path& file,
 
 std::string table_text(const std::vector<std::string>& names, const Samples& samples) {
   std::string text = "time";
-  for (const std::string& name : names) text += "," + name;
+  for (const std::string& name : names) text += "," + io::csv_cell(name);
   text += "\n";
   for (int r = 0; r < samples.size(); ++r) {
     text += io::exact_number(samples.time[static_cast<std::size_t>(r)]);
@@ -166,8 +167,8 @@ std::string table_text(const std::vector<std::string>& names, const Samples& sam
 std::string scene_events_text(const std::vector<SceneEvent>& events) {
   std::string text = "time,event,what,by\n";
   for (const SceneEvent& event : events)
-    text +=
-        io::exact_number(event.time) + "," + event.event + "," + event.what + "," + event.by + "\n";
+    text += io::exact_number(event.time) + "," + event.event + "," + io::csv_cell(event.what) +
+            "," + io::csv_cell(event.by) + "\n";
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/io/csv_cell.h"
 #include "pedicel/io/text_file.h"
 #include "pedicel/plant/plant_file.h"
 #include "pedicel/robot/kinematics.h"
@@ -109,7 +110,7 @@ class Writer {
     if (log.size() == 0) return;
     const std::vector<std::string> names = joint_names(experiment_.robot);
     std::string text = "time_s";
-    for (const std::string& name : names) text += "," + name;
+    for (const std::string& name : names) text += "," + io::csv_cell(name);
     text += "\n";
     const auto add = [&](double t, const Eigen::VectorXd& q) {
       text += io::exact_number(t);

@@ -40,6 +40,37 @@ TEST_F(ProgramOutput, NamesKeepTheirDots) {
   EXPECT_TRUE(fs::exists(folder_ / "out/pull_0.2/log.csv"));
 }
 
+TEST_F(ProgramOutput, NamesOfDotsStayBelowOut) {
+  for (const std::string name : {"...scene.yaml", "..scene.yaml"}) {
+    write(name, quick_scene);
+    EXPECT_EQ(run_there("--headless ./" + name + " --no-pictures"), 0) << err_;
+    EXPECT_TRUE(fs::exists(folder_ / "out" / fs::path(name).stem() / "log.csv")) << name << err_;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "log.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/log.csv"));
+}
+
+TEST_F(ProgramOutput, NamesMayHoldCommasAndQuotes) {
+  write("names.scene.yaml",
+        std::string(quick_scene) +
+            "bodies: [{name: 'a,b', sphere: {radius: 0.05}, position: [2, 0, 0]}, "
+            "{name: 'f,1\"', sphere: {radius: 0.05}, position: [1, 0, 0]}]\n");
+  EXPECT_EQ(run_scene("", "names.scene.yaml"), 0) << err_;
+  const io::CsvTable table = log();
+  EXPECT_GE(table.column("contact_a,b_normal_N"), 0);
+  EXPECT_GE(table.column("contact_f,1\"_normal_N"), 0);
+  EXPECT_GT(table.rows.size(), 1u);
+}
+
+TEST_F(ProgramOutput, ATerminalObeysNoNames) {
+  write("e\033[31msc\a.scene.yaml", quick_scene);
+  EXPECT_EQ(run_there("--headless \"$(printf 'e\\033[31msc\\007.scene.yaml')\" --no-pictures"), 0)
+      << err_;
+  EXPECT_THAT(err_, HasSubstr("scene e\\x1B[31msc\\x07, seed"));
+  EXPECT_THAT(err_, Not(HasSubstr("\033")));
+  EXPECT_THAT(err_, Not(HasSubstr("\a")));
+}
+
 TEST_F(ProgramOutput, ASecondRunReplacesTheFirstAsAWholeAndSaysSo) {
   EXPECT_EQ(run("sweep " + path("quick.scene.yaml") + " --out " + path("out") +
                 " --no-pictures --set material.density=400,800"),

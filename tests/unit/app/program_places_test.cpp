@@ -40,6 +40,35 @@ TEST_F(ProgramPlaces, AnInputIsNoOutput) {
   EXPECT_EQ(run_scene("--log " + path("out/log.csv")), 0) << "it is that already: " << err_;
 }
 
+TEST_F(ProgramPlaces, OnlyAnEarlierOutputOfItsKindIsReplaced) {
+  write("other.scene.yaml", quick_scene);
+  write("way.csv", "time_s,joint1\n0,0\n1,0\n");
+  for (const std::string option : {"--log", "--events", "--save-state"})
+    for (const std::string file : {"other.scene.yaml", "stem.plant.yaml", "way.csv"}) {
+      const std::string earlier = io::read_file(folder_ / file);
+      EXPECT_EQ(run_scene(option + " " + path(file)), 6) << option << " " << file;
+      EXPECT_THAT(err_, HasSubstr(file + ": is there, and is not "));
+      EXPECT_EQ(io::read_file(folder_ / file), earlier);
+    }
+  const std::string mine =
+      "--log " + path("l.csv") + " --events " + path("e.csv") + " --save-state " + path("s.yaml");
+  EXPECT_EQ(run_scene(mine), 0) << err_;
+  EXPECT_EQ(run_scene(mine), 0) << "its own outputs of before: " << err_;
+  EXPECT_EQ(run_scene("--events " + path("l.csv")), 6) << "a log is no table of events";
+  // Another run's log, which the list of its folder names.
+  ASSERT_TRUE(fs::exists(folder_ / "out/log.csv"));
+  EXPECT_EQ(run("--headless " + path("quick.scene.yaml") + " --no-pictures --out " + path("two") +
+                " --log " + path("out/log.csv")),
+            6);
+  EXPECT_THAT(err_, HasSubstr("is of the run in its folder, expected another name"));
+  for (const std::string option : {"--gltf ", "--log "}) {
+    const std::string name = option == "--gltf " ? "note.glb" : "note.mcap";
+    write(name, "mine");
+    EXPECT_EQ(run_scene(option + path(name)), 6) << err_;
+    EXPECT_EQ(io::read_file(folder_ / name), "mine");
+  }
+}
+
 TEST_F(ProgramPlaces, WhatTakesLongLooksAtItsFolderFirst) {
   // The experiment is not even read.
   EXPECT_EQ(run("diagnose " + path("nothing") + " --out " + nowhere), 6) << err_;

@@ -128,6 +128,22 @@ TEST_F(CsvTest, WriterAndReaderAgree) {
   EXPECT_TRUE(std::isnan(back.rows[200][1]));
 }
 
+TEST_F(CsvTest, NamesMayHoldWhatPartsCells) {
+  const std::vector<std::string> names = {"time_s", "a,b",    "f,1\"", "\"x\"",  "x\ny",
+                                          "a;b;c",  "tab\tx", "p|q",   "plain_N"};
+  {
+    CsvWriter writer(path_, names);
+    writer.row(std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8});
+    writer.row(std::vector<double>{1, 1, 2, 3, 4, 5, 6, 7, 8});
+  }
+  const CsvTable back = read_csv(path_, {}, diagnostics_);
+  EXPECT_FALSE(diagnostics_.has_errors()) << diagnostics_.text();
+  ASSERT_EQ(back.columns.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(back.columns[i], names[i]);
+  ASSERT_EQ(back.rows.size(), 2u);
+  EXPECT_EQ(back.rows[1][8], 8.0);
+}
+
 TEST_F(CsvTest, FlushedRowsAreThereWhileTheWriterLives) {
   CsvWriter writer(path_, {"time_s"});
   writer.row(std::vector<double>{1.0});

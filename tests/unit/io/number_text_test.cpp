@@ -70,8 +70,9 @@ TEST(NumberText, ReadsDecimalCommas) {
 
 TEST(NumberText, KnowsMissingValues) {
   for (const char* text :
-       {"", "NA", "N/A", "n/a", "#N/A", "NaN", "nan", "NAN", "-nan", "null", "NULL", "None", "-",
-        "--", ".", "?", "missing", "-1.#IND", "\xE2\x80\x94"})
+       {"",        "NA",      "N/A",    "n/a",  "#N/A", "NaN", "nan",         "NAN",
+        "-nan",    "null",    "NULL",   "None", "-",    "--",  ".",           "?",
+        "missing", "-1.#IND", "1.#IND", "n.a.", "N.A.", "*",   "\xE2\x80\x94"})
     EXPECT_EQ(number_of(text).kind, Kind::missing) << text;
 }
 

@@ -204,5 +204,15 @@ TEST(NameOfFile, KeepsItsDots) {
   EXPECT_EQ(name_of_file(".yaml"), ".yaml");
 }
 
+TEST(NameOfFile, IsNeverAFolderAbove) {
+  for (const char* name :
+       {"..", ".", "a/..", "...scene.yaml", "..scene.yaml", "...yaml", "..csv"}) {
+    const fs::path folder = (fs::path("out") / name_of_file(name)).lexically_normal();
+    EXPECT_EQ(folder.parent_path(), "out") << name;
+    EXPECT_TRUE(folder.has_filename()) << name;
+  }
+  EXPECT_EQ(name_of_file("...a.scene.yaml"), "...a");
+}
+
 }  // namespace
 }  // namespace pedicel::io

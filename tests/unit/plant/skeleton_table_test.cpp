@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "pedicel/skeleton/mtg_reader.h"
+#include "pedicel/skeleton/skeleton.h"
 
 namespace pedicel::plant {
 namespace {
@@ -150,6 +151,18 @@ TEST(SkeletonWays, SaysTheSameFaultOnce) {
       read(text).said,
       "t.csv:3:5: error: z: \"wide\" is not a finite number (and 497 more like it, the last in "
       "line 500)");
+}
+
+TEST(SkeletonWays, NodesAtOnePlaceAreSaidToBe) {
+  const auto said = [](const std::string& rows) {
+    Diagnostics diagnostics;
+    const auto nodes = parse_skeleton_csv(header + rows, "t.csv", diagnostics);
+    EXPECT_FALSE(checked_skeleton_plant(nodes, "t", {}, diagnostics));
+    return diagnostics.text();
+  };
+  const std::string text = said("0,0,0,,1,<\n0,0,0,1,2,<\n0,0,0,2,3,<\n");
+  EXPECT_THAT(text, HasSubstr("all 3 nodes lie at one place, expected them apart"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("under curves")));
 }
 
 TEST(Cylinders, AreAPlant) {

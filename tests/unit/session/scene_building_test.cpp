@@ -190,6 +190,13 @@ TEST_F(Building, WhatCannotBeIsRefusedWithASentence) {
   EXPECT_THAT(refusal("add box a/b 1,1,1"), HasSubstr("expected one without / and ."));
   EXPECT_THAT(refusal("add box b 1,0,1"), HasSubstr("size, expected three numbers above 0"));
   EXPECT_THAT(refusal("add sphere b -1"), HasSubstr("radius -1, expected m above 0"));
+  EXPECT_THAT(refusal("add sphere b 1e300"), HasSubstr("at most 10000000"));
+  EXPECT_THAT(refusal("add box b 1,1e300,1"), HasSubstr("at most 10000000"));
+  EXPECT_THAT(refusal("add sphere b 1 mass=1e300"), HasSubstr("expected kg from 0 to 1e+09"));
+  EXPECT_THAT(refusal("add sphere b 1 position=1e300,0,0"), HasSubstr("position, expected m"));
+  EXPECT_THAT(refusal("set ground height=1e300"), HasSubstr("height 1e+300, expected m"));
+  EXPECT_THAT(refusal("set body ball mass 1e300"), HasSubstr("expected kg from 0 to"));
+  EXPECT_THAT(refusal("set body ball radius 1e300"), HasSubstr("at most 10000000"));
   EXPECT_THAT(refusal("add sphere b 1 look=gold"), HasSubstr("expected one of: steel, wood"));
   EXPECT_THAT(refusal("add sphere b 1 turn=0,0"), HasSubstr("expected x,y,z,w or roll,pitch,yaw"));
   EXPECT_THAT(refusal("add tray b 0.1,0.1,0.1 0.05"), HasSubstr("wall, expected"));
