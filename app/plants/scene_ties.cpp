@@ -114,7 +114,7 @@ void SceneTies::add(const world::SceneTie& tie, const std::string& organ, const 
     cosserat::PlantString string;
     string.a = {place.plant, place.element, place.back};
     string.b = {end.plant, end.element, end.back};
-    const Vec3 way = *rods_.place_of(string.b) - *rods_.place_of(string.a);
+    const Vec3 way = *cosserat::place_of(rods_, string.b) - *cosserat::place_of(rods_, string.a);
     string.length = tie.length.value_or(way.norm());
     string.stiffness = tie.stiffness;
     one.slot = static_cast<std::size_t>(rods_.add_string(string));

@@ -83,9 +83,9 @@ std::optional<Fault> check_clock(const TrialView& view) {
                                    others(clocks, clock) + ": expected seconds since it began" +
                                    likely_clock(clock.first)};
   for (const Hold& hold : trial.holds)
-    if (hold.path.time.size() > 1 && hold.release < hold.path.time.front())
+    if (hold.path.time.size() > 1 && hold.release <= hold.path.time.front())
       return Fault{hold.path.file, "begins at " + seconds(hold.path.time.front()) +
-                                       ", after the release at " + seconds(hold.release) +
+                                       ", not before the release at " + seconds(hold.release) +
                                        " that experiment.yaml states: expected the way up to it"};
   return gap_in(clocks.front(), trial.markers.time);
 }

@@ -26,11 +26,11 @@ constexpr std::array checks = {
     Question{check_copies, Needs::nothing},   Question{check_clock, Needs::time},
     Question{check_units, Needs::nothing},    Question{check_frame, Needs::nothing},
     Question{check_frame_steps, Needs::time}, Question{check_labels, Needs::nothing},
-    Question{check_holds, Needs::rest},       Question{check_drive, Needs::time},
-    Question{check_rate, Needs::time},        Question{check_releases, Needs::rest},
-    Question{check_paths, Needs::nothing},    Question{check_loads, Needs::rest},
-    Question{check_jumps, Needs::time},       Question{check_force_clock, Needs::time},
-    Question{check_force, Needs::time}};
+    Question{check_slips, Needs::time},       Question{check_holds, Needs::rest},
+    Question{check_drive, Needs::time},       Question{check_rate, Needs::time},
+    Question{check_releases, Needs::rest},    Question{check_paths, Needs::nothing},
+    Question{check_loads, Needs::rest},       Question{check_jumps, Needs::time},
+    Question{check_force_clock, Needs::time}, Question{check_force, Needs::time}};
 
 bool is_met(Needs needs, const Trial& trial) {
   if (needs == Needs::rest && trial.window) return false;

@@ -40,6 +40,7 @@ Check check_clock;        ///< tables that begin, end or tick on a clock of thei
 Check check_units;        ///< markers that are not in metres
 Check check_frame;        ///< axes or an origin that are not the plant's
 Check check_labels;       ///< markers that are not where their names belong
+Check check_slips;        ///< one marker aside at once, and alone
 Check check_holds;        ///< paths that are not those of the held points
 Check check_drive;        ///< motion on another clock than what is done
 Check check_releases;     ///< what is held too long or not long enough

@@ -25,8 +25,11 @@ struct ClockUnit {
   const char* name;
   double scale;
 };
-constexpr ClockUnit clock_units[] = {
-    {"milliseconds", 1e3}, {"microseconds", 1e6}, {"minutes", 1.0 / 60.0}};
+constexpr ClockUnit clock_units[] = {{"milliseconds", 1e3},
+                                     {"microseconds", 1e6},
+                                     {"minutes", 1.0 / 60.0},
+                                     {"kiloseconds", 1e-3},
+                                     {"hours", 1.0 / 3600.0}};
 
 const std::string expected = ": expected seconds since the trial began, the same in all its tables";
 
@@ -48,9 +51,8 @@ std::optional<Fault> other_unit(const Beside& beside) {
         continue;
       return Fault{path ? beside.drive().path->file : "markers.csv",
                    std::string("seems to have its times in ") + unit.name + ": " + beside.marker() +
-                       " follows " + beside.what() +
-                       text(" when they are divided by %.4g, and not as they are", unit.scale) +
-                       expected};
+                       " follows " + beside.what() + " when they are " + put_right(unit.scale) +
+                       ", and not as they are" + expected};
     }
   return std::nullopt;
 }
@@ -98,6 +100,43 @@ bool rests_until(const Beside& beside, double shift) {
   return before < 0.1 * all + 6.0 * beside.noise();
 }
 
+// Whether the marker goes some way while the path still holds it at its first place.
+bool moves_before(const Beside& beside) {
+  const Drive& drive = beside.drive();
+  const DrivenPath& path = *drive.path;
+  double whole = 0.0;
+  for (const Vec3& x : path.position) whole = std::max(whole, (x - path.position.front()).norm());
+  std::size_t row = 0;
+  while (row + 1 < path.time.size() &&
+         (path.position[row + 1] - path.position.front()).norm() < 0.02 * whole)
+    ++row;
+  const Track& track = beside.track();
+  double before = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < track.time.size() && track.time[i] < drive.until; ++i) {
+    const double way = (track.place[i] - track.place.front()).norm();
+    all = std::max(all, way);
+    if (track.time[i] < path.time[row]) before = std::max(before, way);
+  }
+  return before > 0.1 * all + 10.0 * beside.noise();
+}
+
+// A path that leads the point later than it goes. No latency does so: what is held does not move
+// before it is led.
+std::optional<Fault> late_path(const Beside& beside) {
+  const Drive& drive = beside.drive();
+  if (drive.kind != Drive::Kind::hold || beside.explained() > agrees) return std::nullopt;
+  std::vector<Candidate> all;
+  const double last = std::min(drive.path->time.back(), 0.5 * grid * most_shifts);
+  for (int i = 1; grid * i <= last; ++i) consider(beside, {-grid * i, 1.0, true}, all);
+  const Candidate best =
+      nearest_of_best(all, [](const ClockReading& r) { return std::abs(r.shift); });
+  const double shift = -best.reading.shift;
+  if (shift <= largest_known::latency || !is_better(best, beside) || !moves_before(beside))
+    return std::nullopt;
+  return Fault{drive.path->file, text("is %.2g s late: ", shift) + beside.marker() +
+                                     " moves before it, and follows it with that shift" + expected};
+}
+
 std::optional<Fault> shifted(const Beside& beside) {
   if (beside.explained() > agrees) return std::nullopt;
   std::vector<Candidate> all;
@@ -142,7 +181,7 @@ std::optional<Fault> other_rate(const Beside& beside) {
 std::optional<Fault> check_drive(const TrialView& view) {
   if (!view.nominal_plant) return std::nullopt;
   for (const Beside& beside : Beside::all_of(view))
-    for (const auto check : {other_unit, other_rate, shifted})
+    for (const auto check : {other_unit, other_rate, late_path, shifted})
       if (auto fault = check(beside)) return fault;
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "pedicel/discrepancy/admission/first_places.h"
+#include "pedicel/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 
@@ -121,6 +122,10 @@ int marker_near(const NominalPlant& nominal_plant, const Spot& spot, double shar
     nearest = m;
   }
   return nearest;
+}
+
+std::string put_right(double scale) {
+  return scale < 1.0 ? text("multiplied by %.4g", 1.0 / scale) : text("divided by %.4g", scale);
 }
 
 Following following(const Track& track, const Drive& drive, const ClockReading& reading) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "pedicel/discrepancy/admission/contradiction_checks.h"
@@ -39,6 +40,9 @@ struct ClockReading {
   double shift = 0.0, scale = 1.0;  // s, 1
   bool own_end = false;
 };
+
+/// What is to be done to times that were scaled: "divided by 1000", "multiplied by 60".
+std::string put_right(double scale);
 
 /// A marker's motion as a linear function of what is done beside it at the same time, while it is
 /// done. Slow motions of a rod are that, fast ones nearly.

@@ -28,8 +28,11 @@ struct ForceUnit {
   const char* name;
   double scale;
 };
-constexpr ForceUnit units[] = {
-    {"milliseconds", 1e3}, {"microseconds", 1e6}, {"minutes", 1.0 / 60.0}};
+constexpr ForceUnit units[] = {{"milliseconds", 1e3},
+                               {"microseconds", 1e6},
+                               {"minutes", 1.0 / 60.0},
+                               {"kiloseconds", 1e-3},
+                               {"hours", 1.0 / 3600.0}};
 
 // How far the components go in a stretch of time, the farthest of them.
 struct Range {
@@ -98,11 +101,10 @@ std::optional<Fault> other_unit(const Led& led, const Drive& drive) {
   if (led.explained() > contradicts) return std::nullopt;
   for (const ForceUnit& unit : units)
     if (led.explained_by({0.0, unit.scale}) > agrees)
-      return Fault{"force.csv",
-                   std::string("seems to have its times in ") + unit.name + ": the force follows " +
-                       drive.path->file.string() +
-                       text(" when they are divided by %.4g, and not as they are", unit.scale) +
-                       expected};
+      return Fault{"force.csv", std::string("seems to have its times in ") + unit.name +
+                                    ": the force follows " + drive.path->file.string() +
+                                    " when they are " + put_right(unit.scale) +
+                                    ", and not as they are" + expected};
   return std::nullopt;
 }
 

@@ -95,6 +95,33 @@ const Mistake clocks[] = {
     {"MillisecondsUnderWeights",
      in(weights, times([](double t) { return 1e3 * t; })),
      {"weights/markers.csv", "milliseconds", "m5 follows the load"}},
+    {"MinutesUnderWeights",
+     in(weights, times([](double t) { return t / 60.0; })),
+     {"weights/markers.csv", "minutes: m5 follows the load when they are multiplied by 60,"}},
+    {"HoursUnderWeights",
+     in(weights, times([](double t) { return t / 3600.0; })),
+     {"weights/markers.csv", "hours: m5 follows the load when they are multiplied by 3600,"}},
+    {"KilosecondsUnderWeights",
+     in(weights, times([](double t) { return 1e-3 * t; })),
+     {"weights/markers.csv", "kiloseconds: m5 follows the load", "multiplied by 1000,"}},
+    {"HoursBesideAPath",
+     in(push, times([](double t) { return t / 3600.0; })),
+     {"push/markers.csv", "hours: m4 follows hold.csv", "multiplied by 3600,"}},
+    {"APathInHours",
+     in(push, path_times([](double t) { return t / 3600.0; })),
+     {"push/hold.csv", "hours"}},
+    {"ForcesInHours",
+     in(push, force_times([](double t) { return t / 3600.0; })),
+     {"push/force.csv", "hours: the force follows hold.csv when they are multiplied by 3600,"}},
+    {"APathHalfASecondLate",
+     in(release_x, path_times([](double t) { return t + 0.5; })),
+     {"release_x/hold.csv", "is 0.5 s late: m4 moves before it"}},
+    {"APathThatBeginsAtItsRelease",
+     in(release_x, path_times([](double t) { return t + 1.0; })),
+     {"release_x/hold.csv", "begins at 1 s, not before the release at 1 s"}},
+    {"APathThatBeginsAfterItsRelease",
+     in(release_x, path_times([](double t) { return t + 1.5; })),
+     {"release_x/hold.csv", "begins at 1.5 s, not before the release at 1 s"}},
     {"MillisecondsOfAPath",
      in(release_x, path_times([](double t) { return 1e3 * t; })),
      {"release_x/hold.csv", "milliseconds"}},
@@ -202,6 +229,21 @@ std::function<void(Trial&)> exchange(int a, int b, int from) {
     }
   };
 }
+// The marker is touched.
+std::function<void(Trial&)> slip(int marker, const Vec3& by, int from, int to) {
+  return [=](Trial& trial) {
+    for (int row = from; row < std::min(to, trial.markers.size()); ++row)
+      put(trial, row, marker, point(trial, row, marker) + by);
+  };
+}
+// The first row with noise of its own.
+Eigen::RowVectorXd still(const Samples& samples, int row) {
+  Random random(100 + row);
+  Eigen::RowVectorXd value = samples.value.row(0);
+  for (double& x : value)
+    x += (value.size() > 3 ? laboratory::position_std : laboratory::force_std) * random.normal();
+  return value;
+}
 void every_seventh_is_zero(Trial& trial) {
   for (int row = 6; row < trial.markers.size(); row += 7) put(trial, row, 8, Vec3::Zero());
 }
@@ -263,6 +305,13 @@ const Mistake labels[] = {
      in(release_x, [](Trial& trial) { trial.markers.value.setConstant(std::nan("")); }),
      {"release_x/markers.csv", "has no marker in any of its 201 rows"}},
     {"AGhost", in(release_x, ghost), {"release_x/markers.csv", "m7", "a ghost"}},
+    {"AMarkerThatSlips",
+     in(release_x, slip(4, Vec3(0.02, 0, 0), 101, 1000)),
+     {"release_x/markers.csv", "m5 go aside by", "mm between 2 and 2.02 s",
+      "while the other markers do not", "slipped"}},
+    {"AMarkerOfABranchThatSlips",
+     in(weights, slip(6, Vec3(0, 0.006, 0.006), 250, 1000)),
+     {"weights/markers.csv", "m7 go aside by", "mm between 4.98 and 5 s"}},
     {"AMarkerAtAnotherPlace",
      [](Experiment& experiment) { experiment.markers[2].place.at = 0.75; },
      {"release_x/markers.csv", "where the plant is 0.03", "expected m3 at 0.75 of stem"}},
@@ -398,6 +447,29 @@ const Mistake known_effects[] = {
           exchange(1, 2, 120)(trial);
         }),
      {}},
+    {"AMarkerElsewhereForAWhile", in(release_x, slip(4, Vec3(0.02, 0, 0), 101, 131)), {}},
+    {"AMarkerElsewhereInOneRow", in(release_x, slip(4, Vec3(0.02, 0, 0), 101, 102)), {}},
+    {"AMarkerElsewhereUntilAGap",
+     in(release_x,
+        [](Trial& trial) {
+          slip(4, Vec3(0.02, 0, 0), 101, 131)(trial);
+          for (int row = 126; row < 136; ++row) put(trial, row, 4, Vec3::Constant(std::nan("")));
+        }),
+     {}},
+    {"APathThatBeginsLateWithStillMarkers",
+     in(push,
+        [](Trial& trial) {
+          // All waited two seconds at the first place; the path says nothing of them.
+          const int wait = 100, rows = trial.markers.size();
+          for (Samples* samples : {&trial.markers, &trial.force}) {
+            Eigen::MatrixXd later = samples->value;
+            for (int row = 0; row < rows; ++row)
+              later.row(row) = row < wait ? still(*samples, row) : samples->value.row(row - wait);
+            samples->value = later;
+          }
+          for (double& t : trial.holds[0].path.time) t += 2.0;
+        }),
+     {}},
     {"AFrozenMarker",
      in(release_x,
         [](Trial& trial) {
@@ -461,6 +533,20 @@ const Hidden hidden_effects[] = {
     {"AnOffset", "{name: marker_offset, marker: m5, offset: [0.02, -0.03, 0.03]}"},
     {"AForceGain", "{name: force_gain, gain: 0.3, offset: [0.1, 0, -0.1]}"},
 };
+
+// The plant is pulled aside within a fifth of a second and let go soon after: markers go far
+// between two samples, and all of them.
+TEST(HonestTrials, AFastReleaseIsNoMistake) {
+  Experiment experiment = laboratory::day();
+  Hold& hold = experiment.trials[release_x].holds[0];
+  const Vec3 start = hold.path.position.front();
+  hold = laboratory::hold_along(start, 0.1 * Vec3::UnitX(), 0.3,
+                                [](double t) { return laboratory::ease(t / 0.2); });
+  hold.release = 0.3;
+  experiment.trials.resize(1);
+  laboratory::measure(experiment, {});
+  EXPECT_EQ(sentence(contradictions(experiment)), "");
+}
 
 class HiddenEffects : public ::testing::TestWithParam<Hidden> {};
 

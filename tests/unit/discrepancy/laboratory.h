@@ -93,6 +93,22 @@ inline void add_trials(Experiment& experiment) {
   add_samples(pushed.force, 8.0, 3);
 }
 
+/// Fills the tables of all trials, with something hidden in the plant, the grip or the instruments.
+inline void measure(Experiment& experiment, const std::vector<plant::Effect>& hidden) {
+  Simulator simulator(experiment, {0.02, 1.0 / 240}, 1);
+  const Variant variant{hidden, {}};
+  Random random(5);
+  for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t) {
+    const Simulator::Request request{&variant, t};
+    const Prediction seen = simulator.run({&request, 1}).front();
+    Trial& trial = experiment.trials[t];
+    trial.markers.value = seen.markers;
+    trial.force.value = seen.force;
+    for (double& x : trial.markers.value.reshaped()) x += position_std * random.normal();
+    for (double& f : trial.force.value.reshaped()) f += force_std * random.normal();
+  }
+}
+
 /// With something hidden in the plant, the grip or the instruments.
 inline Experiment measured(const std::vector<plant::Effect>& hidden = {}) {
   Experiment experiment;
@@ -109,18 +125,7 @@ inline Experiment measured(const std::vector<plant::Effect>& hidden = {}) {
   mark("branch2", {0.5, 1.0});
   experiment.noise = {position_std, force_std};
   add_trials(experiment);
-  Simulator simulator(experiment, {0.02, 1.0 / 240}, 1);
-  const Variant variant{hidden, {}};
-  Random random(5);
-  for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t) {
-    const Simulator::Request request{&variant, t};
-    const Prediction seen = simulator.run({&request, 1}).front();
-    Trial& trial = experiment.trials[t];
-    trial.markers.value = seen.markers;
-    trial.force.value = seen.force;
-    for (double& x : trial.markers.value.reshaped()) x += position_std * random.normal();
-    for (double& f : trial.force.value.reshaped()) f += force_std * random.normal();
-  }
+  measure(experiment, hidden);
   return experiment;
 }
 
