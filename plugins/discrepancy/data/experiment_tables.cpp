@@ -85,7 +85,8 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
     for (const char* axis : axes) expected.push_back(marker.name + "." + axis);
     all += " " + marker.name;
   }
-  const std::vector<int> columns = source.find(expected, io::Quantity::length, all, NeededAxes::present);
+  const std::vector<int> columns =
+      source.find(expected, io::Quantity::length, all, NeededAxes::present);
   if (source.good()) source.check_points(columns);
   return source.samples(columns);
 }

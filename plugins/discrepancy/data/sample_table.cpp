@@ -62,7 +62,9 @@ std::string list_of(const std::vector<std::string>& names) {
 std::vector<std::string> missing_of(const std::vector<std::string>& expected,
                                     const std::vector<int>& found, NeededAxes axes) {
   // How many that belong together one of suffices for.
-  const std::size_t together = axes == NeededAxes::all ? 1 : axes == NeededAxes::present ? 3 : expected.size();
+  const std::size_t together = axes == NeededAxes::all       ? 1
+                               : axes == NeededAxes::present ? 3
+                                                             : expected.size();
   std::vector<std::string> missing;
   for (std::size_t i = 0; i < expected.size(); i += together) {
     const auto begin = found.begin() + static_cast<std::ptrdiff_t>(i);

@@ -63,7 +63,6 @@ Beginning beginning_of(const PickForce& course, const Fall& fall, const PickSett
 
 /// Whether most of the largest load goes at the very end, with no time left to see that it stays
 /// away.
-bool ends_in_a_fall(const PickForce& course, const LargestLoad& load,
-                    const PickSettings& settings);
+bool ends_in_a_fall(const PickForce& course, const LargestLoad& load, const PickSettings& settings);
 
 }  // namespace pedicel::discrepancy
