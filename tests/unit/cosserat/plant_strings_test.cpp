@@ -133,8 +133,12 @@ std::uint64_t net(int threads, bool touching) {
   for (int p = 0; p + 1 < 5; ++p)
     system.add_string(between(system, {p, 15, 0.0}, {p + 1, 13, 0.0}, 0.05, 1.0e3));
   if (touching) system.let_plants_touch(SelfContactSettings{});
-  for (int i = 0; i < 120; ++i) system.step(string_dt, gravity);
-  EXPECT_GT(tension(system, system.strings()[2]), 0.0);
+  double most = 0.0;  // at one time or another: they swing, and a string goes slack in between
+  for (int i = 0; i < 120; ++i) {
+    system.step(string_dt, gravity);
+    most = std::max(most, tension(system, system.strings()[2]));
+  }
+  EXPECT_GT(most, 0.0);
   StateHash hash;
   system.add_to(hash);
   return hash.value();
