@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/scene_fit/plant_causes.h"
-
 namespace pedicel::discrepancy {
 
 namespace {
@@ -206,9 +204,6 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneF
       if (!in_base) screen.add(definition.name, start);
     }
   }
-  for (const SceneFit& start : plant_causes(experiment))
-    if (std::ranges::find(has, start.effect.name) == has.end())
-      screen.add(start.effect.name, start);
   return screen.run(seen);
 }
 

@@ -58,31 +58,6 @@ double stated_of(const SceneExperiment& experiment, const std::string& name) {
   return most;
 }
 
-/// Whether a model is another one with a number more, or has gone over into it: a wind of no speed
-/// is drag, and a weak stretch of no length at the root is a root that turns.
-bool goes_over(const SceneCandidate& general, const SceneCandidate& plain) {
-  for (const std::string& name : general.names) {
-    const effects::EffectDefinition* known = effects::find_effect(name);
-    if (!known) continue;
-    for (const std::string& other : plain.names) {
-      if (other == name) continue;
-      if (effects::is_special_case(other, name)) return true;
-      for (const effects::Limit& limit : known->limits) {
-        if (limit.becomes != other) continue;
-        const Hypothesis& model = general.fit.model;
-        for (int p = 0; p < model.size(); ++p) {
-          const effects::FreeParameter& free = model.free[static_cast<std::size_t>(p)];
-          const bool own = model.effects[static_cast<std::size_t>(free.effect)].name == name;
-          if (!own || free.name != limit.parameter) continue;
-          const double bound = limit.high ? free.high : free.low;
-          if (std::abs(model.value(p) - bound) < 0.05 * std::abs(bound)) return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
 class Search {
  public:
   Search(SceneEvaluator& evaluator, const SceneSearchOptions& options)
@@ -346,10 +321,6 @@ class Search {
   }
 
   bool pays(const SceneCandidate& one) const {
-    // Laws of the stem bend to what two honest solvers differ by: many of them, in many places.
-    const bool of_plants = std::ranges::any_of(
-        one.names, [](const std::string& name) { return !find_scene_effect(name); });
-    if (of_plants && found_.baseline_excess <= options_.floor) return false;
     return square(found_.baseline_excess) - square(one.excess) >= options_.least_gain;
   }
 
@@ -358,7 +329,6 @@ class Search {
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
-      if (goes_over(one, best)) continue;
       if (score(one) - score(best) < 0.5 * square(best.excess) + 0.02) found_.rivals.push_back(i);
     }
   }

@@ -142,7 +142,7 @@ const Case cases[] = {
     {"body_radius", "bodies: [{name: a, sphere: {radius: -1}}]\n",
      "radius is \"-1\", expected a number > 0"},
     {"body_mass", "bodies: [{name: a, box: [1, 1, 1], mass: -2}]\n",
-     "mass is \"-2\", expected a number >= 0"},
+     "mass is \"-2\", expected a number between 0 and 1e+09"},
     {"body_look", "bodies: [{name: a, box: [1, 1, 1], look: pink}]\n",
      "look is \"pink\", expected one of: steel, wood"},
     {"body_names_twice", "bodies: [{name: a, box: [1, 1, 1]}, {name: a, box: [1, 1, 1]}]\n",

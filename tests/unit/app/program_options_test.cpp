@@ -256,7 +256,7 @@ TEST_F(ProgramOptions, NumbersInFilesHaveTheBoundsOfTheCommandLine) {
   refused("duration: 1\nlog_rate: 1e7", "log_rate is \"1e7\", expected a number between 0.001 and");
   refused("duration: 1\ndt: 1e-8", "dt is \"1e-8\", expected a number between 1e-07 and 1");
   refused("duration: 1\ngravity: [0, 0, -981]", "gravity: expected three numbers between");
-  expect_refused("--set material.poisson_ratio=0.6", "expected a number between -1 and 0.5", 3);
+  expect_refused("--set material.poisson_ratio=0.6", "expected a number > -1 and at most 0.5", 3);
   expect_refused("--set material.youngs_modulus=0", "expected a number > 0", 3);
 }
 

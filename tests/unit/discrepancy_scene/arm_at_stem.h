@@ -92,7 +92,7 @@ class ArmAtStem {
     write("push/wrench_wrist.csv", wrench);
     if (!sees_nothing) {
       write("push/markers.csv", markers);
-      write("push/pixels_left.csv", pixels);
+      if (instruments.find("cameras:") != std::string::npos) write("push/pixels_left.csv", pixels);
     }
     write("push/torques.csv", torques);
   }

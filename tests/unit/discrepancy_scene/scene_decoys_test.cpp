@@ -24,7 +24,7 @@ class SceneDecoys : public testing::Test {
     with_.markers.col(0) = ramp();
   }
   Eigen::VectorXd ramp() const {
-    return Eigen::VectorXd::LinSpaced(without_.markers.rows(), 0.0, 0.01).cwiseAbs2();
+    return Eigen::VectorXd::LinSpaced(without_.markers.rows(), 0.0, 0.1).cwiseAbs2();  // to 10 mm
   }
   Decoys of(const Eigen::MatrixXd& measured) {
     experiment_.trials.front().markers.value = measured;

@@ -1,6 +1,4 @@
-// Causes that are the plant's own, in experiments of a robot at it.
-#include "pedicel/discrepancy/scene_fit/plant_causes.h"
-
+// What data of a robot at a plant could not show.
 #include <gtest/gtest.h>
 
 #include "diagnosed_scene.h"
@@ -34,29 +32,6 @@ class DiagnosedPlant : public DiagnosedScene {
   }
 };
 
-TEST_F(DiagnosedPlant, ARootThatTurnsIsNamedWithItsStiffness) {
-  write_tables();
-  // 4 times EI over the stem's length.
-  const SceneDiagnosis found = diagnose({"{name: base_compliance, stiffness: 1.4}"});
-  EXPECT_EQ(found.verdict.outcome, Outcome::named) << found.text;
-  ASSERT_EQ(found.verdict.causes.size(), 1U) << found.text;
-  const NamedCause* root = cause(found, "base_compliance");
-  ASSERT_TRUE(root) << found.text;
-  EXPECT_NEAR(root->parameters.at("stiffness")[0].value, 1.4, 0.15) << found.text;
-}
-
-TEST_F(DiagnosedPlant, AWeakStretchIsNamedWithItsPlace) {
-  write_tables();
-  const SceneDiagnosis found =
-      diagnose({"{name: weak_segment, where: {curve: stem, at: 0.4}, factor: 0.35, length: 0.06}"});
-  EXPECT_EQ(found.verdict.outcome, Outcome::named) << found.text;
-  const NamedCause* weak = cause(found, "weak_segment");
-  ASSERT_TRUE(weak) << found.text;
-  ASSERT_TRUE(weak->where);
-  EXPECT_EQ(weak->where->curve, "stem");
-  EXPECT_NEAR(weak->where->at, 0.4, 0.08) << found.text;
-}
-
 TEST_F(DiagnosedPlant, WhatCouldHideIsSmallerThanWhatIsFound) {
   write_tables();
   const SceneDiagnosis found = diagnose({});
@@ -77,23 +52,6 @@ TEST_F(DiagnosedPlant, WhatCouldHideIsSmallerThanWhatIsFound) {
       diagnose({"{name: wrench_bias, force: [" + std::to_string(3.0 * limit->smallest) +
                 ", 0, 0], moment: [0, 0, 0]}"});
   EXPECT_EQ(above.verdict.outcome, Outcome::named) << above.text;
-}
-
-TEST(PlantCauses, AreThoseOfStiffnessAndMass) {
-  ArmAtStem at;
-  at.write_all();
-  const std::vector<SceneFit> all = plant_causes(at.read());
-  const auto has = [&](const std::string& name) {
-    return std::ranges::any_of(all, [&](const SceneFit& one) { return one.effect.name == name; });
-  };
-  EXPECT_TRUE(has("base_compliance"));
-  EXPECT_TRUE(has("weak_segment"));
-  EXPECT_TRUE(has("stiffness_gradient"));
-  EXPECT_TRUE(has("extra_mass"));
-  EXPECT_FALSE(has("youngs_modulus"));
-  EXPECT_FALSE(has("wind"));
-  EXPECT_FALSE(has("latency"));
-  EXPECT_FALSE(has("yield"));
 }
 
 }  // namespace
