@@ -1,8 +1,8 @@
+#include "pedicel/app/session/document/file_texts.h"
 #include "pedicel/app/session/live/robot_goal.h"
 #include "pedicel/app/session/session_core.h"
 #include "pedicel/app/session/session_robot.h"
 #include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/robot/joint_range.h"
 
@@ -96,7 +96,7 @@ Result SessionRobot::play_trajectory(const std::filesystem::path& file, bool loo
 
 Result SessionRobot::save_waypoints(const std::filesystem::path& file) const {
   const robot::KinematicModel model = kinematics_of(*snapshot());
-  io::write_file_atomically(file, robot::trajectory_csv(waypoint_trajectory(model), model));
+  write_with_backup(file, robot::trajectory_csv(waypoint_trajectory(model), model));
   return {};
 }
 

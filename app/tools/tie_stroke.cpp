@@ -6,6 +6,7 @@
 #include "pedicel/app/draw/drawing.h"
 #include "pedicel/app/editors/tie_editor.h"
 #include "pedicel/app/session/live/draw_surface.h"
+#include "pedicel/app/ui/selection_follow.h"
 #include "pedicel/app/ui/widgets.h"
 #include "pedicel/app/view/picking.h"
 
@@ -21,19 +22,6 @@ constexpr double shortest = 2e-3;  // m
 // Files are read by people: 0.0123, not 17 digits.
 double rounded(double value, double to) {
   return std::round(value / to) * to + 0.0;  // not -0
-}
-
-/// 0 to 1, of a place on an element along its organ, from the organ's foot.
-double share_along(const cosserat::RodModel& model, int element, double back) {
-  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
-  double length = 0.0, before = 0.0;
-  for (int e = 0; e < model.size(); ++e) {
-    const cosserat::Element& one = model.elements[static_cast<std::size_t>(e)];
-    if (one.organ != organ) continue;
-    length += one.length;
-    if (e <= element) before = length;
-  }
-  return length > 0.0 ? std::clamp((before - back) / length, 0.0, 1.0) : 0.0;
 }
 
 }  // namespace

@@ -23,19 +23,6 @@ bool same_models(const Snapshot& a, const Snapshot& b) {
          std::ranges::equal(a.bodies, b.bodies, same_body);
 }
 
-/// 0 to 1, of a place on an element along its organ.
-double share_along(const cosserat::RodModel& model, int element, double back) {
-  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
-  double length = 0.0, before = 0.0;
-  for (int e = 0; e < model.size(); ++e) {
-    const cosserat::Element& one = model.elements[static_cast<std::size_t>(e)];
-    if (one.organ != organ) continue;
-    if (e <= element) before = length + one.length - (e == element ? back : 0.0);
-    length += one.length;
-  }
-  return length > 0.0 ? before / length : 0.0;
-}
-
 Selection element_again(Selection found, const Snapshot& before, const Snapshot& after) {
   const auto& model = *before.plants[static_cast<std::size_t>(found.plant)].model;
   const auto at =
@@ -94,6 +81,18 @@ bool is_gone(const Selection& s, const Snapshot& snapshot) {
 }
 
 }  // namespace
+
+double share_along(const cosserat::RodModel& model, int element, double back) {
+  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
+  double length = 0.0, before = 0.0;
+  for (int e = 0; e < model.size(); ++e) {
+    const cosserat::Element& one = model.elements[static_cast<std::size_t>(e)];
+    if (one.organ != organ) continue;
+    if (e <= element) before = length + one.length - (e == element ? back : 0.0);
+    length += one.length;
+  }
+  return length > 0.0 ? std::clamp(before / length, 0.0, 1.0) : 0.0;
+}
 
 Selection follow_selection(const Selection& selection, const Snapshot& before,
                            const Snapshot& after) {

@@ -18,6 +18,9 @@ Selection follow_selection(const Selection& selection, const Snapshot& before,
 /// its middle, a body, a link; nothing where it is not there.
 std::optional<Vec3> place_of(const Selection& selection, const Snapshot& snapshot);
 
+/// 0 to 1, from the organ's foot: where a place lies that is `back` (m) before an element's end.
+double share_along(const cosserat::RodModel& model, int element, double back);
+
 /// A fruit on its plant, the body that it became, a stem or a leaf: "tomato/fruit_3"; nothing where
 /// there is none of that name.
 Selection select_organ(const std::string& organ, const Snapshot& snapshot);

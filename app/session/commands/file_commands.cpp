@@ -1,9 +1,9 @@
 #include "pedicel/app/session/commands/command_table.h"
+#include "pedicel/app/session/document/file_texts.h"
 #include "pedicel/app/session/document/plant_import.h"
 #include "pedicel/app/session/session.h"
 #include "pedicel/app/session/session_files.h"
 #include "pedicel/app/session/session_robot.h"
-#include "pedicel/io/atomic_file.h"
 
 /// Files: open, save, import, export.
 namespace pedicel::app {
@@ -41,7 +41,7 @@ Result save_files(Session& session, const Command& c) {
 
 Result save_script(Session& session, const Command& c) {
   const std::filesystem::path file = c.word("file");
-  io::write_file_atomically(file, session.files().script());
+  write_with_backup(file, session.files().script());
   return {true, std::to_string(session.log().size()) + " commands in " + file.string()};
 }
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "pedicel/app/session/session_files.h"
-#include "pedicel/io/csv.h"
+#include "pedicel/io/atomic_file.h"
 #include "session_cases.h"
 #include "support/temporary_folder.h"
 
@@ -219,7 +219,9 @@ TEST(SavedScript, DoesTheSameAgain) {
   must(session.run_text("run 0.1"));
   must(session.run_text("pull p/berry 0.12,0.02,0.15"));
   must(session.run_text("run 0.1"));
+  std::ofstream(folder / "again.script") << "dear";
   must(session.run_text("save script " + (folder / "again.script").string()));
+  EXPECT_EQ(io::read_file(folder / "again.script~"), "dear") << "what was there is kept";
   Session other(waiting());
   std::ostringstream out, errors;
   EXPECT_EQ(run_script(folder / "again.script", other, out, errors), 0) << errors.str();
