@@ -28,8 +28,12 @@ namespace {
 using peers::Vector3d;
 
 constexpr double apart = 0.3;  // m
-// Room for so many contacts a plant: memory grows with the square of all.
-constexpr int most_contacts = 40;
+// Room for so many contacts a plant. MuJoCo 2.2 counts its bytes in an int, and takes freedoms
+// times constraints of them: with 40, thirty plants are too many.
+constexpr int most_contacts = 12;
+// MuJoCo's own choice of its stack grows with the square of all freedoms; sparse solvers need far
+// less. 1.6 GB, of which untouched pages cost nothing.
+constexpr double most_stack = 2.0e8;  // numbers
 
 [[noreturn]] void fail(const std::string& why) {
   std::fprintf(stderr, "row_mujoco: %s\n", why.c_str());
@@ -112,11 +116,14 @@ std::string xml_of(const std::vector<Capsule>& plant, int plants) {
   std::vector<int> roots;
   for (std::size_t e = 0; e < plant.size(); ++e)
     (plant[e].parent < 0 ? roots : children[plant[e].parent]).push_back(static_cast<int>(e));
+  const double freedoms = 3.0 * static_cast<double>(plant.size()) * plants;
+  const double stack = 5.0 * std::pow(freedoms + 4.0 * most_contacts * plants, 2.0);
   std::string xml =
       "<mujoco><compiler balanceinertia=\"true\"/>"
       "<size njmax=\"" +
       std::to_string(4 * most_contacts * plants) + "\" nconmax=\"" +
       std::to_string(most_contacts * plants) +
+      (stack > most_stack ? text("\" nstack=\"%.0f", most_stack) : "") +
       "\"/>"
       "<option integrator=\"Euler\" jacobian=\"sparse\"/><worldbody>";
   for (int p = 0; p < plants; ++p)
