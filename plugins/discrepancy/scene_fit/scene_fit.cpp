@@ -215,55 +215,18 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
   return result;
 }
 
-namespace {
-
-bool has_column(const Samples& samples, long first, long count) {
-  if (samples.size() == 0 || first + count > samples.value.cols()) return false;
-  return samples.value.middleCols(first, count).array().isFinite().any();
-}
-
-// Of an upright thing the yaw about its root is not seen, and its prior keeps it.
-void add_unseen_place(const SceneExperiment& experiment, const ScenePlantFile& plant,
-                      Hypothesis& baseline) {
-  constexpr double way = 2.0e-3, turn = 0.02;  // m, rad: of a unit step
-  effects::Start start("plant_pose");
-  if (experiment.plants.size() > 1) start.word("plant", plant.name);
-  start.vector("offset", Vec3::Zero(), way, 0.15).signed_number("yaw", 0.0, turn, -1.0, 1.0);
-  const int first = baseline.size();
-  baseline.add(start);
-  for (int p = first; p < baseline.size(); ++p) {
-    effects::FreeParameter& free = baseline.free[static_cast<std::size_t>(p)];
-    const bool turns = free.name == "yaw";
-    free.unit = turns ? "rad" : "m";
-    free.vanishes = effects::Vanishes::at_zero;
-    free.prior = turns ? yaw_known_to / turn : place_known_to / way;
-  }
-}
-
-}  // namespace
-
-bool is_seen(const SceneExperiment& experiment, int plant) {
-  for (std::size_t m = 0; m < experiment.markers.size(); ++m) {
-    if (experiment.markers[m].plant != plant) continue;
-    const auto at = static_cast<long>(m);
-    for (const SceneTrial& trial : experiment.trials) {
-      if (has_column(trial.markers, 3 * at, 3)) return true;
-      for (const Samples& pixels : trial.pixels)
-        if (has_column(pixels, 2 * at, 2)) return true;
-    }
-  }
-  return false;
-}
-
 Hypothesis scene_baseline(const SceneExperiment& experiment) {
   Hypothesis baseline;
   // The wide prior of density: what swings freely shows modulus over density alone.
   baseline.add(effects::Start("youngs_modulus").positive("factor", 1.0, 0.1, 10.0));
   baseline.add(effects::Start("density").positive("factor", 1.0, 0.1, 10.0).prior(0.1, 1.0));
   baseline.add(effects::Start("damping_time").positive("factor", 1.0, 0.02, 50.0).prior(1.0, 1.0));
-  for (std::size_t p = 0; p < experiment.plants.size(); ++p)
-    if (!is_seen(experiment, static_cast<int>(p)))
-      add_unseen_place(experiment, experiment.plants[p], baseline);
+  for (const SceneFit& own : baseline_effects({experiment})) {
+    Hypothesis added;
+    added.effects = {own.effect};
+    added.free = own.free;
+    baseline.add(added);
+  }
   return baseline;
 }
 

@@ -57,10 +57,4 @@ SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
 /// plant stands, where nothing that was measured shows it but what it does to the arm.
 Hypothesis scene_baseline(const SceneExperiment& experiment);
 
-/// Whether a marker or an image point of a plant was measured.
-bool is_seen(const SceneExperiment& experiment, int plant);
-
-/// m and rad, standard deviations: how well a file says where an unseen plant stands.
-inline constexpr double place_known_to = 0.03, yaw_known_to = 0.3;
-
 }  // namespace pedicel::discrepancy

@@ -30,17 +30,20 @@ double square(double x) {
   return x * x;
 }
 
-// An unseen plant's place in the baseline: beyond what its numbers are sure of, and 1 mm.
-bool is_moved(const SceneFitResult& fit) {
+// Effects of the baseline that left what the files say: beyond what their numbers are sure of, and
+// 1 mm.
+std::vector<std::string> moved(const SceneFitResult& fit) {
   constexpr double least = 1.0e-3;  // m
+  std::vector<std::string> names;
   for (int p = 0; p < fit.model.size(); ++p) {
     const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
     const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
-    if (effect.name != "plant_pose" || free.name != "offset" || free.prior == 0.0) continue;
+    if (!told_of_baseline(effect, free) || std::ranges::find(names, effect.name) != names.end())
+      continue;
     const double error = std::hypot(fit.standard_error[p] * free.scale, least);
-    if (std::abs(fit.model.value(p)) > clear * error) return true;
+    if (std::abs(fit.model.value(p)) > clear * error) names.push_back(effect.name);
   }
-  return false;
+  return names;
 }
 
 // Damping is what solvers differ by most, and density is seen through little but weight.
@@ -88,7 +91,9 @@ class Search {
     std::vector<Hypothesis> starts = {scene_baseline(experiment_)};
     for (std::size_t p = 0; p < starts.front().free.size(); ++p) {
       const effects::FreeParameter& free = starts.front().free[p];
-      if (free.name != "offset" || free.component > 1) continue;
+      const plant::Effect& effect = starts.front().effects[static_cast<std::size_t>(free.effect)];
+      const SceneEffectDefinition* known = told_of_baseline(effect, free);
+      if (!known || free.component >= known->in_baseline->without_slope) continue;
       for (const double way : {-0.016, -0.008, -0.004, 0.004, 0.008, 0.016}) {
         starts.push_back(starts.front());
         starts.back().set_value(static_cast<int>(p), way);
@@ -342,7 +347,7 @@ class Search {
           std::hypot(fit.standard_error[p], allowance(name), stated_of(experiment_, name));
       if (std::abs(off) > clear * error) found_.material.push_back(name);
     }
-    if (is_moved(fit)) found_.material.push_back("plant_pose");
+    for (const std::string& name : moved(fit)) found_.material.push_back(name);
   }
 
   // What is outside acts in some trials, and in some of their time: the baseline is that of the

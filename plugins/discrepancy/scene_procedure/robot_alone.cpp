@@ -113,10 +113,7 @@ class RobotAlone {
   // As if no plant were there: what remains is weight, inertia and the sensor's own.
   SceneReadings untouched(int t) {
     SceneVariant variant{model_};
-    plant::Effect away;
-    away.name = "plant_pose";
-    away.numbers["offset"] = {0.0, 0.0, -100.0};
-    variant.effects.push_back(away);
+    variant.plants_away = true;
     const SceneSimulator::Request request{&variant, t};
     return alone_.run({&request, 1}).front();
   }
@@ -259,7 +256,7 @@ class RobotAlone {
     said.error = sample + around_break * force_std_ / most;
     said.unit = "s";
     said.shows = true;
-    said.speaks_for = {"detachment_threshold", "contact_friction"};
+    said.speaks_for = scene_spoken_for(said.name);
     said.sentence = "In " + trial.name + " the force falls by " + io::format_number(most, 2) +
                     " N at " + io::format_number(said.value, 4) +
                     " s: something slips or comes off.";

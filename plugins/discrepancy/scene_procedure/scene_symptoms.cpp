@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy {
@@ -22,7 +23,7 @@ constexpr double width = 0.012;    // s, to either side, over which forces are s
 constexpr double firm_push = 0.4;  // of the largest force: there its ratio is told
 
 SymptomNumber symptom(const std::string& name, const std::string& of, double value, double error,
-                      const std::string& unit, std::vector<std::string> speaks_for) {
+                      const std::string& unit) {
   SymptomNumber out;
   out.name = name;
   out.of = of;
@@ -31,7 +32,7 @@ SymptomNumber symptom(const std::string& name, const std::string& of, double val
   out.unit = unit;
   // Without an error nothing is known of chance, and nothing shows.
   out.shows = error > 0.0 && std::abs(value) > shows_at * error;
-  out.speaks_for = std::move(speaks_for);
+  out.speaks_for = scene_spoken_for(name);
   return out;
 }
 
@@ -169,8 +170,7 @@ class Symptoms {
                               : 0.0;
     const auto tell = [&](const std::string& name, double a, double b, const std::string& what) {
       if (std::isnan(a) || std::isnan(b)) return;
-      found_.push_back(symptom(name, trial.name, a - b, 1.5 * sample + width / 3.0, "s",
-                               {"plant_pose", "tool_pose", "robot_latency", "joint_offset"}));
+      found_.push_back(symptom(name, trial.name, a - b, 1.5 * sample + width / 3.0, "s"));
       found_.back().sentence = "In " + trial.name + " the tool " + what + " " +
                                io::format_number(std::abs(a - b), 2) + " s " +
                                (a > b ? "later" : "earlier") + " than simulated, at " +
@@ -207,14 +207,13 @@ class Symptoms {
     if (std::isnan(a) || std::isnan(b)) return;
     // A floor of 0.01, so that a long push does not make a difference of next to nothing
     // significant.
-    found_.push_back(symptom("friction_ratio", trial.name, a - b, std::max(error, 0.01), "1",
-                             {"contact_friction", "wrench_gain"}));
+    found_.push_back(symptom("friction_ratio", trial.name, a - b, std::max(error, 0.01), "1"));
     found_.back().sentence = "In " + trial.name + " the tangential force is " +
                              io::format_number(a, 3) + " of the normal one, simulated " +
                              io::format_number(b, 3) + ".";
     const double slip = slip_of(measured, noise), slip_told = slip_of(told, noise);
     if (std::isnan(slip) || std::isnan(slip_told)) return;
-    found_.push_back(symptom("slip", trial.name, slip - slip_told, 0.1, "s", {"contact_friction"}));
+    found_.push_back(symptom("slip", trial.name, slip - slip_told, 0.1, "s"));
     found_.back().sentence = "In " + trial.name + " the contact begins to slip at " +
                              io::format_number(slip, 3) + " s, simulated at " +
                              io::format_number(slip_told, 3) + " s.";
@@ -263,14 +262,12 @@ class Symptoms {
     const double root = std::sqrt(static_cast<double>(count));
     // The root of three: the length of a vector of three noises.
     found_.push_back(symptom("wrench_at_rest", trial.name, off.head<3>().norm(),
-                             1.7 * data_.deviation(SceneChannel::force) / root, "N",
-                             {"wrench_bias", "payload", "wrench_gain"}));
+                             1.7 * data_.deviation(SceneChannel::force) / root, "N"));
     found_.back().sentence = "At rest the sensor " + name + " says " +
                              io::format_number(off.head<3>().norm(), 3) +
                              " N more than weight explains.";
     found_.push_back(symptom("moment_at_rest", trial.name, off.tail<3>().norm(),
-                             1.7 * data_.deviation(SceneChannel::moment) / root, "N m",
-                             {"wrench_bias", "payload"}));
+                             1.7 * data_.deviation(SceneChannel::moment) / root, "N m"));
     found_.back().sentence = "At rest the sensor " + name + " says a moment of " +
                              io::format_number(off.tail<3>().norm(), 3) +
                              " N m more than weight explains.";
@@ -302,7 +299,7 @@ class Symptoms {
     // significant.
     found_.push_back(symptom("robot_lag", trial.name, -shift,
                              data_.deviation(SceneChannel::position) / std::sqrt(bottom) + 2.0e-4,
-                             "s", {"robot_latency", "latency"}));
+                             "s"));
     found_.back().sentence =
         "In " + trial.name + " the arm's log is " + io::format_number(1.0e3 * std::abs(shift), 2) +
         " ms " + (shift < 0.0 ? "behind" : "ahead of") + " what the markers on the arm show.";
@@ -338,8 +335,8 @@ class Symptoms {
     const auto mrad = [](double angle) { return io::format_number(1.0e3 * angle, 2); };
     const double error =
         data_.deviation(SceneChannel::pixel) / std::sqrt(static_cast<double>(count));
-    found_.push_back(symptom("image_motion", trial.name, fit.head<2>().norm(), 2.0 * error + 0.02,
-                             "px", {"camera_pose", "camera_focal", "lens_distortion"}));
+    found_.push_back(
+        symptom("image_motion", trial.name, fit.head<2>().norm(), 2.0 * error + 0.02, "px"));
     found_.back().sentence = "The image of " + camera.name + " is moved by (" +
                              io::format_number(fit[0], 2) + ", " + io::format_number(fit[1], 2) +
                              ") px, turned by " + io::format_number(1.0e3 * fit[2], 2) +
@@ -373,7 +370,7 @@ class Symptoms {
         "plant_shift", trial.name, mean.norm(),
         1.7 * data_.deviation(SceneChannel::position) / std::sqrt(static_cast<double>(count)) +
             5.0e-5,
-        "m", {"plant_pose", "frame_rotation"}));
+        "m"));
     found_.back().sentence = "At rest the plant's markers are off by (" +
                              io::format_number(1.0e3 * mean.x(), 2) + ", " +
                              io::format_number(1.0e3 * mean.y(), 2) + ", " +
@@ -393,8 +390,8 @@ class Symptoms {
       // One that stays on in the model is later by the rest of the trial at least.
       const bool stays = told == model.events.end();
       found_.push_back(symptom("detachment", trial.name,
-                               event.time - (stays ? trial.duration() : told->time), known_to, "s",
-                               {"detachment_threshold", "detachment_law"}));
+                               event.time - (stays ? trial.duration() : told->time), known_to,
+                               "s"));
       found_.back().sentence =
           when + (stays ? "and stays on in the simulation."
                         : "simulated at " + io::format_number(told->time, 4) + " s.");

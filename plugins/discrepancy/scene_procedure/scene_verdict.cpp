@@ -133,22 +133,20 @@ class Conclusion {
       v_.parameters[name] = {own * factor.value, own * factor.low, own * factor.high,
                              known->material_unit};
     }
-    set_root(model);
+    set_baseline_effects(model);
   }
 
   // Where an unseen plant is attached.
-  void set_root(const SceneFitResult& model) {
+  void set_baseline_effects(const SceneFitResult& model) {
     for (int p = 0; p < model.model.size(); ++p) {
       const effects::FreeParameter& free = model.model.free[static_cast<std::size_t>(p)];
       const plant::Effect& effect = model.model.effects[static_cast<std::size_t>(free.effect)];
-      if (effect.name != "plant_pose" || free.prior == 0.0 || free.name != "offset") continue;
-      const auto named = effect.words.find("plant");
-      const int at = named == effect.words.end() ? 0 : experiment_.plant_index(named->second);
-      const ScenePlantFile& plant = experiment_.plants[static_cast<std::size_t>(at)];
-      const double own = (plant.pose * plant.file.root)[free.component];
+      const SceneEffectDefinition* known = told_of_baseline(effect, free);
+      if (!known) continue;
+      const InBaseline::Told told = known->in_baseline->told(experiment_, effect, free.component);
       Estimate place = estimate_of(model, p);
-      for (double* value : {&place.value, &place.low, &place.high}) *value += own;
-      v_.parameters[plant.name + "_root_" + "xyz"[free.component]] = place;
+      for (double* value : {&place.value, &place.low, &place.high}) *value += told.nominal;
+      v_.parameters[told.name] = place;
     }
   }
 
@@ -264,11 +262,10 @@ class Conclusion {
       cause.parameters[free.name].push_back(estimate_of(model, p));
       cause.words = effect.words;
     }
-    if (const SceneEffectDefinition* known = find_scene_effect(cause.name))
-      cause.plain = known->plain_name;
-    cause.because =
-        "nothing shows where the plant stands but what it does to the arm, and that "
-        "puts it there";
+    const SceneEffectDefinition* known = find_scene_effect(cause.name);
+    if (!known || !known->in_baseline) return;
+    cause.plain = known->plain_name;
+    cause.because = known->in_baseline->because;
   }
 
   std::vector<SceneReadings> predict(const std::vector<plant::Effect>& effects) {
