@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pedicel/discrepancy/scene/scene_state.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/yaml.h"
 
@@ -53,6 +54,7 @@ struct SceneEffectTarget {
 /// Where fits of a scene effect may begin.
 struct SceneStartContext {
   const SceneExperiment& experiment;
+  const SceneSettings& settings = default_scene_settings();
 };
 
 /// An effect with the numbers that a fit may change.

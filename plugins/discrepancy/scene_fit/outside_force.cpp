@@ -8,19 +8,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double spacing = 0.045;  // m, of the places tried along a curve
-constexpr int most_places = 40;
-constexpr double bin = 0.03;  // s, in which the force is one
-constexpr double least_way = 1.0e-3,
-                 most_way = 0.02;    // m, that a response moves what it moves most
-constexpr double rise = 0.05;        // s, of the force in a response
-constexpr double loud_bin = 2.0;     // noise units squared, of a bin that is not noise alone
-constexpr double clear_force = 5.0;  // standard errors
-constexpr double least_of_peak = 0.15;
-constexpr double least_share = 0.3;  // of the misfit, for a force to be found at all
-/// Of the stiffness against what the data see: along a stem nearly nothing moves, and a force there
-/// would be noise.
-constexpr double weak_axis = 3.0e-3;
 constexpr std::size_t widest = 8;
 
 struct ForcePlace {
@@ -28,9 +15,10 @@ struct ForcePlace {
   plant::CurvePlace at;
 };
 
-std::vector<ForcePlace> places_of(const SceneExperiment& experiment) {
+std::vector<ForcePlace> places_of(const SceneExperiment& experiment,
+                                  const OutsideForceSettings& how) {
   std::vector<ForcePlace> places;
-  double gap = spacing;
+  double gap = how.spacing;
   do {
     places.clear();
     for (std::size_t p = 0; p < experiment.plants.size(); ++p)
@@ -44,7 +32,7 @@ std::vector<ForcePlace> places_of(const SceneExperiment& experiment) {
                             plant::CurvePlace{curve.name, static_cast<double>(i) / count, {}}});
       }
     gap *= 1.3;
-  } while (static_cast<int>(places.size()) > most_places);
+  } while (static_cast<int>(places.size()) > how.places);
   return places;
 }
 
@@ -81,8 +69,9 @@ SceneExperiment with_places(const SceneExperiment& experiment, int trial,
 class ForceSearch {
  public:
   ForceSearch(const SceneExperiment& experiment, int trial, const std::vector<plant::Effect>& model,
-              const SceneNumerics& numerics, int threads)
-      : places_(places_of(experiment)),
+              const SceneNumerics& numerics, const OutsideForceSettings& how, int threads)
+      : how_(how),
+        places_(places_of(experiment, how)),
         own_(with_places(experiment, trial, places_)),
         first_(3 * static_cast<long>(experiment.markers.size())),
         data_(own_),
@@ -109,7 +98,7 @@ class ForceSearch {
     best = found[static_cast<std::size_t>(least)];
     best.plant = places_[static_cast<std::size_t>(least)].plant;
     best.place = between(left, static_cast<std::size_t>(least));
-    best.found = best.share >= least_share && best.to > best.from;
+    best.found = best.share >= how_.least_share && best.to > best.from;
     if (best.found) best.position = position(here, best, static_cast<std::size_t>(least));
     return best;
   }
@@ -134,7 +123,7 @@ class ForceSearch {
     force.place = places_[place].at;
     force.force = size * Vec3::Unit(axis);
     force.from = begin_;
-    force.rise = rise;
+    force.rise = how_.rise;
     variant.forces.push_back(force);
     return variant;
   }
@@ -160,31 +149,33 @@ class ForceSearch {
   // sticks against a little slides under more.
   double way_of(const SceneReadings& here) const {
     const Eigen::MatrixXd& measured = own_.trials.front().markers.value;
-    double most = least_way;
+    double most = how_.least_response;
     for (long c = 0; c < first_; ++c)
       for (long r = 0; r < measured.rows(); ++r) {
         const double off = std::abs(measured(r, c) - here.markers(r, c));
         if (own_.markers[static_cast<std::size_t>(c / 3)].plant >= 0 && std::isfinite(off))
           most = std::max(most, off);
       }
-    return std::min(most, most_way);
+    return std::min(most, how_.most_response);
   }
 
   // s, before which the residual is noise: the force does not act there, and responses to one that
   // did would meet another contact.
   double onset(const Eigen::VectorXd& residual) const {
-    const auto bins = static_cast<std::size_t>(own_.trials.front().duration() / bin) + 1;
+    const std::size_t bins = bin_of(own_.trials.front().duration()) + 1;
     std::vector<double> square(bins, 0.0), count(bins, 0.0);
     for (long i = 0; i < residual.size(); ++i) {
-      const auto b = static_cast<std::size_t>(row_time_[static_cast<std::size_t>(i)] / bin);
+      const std::size_t b = bin_of(row_time_[static_cast<std::size_t>(i)]);
       if (b >= bins || residual[i] == 0.0) continue;
       square[b] += residual[i] * residual[i];
       count[b] += 1.0;
     }
-    const auto loud = [&](std::size_t b) { return square[b] > loud_bin * count[b]; };
+    const auto significant = [&](std::size_t b) {
+      return square[b] > how_.significant_bin * count[b];
+    };
     for (std::size_t b = 0; b + 2 < bins; ++b)
-      if (loud(b) && loud(b + 1) && loud(b + 2))
-        return std::max(0.0, (static_cast<double>(b) - 1.0) * bin);
+      if (significant(b) && significant(b + 1) && significant(b + 2))
+        return std::max(0.0, (static_cast<double>(b) - 1.0) * how_.bin);
     return 0.0;
   }
 
@@ -231,12 +222,12 @@ class ForceSearch {
 
   // The force that explains the residual best, bin by bin.
   OutsideForce course(const Eigen::VectorXd& residual, const Eigen::MatrixXd& response) const {
-    const auto bins = static_cast<std::size_t>(own_.trials.front().duration() / bin) + 1;
+    const std::size_t bins = bin_of(own_.trials.front().duration()) + 1;
     std::vector<Mat3> normal(bins, Mat3::Zero());
     std::vector<Vec3> right(bins, Vec3::Zero());
     std::vector<double> square(bins, 0.0), count(bins, 0.0);
     for (long i = 0; i < residual.size(); ++i) {
-      const auto b = static_cast<std::size_t>(row_time_[static_cast<std::size_t>(i)] / bin);
+      const std::size_t b = bin_of(row_time_[static_cast<std::size_t>(i)]);
       if (b >= bins || residual[i] == 0.0) continue;
       const Vec3 row = response.row(i).transpose();
       normal[b] += row * row.transpose();
@@ -248,8 +239,9 @@ class ForceSearch {
     double all = 0.0, taken = 0.0;
     std::vector<double> clear(bins, 0.0);  // what it gains, in units of what is left a sample
     for (std::size_t b = 0; b < bins; ++b) {
-      out.time.push_back((static_cast<double>(b) + 0.5) * bin);
-      const double ridge = weak_axis * normal[b].trace() + 1.0e-12;
+      out.time.push_back((static_cast<double>(b) + 0.5) * how_.bin);
+      // Along a stem nearly nothing moves, and a force there would be noise.
+      const double ridge = how_.weak_axis * normal[b].trace() + 1.0e-12;
       const Mat3 inverse = (normal[b] + ridge * Mat3::Identity()).inverse();
       const Vec3 force = inverse * right[b];
       out.force.push_back(force);
@@ -266,8 +258,8 @@ class ForceSearch {
     return out;
   }
 
-  static void mark_active(OutsideForce& out, const std::vector<double>& clear) {
-    const auto seen = [&](std::size_t b) { return clear[b] > clear_force * clear_force; };
+  void mark_active(OutsideForce& out, const std::vector<double>& clear) const {
+    const auto seen = [&](std::size_t b) { return clear[b] > how_.clear_force * how_.clear_force; };
     std::vector<double> sizes;
     for (std::size_t b = 0; b < clear.size(); ++b)
       if (seen(b)) sizes.push_back(out.force[b].norm());
@@ -276,7 +268,7 @@ class ForceSearch {
     std::ranges::sort(sizes);
     const double peak = sizes[sizes.size() * 9 / 10];
     const auto strong = [&](std::size_t b) {
-      return seen(b) && out.force[b].norm() > least_of_peak * peak;
+      return seen(b) && out.force[b].norm() > how_.peak_share * peak;
     };
     std::vector<std::size_t> active;
     for (std::size_t b = 0; b + 2 < clear.size(); ++b)
@@ -284,10 +276,10 @@ class ForceSearch {
     if (active.empty()) return;
     // It began small.
     std::size_t first = active.front();
-    while (first > 0 && seen(first - 1) && out.force[first - 1].norm() > least_of_peak / 3.0 * peak)
+    while (first > 0 && seen(first - 1) && out.force[first - 1].norm() > how_.onset_share * peak)
       --first;
-    out.from = static_cast<double>(first) * bin;
-    out.to = static_cast<double>(active.back() + 3) * bin;
+    out.from = static_cast<double>(first) * how_.bin;
+    out.to = static_cast<double>(active.back() + 3) * how_.bin;
     Vec3 mean = Vec3::Zero();
     double square = 0.0;
     for (const std::size_t b : active) {
@@ -319,7 +311,7 @@ class ForceSearch {
     int count = 0;
     for (long r = 0; r < markers.size(); ++r) {
       const double t = markers.time[static_cast<std::size_t>(r)];
-      if (t < force.from || t > force.from + 3.0 * bin) continue;
+      if (t < force.from || t > force.from + 3.0 * how_.bin) continue;
       const Vec3 place = simulated(here, r, force.place, best) + off_beside(here, r, force);
       if (!place.allFinite()) continue;
       sum += place;
@@ -368,6 +360,9 @@ class ForceSearch {
     return (1.0 - share) * off_below + share * off_above;
   }
 
+  std::size_t bin_of(double time) const { return static_cast<std::size_t>(time / how_.bin); }
+
+  const OutsideForceSettings& how_;
   std::vector<ForcePlace> places_;
   SceneExperiment own_;
   long first_;  // column of the places' markers
@@ -398,8 +393,9 @@ OutsideForce find_outside_force(SceneEvaluator& evaluator, const std::vector<pla
     }
   }
   if (worst < 0) return {};
-  OutsideForce found =
-      ForceSearch(experiment, worst, model, evaluator.simulator().numerics(), threads).run();
+  OutsideForce found = ForceSearch(experiment, worst, model, evaluator.simulator().numerics(),
+                                   evaluator.settings().outside, threads)
+                           .run();
   found.trial = worst;
   return found;
 }

@@ -11,13 +11,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-/// Root of the sum of squares, in noise units, that a difference should amount to: far above what
-/// the solver's tolerance and contacts that begin a step earlier or later make, and small beside
-/// how models bend.
-constexpr double wanted_change = 30.0;
-constexpr double first_step = 0.02;  // of an unknown
-constexpr double least_step = 1.0e-4, most_step = 0.3;
-
 long rows_of(const SceneDataSet& data, std::span<const int> trials) {
   long rows = 0;
   for (const int t : trials) rows += data.size(t);
@@ -32,7 +25,7 @@ class SceneCost : public ceres::CostFunction {
         model_(start),
         trials_(trials),
         rows_(rows_of(evaluator.data(), trials)),
-        step_(Eigen::VectorXd::Constant(start.size(), first_step)) {
+        step_(Eigen::VectorXd::Constant(start.size(), evaluator.settings().fit.first_step)) {
     set_num_residuals(static_cast<int>(rows_) + start.size());
     mutable_parameter_block_sizes()->push_back(start.size());
   }
@@ -83,7 +76,9 @@ class SceneCost : public ceres::CostFunction {
     return evaluator_.residuals({&model, 1}, trials_).col(0);
   }
 
-  // One-sided differences, inwards of the bounds, as large as they have to be.
+  // One-sided differences, inwards of the bounds, as large as they have to be: far above what the
+  // solver's tolerance and contacts that begin a step earlier or later make, and small beside how
+  // models bend.
   void differentiate(const Eigen::VectorXd& u) const {
     const int n = model_.size();
     const Eigen::VectorXd high = model_.high();
@@ -96,14 +91,15 @@ class SceneCost : public ceres::CostFunction {
       models.push_back(at(moved));
     }
     evaluations_ += n;
+    const SceneFitSettings& how = evaluator_.settings().fit;
     const Eigen::MatrixXd there = evaluator_.residuals(models, trials_);
     jacobian_.resize(rows_, n);
     for (int p = 0; p < n; ++p) {
       const Eigen::VectorXd change = residual_ - there.col(p);
       jacobian_.col(p) = change / used[p];
       const double size = std::max(change.norm(), 1.0e-3);
-      step_[p] =
-          std::clamp(step_[p] * std::clamp(wanted_change / size, 0.1, 10.0), least_step, most_step);
+      step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0),
+                            how.least_step, how.most_step);
     }
     has_jacobian_ = true;
   }
@@ -205,7 +201,7 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
     settings.gradient_tolerance = 1.0e-12;
     // Relative to the cost, half the sum of squares.
     settings.function_tolerance =
-        2.0 * options.least_gain /
+        2.0 * evaluator.settings().fit.least_gain /
         std::max(1.0, static_cast<double>(rows_of(evaluator.data(), options.trials)));
     const BoundedSolution solution = solve_bounded(cost, start.low(), start.high(), settings, u);
     converged = solution.converged;
@@ -215,13 +211,17 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
   return result;
 }
 
-Hypothesis scene_baseline(const SceneExperiment& experiment) {
+Hypothesis scene_baseline(const SceneExperiment& experiment, const SceneSettings& settings) {
+  const SceneFitSettings& known = settings.fit;
   Hypothesis baseline;
   // The wide prior of density: what swings freely shows modulus over density alone.
   baseline.add(effects::Start("youngs_modulus").positive("factor", 1.0, 0.1, 10.0));
-  baseline.add(effects::Start("density").positive("factor", 1.0, 0.1, 10.0).prior(0.1, 1.0));
-  baseline.add(effects::Start("damping_time").positive("factor", 1.0, 0.02, 50.0).prior(1.0, 1.0));
-  for (const SceneFit& own : baseline_effects({experiment})) {
+  baseline.add(
+      effects::Start("density").positive("factor", 1.0, 0.1, 10.0).prior(known.density_prior, 1.0));
+  baseline.add(effects::Start("damping_time")
+                   .positive("factor", 1.0, 0.02, 50.0)
+                   .prior(known.damping_prior, 1.0));
+  for (const SceneFit& own : baseline_effects({experiment, settings})) {
     Hypothesis added;
     added.effects = {own.effect};
     added.free = own.free;

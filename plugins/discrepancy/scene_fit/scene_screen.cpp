@@ -62,8 +62,11 @@ class Screen {
     if (!start.vanishes) start.at = want(start.model);
     const Eigen::VectorXd u = start.model.unknowns(), high = start.model.high();
     for (int p = base_.model.size(); p < start.model.size(); ++p) {
-      // A tenth of what is known: derivatives of contacts need more than a trifle.
-      double step = start.model.free[static_cast<std::size_t>(p)].logarithmic ? 0.1 : 1.0;
+      // A part of what is known: derivatives of contacts need more than a trifle.
+      const SceneFitSettings& how = evaluator_.settings().fit;
+      double step = start.model.free[static_cast<std::size_t>(p)].logarithmic
+                        ? how.screen_factor_step
+                        : how.screen_step;
       if (u[p] + step > high[p]) step = -step;
       Eigen::VectorXd moved = u;
       moved[p] += step;
@@ -196,7 +199,7 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneF
   const SceneExperiment& experiment = evaluator.simulator().experiment();
   for (const SceneEffectDefinition& definition : scene_effect_definitions()) {
     if (std::ranges::find(has, definition.name) != has.end()) continue;
-    for (const SceneFit& start : starts_of(definition, {experiment})) {
+    for (const SceneFit& start : starts_of(definition, {experiment, evaluator.settings()})) {
       // An unseen plant's place is in the base already.
       const bool in_base = std::ranges::any_of(base.model.effects, [&](const plant::Effect& one) {
         return one.name == start.effect.name && one.words == start.effect.words;

@@ -23,13 +23,6 @@ struct SceneCandidate {
 struct SceneSearchOptions {
   std::vector<int> trials;  ///< to be fitted
   std::vector<int> check;   ///< held out
-  int most_refits = 4;      ///< candidates refitted in full, the first round; half in the next
-  int most_causes = 2;
-  /// Noise units: what two honest solvers of such a scene differ by, and what they differ by as a
-  /// share of what is to be explained. A misfit below is none.
-  double floor = 0.35, solvers_share = 0.05;
-  /// A cause must lower the mean square beyond the noise by so much more to be looked for at all.
-  double least_gain = 0.06;
   int threads = 1;
   std::function<void(const std::string&, double)> progress;  ///< what is done, and its share
   std::function<bool()> stop;  ///< true: what is known so far is to be concluded

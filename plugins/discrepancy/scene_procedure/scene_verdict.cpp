@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pedicel/discrepancy/scene_procedure/scene_decoys.h"
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 
@@ -36,10 +35,12 @@ struct Misfit {
 
 class Conclusion {
  public:
-  Conclusion(SceneSimulator& simulator, const SceneDataSet& data, SceneDiagnosis& diagnosis)
+  Conclusion(SceneSimulator& simulator, const SceneDataSet& data, const SceneSearchSettings& how,
+             SceneDiagnosis& diagnosis)
       : simulator_(simulator),
         experiment_(simulator.experiment()),
         data_(data),
+        how_(how),
         d_(diagnosis),
         found_(diagnosis.findings),
         v_(diagnosis.verdict) {}
@@ -334,12 +335,13 @@ class Conclusion {
 
   // A cause must gain by its shape, not by its size: a decoy has the same size.
   void tell_decoys() {
-    const Decoys decoys = scene_decoys(experiment_, data_, d_.fit_trials, d_.refitted, d_.extended);
+    const Decoys decoys =
+        scene_decoys(experiment_, data_, d_.fit_trials, d_.refitted, d_.extended, how_.too_alike);
     const auto nats = [](double value) { return io::format_number(value, 3); };
     v_.causes.front().because += ". Decoys of it gain less: " + nats(decoys.reversed) +
                                  " nats backwards in time, " + nats(decoys.exchanged) +
                                  " at other markers, of " + nats(decoys.own);
-    if (decoys.lose(Levels{}.clear_margin)) return;
+    if (decoys.lose(how_.decoy_margin)) return;
     v_.outcome = Outcome::unknown;
     v_.remainder =
         "the same change backwards in time, or at other markers, explains the data as well";
@@ -407,6 +409,7 @@ class Conclusion {
   SceneSimulator& simulator_;
   const SceneExperiment& experiment_;
   const SceneDataSet& data_;
+  const SceneSearchSettings& how_;
   SceneDiagnosis& d_;
   const SceneFindings& found_;
   Verdict& v_;
@@ -415,8 +418,8 @@ class Conclusion {
 }  // namespace
 
 void conclude_scene(SceneSimulator& simulator, const SceneDataSet& data,
-                    SceneDiagnosis& diagnosis) {
-  Conclusion(simulator, data, diagnosis).run();
+                    const SceneSearchSettings& settings, SceneDiagnosis& diagnosis) {
+  Conclusion(simulator, data, settings, diagnosis).run();
 }
 
 }  // namespace pedicel::discrepancy

@@ -5,16 +5,15 @@ namespace pedicel::discrepancy {
 namespace {
 
 // Of an upright thing the yaw about its root is not seen, and its prior keeps it.
-SceneFit unseen_place(const SceneExperiment& experiment, const ScenePlantFile& plant) {
-  // m and rad, standard deviations: how well a file says where a plant stands.
-  constexpr double place_known_to = 0.03, yaw_known_to = 0.3;
+SceneFit unseen_place(const SceneStartContext& context, const ScenePlantFile& plant) {
   constexpr double way = 2.0e-3, turn = 0.02;  // m, rad: of a unit step
   effects::Start start("plant_pose");
-  if (experiment.plants.size() > 1) start.word("plant", plant.name);
+  if (context.experiment.plants.size() > 1) start.word("plant", plant.name);
   start.vector("offset", Vec3::Zero(), way, 0.15).signed_number("yaw", 0.0, turn, -1.0, 1.0);
   SceneFit fit{start.effect(), start.free()};
   for (effects::FreeParameter& free : fit.free)
-    free.prior = free.name == "yaw" ? yaw_known_to / turn : place_known_to / way;
+    free.prior = free.name == "yaw" ? context.settings.fit.yaw_known_to / turn
+                                    : context.settings.fit.place_known_to / way;
   return fit;
 }
 
@@ -24,7 +23,7 @@ InBaseline where_nothing_shows_it() {
     std::vector<SceneFit> fits;
     for (std::size_t p = 0; p < c.experiment.plants.size(); ++p)
       if (!is_seen(c.experiment, static_cast<int>(p)))
-        fits.push_back(unseen_place(c.experiment, c.experiment.plants[p]));
+        fits.push_back(unseen_place(c, c.experiment.plants[p]));
     return fits;
   };
   own.parameter = "offset";
