@@ -90,7 +90,7 @@ class Screen {
       screened.push_back(judged(start, all));
       if (seen) keep_clearest(*seen, seen_from(start, all));
     }
-    std::ranges::stable_sort(screened, {}, &ScreenedCause::promised);
+    std::ranges::stable_sort(screened, {}, &ScreenedCause::linear_cost);
     return screened;
   }
 
@@ -111,7 +111,7 @@ class Screen {
     ScreenedCause out;
     out.name = start.name;
     out.model = start.model;
-    const Eigen::VectorXd step = linear_step(here, jacobian, start.model, out.promised);
+    const Eigen::VectorXd step = linear_step(here, jacobian, start.model, out.linear_cost);
     const Eigen::VectorXd u = start.model.unknowns() + step;
     out.model.set_unknowns(u.cwiseMax(start.model.low()).cwiseMin(start.model.high()));
     return out;

@@ -180,7 +180,7 @@ class Search {
                    std::max(how_.floor, how_.solvers_share * *found_.nominal_check);
   }
 
-  // Extends a model by each cause that it has not; refits the most promising.
+  // Extends a model by each cause that it has not; refits those with the least linear cost.
   void add_round(const SceneFitResult& base, double base_excess,
                  const std::vector<std::string>& names, double from, double to) {
     tell("looking at all causes", from);
@@ -189,7 +189,7 @@ class Search {
     std::vector<ScreenedCause> screened =
         screen_causes(evaluator_, base, names, options_.trials, seen);
     std::erase_if(screened, [&](const ScreenedCause& one) {
-      return square(base_excess) - square(excess_of(one.promised, base.sum)) < how_.least_gain;
+      return square(base_excess) - square(excess_of(one.linear_cost, base.sum)) < how_.least_gain;
     });
     screened = tried(base, best_of_each(screened));
     double best = base_excess;
@@ -197,7 +197,8 @@ class Search {
     const int most = names.empty() ? how_.refits : (how_.refits + 1) / 2;
     for (const ScreenedCause& one : screened) {
       if (done == most || stopped()) break;
-      if (done > 0 && excess_of(one.promised, base.sum) > how_.behind * std::max(best, allowed()))
+      if (done > 0 &&
+          excess_of(one.linear_cost, base.sum) > how_.behind * std::max(best, allowed()))
         break;
       tell("refitting with " + one.name, from + (to - from) * (0.3 + 0.7 * done / most));
       SceneCandidate candidate;
@@ -248,7 +249,7 @@ class Search {
     return kept;
   }
 
-  // The linear promises much: whoever keeps more of it, at the whole step or a shorter one, goes
+  // Linear costs are too good: whoever keeps more of one, at the whole step or a shorter one, goes
   // first, and from there.
   std::vector<ScreenedCause> tried(const SceneFitResult& base,
                                    std::vector<ScreenedCause> screened) {
@@ -278,10 +279,11 @@ class Search {
         least = cost;
         screened[i].model = models[at];
       }
-      // Between what was promised and what came of it.
-      screened[i].promised = std::sqrt(std::max(screened[i].promised, 1.0) * std::max(least, 1.0));
+      // Between the linear cost and what came of it.
+      screened[i].linear_cost =
+          std::sqrt(std::max(screened[i].linear_cost, 1.0) * std::max(least, 1.0));
     }
-    std::ranges::stable_sort(screened, {}, &ScreenedCause::promised);
+    std::ranges::stable_sort(screened, {}, &ScreenedCause::linear_cost);
     return screened;
   }
 
@@ -314,8 +316,8 @@ class Search {
     const bool best_does = !found_.candidates.empty() && is_enough(found_.candidates.front());
     if (best_does && pays(found_.candidates.front())) {
       found_.outcome = Outcome::named;
-      find_rivals();
-      if (!found_.rivals.empty()) found_.outcome = Outcome::ambiguous;
+      find_competing();
+      if (!found_.competing.empty()) found_.outcome = Outcome::ambiguous;
       name_material(found_.candidates.front().fit);
     } else if (found_.baseline_excess <= how_.floor) {
       found_.outcome = Outcome::adequate;
@@ -331,13 +333,13 @@ class Search {
     return square(found_.baseline_excess) - square(one.excess) >= how_.least_gain;
   }
 
-  void find_rivals() {
+  void find_competing() {
     const SceneCandidate& best = found_.candidates.front();
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
       if (score(one) - score(best) < how_.tie_share * square(best.excess) + how_.least_tie)
-        found_.rivals.push_back(i);
+        found_.competing.push_back(i);
     }
   }
 

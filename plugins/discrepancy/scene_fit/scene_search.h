@@ -38,7 +38,7 @@ struct SceneFindings {
   double baseline_excess = 0.0;                         ///< noise units
   std::optional<double> nominal_check, baseline_check;  ///< the same on trials held out
   std::vector<SceneCandidate> candidates;               ///< those with causes, the best first
-  std::vector<std::size_t> rivals;  ///< of the best: candidates that do nearly as well
+  std::vector<std::size_t> competing;  ///< with the best: candidates that do nearly as well
   /// Of a number beside the causes, that left what is known of it: "youngs_modulus", "plant_pose".
   std::vector<std::string> material;
   std::vector<SeenFrom> seen;  ///< how large each cause would have to be, beside the baseline

@@ -103,7 +103,7 @@ class Procedure {
     more_ += simulator.simulations();
   }
 
-  // The model that is told, and its rivals, with the finer mesh.
+  // The model that is told, and those that compete with it, with the finer mesh.
   // Only few iterations, and from where the search ended: which cause it is has been decided.
   void polish() {
     SceneFindings& found = out_.findings;

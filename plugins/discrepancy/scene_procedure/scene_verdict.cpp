@@ -156,14 +156,14 @@ class Conclusion {
     if (found_.explained()) {
       for (const std::string& name : all.front().names)
         v_.causes.push_back(cause_of(all.front(), name));
-      // Under `ambiguous` all that may be it stand side by side. What is common to two rivals is
-      // named once, with the numbers of the better one.
-      for (const std::size_t r : found_.rivals) {
-        const SceneCandidate& rival = all[r];
-        for (const std::string& name : rival.names)
+      // Under `ambiguous` all that may be it stand side by side. What is common to two of them
+      // is named once, with the numbers of the better one.
+      for (const std::size_t r : found_.competing) {
+        const SceneCandidate& other = all[r];
+        for (const std::string& name : other.names)
           if (std::ranges::none_of(v_.causes,
                                    [&](const NamedCause& one) { return one.name == name; }))
-            v_.causes.push_back(cause_of(rival, name));
+            v_.causes.push_back(cause_of(other, name));
       }
     } else if (found_.outcome == SceneFindings::Outcome::unknown) {
       // Three, since the list is read by people who look for an idea. `competing` has all.
