@@ -26,6 +26,7 @@ class SceneCost : public ceres::CostFunction {
         trials_(trials),
         rows_(rows_of(evaluator.data(), trials)),
         step_(Eigen::VectorXd::Constant(start.size(), evaluator.settings().fit.first_step)) {
+    // A row a number for what is known beforehand; it stays zero where nothing is.
     set_num_residuals(static_cast<int>(rows_) + start.size());
     mutable_parameter_block_sizes()->push_back(start.size());
   }
@@ -35,6 +36,7 @@ class SceneCost : public ceres::CostFunction {
     const int n = model_.size();
     const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(parameters[0], n);
     // A model without free numbers has one point only.
+    // Ceres asks for residuals and then for derivatives at the same place. A simulation is dear.
     if (residual_.size() != rows_ || u != last_) {
       last_ = u;
       residual_ = column(u);
@@ -85,6 +87,7 @@ class SceneCost : public ceres::CostFunction {
     std::vector<Hypothesis> models;
     Eigen::VectorXd used(n);
     for (int p = 0; p < n; ++p) {
+      // Inwards, as a model beyond a bound may not be simulated.
       used[p] = u[p] + step_[p] <= high[p] ? step_[p] : -step_[p];
       Eigen::VectorXd moved = u;
       moved[p] += used[p];
@@ -97,6 +100,7 @@ class SceneCost : public ceres::CostFunction {
     for (int p = 0; p < n; ++p) {
       const Eigen::VectorXd change = residual_ - there.col(p);
       jacobian_.col(p) = change / used[p];
+      // A number that shows nothing would get a step without end.
       const double size = std::max(change.norm(), 1.0e-3);
       step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0),
                             how.least_step, how.most_step);
@@ -124,6 +128,7 @@ void set_errors(SceneFitResult& result) {
     if (prior > 0.0) normal(p, p) += 1.0 / (prior * prior);
   }
   const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  // What a model leaves counts as noise of its numbers. Less than noise is chance.
   const double spread = std::max(1.0, result.sum.rms());
   for (long p = 0; p < n; ++p)
     if (inverse(p, p) > 0.0) result.standard_error[p] = spread * std::sqrt(inverse(p, p));
@@ -164,6 +169,7 @@ Eigen::MatrixXd SceneEvaluator::residuals(std::span<const Hypothesis> models,
     long row = 0;
     for (const int t : trials) {
       const long size = data_.size(t);
+      // In the order of the requests: models first, trials within.
       data_.residual(t, readings[next++], std::numeric_limits<double>::infinity(),
                      out.col(m).segment(row, size));
       row += size;
@@ -194,9 +200,11 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
     ceres::Solver::Options settings;
     settings.linear_solver_type = ceres::DENSE_QR;
     settings.max_num_iterations = options.iterations;
+    // In unit steps of the numbers, of which a thousand are no limit.
     settings.initial_trust_region_radius = 1.0e3;
     settings.max_trust_region_radius = 1.0e6;
     settings.logging_type = ceres::SILENT;
+    // What ends a fit is what a step gains. These two only catch what stands still.
     settings.parameter_tolerance = 1.0e-6;
     settings.gradient_tolerance = 1.0e-12;
     // Relative to the cost, half the sum of squares.

@@ -11,6 +11,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// The Bayesian information criterion, halved: each number costs 1/2 ln n nats.
 double cost_of(const SceneFitResult& fit) {
   return 0.5 * fit.sum.square +
          0.5 * fit.model.size() * std::log(std::max(2.0, static_cast<double>(fit.sum.count)));
@@ -47,6 +48,7 @@ double stated_of(const SceneExperiment& experiment, const std::string& name) {
   const effects::EffectDefinition* known = effects::find_effect(name);
   double most = 0.0;
   for (const ScenePlantFile& plant : experiment.plants)
+    // The largest of several plants: a factor is on all of them.
     if (known && known->known_to)
       most = std::max(most, (plant.file.material.known_to.*(known->known_to)).value_or(0.0));
   return most;
@@ -63,11 +65,14 @@ class Search {
   SceneFindings run() {
     tell("simulating the scene as the files say", 0.0);
     const Hypothesis plain;
+    // First of all: shares and verdicts are told against what the files say.
     const SceneFitResult nominal = look_at(evaluator_, plain, options_.trials);
     found_.nominal_excess = SceneDataSet::beyond_noise(nominal.sum);
     found_.nominal_check = held_out(plain);
     tell("fitting modulus, density and damping", 0.05);
     found_.baseline = fit(first_baseline(), how_.baseline_iterations, options_.trials);
+    // With a place among its numbers a baseline has a long way, and everything after is judged
+    // against it.
     if (!found_.baseline.converged && found_.baseline.model.size() > 3)
       found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
     judge_baseline();
@@ -94,9 +99,11 @@ class Search {
         starts.back().set_value(static_cast<int>(p), way);
       }
     }
+    // Every plant is seen.
     if (starts.size() == 1) return starts.front();
     const Eigen::MatrixXd left = evaluator_.residuals(starts, options_.trials);
     long best = 0;
+    // All at once, one simulation a place. The fit goes on from the best one.
     left.colwise().squaredNorm().minCoeff(&best);
     return starts[static_cast<std::size_t>(best)];
   }
@@ -120,6 +127,7 @@ class Search {
   // An unseen plant's place is part of the baseline, and with it when the tool touches: what
   // predictions do not know of themselves was taken at other times.
   void renew_at_baseline() {
+    // More than modulus, density and damping: a place is among them.
     if (!options_.renew_noise || found_.baseline.model.size() <= 3) return;
     if (found_.baseline_excess <= how_.floor) return;
     for (int again = 0; again < how_.renewals && !stopped(); ++again) {
@@ -138,11 +146,14 @@ class Search {
   void renew_at_best() {
     if (!options_.renew_noise || found_.candidates.empty() || stopped()) return;
     const SceneCandidate& best = found_.candidates.front();
+    // One that leaves most of the misfit is not the cause, and its touches are no better than the
+    // files'.
     if (is_enough(best) || best.excess > how_.halfway * found_.baseline_excess) return;
     const double near = how_.behind * std::max(best.excess, allowed());
     tell("taking the noise of predictions anew", 0.55);
     const std::vector<plant::Effect> effects = best.fit.model.effects;
     renew_noise(effects);
+    // Not fitted again: it only has to be judged under the same noise as the others.
     found_.baseline = look_at(evaluator_, found_.baseline.model, options_.trials);
     judge_baseline();
     for (SceneCandidate& one : found_.candidates) {
@@ -161,6 +172,7 @@ class Search {
     for (int more = 1; more < how_.causes && !stopped(); ++more) {
       if (found_.candidates.empty()) return;
       const SceneCandidate best = found_.candidates.front();
+      // The second round has not found a better one, so a third would look at the same models.
       if (static_cast<int>(best.names.size()) < more || is_enough(best)) return;
       add_round(best.fit, best.excess, best.names, 0.55, 0.9);
       renew_at_best();
@@ -173,6 +185,7 @@ class Search {
                     how_.solvers_share * std::max(found_.nominal_excess, found_.baseline_excess));
   }
   bool is_enough(const SceneCandidate& one) const {
+    // Both must hold: fitted trials alone would let many numbers win.
     if (one.excess > allowed()) return false;
     return !one.check_excess || !found_.nominal_check ||
            *one.check_excess <=
@@ -194,9 +207,11 @@ class Search {
     screened = tried(base, best_of_each(screened));
     double best = base_excess;
     int done = 0;
+    // A second cause is looked for on top of one that has explained much.
     const int most = names.empty() ? how_.refits : (how_.refits + 1) / 2;
     for (const ScreenedCause& one : screened) {
       if (done == most || stopped()) break;
+      // They are in order, so all that follow are farther behind.
       if (done > 0 &&
           excess_of(one.linear_cost, base.sum) > how_.behind * std::max(best, allowed()))
         break;
@@ -226,6 +241,7 @@ class Search {
   }
 
   double excess_of(double cost, const SceneDataSet::Sum& sum) const {
+    // A cost is half of a sum of squares.
     return SceneDataSet::beyond_noise({2.0 * cost, sum.count});
   }
 
@@ -256,6 +272,7 @@ class Search {
     const auto most = static_cast<std::size_t>(how_.tried);
     if (screened.size() > most) screened.resize(most);
     std::vector<Hypothesis> models;
+    // A contact bends the way: half of a step may leave less than all of it.
     const double shares[] = {1.0, how_.shorter_step};
     const Eigen::VectorXd old = base.model.unknowns();
     for (const ScreenedCause& one : screened)
@@ -264,6 +281,8 @@ class Search {
         Eigen::VectorXd u = model.unknowns();
         u.head(old.size()) = old + share * (u.head(old.size()) - old);
         for (long p = old.size(); p < u.size(); ++p)
+          // A number on a logarithmic scale has no size that a part could be taken of: it keeps its
+          // own.
           if (!model.free[static_cast<std::size_t>(p)].logarithmic) u[p] *= share;
         model.set_unknowns(u);
         models.push_back(model);
@@ -280,6 +299,7 @@ class Search {
         screened[i].model = models[at];
       }
       // Between the linear cost and what came of it.
+      // Geometrically, as costs differ by powers of ten.
       screened[i].linear_cost =
           std::sqrt(std::max(screened[i].linear_cost, 1.0) * std::max(least, 1.0));
     }
@@ -312,6 +332,7 @@ class Search {
 
   void conclude() {
     using Outcome = SceneFindings::Outcome;
+    // What hides is told for the misfit that a cause must make to be looked for.
     found_.seen_units = allowed();
     const bool best_does = !found_.candidates.empty() && is_enough(found_.candidates.front());
     if (best_does && pays(found_.candidates.front())) {
@@ -337,6 +358,7 @@ class Search {
     const SceneCandidate& best = found_.candidates.front();
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
+      // Two causes always explain what one does.
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
       if (score(one) - score(best) < how_.tie_share * square(best.excess) + how_.least_tie)
         found_.competing.push_back(i);
@@ -350,6 +372,7 @@ class Search {
       const double off = std::log(fit.model.value(p));
       const double error =
           std::hypot(fit.standard_error[p], allowance(name, how_), stated_of(experiment_, name));
+      // In logarithms: a factor of two and one of a half are equally far off.
       if (std::abs(off) > how_.named_deviations * error) found_.material.push_back(name);
     }
     for (const std::string& name : moved(fit, how_)) found_.material.push_back(name);
@@ -377,6 +400,7 @@ class Search {
     }
     if (found_.clean.empty()) return;
     const SceneFitResult clean = fit(plain_baseline(), how_.baseline_iterations, found_.clean);
+    // Each of them alone was explained by other numbers: then no one plant explains them.
     if (SceneDataSet::beyond_noise(clean.sum) > how_.clean_allowance * how_.floor) {
       found_.clean.clear();
       return;
