@@ -138,7 +138,7 @@ void add_scene_fit(SceneFitSettings& f, std::vector<DiagnosisSetting>& all) {
              "Linear predictions of factors are less linear."});
   rows.step("screen_step", f.screen_step, "The same of other numbers, of their unit step.",
             {measured, "the unit step of a start is what is seen",
-             "It cannot double: half of it is drowned by contacts."});
+             "It cannot double: half of it is masked by contacts."});
   rows.nats("least_gain", f.least_gain, "A fit ends when a step gains less.",
             {derived, "half a nat decides nothing", "Fits are a little shorter."});
   rows.number("density_prior", f.density_prior,
