@@ -7,7 +7,7 @@
 #include "pedicel/core/parameter.h"
 #include "pedicel/cosserat/solver/rod_solver.h"
 #include "pedicel/coupling/coupling_settings.h"
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_numbers.h"
@@ -116,10 +116,11 @@ void add_sensors(std::vector<ManualRow>& rows) {
   add_parameters(rows, wrench.parameters(), "cameras");
 }
 
-void add_diagnosis_settings(std::vector<ManualRow>& rows) {
-  discrepancy::DiagnosisSettings defaults;
+// `defaults` is default-constructed.
+template <class Settings>
+void add_diagnosis_settings(std::vector<ManualRow>& rows, const char* page, Settings defaults) {
   for (const discrepancy::DiagnosisSetting& one : discrepancy::described(defaults))
-    rows.push_back({"diagnosis_settings",
+    rows.push_back({page,
                     1,
                     {code(one.name), one.unit, number_text(one.get()),
                      std::string(discrepancy::to_string(one.kind)), phrase(one.sentence),
@@ -143,7 +144,8 @@ std::vector<ManualRow> manual_rows() {
   add_effects(rows);
   add_settings(rows);
   add_sensors(rows);
-  add_diagnosis_settings(rows);
+  add_diagnosis_settings(rows, "diagnosis_settings", discrepancy::DiagnosisSettings{});
+  add_diagnosis_settings(rows, "scene_settings", discrepancy::SceneSettings{});
   add_commands(rows);
   for (const ExitCodeDescription& one : exit_codes())
     rows.push_back({"command_line", 1, {one.code, one.meaning}});

@@ -72,7 +72,7 @@ robot::IkResult SessionRobot::reach(const Pose& tool_W, bool turned) const {
   if (turned) target.orientation_W = tool_W.rotation;
   robot::IkSettings settings;
   settings.restarts = 6;
-  settings.loyalty = 0.1;
+  settings.start_preference = 0.1;
   if (!scene.gripper.empty()) settings.held = {joint_of(model, scene.gripper)};
   const Eigen::VectorXd start = start_of(now->robot);
   const robot::IkResult led = descend_in_steps(model, target, tool_at(*now, model, start),

@@ -56,7 +56,7 @@ robot::IkResult reach_tool(const Simulation& simulation, const Vec3& position_W,
   target.orientation_W = orientation_W;
   robot::IkSettings settings;
   settings.restarts = 6;
-  settings.loyalty = 0.1;
+  settings.start_preference = 0.1;
   if (robot.gripper() >= 0) settings.held = {robot.gripper()};
   const robot::IkResult led = lead(model, target, now, offset, start, settings);
   if (led.reached) return led;

@@ -75,9 +75,9 @@ int run(DiagnoseArguments& a, const CLI::App& verb) {
   if (discrepancy::is_scene_experiment(a.experiment)) {
     if (a.tasks.cluster.wanted() || a.tasks.is_task())
       throw UsageError(a.experiment + ": its model is a scene, expected no --cluster");
-    if (!a.with.empty() || !a.settings.empty())
-      throw UsageError(a.experiment + ": its model is a scene, expected no --with and no --set");
-    return diagnose_scene_verb(a, a.time_limit);
+    if (!a.with.empty())
+      throw UsageError(a.experiment + ": its model is a scene, expected no --with");
+    return diagnose_scene_verb(a, a.settings, a.time_limit);
   }
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
@@ -124,7 +124,8 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
       ->allow_extra_args(false);
   verb->add_option("--set", a->settings,
                    "NAME=VALUE, repeatable: a setting of `pedicel manual diagnosis_settings`, as "
-                   "levels.clear_odds=4")
+                   "levels.clear_odds=4; of `pedicel manual scene_settings` where the model is a "
+                   "scene")
       ->allow_extra_args(false);
   verb->add_option("--time-limit", a->time_limit,
                    "s after which the search ends, and what is known is written")

@@ -127,7 +127,10 @@ void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExper
 
 }  // namespace
 
-int diagnose_scene_verb(const ExperimentArguments& a, double time_limit) {
+int diagnose_scene_verb(const ExperimentArguments& a, const std::vector<std::string>& settings,
+                        double time_limit) {
+  discrepancy::SceneDiagnosisOptions options;
+  for (const std::string& one : settings) discrepancy::set_setting(options.settings, one);
   const SceneExperiment experiment = read_whole(a.experiment, {});
   if (std::ranges::all_of(experiment.trials, [](const discrepancy::SceneTrial& trial) {
         return trial.use == discrepancy::Trial::Use::check;
@@ -139,7 +142,6 @@ int diagnose_scene_verb(const ExperimentArguments& a, double time_limit) {
                 ("diagnosis_" + std::filesystem::absolute(experiment.folder).filename().string())
           : std::filesystem::path(a.out);
   a.check(folder, {"report.html", "verdict.json", "findings.txt"});
-  discrepancy::SceneDiagnosisOptions options;
   options.threads = a.thread_count();
   options.time_limit = time_limit;
   options.stop = &stop_requested;

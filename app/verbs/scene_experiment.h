@@ -20,8 +20,10 @@ std::string check_scene_experiment(const std::filesystem::path& path, Diagnostic
 int observe_scene_verb(const ObserveArguments& arguments);
 
 /// `pedicel diagnose` of such an experiment: verdict, report and extended scene go to `out`.
-/// `time_limit`: s, after which the search ends and what is known is told. Returns the
-/// exit code. Throws InvalidFile, UsageError, io::WriteError.
-int diagnose_scene_verb(const ExperimentArguments& arguments, double time_limit);
+/// `settings`: NAME=VALUE, of discrepancy::SceneSettings. `time_limit`: s, after which the search
+/// ends and what is known is told. Returns the exit code. Throws InvalidFile, UsageError,
+/// io::WriteError.
+int diagnose_scene_verb(const ExperimentArguments& arguments,
+                        const std::vector<std::string>& settings, double time_limit);
 
 }  // namespace pedicel::app

@@ -178,7 +178,8 @@ IkResult best_of_restarts(const KinematicModel& model, const IkTarget& target,
                             random_start(model, target.link, q_start, settings, random), settings);
     if (weight(next, settings) < weight(best, settings)) best = std::move(next);
   }
-  if (!best.reached && weight(first, settings) <= (1.0 + settings.loyalty) * weight(best, settings))
+  if (!best.reached &&
+      weight(first, settings) <= (1.0 + settings.start_preference) * weight(best, settings))
     best = first;
   best.q = unwound(model, best.q, q_start);
   return best;

@@ -28,7 +28,7 @@ struct IkSettings {
   std::vector<int> held;             ///< joints that keep their value
   /// 1, >= 0: where nothing reaches, the descent from the given start counts as the nearest unless
   /// a restart is nearer by more than this share. Keeps an arm that is led by hand from jumping.
-  double loyalty = 0.0;
+  double start_preference = 0.0;
 };
 
 struct IkResult {

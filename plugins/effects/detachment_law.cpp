@@ -67,6 +67,7 @@ EffectDefinition define_detachment_law() {
       if (!(exponent > 0.0))
         node.error("exponents has " + std::to_string(exponent) + ", expected numbers above 0");
   };
+  d.speaks_for = {{"detachment", 2}};
   d.change =
       ModelChange{Stage::constants, [](ModelTarget& t) {
                     // Begins with scales of infinity and exponents of 2.

@@ -37,7 +37,8 @@ EffectDefinition define_frame_rotation() {
           Start("frame_rotation").vector("rotation", 1e-4 * Vec3::Unit(axis), 0.01, 0.7));
     return starts;
   };
-  d.speaks_for = {{"base_rotation", 2}, {"constant_offset", 3}, {"out_of_plane", 4}};
+  d.speaks_for = {
+      {"base_rotation", 2}, {"constant_offset", 3}, {"out_of_plane", 4}, {"plant_shift", 2}};
   d.tells_apart = "record the unloaded plant with a plumb line in view";
   return d;
 }

@@ -30,9 +30,10 @@ EffectDefinition define_latency() {
       starts.push_back(Start("latency").signed_number("delay", delay, 0.01, -1.0, 1.0));
     return starts;
   };
-  // In ms, and the same number.
+  // The first in ms, and the same number.
   d.speaks_for = {
-      {"time_shift", 1, "delay", [](double ms, const StartContext&) { return 1.0e-3 * ms; }}};
+      {"time_shift", 1, "delay", [](double ms, const StartContext&) { return 1.0e-3 * ms; }},
+      {"robot_lag", 2}};
   // A tap has all frequencies: what is late is then seen without any model.
   d.tells_apart = "let the markers and the drive record one sharp tap";
   return d;

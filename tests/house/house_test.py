@@ -10,7 +10,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from house_checks import circles, classes, folders, names, source  # noqa: E402
+from house_checks import circles, classes, effect_names, folders, names, source  # noqa: E402
 from prose_checks.rooms import rooms_of  # noqa: E402
 
 
@@ -96,6 +96,40 @@ class Names(unittest.TestCase):
             "// namespace pedicel::shop { struct Course {}; }",
         ):
             self.assertEqual(names.check({"app/a.h": course, "app/b.cpp": other}), [], other)
+
+
+class EffectNames(unittest.TestCase):
+    @staticmethod
+    def faults(path, text, own='d.name = "tool_pose";'):
+        files = {"plugins/discrepancy/scene/effects/tool_pose.cpp": own,
+                 "plugins/discrepancy/scene/effects/payload.cpp": 'd.name = "payload";', path: text}
+        return effect_names.check({Path(name): said for name, said in files.items()})
+
+    def test_a_name_elsewhere_is_a_fault(self):
+        for text in ('\nif (name == "tool_pose") f();', '\nread("{name: tool_pose, offset: [0, 0, 0]}");'):
+            self.assertEqual(
+                self.faults("app/shop.cpp", text),
+                [("app/shop.cpp", 2, "names the effect tool_pose; expected a field of its definition")],
+            )
+        self.assertEqual(len(self.faults("app/shop.cpp", 'f("payload");')), 1)
+
+    def test_what_is_no_name_is_none(self):
+        for text in ("// as tool_pose does", '#include "effects/tool_pose.h"', "state.tool_pose = 1;",
+                     'say("a payload of 2 kg");', 'f("tool_poses");'):
+            self.assertEqual(self.faults("app/shop.cpp", text), [], text)
+
+    def test_names_that_are_something_else_stand_where_they_are_said_to(self):
+        for path, name in effect_names.OTHERS:
+            self.assertIn(f'"{name}"', (ROOT / path).read_text(encoding="utf-8"))
+            self.assertEqual(self.faults(path, f'f("{name}");'), [])
+
+    def test_somebody_tells_a_symptom(self):
+        own = 'd.name = "tool_pose";\nd.speaks_for = {{"touch", 1}, {"slip", 2}};'
+        found = self.faults("plugins/discrepancy/scene_procedure/tell.cpp", 'tell("touch");', own)
+        self.assertEqual(
+            found,
+            [("plugins/discrepancy/scene/effects/tool_pose.cpp", 2, "the symptom slip is told nowhere")],
+        )
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr int reach = 20;                // samples on either side that say what scatter is usual
 constexpr double outlying = 10.0;        // times that scatter
 constexpr double normal_scale = 1.4826;  // deviation of a normal distribution over its median
+// A marker at rest seldom repeats one number so often: trackers write finer than they see.
 constexpr int stuck_samples = 20;
 
 double median(std::vector<double>& values) {
@@ -28,6 +29,7 @@ double median(std::vector<double>& values) {
 
 // What a sample has against the cubic through its two neighbours on either side.
 double from_neighbours(const Eigen::Ref<const Eigen::VectorXd>& x, int i) {
+  // At the ends there is no cubic, and nothing is said.
   if (i < 2 || i + 2 >= x.size()) return nothing;
   return std::abs(x[i] - (4.0 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6.0);
 }
@@ -38,8 +40,10 @@ double scatter_near(const std::vector<double>& distance, int i) {
   std::vector<double> near;
   const int last = static_cast<int>(distance.size()) - 1;
   for (int k = std::max(0, i - reach); k <= std::min(i + reach, last); ++k)
+    // Two to either side: the cubic of a neighbour has this sample in it.
     if (std::abs(k - i) > 2 && std::isfinite(distance[k]) && distance[k] > 0.0)
       near.push_back(distance[k]);
+  // Of few distances the median is chance, and no sample is called outlying by it.
   return static_cast<int>(near.size()) >= reach / 2 ? median(near)
                                                     : std::numeric_limits<double>::infinity();
 }
@@ -110,6 +114,7 @@ int take_out_outliers(Eigen::Ref<Eigen::MatrixXd> xyz, const std::vector<char>& 
       most = points.excess(i);
       worst = i;
     }
+    // Each pass takes out one, so it ends after as many as there are points.
     if (worst < 0) return count;
     points.take_out(worst);
   }
@@ -123,6 +128,7 @@ int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {
   int count = 0, begin = 0;
   for (int i = 1; i <= x.size(); ++i) {
     if (i < x.size() && x[i] == x[begin]) continue;
+    // What is missing is "equal" to nothing, and stays as it is.
     if (i - begin >= stuck_samples && std::isfinite(x[begin])) {
       count += i - begin;
       x.segment(begin, i - begin).setConstant(nothing);
@@ -143,12 +149,14 @@ int take_out_filled(Eigen::Ref<Eigen::MatrixXd> xyz, double noise) {
   int count = 0, begin = 0;
   std::vector<char> is_filled(xyz.rows(), 0);
   for (int i = 0; i < static_cast<int>(xyz.rows()); ++i) {
+    // All three axes: one of them may lie on a line for a while by chance.
     is_filled[i] = i > 0 && xyz.row(i) != xyz.row(i - 1);
     for (int c = 0; c < 3 && is_filled[i]; ++c)
       is_filled[i] = from_neighbours(xyz.col(c), i) < filled * noise;
   }
   for (int i = 0; i <= static_cast<int>(xyz.rows()); ++i) {
     if (i < static_cast<int>(xyz.rows()) && is_filled[i]) continue;
+    // A swing near its turn lies near a cubic for a few samples.
     if (i - begin >= filled_samples) {
       count += i - begin;
       xyz.middleRows(begin, i - begin).setConstant(nothing);
@@ -172,6 +180,7 @@ bool leave_out_after_break(Trial& trial) {
   for (Samples* samples : {&trial.markers, &trial.force, &trial.wrench})
     for (int i = 0; i < samples->size(); ++i) {
       const double interval =
+          // Of its neighbours, since tables have clocks of their own.
           samples->time[std::min(i + 1, samples->size() - 1)] - samples->time[std::max(i - 1, 0)];
       if (samples->time[i] < first - 0.75 * interval) continue;
       samples->value.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -185,12 +194,14 @@ bool leave_out_after_break(Trial& trial) {
 Admission admit(const Experiment& experiment) {
   Admission admission;
   admission.experiment = experiment;
+  // First: outliers and gaps of another trial's table say nothing about this one.
   admission.contradictions = contradictions(experiment);
   if (!admission.contradictions.empty()) {
     admission.refusal = sentence(admission.contradictions);
     return admission;
   }
   for (Trial& trial : admission.experiment.trials) {
+    // Before anything is left out: what was never there is told apart from that.
     const int before = count_finite(trial.markers.value);
     admission.missing += static_cast<int>(trial.markers.value.size()) - before;
     if (leave_out_after_break(trial))
@@ -201,13 +212,17 @@ Admission admit(const Experiment& experiment) {
                            count_finite(trial.wrench.value);
       continue;  // its rows are no neighbours in time
     }
+    // Before outliers: two markers that exchange places are outlying twice.
     admission.swaps += put_back(exchanges_in(trial.markers.value), trial.markers.value);
     const double scatter = scatter_of_markers(trial);
+    // A program that smooths leaves no scatter. What the file states then stands for the
+    // instrument.
     const double noise = std::min(scatter, experiment.noise.position_std.value_or(scatter));
     if (noise > least_noise)
       for (Eigen::Index c = 0; c + 3 <= trial.markers.value.cols(); c += 3)
         admission.filled += take_out_filled(trial.markers.value.middleCols(c, 3), noise);
     for (Samples* samples : {&trial.markers, &trial.force, &trial.wrench}) {
+      // For each table by its own times.
       const std::vector<char> spared = beside_jumps(trial, samples->time);
       for (Eigen::Index c = 0; c < samples->value.cols(); ++c) {
         admission.samples += count_finite(samples->value.col(c));
@@ -215,6 +230,7 @@ Admission admit(const Experiment& experiment) {
         if (samples == &trial.markers) admission.stuck += take_out_stuck(samples->value.col(c));
       }
       for (Eigen::Index c = 0; c + 3 <= samples->value.cols(); c += 3) {
+        // Counted by points, as an outlier takes all three numbers with it.
         admission.points += count_points(samples->value.middleCols(c, 3));
         admission.outliers += take_out_outliers(samples->value.middleCols(c, 3), spared);
       }
@@ -235,11 +251,13 @@ Admission admit(const Experiment& experiment) {
          "were left out");
   remark(admission.swaps, "samples had two markers' labels exchanged, which was put back");
   if (admission.samples == 0) admission.refusal = "there is no sample at all";
+  // A scatter that is taken from neighbours means nothing when so many of them are off.
   if (admission.outlier_fraction() > 0.2)
     admission.refusal = "every fifth sample is far from its neighbours";
   return admission;
 }
 
+// Each contradiction has a file of its own. A refusal is about the whole.
 void add_refusal(Diagnostics& diagnostics, const Admission& admission) {
   if (!admission.contradictions.empty())
     add_to(diagnostics, admission.experiment, admission.contradictions);

@@ -16,6 +16,7 @@ int changed(const Mat3& read) {
 }
 
 std::string mistake(const Mat3& read) {
+  // Named from the commonest mistake to the rarest: a sign, two columns, another axis up.
   const bool plain = read.minCoeff() == 0.0;  // no sign is turned
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3;
@@ -35,6 +36,7 @@ std::vector<Axes> all_others() {
   std::vector<Axes> all;
   std::array order = {0, 1, 2};
   do {
+    // All 48 ways in which three columns can be read, but for the right one.
     for (int signs = 0; signs < 8; ++signs) {
       Mat3 read = Mat3::Zero();
       for (int axis = 0; axis < 3; ++axis) read(axis, order[axis]) = signs >> axis & 1 ? -1.0 : 1.0;
@@ -42,6 +44,7 @@ std::vector<Axes> all_others() {
     }
   } while (std::ranges::next_permutation(order).found);
   std::ranges::stable_sort(all, {}, [](const Axes& axes) {
+    // The fewer columns are wrong, the likelier somebody has done it.
     return changed(axes.read) + (axes.read.array() < 0.0).count();
   });
   return all;

@@ -17,6 +17,7 @@ constexpr double same_way = 0.7;  // the cosine: a frame turned by 0.3 rad, and 
 double whole_of(const Track& track, const Drive& drive) {
   if (drive.kind == Drive::Kind::load) {
     Drive all = drive;
+    // Of a load, its whole course: it acts through a force, which has no end of its own.
     all.until = std::numeric_limits<double>::infinity();
     return following(track, all).driven;
   }
@@ -35,6 +36,7 @@ std::vector<Beside> Beside::all_of(const TrialView& view) {
   const double noise = noise_of_markers(view);
   for (const Drive& drive : drives_of(view)) {
     const int marker = marker_near(*view.nominal_plant, drive.spot, near);
+    // Too far away, a marker follows the plant and not the drive.
     if (marker < 0) continue;
     Beside one(view, drive, marker, noise);
     if (static_cast<int>(one.track_.time.size()) >= least_rows) all.push_back(std::move(one));
@@ -70,6 +72,7 @@ double Beside::explained_by(const Drive& other) const {
 }
 
 double Beside::valid(const Following& f, const Drive& drive) const {
+  // Where it cannot be said it explains nothing: a check then has no fault to tell.
   if (f.rows < least_rows || f.driven <= 0.0 || f.moved < visible * noise_) return 0.0;
   const double gain = f.gain.dot(f.along);
   // What is moved moves its neighbour the same way; a load may move it askew.

@@ -33,6 +33,7 @@ constexpr std::array checks = {
     Question{check_force_clock, Needs::time}, Question{check_force, Needs::time}};
 
 bool is_met(Needs needs, const Trial& trial) {
+  // A trial that begins in motion has no rest before it.
   if (needs == Needs::rest && trial.window) return false;
   return needs == Needs::nothing || !trial.is_static;
 }
@@ -43,6 +44,7 @@ std::vector<Contradiction> contradictions(const Experiment& experiment) {
   std::vector<Contradiction> found;
   const std::optional<NominalPlant> nominal_plant = NominalPlant::of(experiment);
   for (const Trial& trial : experiment.trials) {
+    // Checks get the plant where it can be built, and those that do not need it run in any case.
     const TrialView view{experiment, trial, nominal_plant ? &*nominal_plant : nullptr};
     for (std::size_t kind = 0; kind < checks.size(); ++kind)
       if (!is_met(checks[kind].needs, trial)) {
@@ -50,6 +52,7 @@ std::vector<Contradiction> contradictions(const Experiment& experiment) {
       } else if (auto one = checks[kind].ask(view)) {
         found.push_back(
             {trial.name, trial.folder / one->file, static_cast<int>(kind), std::move(one->what)});
+        // One a trial: what follows it is mostly its consequence.
         break;
       }
   }
@@ -66,6 +69,7 @@ std::string sentence(const std::vector<Contradiction>& found) {
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto is_same = [&](const Contradiction& other) { return other.kind == found[i].kind; };
+    // One mistake in many trials is one sentence.
     if (std::ranges::any_of(std::span(found).first(i), is_same)) continue;
     text += (text.empty() ? "" : "; ") + found[i].sentence();
     std::string others;

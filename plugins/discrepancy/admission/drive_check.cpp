@@ -25,6 +25,7 @@ struct ClockUnit {
   const char* name;
   double scale;
 };
+// What tables of recorders are written in.
 constexpr ClockUnit clock_units[] = {{"milliseconds", 1e3},
                                      {"microseconds", 1e6},
                                      {"minutes", 1.0 / 60.0},
@@ -41,8 +42,11 @@ double step_of(const Beside& beside) {
 std::optional<Fault> other_unit(const Beside& beside) {
   if (beside.explained() > contradicts) return std::nullopt;
   std::vector<ClockUnit> units(std::begin(clock_units), std::end(clock_units));
+  // Frames are counted by the drive's own step.
   if (step_of(beside) > 0.0) units.push_back({"numbers of frames", 1.0 / step_of(beside)});
   for (const ClockUnit& unit : units)
+    // Either of the two tables may be the wrong one. The marker's is, more often, as it comes from
+    // another machine.
     for (const bool path : {false, true}) {
       if (path && !beside.drive().path) continue;
       const ClockReading reading{0.0, path ? 1.0 / unit.scale : unit.scale, path};
@@ -63,6 +67,7 @@ struct Candidate {
 };
 
 void consider(const Beside& beside, const ClockReading& reading, std::vector<Candidate>& all) {
+  // A clock under which the marker sees the drive at rest explains everything, as nothing moves.
   if (beside.follow(reading).driven >= most * beside.whole())
     all.push_back({reading, 1.0 - beside.explained(reading)});
 }
@@ -76,6 +81,7 @@ Candidate nearest_of_best(const std::vector<Candidate>& all, const Size& size) {
   Candidate best;
   double smallest = std::numeric_limits<double>::infinity();
   for (const Candidate& one : all) {
+    // Half as much again, and half a percent for drives that leave nearly nothing.
     if (one.left > 1.5 * least + 0.005 || size(one.reading) >= smallest) continue;
     smallest = size(one.reading);
     best = one;
@@ -84,6 +90,7 @@ Candidate nearest_of_best(const std::vector<Candidate>& all, const Size& size) {
 }
 
 bool is_better(const Candidate& found, const Beside& beside) {
+  // Both: it explains nearly all, and far more than the clock that is stated.
   return 1.0 - found.left >= agrees && found.left <= much_better * (1.0 - beside.explained());
 }
 
@@ -95,8 +102,10 @@ bool rests_until(const Beside& beside, double shift) {
   for (std::size_t i = 0; i < track.time.size(); ++i) {
     const double way = (track.place[i] - track.place.front()).norm();
     all = std::max(all, way);
+    // Less than the whole shift, which is known to a step of the grid.
     if (track.time[i] < begins + 0.7 * shift) before = std::max(before, way);
   }
+  // A tenth: nothing rests quite.
   return before < 0.1 * all + 6.0 * beside.noise();
 }
 
@@ -124,6 +133,7 @@ bool moves_before(const Beside& beside) {
 // before it is led.
 std::optional<Fault> late_path(const Beside& beside) {
   const Drive& drive = beside.drive();
+  // A base shakes the whole plant, and a load may be what has just been taken off.
   if (drive.kind != Drive::Kind::hold || beside.explained() > agrees) return std::nullopt;
   std::vector<Candidate> all;
   const double last = std::min(drive.path->time.back(), 0.5 * grid * most_shifts);
@@ -131,6 +141,7 @@ std::optional<Fault> late_path(const Beside& beside) {
   const Candidate best =
       nearest_of_best(all, [](const ClockReading& r) { return std::abs(r.shift); });
   const double shift = -best.reading.shift;
+  // A latency is a finding of the diagnosis, and no contradiction.
   if (shift <= largest_known::latency || !is_better(best, beside) || !moves_before(beside))
     return std::nullopt;
   return Fault{drive.path->file, text("is %.2g s late: ", shift) + beside.marker() +
@@ -150,6 +161,7 @@ std::optional<Fault> shifted(const Beside& beside) {
       nearest_of_best(all, [](const ClockReading& r) { return std::abs(r.shift); });
   const double shift = best.reading.shift;
   if (std::abs(shift) < least_shift || !is_better(best, beside)) return std::nullopt;
+  // Of a drive that repeats itself a shift by a period explains as much.
   if (shift > 0.0 && !rests_until(beside, shift)) return std::nullopt;
   return Fault{"markers.csv", "is " + text("%.2g s ", std::abs(shift)) +
                                   (shift > 0.0 ? "late" : "early") + ": " + beside.marker() +
@@ -167,6 +179,7 @@ std::optional<Fault> other_rate(const Beside& beside) {
   for (int i = 0; i <= rates; ++i) consider(beside, {0.0, slowest + rate_grid * i}, all);
   const Candidate best =
       nearest_of_best(all, [](const ClockReading& r) { return std::abs(std::log(r.scale)); });
+  // What counts is how far the clocks are apart by the end: a percent of a short trial is nothing.
   const double apart = std::abs(1.0 - 1.0 / best.reading.scale) * end;
   if (apart < least_shift || !is_better(best, beside)) return std::nullopt;
   return Fault{"markers.csv",
@@ -181,6 +194,7 @@ std::optional<Fault> other_rate(const Beside& beside) {
 std::optional<Fault> check_drive(const TrialView& view) {
   if (!view.nominal_plant) return std::nullopt;
   for (const Beside& beside : Beside::all_of(view))
+    // The coarser mistake first: under a wrong unit every shift looks wrong.
     for (const auto check : {other_unit, other_rate, late_path, shifted})
       if (auto fault = check(beside)) return fault;
   return std::nullopt;

@@ -44,6 +44,7 @@ double FirstPlaces::spread() const {
 
 FirstPlaces first_places(const TrialView& view) {
   FirstPlaces places;
+  // A base that is moved carries the plant along from the start.
   Pose base;  // of what stood as drawn
   if (view.trial.base && !view.trial.base->time.empty()) {
     base.rotation = view.trial.base->rotation_at(0.0);
@@ -54,6 +55,7 @@ FirstPlaces first_places(const TrialView& view) {
     const Vec3 seen = first_seen(view.trial, m);
     if (!seen.allFinite()) continue;
     const Spot& spot = view.nominal_plant->markers()[m];
+    // Those that were seen at all; the others have no first place.
     places.marker.push_back(m);
     places.seen.push_back(seen);
     places.drawn.push_back(base * spot.drawn);

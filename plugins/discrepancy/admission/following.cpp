@@ -40,6 +40,7 @@ Drive base_drive(const TrialView& view) {
           std::numeric_limits<double>::infinity()};
 }
 
+// A load has a force and no path: a marker beside it follows that, in some direction of its own.
 Drive load_drive(const TrialView& view) {
   const std::vector<TimedLoad>* loads = &view.trial.loads;
   const auto force = [loads](double t) {
@@ -62,6 +63,7 @@ double frequency_square(const DrivenPath& path, double until) {
     speed += (path.position[i] - path.position[i - 1]).squaredNorm() / dt;
     way += dt * (path.position[i] - mean).squaredNorm();
   }
+  // Of a sine it is the square of its angular frequency, whatever its size.
   return way > 0.0 ? speed / way : 0.0;
 }
 
@@ -82,9 +84,11 @@ std::vector<Drive> drives_of(const TrialView& view) {
   for (const Hold& hold : view.trial.holds) {
     if (!leads(hold)) continue;
     drives.push_back(hold_drive(view, hold));
+    // The hand goes on with the fruit, and the plant does not.
     drives.back().until = std::min(drives.back().until, broken);
   }
   if (view.trial.base && !view.trial.base->time.empty()) drives.push_back(base_drive(view));
+  // Several places at once move a marker by a mixture that no one gain tells.
   if (!view.trial.loads.empty() && at_one_place(view.trial.loads))
     drives.push_back(load_drive(view));
   return drives;
@@ -95,6 +99,7 @@ Track track_of(const Trial& trial, int marker) {
   for (int row = 0; row < trial.markers.size(); ++row) {
     const Vec3 x = trial.markers.value.block<1, 3>(row, 3 * marker).transpose();
     if (!x.allFinite()) continue;
+    // Gaps are left out: what follows needs times, and not rows.
     track.time.push_back(trial.markers.time[row]);
     track.place.push_back(x);
   }

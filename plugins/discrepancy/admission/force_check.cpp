@@ -34,9 +34,11 @@ struct Range {
 };
 Range stiffness(const Mat3& compliance, double grip, const Vec3& along) {
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(compliance);
+  // Along a rod nothing gives in the model, and something does in every rod.
   const double least = least_compliance * axes.eigenvalues()[2];
   Range range{1.0 / (along.dot(compliance * along) + grip), 0.0};
   for (int i = 0; i < 3; ++i)
+    // Springs side by side: held along all axes, stiffnesses add up.
     range.held += std::pow(axes.eigenvectors().col(i).dot(along), 2) /
                   (std::max(axes.eigenvalues()[i], least) + grip);
   return range;
@@ -45,6 +47,7 @@ Range stiffness(const Mat3& compliance, double grip, const Vec3& along) {
 // A plant that is led pulls back within the plane of the path and of its own stiffest axis, fast or
 // slowly: not across both.
 bool is_across(const Following& f, const Mat3& compliance) {
+  // A force that does not follow the path at all has no direction to be wrong in.
   if (f.explained() < agrees) return false;
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(compliance);
   const Vec3 normal = f.along.cross(axes.eigenvectors().col(0));
@@ -70,10 +73,12 @@ std::optional<Fault> check_force(const TrialView& view) {
     return Fault{"force.csv", "goes across the way that " + drive.path->file.string() +
                                   " leads the held point: expected the plant's pull against it; "
                                   "another axis, or another trial's table?"};
+  // Led fast, a force is mass and damping, of which this plant's stiffness says nothing.
   if (!is_led_slowly(view, drive)) return std::nullopt;
   const double grip = trial.holds.front().stiffness ? 1.0 / *trial.holds.front().stiffness : 0.0;
   const Range expected = stiffness(plant, grip, f.along);
   const double measured = f.gain.dot(f.along);
+  // What the path leaves of the force, as an error of its slope.
   const double error = sure * f.left / (f.driven * std::sqrt(static_cast<double>(f.rows)));
   const std::string said = text(
       "changes by %.3g N for a metre that the held point is led, and the nominal plant takes "
@@ -81,6 +86,7 @@ std::optional<Fault> check_force(const TrialView& view) {
       measured, expected.free);
   if (measured < -error && f.explained() > agrees && -measured > expected.free / most_off)
     return Fault{"force.csv", said + "the holder's pull on the plant; of the opposite sign?"};
+  // Against the stiffer of the two: a hold that lets nothing go aside is no mistake.
   const bool is_large = measured - error > most_off * expected.held && f.explained() > agrees;
   const bool is_small = std::abs(measured) + error < expected.free / most_off;
   if (!is_large && !is_small) return std::nullopt;

@@ -43,6 +43,7 @@ Range range(const Track& force, double from, double to) {
   Range range;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   for (std::size_t i = 0; i < force.time.size(); ++i) {
+    // Up to, and not at, the release: the sample there may be of either.
     if (force.time[i] < from || force.time[i] >= to) continue;
     low = range.rows == 0 ? force.place[i] : Vec3(low.cwiseMin(force.place[i]));
     high = range.rows == 0 ? force.place[i] : Vec3(high.cwiseMax(force.place[i]));
@@ -53,12 +54,14 @@ Range range(const Track& force, double from, double to) {
 }
 
 std::optional<Fault> after_release(const TrialView& view, const Track& force, const Drive& drive) {
+  // A hold that never lets go has no time after it.
   if (!std::isfinite(drive.until)) return std::nullopt;
   const Range held = range(force, -std::numeric_limits<double>::infinity(), drive.until);
   const Range free =
       range(force, drive.until + least_time, std::numeric_limits<double>::infinity());
   const double noise = view.experiment.noise.force_std.value_or(force_noise * held.size);
   if (free.rows < least_rows || free.size < visible * noise) return std::nullopt;
+  // A sensor rings a little after a release, and drifts.
   if (free.size < goes_on * held.size) return std::nullopt;
   return Fault{"force.csv", text("goes on to change by %.3g N after the release at %.4g s",
                                  free.size, drive.until) +
@@ -81,6 +84,7 @@ class Led {
  private:
   // A passive plant is pulled along.
   static double explained(const Following& f) {
+    // The other sign is no late force but a wrong one: force_check asks that.
     return f.gain.dot(f.along) > 0.0 ? f.explained() : 0.0;
   }
   double whole() const {
@@ -111,8 +115,10 @@ std::optional<Fault> other_unit(const Led& led, const Drive& drive) {
 std::optional<Fault> late(const Led& led, const Drive& drive) {
   if (led.explained() > agrees) return std::nullopt;
   double best = 0.0, shift = 0.0;
+  // Late ones only. A force that is early would be a plant that knows.
   for (double there = least_shift; there < std::min(most_shift, drive.path->time.back());
        there += grid)
+    // The first of those that do as well: a drive may repeat itself.
     if (const double explained = led.explained_by({there, 1.0}); explained > best + 0.005) {
       best = explained;
       shift = there;
@@ -136,6 +142,7 @@ std::optional<Fault> check_force_clock(const TrialView& view) {
   const Track force = force_track(trial);
   const Led led(force, drive);
   if (auto fault = other_unit(led, drive)) return fault;
+  // Led fast, mass and damping make a force early or late by themselves.
   if (is_led_slowly(view, drive))
     if (auto fault = late(led, drive)) return fault;
   return after_release(view, force, drive);

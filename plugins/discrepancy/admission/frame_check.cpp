@@ -40,6 +40,7 @@ std::vector<Vec3> read_as(const Mat3& axes, const std::vector<Vec3>& seen) {
 
 // m, rms from the drawing or from how the plant settles, whichever is nearer.
 double misfit(const FirstPlaces& places, const std::vector<Vec3>& seen) {
+  // A plant may have been drawn as it hangs, or as it grew.
   return std::min(rms_distance(seen, places.drawn), rms_distance(seen, places.settled));
 }
 
@@ -54,11 +55,13 @@ double unexplained(const std::vector<Vec3>& places, const std::vector<Vec3>& see
   }
   const Eigen::JacobiSVD<Mat3> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 sign = Vec3::Ones();
+  // A mirrored frame fits a flat plant as well, and no camera makes one: only turns count.
   sign.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   const Mat3 turn = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
   const double scale = svd.singularValues().dot(sign) / std::max(square, 1e-30);
   const bool is_known = Eigen::AngleAxisd(turn).angle() <= largest_known::rotation &&
                         std::abs(scale - 1.0) <= largest_known::scale;
+  // A turn and a scale that the diagnosis can find are left to it.
   return is_known ? rms_distance(seen, read_as(scale * turn, places)) : rms_distance(seen, places);
 }
 
@@ -95,9 +98,11 @@ double turn_to(const std::vector<Vec3>& places, const std::vector<Vec3>& seen, c
 std::optional<Fault> turned_about_vertical(const FirstPlaces& places, double left,
                                            const TrialView& view) {
   if (places.size() < turned_markers || left < least_misfit * places.spread()) return std::nullopt;
+  // About the origin, where frames are set, or about the root, where pots are turned.
   for (const Vec3& axis : {Vec3(Vec3::Zero()), places.root}) {
     double square = 0.0;
     for (const Vec3& x : places.drawn) square += (x - axis).head<2>().squaredNorm();
+    // What stands on the axis does not show a turn about it.
     if (std::sqrt(square / places.size()) < off_axis * view.nominal_plant->reach()) continue;
     const double angle = turn_to(places.settled, places.seen, axis);
     const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
@@ -126,9 +131,11 @@ std::optional<Fault> shifted(const FirstPlaces& places, const TrialView& view) {
     mean += (places.seen[i] - places.settled[i]) / places.size();
   }
   std::vector<Vec3> back = places.seen;
+  // Put back by the mean: what is left then is no shift.
   for (Vec3& x : back) x -= mean;
   const double limit = std::max(largest_known::offset, least_shift * view.nominal_plant->reach()) +
                        (largest_known::rotation + largest_known::scale) * places.root.norm();
+  // Without a marker near the root a bend looks like a shift.
   if (nearest > near_root * farthest || mean.norm() < limit) return std::nullopt;
   if (misfit(places, back) > uniform * mean.norm()) return std::nullopt;
   return Fault{"markers.csv", "has all markers aside of the plant's drawing by about (" +

@@ -36,10 +36,13 @@ std::optional<Fault> same_columns(const TrialView& view) {
   for (int a = 0; a < markers; ++a)
     for (int b = a + 1; b < markers; ++b) {
       const Spot &one = view.nominal_plant->markers()[a], &other = view.nominal_plant->markers()[b];
+      // Two names for one place are no mistake.
       if ((one.drawn - other.drawn).norm() < apart) continue;
       int equal = 0;
       for (int row = 0; row < samples.size(); ++row)
+        // To the last digit: noise of two markers never is the same.
         equal += place(samples, row, a) == place(samples, row, b) ? 1 : 0;
+      // A tracker that takes one marker for two does so for a while; that is a matter of outliers.
       if (equal < least_equal || equal < often * samples.size()) continue;
       return Fault{"markers.csv", "has the same numbers for " +
                                       both(view.experiment.markers, a, b) + " in " +
@@ -51,6 +54,7 @@ std::optional<Fault> same_columns(const TrialView& view) {
 
 std::optional<Fault> never_seen(const TrialView& view) {
   const Samples& samples = view.trial.markers;
+  // A trial without markers may have forces.
   if (samples.size() == 0 || samples.value.array().isFinite().any()) return std::nullopt;
   return Fault{"markers.csv", "has no marker in any of its " + std::to_string(samples.size()) +
                                   " rows: expected where they were; an export that failed?"};
@@ -64,6 +68,7 @@ std::string number(double x) {
 // some trackers say that they did not see a marker.
 std::optional<Fault> words_for_not_seen(const TrialView& view) {
   const Samples& samples = view.trial.markers;
+  // Twice the reach: the frame may be turned and scaled.
   const double farthest = 2.0 * view.nominal_plant->reach() + view.nominal_plant->root().norm();
   for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
     const bool zero_is_no_place =
@@ -88,6 +93,7 @@ std::optional<Fault> words_for_not_seen(const TrialView& view) {
 
 std::optional<Fault> exchanged_for_good(const TrialView& view) {
   for (const LabelExchange& exchange : exchanges_in(view.trial.markers.value)) {
+    // Short ones are put back, and told as a remark.
     if (exchange.to < view.trial.markers.size()) continue;
     return Fault{"markers.csv",
                  "has " + both(view.experiment.markers, exchange.a, exchange.b) +
@@ -107,10 +113,12 @@ std::optional<Fault> exchanged_from_the_start(const TrialView& view) {
   for (int i = 0; i < first.size(); ++i)
     for (int j = i + 1; j < first.size(); ++j) {
       const int a = first.marker[i], b = first.marker[j];
+      // Neighbours closer than that look exchanged in any strong bend.
       if ((first.settled[i] - first.settled[j]).norm() < 4.0 * little) continue;
       int exchanged = 0, seen = 0;
       for (int row = 0; row < samples.size(); ++row) {
         const Vec3 x = place(samples, row, a), y = place(samples, row, b);
+        // Only where both were seen.
         if (!(x + y).allFinite()) continue;
         ++seen;
         const double kept = (x - first.settled[i]).norm() + (y - first.settled[j]).norm();
@@ -145,6 +153,7 @@ std::vector<Stretch> stretches(const TrialView& view) {
     for (int b = a + 1; b < static_cast<int>(spots.size()); ++b) {
       Stretch stretch{a, b, 0.0, view.nominal_plant->along(spots[a], spots[b]), 0};
       const double most =
+          // What a scaled frame and displaced markers may make of it.
           (1.0 + largest_known::scale) * stretch.way + largest_known::offset + little;
       int seen = 0;
       for (int row = 0; row < samples.size(); ++row) {
@@ -154,6 +163,7 @@ std::vector<Stretch> stretches(const TrialView& view) {
         stretch.apart = std::max(stretch.apart, distance);
         ++stretch.rows;
       }
+      // In many rows: a few are outliers.
       if (stretch.rows >= least_equal && stretch.rows >= often * seen) found.push_back(stretch);
     }
   return found;
@@ -184,6 +194,7 @@ std::optional<Fault> stretched(const TrialView& view) {
 }  // namespace
 
 std::optional<Fault> check_labels(const TrialView& view) {
+  // Without any place the others have nothing to ask.
   if (auto fault = never_seen(view)) return fault;
   if (!view.nominal_plant) return std::nullopt;
   for (const auto check :

@@ -31,6 +31,7 @@ Vec3 force_at(const Trial& trial, double t) {
 }
 
 std::vector<Change> changes_of(const Trial& trial, const Track& track) {
+  // In order and once each: a load that follows another at once is one change.
   std::set<double> times;
   for (const TimedLoad& load : trial.loads)
     for (const double t : {load.from, load.to})
@@ -39,6 +40,7 @@ std::vector<Change> changes_of(const Trial& trial, const Track& track) {
   Vec3 before = force_at(trial, track.time.front());
   for (const double t : times) {
     const Vec3 force = force_at(trial, t);
+    // One load may take the place of another that is the same.
     if ((force - before).norm() > 0.0) changes.push_back({t, force - before});
     before = force;
   }
@@ -61,10 +63,13 @@ std::vector<Rest> rests_of(const Track& track, double noise) {
     for (; row < count; ++row) {
       const Vec3 next_low = low.cwiseMin(track.place[row]);
       const Vec3 next_high = high.cwiseMax(track.place[row]);
+      // A box and not a deviation: one sample that leaves ends a rest.
       if ((next_high - next_low).maxCoeff() > at_rest * noise) break;
       const double rows = static_cast<double>(row - first);
       if (row - first >= least_samples &&
+          // From a mean that is itself known to the noise of so many samples.
           (track.place[row] - sum / rows).norm() > leaves * noise * std::sqrt(1.0 + 1.0 / rows) &&
+          // Two in a row, or an outlier would end it.
           row + 1 < count && (track.place[row + 1] - sum / rows).norm() > leaves * noise)
         break;
       low = next_low;
@@ -88,6 +93,7 @@ std::vector<Rest> distinct(const Track& track, const std::vector<Rest>& rests, d
   std::vector<Rest> found;
   for (const Rest& rest : rests) {
     const double way = found.empty() ? 0.0 : (rest.place - found.back().place).norm();
+    // A swing that dies out looks like many short rests.
     const bool at_once = !found.empty() && rest.first - found.back().last <= turning_samples &&
                          way < turning * noise;
     bool same = !found.empty() && way < leaves * noise;
@@ -105,6 +111,7 @@ std::vector<Rest> distinct(const Track& track, const std::vector<Rest>& rests, d
     return track.time[rest.last] - track.time[rest.first];
   };
   double longest = 0.0;
+  // Relative to the longest, since plants are slow or fast.
   for (const Rest& rest : found) longest = std::max(longest, lasts(rest));
   std::erase_if(found, [&](const Rest& rest) { return lasts(rest) < short_rest * longest; });
   return found;
@@ -123,11 +130,14 @@ double rise(const Track& track, const Rest& from, const Rest& to) {
 LoadAnswers load_answers(const Trial& trial, const Track& track, double noise) {
   if (track.time.size() < 2 * least_samples || noise <= 0.0) return {};
   const std::vector<Change> changes = changes_of(trial, track);
+  // Loads that change all the time leave no rests between them.
   if (changes.empty() || changes.size() > most_changes) return {};
   const std::vector<Rest> rests = distinct(track, rests_of(track, noise), noise);
+  // More rests than changes: something else moves the plant, and no answer is an answer.
   if (rests.size() < 2 || rests.size() > changes.size() + 1) return {};
   LoadAnswers answers;
   for (std::size_t i = 0; i + 1 < rests.size(); ++i) {
+    // Along the change: what goes aside says nothing of its sign.
     const double way = (rests[i + 1].place - rests[i].place).dot(changes[i].force.normalized());
     answers.all.push_back(
         {changes[i].time, track.time[rests[i].last + 1], way, rise(track, rests[i], rests[i + 1])});

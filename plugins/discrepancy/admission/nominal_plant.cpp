@@ -19,6 +19,7 @@ constexpr double largest_way = 0.01, smallest_way = 1.0e-4;
 std::optional<NominalPlant> NominalPlant::of(const Experiment& experiment) {
   try {
     return NominalPlant(experiment);
+    // The plant's own reader tells its faults. Checks that need no plant go on.
   } catch (const InvalidFile&) {
     return std::nullopt;
   }
@@ -31,9 +32,11 @@ NominalPlant::NominalPlant(const Experiment& experiment)
       settled_(drawn_) {
   const cosserat::RodModel& model = built_.model;
   gravity_ = experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
+  // A plant too soft to stand is compared as drawn: what falls over is found by others.
   if (!find_equilibrium(model, settled_, gravity_, {})) settled_ = drawn_;
   root_ = model.root.position;
   for (const cosserat::Element& element : model.elements) {
+    // Along the plant and not through the air: nothing that bends changes it.
     far_.push_back(element.length + (element.parent < 0 ? 0.0 : far_[element.parent]));
     reach_ = std::max(reach_, far_.back());
     mass_ += element.mass;
@@ -54,6 +57,7 @@ Spot NominalPlant::spot(const plant::CurvePlace& place) const {
 const Mat3& NominalPlant::compliance(const Spot& spot) const {
   const auto [known, is_new] =
       compliances_.try_emplace({spot.point.element, spot.point.back}, Mat3::Zero());
+  // Each is six equilibria, and holds are asked for by several checks.
   if (is_new) known->second = find_compliance(spot);
   return known->second;
 }
@@ -76,11 +80,13 @@ Mat3 NominalPlant::find_compliance(const Spot& spot) const {
       const Vec3 one = force * Vec3::Unit(axis);
       compliance.col(axis) = (moved(one) - moved(-one)) / (2.0 * force);
     }
+    // A plant at rest has an energy, so its compliance is symmetric. What is not is error.
     return Mat3(0.5 * (compliance + compliance.transpose()));
   };
   const Mat3 compliance = estimate(usual_force);
   const double way = usual_force * compliance.diagonal().maxCoeff() / reach_;
   if (!(way > largest_way || way < smallest_way)) return compliance;
+  // A stiff tree hardly moves under a millinewton, a thin stem folds under it.
   return estimate(usual_force * largest_way / way);
 }
 
@@ -92,6 +98,7 @@ double NominalPlant::along(const Spot& a, const Spot& b) const {
     int& later = one > other ? one : other;
     later = built_.model.elements[later].parent;
   }
+  // They meet at the root alone.
   if (std::min(one, other) < 0) return a.from_root + b.from_root;
   // The way to the fork is shared; where one of the two is on the way to the other, up to that one.
   const double shared = std::min({far_[one], a.from_root, b.from_root});

@@ -26,6 +26,7 @@ std::string percent(double share) {
 const Trial* follows_that_of(const Beside& beside) {
   const Experiment& experiment = beside.view().experiment;
   for (const Trial& other : experiment.trials) {
+    // A table that was copied from another trial follows that one's path.
     if (&other == &beside.view().trial) continue;
     const TrialView view{experiment, other, beside.view().nominal_plant};
     for (const Drive& drive : drives_of(view))
@@ -36,9 +37,11 @@ const Trial* follows_that_of(const Beside& beside) {
 
 std::string other_axes_of(const Following& f) {
   const Axes* best = nullptr;
+  // As far along as 37 degrees: any of the 47 other readings must point clearly that way.
   double most = 0.8 * f.gain.norm();
   for (const Axes& axes : other_axes()) {
     const double along = (axes.read * f.along).dot(f.gain);
+    // They come with the commonest mistake first, which a rarer one has to beat.
     if (along <= (best ? 1.05 * most : most)) continue;
     most = along;
     best = &axes;
@@ -51,6 +54,7 @@ std::string other_axes_of(const Following& f) {
 std::string likely(const Beside& beside, const Following& f) {
   if (const Trial* other = follows_that_of(beside))
     return "; the markers of trial " + other->name + "?";
+  // Read otherwise it must be the same motion, all of it.
   if (f.explained() > agrees) {
     const std::string axes = other_axes_of(f);
     if (!axes.empty()) return axes;
@@ -63,7 +67,9 @@ std::optional<Fault> goes_elsewhere(const Beside& beside) {
   const Following f = beside.follow();
   const double reach = beside.view().nominal_plant->reach();
   if (f.rows < least_rows) return std::nullopt;
+  // Of little a plant may make anything, and noise does the rest.
   if (f.driven < std::max(least_way * reach, seen * beside.noise())) return std::nullopt;
+  // It rests while its neighbour is led: another marker's column, or another trial's.
   if (f.moved < rests * f.driven)
     return Fault{"markers.csv",
                  "has " + beside.marker() +

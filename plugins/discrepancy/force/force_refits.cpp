@@ -20,6 +20,8 @@ std::string family_of(const plant::Effect& force) {
   return kind_of(force) == "string" ? "stop" : kind_of(force);
 }
 
+// A spring as strong as the push at a distance of the end, so that the refit begins where the push
+// was.
 plant::Effect near_end(plant::Effect force, const ForcePlace& place, double distance) {
   if (kind_of(force) == "constant") {
     const Vec3 push(force.numbers.at("force").data());
@@ -43,6 +45,7 @@ plant::Effect as_stop(plant::Effect string, double least_across) {
   const Vec3 axis = Vec3(string.numbers.at("axis").data()).normalized();
   const Vec3 pull = direction_of(string);
   const Vec3 across = pull - axis.dot(pull) * axis;
+  // A string along the curve has no direction across it: the stop keeps the one that it had.
   if (across.norm() > least_across) {
     const Vec3 n = across.normalized();
     string.numbers["towards"] = {n.x(), n.y(), n.z()};
@@ -60,6 +63,7 @@ std::string place_text(const plant::CurvePlace& place) {
 }
 
 std::string kind_with_near_end(const std::string& kind) {
+  // Others have no end, or have it near already.
   return kind == "stop" ? "string" : kind == "constant" ? "spring" : "";
 }
 
@@ -76,12 +80,15 @@ ForceRefits::ForceRefits(Evaluator& evaluator, const FitSummary& model, const Fi
 
 void ForceRefits::run(std::vector<ForceTerm> laws) {
   linear_ = std::move(laws);
+  // Each takes a fit of all numbers by the fine simulator, so only the best go in.
   for (const ForceTerm& law : worth_refitting()) refit(law);
   if (refitted_.empty()) return;
   sort();
   for (const ForceTerm& law : close_ones())
     if (const std::optional<ForceTerm> other = with_other_end(law)) refit(*other);
   sort();
+  // Corrections were taken at a model without the force. What won is fitted once more with those of
+  // its own.
   if (!options_.correct_at) return;
   options_.correct_at(best_);
   best_ = discrepancy::refit(evaluator_, best_, options_.fit);
@@ -98,6 +105,8 @@ std::vector<ForceTerm> ForceRefits::worth_refitting() const {
   if (linear_.empty()) return {};
   const plant::Effect& first = linear_.front().force;
   const double best = linear_.front().evidence;
+  // Linear evidence errs by a part of itself: the limit is a share of the best for large forces,
+  // and some nats for small ones.
   const double least = std::max(
       budget_.law_evidence, std::min(best - budget_.law_within, (1.0 - budget_.law_share) * best));
   std::vector<ForceTerm> chosen;
@@ -107,6 +116,7 @@ std::vector<ForceTerm> ForceRefits::worth_refitting() const {
         known.insert(what).second)
       chosen.push_back(law);
   };
+  // Another place of one kind is found by the refit itself, along the curve; another curve is not.
   std::set<std::string> families, curves{first.place->curve};
   for (const ForceTerm& law : linear_) take(law, families, family_of(law.force));
   for (const ForceTerm& law : linear_)
@@ -119,6 +129,7 @@ std::vector<ForceTerm> ForceRefits::worth_refitting() const {
 void ForceRefits::refit(ForceTerm law) {
   FitSummary found = fitted(law);
   judge(found, law);
+  // All that were refitted are kept: the verdict says which others do as well.
   const bool better = refitted_.empty() || law.evidence > best_evidence_;
   refitted_.push_back(law);
   if (!better) return;
@@ -130,6 +141,7 @@ void ForceRefits::refit(ForceTerm law) {
 // stiff has ridges between places. A few iterations tell which one goes on.
 FitSummary ForceRefits::fitted(const ForceTerm& law) {
   FitOptions few = options_.fit;
+  // Laws with a threshold never quite converge.
   few.iterations = std::min(budget_.law_iterations, few.iterations);
   std::vector<plant::Effect> places{law.force};
   for (const ForceTerm& other : linear_)
@@ -144,15 +156,18 @@ FitSummary ForceRefits::fitted(const ForceTerm& law) {
   FitSummary best;
   for (const plant::Effect& force : places) {
     FitSummary found = fit(evaluator_, best_start(force), look);
+    // Of one kind with as many numbers, so costs alone decide.
     if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
   }
   few.iterations -= look.iterations;
+  // What the look has taken counts: no kind gets more iterations than another.
   return few.iterations > 0 ? discrepancy::refit(evaluator_, best, few) : best;
 }
 
 // What looks like a stop may be a string to a point at any distance.
 Hypothesis ForceRefits::best_start(const plant::Effect& force) {
   std::vector<Hypothesis> starts;
+  // The linear size is off where the plant bends far. Three tries are one batch of simulations.
   for (const double factor : {1.0, 0.5, 2.0}) {
     plant::Effect scaled = force;
     scale_force(scaled, factor);
@@ -160,6 +175,7 @@ Hypothesis ForceRefits::best_start(const plant::Effect& force) {
   }
   if (kind_of(force) == "string")
     for (const ForceTerm& stop : refitted_)
+      // The linear library finds a far end only: along a short path all distances pull alike.
       for (const double distance : {0.3, 0.6, 1.5})
         if (kind_of(stop.force) == "stop") {
           plant::Effect string = stop.force;
@@ -167,6 +183,7 @@ Hypothesis ForceRefits::best_start(const plant::Effect& force) {
           string.numbers["distance"] = {distance * scales_.length};
           starts.push_back(with(string));
         }
+  // By the simulator itself, all starts side by side.
   return starts[scan(evaluator_, starts, options_.fit).best];
 }
 
@@ -176,6 +193,7 @@ Hypothesis ForceRefits::with(const plant::Effect& force) const {
   if (start.size() > 0)  // which have taken what they could of the force
     start.set_unknowns(start.unknowns() +
                        place.space.shift * history_of(force, place.space, place.path, scales_));
+  // The place along the curve is free, too: the true one may lie between markers.
   start.add(free_force(force, 0.02 * scales_.length, scales_.duration));
   start.name = missing_force;
   return start;
@@ -183,9 +201,11 @@ Hypothesis ForceRefits::with(const plant::Effect& force) const {
 
 // What a refit says about its law.
 void ForceRefits::judge(const FitSummary& found, ForceTerm& law) const {
+  // From the model without a force, refitted: what its numbers could explain is not the law's.
   law.gain = (model_.cost - found.cost) / scales_.dispersion;
   // One more: its place along the curve.
   law.evidence = law.gain - cost_of(law.parameters + 1, scales_.samples, scales_.choices);
+  // As it was fitted, with its place. It was added last.
   law.force = found.hypothesis.effects.back();
   if (options_.note)
     options_.note("Refitted: " + describe(law.force) + " at " + place_text(*law.force.place) +
@@ -210,11 +230,13 @@ std::optional<ForceTerm> ForceRefits::with_other_end(const ForceTerm& law) const
   const auto tried = [&](const ForceTerm& other) {
     return kind_of(other.force) == kind && other.force.place->curve == law.force.place->curve;
   };
+  // Once a curve is enough: the refit walks along it.
   if (kind.empty() || std::ranges::any_of(refitted_, tried)) return {};
   ForceTerm other = law;
   other.force = is_string ? as_stop(law.force, options_.fit.settings->accuracy.least_across)
                           : near_end(law.force, nearest(*law.force.place),
                                      options_.fit.settings->accuracy.far_end * scales_.length);
+  // Two angles, offset, distance and stiffness of a string; a stop and a spring have three numbers.
   other.parameters = kind == "string" ? 5 : 3;
   return other;
 }
@@ -222,6 +244,7 @@ std::optional<ForceTerm> ForceRefits::with_other_end(const ForceTerm& law) const
 const ForcePlace& ForceRefits::nearest(const plant::CurvePlace& at) const {
   return *std::ranges::min_element(places_, std::less(), [&](const ForcePlace& place) {
     const plant::CurvePlace& there = place.space.place;
+    // Ten lengths: another curve is farther than any place of the same one.
     return (there.curve == at.curve ? 0.0 : 10.0) + std::abs(there.at - at.at);
   });
 }

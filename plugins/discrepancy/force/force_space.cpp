@@ -13,6 +13,7 @@ namespace {
 
 constexpr double least_interval = 0.1;  // s between knots: pushes of up to 3 Hz
 constexpr int most_knots = 50;          // of a trial
+// Responses are differences of two simulations, so errors of the step cancel.
 constexpr double response_dt = 1.0 / 240;
 constexpr double wanted_bend = 0.03;  // of a curve's length: well above the solver's tolerance
 constexpr double memory = 0.3;        // s, of a force of no particular law
@@ -30,11 +31,13 @@ double hat(double t, double middle, double interval) {
 Eigen::MatrixXd smoothed(const Eigen::MatrixXd& x, const std::vector<double>& time, double within) {
   Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(x.rows(), x.cols());
   for (Eigen::Index row = 0, from = 0, to = 0; row < x.rows(); ++row) {
+    // Two ends that only move forward: the whole takes one pass.
     while (time[from] < time[row] - within) ++from;
     while (to < x.rows() && time[to] <= time[row] + within) ++to;
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
       const auto near = x.col(c).segment(from, to - from).array();
       const double count = static_cast<double>(near.isFinite().count());
+      // Where a marker was hidden the model alone is believed.
       if (count > 0.0) mean(row, c) = near.isFinite().select(near, 0.0).sum() / count;
     }
   }
@@ -54,6 +57,8 @@ ForceResponses::ForceResponses(const Experiment& experiment, const DataSet& data
       simulator_(experiment, {distance, response_dt}, threads, stop) {
   std::vector<Simulator::Request> requests;
   for (const int trial : trials_) {
+    // Long trials get slower histories. Their number of knots is bounded, as every knot is two
+    // simulations.
     const double duration = experiment.trials[trial].duration();
     ForceKnots knots;
     knots.trial = trial;
@@ -62,6 +67,8 @@ ForceResponses::ForceResponses(const Experiment& experiment, const DataSet& data
     knots_.push_back(knots);
     requests.push_back({&variant_, trial});
   }
+  // With the same mesh and step as the responses: the evaluator's own predictions differ by more
+  // than a small push does.
   plain_ = simulator_.run(requests);
 }
 
@@ -70,9 +77,12 @@ std::vector<Vec3> ForceResponses::axes_at(int marker) const {
   Vec3 tangent = Vec3::UnitZ();
   for (const plant::PlantCurve& curve : experiment_.plant.curves)
     if (curve.name == place.curve)
+      // As drawn. What bends a little afterwards stays nearly across.
       tangent = drawn_point(curve, std::min(1.0, place.at + 0.02)) -
                 drawn_point(curve, std::max(0.0, place.at - 0.02));
   std::vector<Vec3> axes(2);
+  // Along the curve a stem is thousands of times stiffer: a force there moves nothing, and any size
+  // of it would fit.
   across(tangent, axes[0], axes[1]);
   return axes;
 }
@@ -80,6 +90,8 @@ std::vector<Vec3> ForceResponses::axes_at(int marker) const {
 // N: a constant push of this size bends the plant by the wanted share of its length at most.
 double ForceResponses::push_size(int marker, const std::vector<Vec3>& axes) {
   const Scales scales = scales_of(experiment_);
+  // A hundredth of the weight bends no plant far, and some plants much: so the push is first tried,
+  // and then scaled.
   const double trial_size = 0.01 * 9.81 * scales.mass;
   double most = 0.0;
   std::vector<Variant> variants(axes.size(), variant_);
@@ -97,10 +109,13 @@ double ForceResponses::push_size(int marker, const std::vector<Vec3>& axes) {
     for (const double x : moved.reshaped())
       if (std::isfinite(x)) most = std::max(most, std::abs(x));
   }
+  // A larger one would leave the linear range, a smaller one would drown in what Newton's method
+  // leaves.
   return most > 0.0 ? trial_size * wanted_bend * scales.length / most : trial_size;
 }
 
 Eigen::MatrixXd ForceResponses::simulate(const ForceKnots& knots, double size, ForceSpace& space) {
+  // One variant a coefficient. They have the plant in common and fill the solver's lanes.
   const int count = static_cast<int>(space.axes.size()) * knots.count;
   std::vector<Variant> variants(count, variant_);
   std::vector<Simulator::Request> requests;
@@ -119,15 +134,18 @@ Eigen::MatrixXd ForceResponses::simulate(const ForceKnots& knots, double size, F
   const Prediction& plain = plain_[index];
   const int rows = samples_of(data_, knots.trial);
   Eigen::VectorXd before(rows), after(rows);
+  // In noise units, so that sums of squares are log likelihoods.
   data_.residual(knots.trial, plain, 1.0, before);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, count);
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3 * plain.markers.rows(), count);
   for (int c = 0; c < count; ++c) {
+    // A column of zeros: a push that the plant does not survive explains nothing.
     if (!pushed[c].healthy) continue;
     data_.residual(knots.trial, pushed[c], 1.0, after);
     columns.col(c) = (before - after) / size;
     const Eigen::MatrixXd moved =
         (pushed[c].markers - plain.markers).middleCols(3 * space.marker, 3) / size;
+    // Laws depend on where the place is. What the force itself moves it by is part of that.
     motion.col(c) = moved.reshaped();
   }
   space.motion.push_back(std::move(motion));
@@ -147,6 +165,8 @@ ForceSpace ForceResponses::prepared(int axes) const {
   ForceSpace space;
   int size = 0;
   for (ForceKnots knots : knots_) {
+    // Coefficients of trials follow one another: a force has a history in each, and nothing ties
+    // them but its law.
     knots.first = size;
     size += axes * knots.count;
     space.knots.push_back(knots);
@@ -159,10 +179,12 @@ ForceSpace ForceResponses::prepared(int axes) const {
 void ForceResponses::add(const Eigen::MatrixXd& columns, const ForceKnots& knots, ForceSpace& space,
                          Eigen::MatrixXd& coupling) const {
   const Eigen::Index row = row_of(knots.trial), rows = columns.rows(), count = columns.cols();
+  // Trials do not share samples, so there are no blocks between them.
   space.normal.block(knots.first, knots.first, count, count).noalias() =
       columns.transpose() * columns;
   space.right.segment(knots.first, count).noalias() =
       columns.transpose() * model_.residual.segment(row, rows);
+  // What both force and parameters can explain must not be counted twice.
   if (model_.jacobian.cols() > 0)
     coupling.middleRows(knots.first, count).noalias() =
         columns.transpose() * model_.jacobian.middleRows(row, rows);
@@ -175,13 +197,18 @@ void ForceResponses::finish(ForceSpace& space, const Eigen::MatrixXd& coupling) 
   Eigen::MatrixXd information = jacobian.transpose() * jacobian;
   for (int p = 0; p < model_.hypothesis.size(); ++p) {
     const double prior = model_.hypothesis.free[p].prior;
+    // A parameter that the data do not see would make the matrix singular.
     information(p, p) += 1.0e-9 * (1.0 + information(p, p));
+    // What is known beforehand keeps parameters from standing for the force.
     if (prior > 0.0) information(p, p) += 1.0 / (prior * prior);
   }
   const Eigen::LDLT<Eigen::MatrixXd> solver(information);
   const Eigen::MatrixXd moved = solver.solve(coupling.transpose());
+  // Refits start with parameters that have already given way.
   space.shift = -moved;
   space.normal.noalias() -= coupling * moved;
+  // The residual at a fit's end is not orthogonal to its derivatives where a parameter stands at a
+  // bound or has a prior.
   space.right.noalias() -= moved.transpose() * (jacobian.transpose() * model_.residual);
 }
 
@@ -200,6 +227,7 @@ ForceSpace ForceResponses::force_at(int marker) {
 
 ForceSpace ForceResponses::displacement_of(const std::vector<int>& markers) const {
   constexpr double step = 1.0e-3;  // m
+  // A camera that moves is not bound to the curve's two directions.
   ForceSpace space = prepared(3);
   space.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   Eigen::MatrixXd coupling(space.size(), model_.jacobian.cols());
@@ -211,6 +239,7 @@ ForceSpace ForceResponses::displacement_of(const std::vector<int>& markers) cons
     data_.residual(knots.trial, plain_[k], 1.0, before);
     Eigen::MatrixXd columns(rows, 3 * knots.count);
     for (int c = 0; c < 3 * knots.count; ++c) {
+      // Nothing is simulated: what the sensor does, the plant does not feel.
       Prediction moved = plain_[k];
       for (const int m : markers)
         for (std::size_t i = 0; i < time.size(); ++i)
@@ -233,18 +262,23 @@ ForcePath ForceResponses::path(const ForceSpace& space, const Eigen::VectorXd& h
     const Eigen::Index rows = plain_[k].markers.rows();
     const Eigen::VectorXd moved =
         space.motion[k] * history.segment(knots.first, space.motion[k].cols());
+    // First the model with the free force, which has no gaps and no noise.
     Eigen::MatrixXd x = plain_[k].markers.middleCols(3 * space.marker, 3) + moved.reshaped(rows, 3);
     const Samples& seen = experiment_.trials[knots.trial].markers;
+    // Then what was seen, smoothed over a knot: a law must follow the plant that was there, and not
+    // the model of it.
     x += smoothed(seen.value.middleCols(3 * space.marker, 3) - x, time, 0.5 * knots.interval);
     Eigen::MatrixXd position(knots.count, 3), velocity(knots.count, 3);
     for (int i = 0; i < knots.count; ++i) {
       const double t = std::min(i * knots.interval, time.back());
       const auto next = std::upper_bound(time.begin(), time.end(), t) - time.begin();
       const auto b = std::clamp<std::ptrdiff_t>(next, 1, rows - 1), a = b - 1;
+      // Samples need not be even.
       const double share = (t - time[a]) / (time[b] - time[a]);
       position.row(i) = (1.0 - share) * x.row(a) + share * x.row(b);
       const auto from = std::max<std::ptrdiff_t>(0, a - 1),
                  to = std::min<std::ptrdiff_t>(rows - 1, b + 1);
+      // Over three samples or more: a difference of neighbours would be noise.
       velocity.row(i) = (x.row(to) - x.row(from)) / (time[to] - time[from]);
     }
     path.position.push_back(std::move(position));
@@ -261,6 +295,8 @@ FreeForce free_history(const ForceSpace& space) {
     Eigen::MatrixXd correlation(knots.count, knots.count);
     for (int i = 0; i < knots.count; ++i)
       for (int j = 0; j < knots.count; ++j)
+        // A memory of some tenths of a second: slower than noise, and as fast as the knots can
+        // follow.
         correlation(i, j) = std::exp(-std::abs(i - j) * knots.interval / memory);
     const Eigen::LLT<Eigen::MatrixXd> root(correlation);
     const Eigen::MatrixXd one = root.solve(Eigen::MatrixXd::Identity(knots.count, knots.count));
@@ -271,11 +307,15 @@ FreeForce free_history(const ForceSpace& space) {
       log_determinant += 2.0 * l.diagonal().array().log().sum();
     }
   }
+  // The size at which force and noise weigh the same on average: the search for it begins around
+  // there, whatever the plant's stiffness is.
   const double unit = space.size() / std::max(space.normal.trace(), 1.0e-300);  // variance
   FreeForce best;
   best.value = best.error = Eigen::VectorXd::Zero(space.size());
+  // By tens. The evidence is flat about its top, and only its size is asked for.
   for (double factor = 1.0e-3; factor < 1.0e4; factor *= 10.0) {
     const double variance = factor * unit;
+    // Of a size that the numbers cannot bear no evidence is told.
     const Eigen::LLT<Eigen::MatrixXd> root(space.normal + inverse / variance);
     if (root.info() != Eigen::Success) continue;
     const Eigen::VectorXd value = root.solve(space.right);
@@ -285,6 +325,7 @@ FreeForce free_history(const ForceSpace& space) {
     if (evidence <= best.evidence) continue;
     best.evidence = evidence;
     best.value = value;
+    // Without the prior: what this history explains, to be compared with laws.
     best.gain = space.right.dot(value) - 0.5 * value.dot(space.normal * value);
     const Eigen::MatrixXd covariance =
         root.solve(Eigen::MatrixXd::Identity(space.size(), space.size()));

@@ -18,6 +18,8 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Of laws in the library. Each place is tried with all of them, and a choice among so many is paid
+// for.
 constexpr std::size_t kinds = 11;
 
 class Inference {
@@ -28,6 +30,8 @@ class Inference {
         options_(options),
         levels_(options.fit.settings->levels),
         experiment_(evaluator.data().experiment()) {
+    // Of the fitted trials: these judge laws, while trials held out have a word of their own at the
+    // end.
     scales_.samples = evaluator.data().samples(options.fit.trials);
     for (const plant::PlantCurve& curve : experiment_.plant.curves)
       scales_.length = std::max(scales_.length, drawn_length(curve));
@@ -40,17 +44,23 @@ class Inference {
   MissingForce run() {
     choose_centre();
     look_at_places();
+    // Before any law: a camera that moves looks like a force everywhere, and laws would be fitted
+    // to it.
     const bool of_sensor = look_at_sensor();
+    // Half of a search names the place that happened to come first.
     if (stopped()) {
       places_.clear();
     } else if (of_sensor) {
       conclude_sensor();
+      // A free force contains every law. Where even it explains too little, none of them can do
+      // better.
     } else if (!places_.empty() && places_.front().free.evidence > options_.least_evidence) {
       try_laws();
       ForceRefits refits(evaluator_, model_, centre_, places_, scales_, options_);
       refits.run(std::move(terms_));
       result_.terms = refits.laws();
       result_.fit = refits.best();
+      // By the refits, since the linear response flatters large forces.
       if (!result_.terms.empty()) result_.evidence = result_.terms.front().evidence;
       if (!stopped()) conclude();
     }
@@ -74,15 +84,19 @@ class Inference {
     std::vector<int> all;
     for (const MarkerChain& chain : chains_of(experiment_))
       for (std::size_t m = 0; m < chain.markers.size(); ++m)
+        // At the foot a force moves nothing, and any size of it would do.
         if (chain.arc[m] > 0.02 * chain.length) all.push_back(chain.markers[m]);
     const auto most_places = static_cast<std::size_t>(options_.fit.settings->budget.force_places);
+    // Each place takes some hundred simulations a trial.
     if (all.size() <= most_places) return all;
     std::vector<int> chosen;
     for (std::size_t i = 0; i < most_places; ++i)
+      // With both ends: a tip is where things touch.
       chosen.push_back(all[i * (all.size() - 1) / (most_places - 1)]);
     return chosen;
   }
 
+  // Half of a chi-square with a degree of freedom a sample: what perfect models cost, too.
   double noise_cost() const { return 0.5 * scales_.samples; }
 
   // Where no number of the plant can stand for a force, it pulls them far away all the same: the
@@ -92,11 +106,14 @@ class Inference {
     if (conflicts_with_prior(model_, *options_.fit.settings)) {
       note("The refitted plant contradicts what is known of it: forces act on the nominal one.");
       FitOptions none = options_.fit;
+      // Looked at and not fitted: fitted, it would be pulled away again.
       none.iterations = 0;
       centre_ = fit(evaluator_, at_prior(model_.hypothesis), none);
+      // Corrections of mesh and step hold near the model at which they were taken.
       if (options_.correct_at) options_.correct_at(centre_);
     }
     const Simulator& simulator = evaluator_.simulator();
+    // Responses are differences, in which errors of a coarse mesh cancel.
     const double distance = options_.response_distance > 0.0 ? options_.response_distance
                                                              : simulator.numerics().distance;
     responses_ =
@@ -111,16 +128,19 @@ class Inference {
       ForcePlace place;
       place.space = responses_->force_at(marker);
       place.free = free_history(place.space);
+      // Laws need to know where the place was, and it went there with the force.
       place.path = responses_->path(place.space, place.free.value);
       most = std::max(most, place.free.gain);
       places_.push_back(std::move(place));
     }
+    // By evidence and not by gain: a place that moves much explains noise, too.
     std::ranges::stable_sort(places_, [](const ForcePlace& a, const ForcePlace& b) {
       return a.free.evidence > b.free.evidence;
     });
     for (const ForcePlace& place : places_)
       note("A free force at " + place_text(place.space.place) +
            text(": evidence %.4g", place.free.evidence));
+    // What the best free force leaves is the model's own error. Laws are judged in units of it.
     scales_.dispersion = std::max(1.0, (centre_.cost - most) / noise_cost());
     scales_.choices = kinds * std::max<std::size_t>(1, places_.size());
   }
@@ -128,9 +148,12 @@ class Inference {
   // Whether markers that move by themselves explain the data better than any force does. One alone
   // could always have moved so.
   bool look_at_sensor() {
+    // Nothing would say otherwise: the plant may have stood still.
     if (experiment_.markers.size() < 2) return false;
     std::vector<std::vector<int>> groups{{}};
     for (int m = 0; m < static_cast<int>(experiment_.markers.size()); ++m) {
+      // All alike is the frame of the camera, one alone is a marker that came loose. Other groups
+      // have no such meaning.
       groups.front().push_back(m);
       groups.push_back({m});
     }
@@ -143,6 +166,7 @@ class Inference {
     }
     const double force = places_.empty() ? 0.0 : places_.front().free.evidence;
     note(text("A free displacement of markers: evidence %.4g", sensor_evidence_));
+    // By a clear margin: displacements are freer than forces, which have to bend the plant.
     return sensor_evidence_ > std::max(force, levels_.outside_evidence) + levels_.clear_margin;
   }
 
@@ -150,6 +174,7 @@ class Inference {
     result_.found = true;
     result_.kind = "sensor";
     result_.evidence = sensor_evidence_;
+    // No place on the plant is told: there is nothing to look for there.
     result_.where = sensor_.size() > 1 ? "All markers move alike: the camera's frame or the base"
                                        : "Marker \"" + experiment_.markers[sensor_.front()].name +
                                              "\" moves on its own: the marker, not the plant";
@@ -158,6 +183,7 @@ class Inference {
   }
 
   double share_of(double gain) const {
+    // Of what the refitted model leaves above the noise: noise can be explained by nothing.
     return std::clamp(gain / std::max(1.0, model_.cost - noise_cost()), 0.0, 1.0);
   }
 
@@ -165,6 +191,8 @@ class Inference {
     std::map<std::string, std::size_t> tried;  // places of each curve
     for (const ForcePlace& place : places_) {
       if (stopped()) return;
+      // Places along one curve answer much alike, so two of each are enough. Those with the most
+      // evidence are tried in any case.
       const bool strong = &place - places_.data() < options_.fit.settings->budget.strong_places;
       if (++tried[place.space.place.curve] > 2 && !strong) continue;
       const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
@@ -184,20 +212,26 @@ class Inference {
       result_.found = true;
       result_.kind = plain_kind(force);
       result_.place = force.place;
+      // From the refitted model and not from the centre: what numbers of the plant explain is not
+      // the force's.
       result_.share = share_of(model_.cost - result_.fit.cost);
       result_.what = "It fits best as this: " + describe(force);
       describe_course(
           course_of_law(evaluator_.simulator(), result_.fit.hypothesis, options_.fit.trials),
           kind_of(force));
+      // Sentences first say what it is, and then how well that is known.
       find_elsewhere();
       find_other_kinds();
       check();
+      // A free force acts on the centre, which is worse than the model: what it makes up for first
+      // is not its own.
     } else if (strongest.free.evidence - (centre_.cost - model_.cost) >= levels_.outside_evidence) {
       result_.found = true;
       result_.kind = "force of no known law";
       result_.place = strongest.space.place;
       result_.evidence = strongest.free.evidence - (centre_.cost - model_.cost);
       result_.share = share_of(strongest.free.gain - (centre_.cost - model_.cost));
+      // A person may see what the library does not have: place and course are told all the same.
       result_.what = "No law of the library follows it";
       describe_course(course_of_history(strongest.space, strongest.path, strongest.free.value), "");
     }
@@ -209,9 +243,11 @@ class Inference {
     const Hypothesis& model = result_.fit.hypothesis;
     for (int p = 0; p < model.size(); ++p)
       if (model.free[p].name == "at" && model.effects[model.free[p].effect].name == missing_force &&
+          // At the end of a curve the place is at its bound, and no deviation is known.
           std::isfinite(result_.fit.standard_error[p]))
         result_.place_error =
             std::hypot(model.free[p].scale * result_.fit.standard_error[p], node_share());
+    // One place of each other curve: along a curve the deviation says it.
     std::set<std::string> known{result_.place->curve};
     for (const ForceTerm& term : result_.terms)
       if (term.evidence > result_.evidence - levels_.clear_odds &&
@@ -232,6 +268,8 @@ class Inference {
     const ForceTerm& best = result_.terms.front();
     std::set<std::string> known{result_.kind};
     for (const ForceTerm& term : result_.terms) {
+      // The kind with a near end has one number more, and contains the other. It does as well where
+      // the gains are equal: its price would always refuse it.
       const bool near_end = kind_of(term.force) == kind_with_near_end(kind_of(best.force));
       const bool as_well = near_end ? term.gain > best.gain - levels_.clear_odds
                                     : term.evidence > best.evidence - levels_.clear_odds;
@@ -257,6 +295,8 @@ class Inference {
   // RMS error in noise units over the held-out trials, without and with the force.
   void check() {
     if (options_.check.empty()) return;
+    // Nothing is fitted there: a force that is really outside does the same in trials it was not
+    // fitted to.
     FitOptions kept = options_.fit;
     kept.trials = options_.check;
     const std::vector<Hypothesis> models{model_.hypothesis, result_.fit.hypothesis};
@@ -273,8 +313,10 @@ class Inference {
       error[m] = std::sqrt(sum / std::max(count, 1.0));
     }
     note(text("Held-out trials: %.4g of the noise without it, %.4g with it", error[0], error[1]));
+    // Within the noise there is nothing to gain.
     if (error[0] > 1.0) result_.gain = (error[0] - error[1]) / (error[0] - 1.0);
     if (error[1] <= levels_.held_out_worse * error[0]) return;
+    // A wrong force is worse than none: people would act on it.
     result_.found = false;
     result_.refused =
         text(

@@ -13,6 +13,8 @@ namespace {
 constexpr double least_peak = 8.0;       // noise units: so far chance alone does not come
 constexpr double odds_spread = 1.81380;  // pi / sqrt 3, standard deviation of the logistic
 
+// Of samples, for people: it is what a table of such a record says. Nothing is judged by it but
+// whether there is any force.
 void find_peak(const PickForce& course, Pick& pick) {
   for (int i = 0; i < course.size(); ++i)
     if (const double size = course.force(i).norm(); size > pick.peak_force) {
@@ -32,10 +34,14 @@ constexpr double least_load = 0.25;
 
 Pick with_probability(Pick pick, const PickForce& course, const PickSettings& s) {
   Fall& fall = *pick.fall;
+  // What is faster than arm, sampling or averaging can follow looks as slow as these are.
   pick.limit = std::hypot(s.response, pick.interval, 0.5 * fall.smoothing);
+  // A fall without a half is slower than what was looked at.
   const double half = fall.half.value_or(s.settle + 2.0 * s.level);
   pick.probability = probability_of_break(half, fall.half_error, pick.limit, s.sharpness);
+  // The likelier one. The probability is told beside it, so that a user can ask for more.
   pick.end = *pick.probability >= 0.5 ? Pick::End::came_off : Pick::End::slipped;
+  // A break has a moment, a slip has a beginning: it is told by another rule.
   if (pick.end == Pick::End::slipped) {
     const Beginning beginning = beginning_of(course, fall, s);
     fall.onset = beginning.time;
@@ -47,6 +53,8 @@ Pick with_probability(Pick pick, const PickForce& course, const PickSettings& s)
 }  // namespace
 
 double probability_of_break(double half, double error, double limit, double sharpness) {
+  // A logistic curve blurred by a normal one is nearly a wider logistic curve, with added
+  // variances.
   const double blur = sharpness * (half > 0.0 ? error / half : 1.0) / odds_spread;
   const double power = sharpness / std::sqrt(1.0 + blur * blur);
   return 1.0 / (1.0 + std::pow(half / limit, power));
@@ -56,6 +64,8 @@ Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
   if (const std::string fault = check(settings); !fault.empty()) throw UsageError(fault);
   const PickForce course(record, settings.rest);
   Pick pick;
+  // Every refusal below is an answer and no error: a program that reads thousands of records goes
+  // on.
   if (course.size() < 3) return unclear(pick, "fewer than three samples have all their values");
   pick.noise = course.noise();
   pick.interval = course.interval();
@@ -66,9 +76,11 @@ Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
   if (!pick.fall)
     return unclear(pick, "the record is too short for a level of the force before and after");
   const LargestLoad load = largest_load(course, settings);
+  // A fall of a small load happens on the way, when a leaf gives way. It is not the pick's.
   if (pick.fall->share >= settings.share && pick.fall->before >= least_load * load.force)
     return with_probability(std::move(pick), course, settings);
   pick.fall = whole_fall(course, load, settings);
+  // Somebody has stopped the recorder at the break. What it was cannot be known.
   if (ends_in_a_fall(course, load, settings))
     return unclear(std::move(pick), "the record ends while the force falls");
   if (pick.fall->share >= settings.share)
@@ -84,6 +96,7 @@ std::optional<double> Pick::time() const {
 
 std::string Pick::outcome() const {
   if (end == End::unclear) return "unclear";
+  // The words of public data sets, so that tables can be compared.
   return end == End::came_off ? "detached" : "failed";
 }
 
@@ -95,6 +108,7 @@ std::string Pick::sentence() const {
   };
   switch (end) {
     case End::came_off:
+      // Two deviations: people read plus and minus as what is nearly sure.
       return text("The fruit came off at %.3f s (+- %.3f s): ", fall->onset,
                   2.0 * fall->onset_error) +
              lost() + text(" (probability %.2f).", *probability);

@@ -15,6 +15,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Words of public tables, and our own.
 std::optional<bool> outcome_of(std::string_view word) {
   for (const char* known : {"detached", "came_off"})
     if (io::same_but_case(word, known)) return true;
@@ -23,6 +24,7 @@ std::optional<bool> outcome_of(std::string_view word) {
   return std::nullopt;
 }
 
+// In the order of the names: a table with two of them means the first.
 int column_of(const io::TableText& table, std::initializer_list<const char*> names) {
   for (const char* name : names)
     for (std::size_t c = 0; c < table.columns().size(); ++c)
@@ -36,6 +38,7 @@ bool names(const std::string& label, const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
   if (label.empty() || !stem.ends_with(label)) return false;
   const std::size_t before = stem.size() - label.size();
+  // "6" is not the end of "pick_16".
   return before == 0 || std::isalnum(static_cast<unsigned char>(stem[before - 1])) == 0;
 }
 
@@ -56,11 +59,14 @@ struct Fitted {
 /// Largest likelihood on a grid, but for one record. The grid's ends keep it from running away
 /// where one number parts the two kinds.
 std::optional<Fitted> fit_timed(const std::vector<Timed>& all, std::size_t but) {
+  // A grid, since the likelihood is flat in places and has several tops, and 5,700 points take no
+  // time. Responses go from 5 to 200 ms, sharpnesses from 0.5 to 12.
   constexpr int responses = 121, sharpnesses = 47;
   std::optional<Fitted> best;
   double most = 0.0;
   std::array<int, 2> count = {0, 0};
   for (std::size_t i = 0; i < all.size(); ++i) count[all[i].came_off ? 1 : 0] += i != but;
+  // Where all came off any limit is right.
   if (count[0] == 0 || count[1] == 0) return std::nullopt;
   for (int r = 0; r < responses; ++r)
     for (int s = 0; s < sharpnesses; ++s) {
@@ -69,6 +75,7 @@ std::optional<Fitted> fit_timed(const std::vector<Timed>& all, std::size_t but) 
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (i == but) continue;
         const double p = probability(all[i], here.response, here.sharpness);
+        // One odd label costs much, and not all.
         likelihood += std::log(std::max(all[i].came_off ? p : 1.0 - p, 1e-12));
       }
       if (!best || likelihood > most) best = here, most = likelihood;
@@ -83,6 +90,7 @@ std::vector<PickLabel> read_pick_labels(const std::filesystem::path& file,
   const std::string content = io::read_text_file(file);
   io::TableText table(content, file.string(), diagnostics);
   std::vector<PickLabel> labels;
+  // What is wrong has been said.
   if (!table.good()) return labels;
   const int name = column_of(table, {"pick", "file", "name"}),
             outcome = column_of(table, {"outcome", "label"});
@@ -97,6 +105,7 @@ std::vector<PickLabel> read_pick_labels(const std::filesystem::path& file,
       labels.push_back({std::string(table.cells()[static_cast<std::size_t>(name)].text), *came_off,
                         table.at(static_cast<std::size_t>(name))});
     else
+      // Once for all rows: a table of another kind has a thousand of them.
       diagnostics.repeated_error(
           "outcome", table.at(static_cast<std::size_t>(outcome)),
           in_quotes(word) + " is no outcome, expected detached, failed, slipped or held");
@@ -113,12 +122,14 @@ LabelledPicks compare_with_labels(const std::vector<JudgedPick>& all,
     const auto label = std::ranges::find_if(
         labels, [&](const PickLabel& one) { return names(one.name, judged.record.file); });
     if (label == labels.end()) {
+      // Told at the end, as a misspelt name would else count for nothing.
       found.without_label.push_back(judged.record.file);
       continue;
     }
     const Pick& pick = judged.pick;
     const bool right =
         pick.end != Pick::End::unclear && (pick.end == Pick::End::came_off) == label->came_off;
+    // Others were judged by levels alone: no response or sharpness would change them.
     if (pick.probability && pick.fall->half) {
       const double blur = std::hypot(pick.interval, 0.5 * pick.fall->smoothing);
       timed.push_back({*pick.fall->half, pick.fall->half_error, blur, label->came_off});
@@ -127,6 +138,7 @@ LabelledPicks compare_with_labels(const std::vector<JudgedPick>& all,
     found.rows.push_back({judged.record.file, label->came_off, right, right});
   }
   for (std::size_t i = 0; i < timed.size(); ++i)
+    // Each by what the others give: by its own it would be right too often.
     if (const auto others = fit_timed(timed, i))
       found.rows[rows[i]].right_alone =
           (probability(timed[i], others->response, others->sharpness) >= 0.5) == timed[i].came_off;
@@ -152,6 +164,7 @@ std::string LabelledPicks::to_text() const {
     if (!row.right)
       lines += "  " + row.file + " is labelled " + (row.came_off ? "detached" : "failed") + "\n";
   for (const std::string& file : without_label) lines += "  " + file + " has no label\n";
+  // Numbers that cannot be told from these labels are not told.
   if (response > 0.0)
     lines += "each judged by what the others give: " + std::to_string(right_alone()) + of +
              " right\n" +

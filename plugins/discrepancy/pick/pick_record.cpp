@@ -16,11 +16,14 @@ using io::Quantity;
 
 /// fx, force_x, wrench.force.x, /ft_sensor/wrench/force/x, field.wrench.force.x, with or without a
 /// unit behind it.
+// Names as recorders of ROS and others give them. A letter before "force" makes another word:
+// "reinforce_x" is none.
 bool is_force_axis(const std::string& heading, char axis) {
   std::string name = io::split_unit(heading).name;
   if (const auto mark = name.rfind('_'); mark != std::string::npos)
     if (const auto unit = io::unit_of(name.substr(mark + 1));
         unit && unit->quantity == Quantity::force)
+      // "fx_N": the unit is read elsewhere.
       name.resize(mark);
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string end(1, axis);
@@ -49,6 +52,7 @@ class PickReader {
   PickRecord read() {
     PickRecord record;
     record.file = file_;
+    // A table that cannot be read would only lead to sentences about its columns.
     if (diagnostics_.error_count() > before_) return record;
     if (table_.lines.empty()) {
       diagnostics_.error(table_.head, "no row below the names, expected the rows of a record");
@@ -62,6 +66,7 @@ class PickReader {
       const std::vector<double> values =
           si_values(table_, *axes[axis], Quantity::force, {said_.force_unit, "--force-unit"},
                     diagnostics_, notes_);
+      // The faults are said, and further axes would repeat them.
       if (values.empty()) return record;
       record.force.col(static_cast<Eigen::Index>(axis)) = Eigen::Map<const Eigen::VectorXd>(
           values.data(), static_cast<Eigen::Index>(values.size()));
@@ -85,6 +90,7 @@ class PickReader {
     }
     record.time = si_values(table_, *time, Quantity::time, {said_.time_unit, "--time-unit"},
                             diagnostics_, notes_);
+    // A clock that jumps back makes falls of no time.
     if (!record.time.empty()) check_increasing(table_, *time, diagnostics_);
   }
 
@@ -100,14 +106,17 @@ class PickReader {
     std::vector<const MachineColumn*> found;
     for (const std::string& name : said_.force)
       if (const MachineColumn* column = named(name)) found.push_back(column);
+    // What was asked for is not guessed at.
     if (!said_.force.empty()) return found;
     for (const char axis : {'x', 'y', 'z'}) {
       std::vector<const MachineColumn*> along;
       for (const MachineColumn& column : table_.columns)
         if (is_force_axis(column.name, axis)) along.push_back(&column);
+      // Two sensors: a guess would be right half of the time.
       if (along.size() > 1) return several();
       found.insert(found.end(), along.begin(), along.end());
     }
+    // A testing machine has one force, and no axes.
     return found.empty() ? lone_force() : found;
   }
 
@@ -126,6 +135,7 @@ class PickReader {
       const auto unit = io::unit_of(column.unit);
       const bool known = io::match_column(column.name, "force").matches ||
                          io::match_column(column.name, "load").matches;
+      // A unit says more than a name: "load (mm)" is no force.
       if (unit ? unit->quantity == Quantity::force : known) found.push_back(&column);
     }
     if (found.size() == 1) return found;

@@ -112,7 +112,7 @@ void add_foretold(io::HtmlReport& page, const ReportData& report) {
   page.table({"trial", "", "what", "measured less foretold"}, rows);
 }
 
-void add_rivals(io::HtmlReport& page, const Diagnosis& d) {
+void add_competing(io::HtmlReport& page, const Diagnosis& d) {
   if (d.ranking.size() < 2) return;
   page.subheading("What else it could have been");
   std::vector<std::vector<std::string>> rows;
@@ -195,7 +195,7 @@ void add_card(io::HtmlReport& page, const ReportData& report,
     page.paragraph(gain);
   }
   if (report.predicted && concluded(v)) add_foretold(page, report);
-  add_rivals(page, d);
+  add_competing(page, d);
   if (concluded(v)) add_hiding(page, v);
   add_next(page, d);
   page.end_card();

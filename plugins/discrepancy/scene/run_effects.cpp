@@ -1,7 +1,5 @@
 #include "pedicel/discrepancy/scene/run_effects.h"
 
-#include <algorithm>
-
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/simulate/variant_plant.h"
 #include "pedicel/robot/kinematics.h"
@@ -9,14 +7,6 @@
 namespace pedicel::discrepancy {
 
 namespace {
-
-// What effects of the arm need.
-constexpr const char* of_the_arm[] = {"tool_pose",    "joint_offset", "robot_latency",
-                                      "reaction",     "payload",      "joint_friction",
-                                      "tracking_lag", "wrench_bias",  "wrench_gain"};
-
-// A run draws its cameras as the scene has them.
-constexpr const char* of_measured_images[] = {"camera_pose", "camera_focal", "lens_distortion"};
 
 /// The scene as an experiment without trials, as far as effects name things of it.
 SceneExperiment without_trials(const world::Scene& scene, const robot::RobotDescription* robot) {
@@ -80,13 +70,15 @@ RunEffects read_run_effects(const world::Scene& scene, const robot::RobotDescrip
   out.any = !all.empty();
   if (diagnostics.error_count() > before) return out;
   for (const plant::Effect& effect : all) {
-    if (!robot && std::ranges::find(of_the_arm, effect.name) != std::end(of_the_arm)) {
+    const SceneEffectDefinition* known = find_scene_effect(effect.name);
+    const SceneHome home = known ? known->home : SceneHome::unset;
+    if (!robot && (home == SceneHome::arm || home == SceneHome::wrench)) {
       diagnostics.error(effect.where, "effect " + effect.name +
                                           ": the scene has no robot, expected one that it is of");
     } else if (effect.words.contains("trial")) {
       out.notes.push_back("effect " + effect.name + " is of trial " + effect.words.at("trial") +
                           " alone: it changes nothing of a run");
-    } else if (std::ranges::find(of_measured_images, effect.name) != std::end(of_measured_images)) {
+    } else if (home == SceneHome::camera) {
       out.notes.push_back("effect " + effect.name +
                           " is about measured images: it changes nothing of a run");
     } else if (apply_scene_effect(effect, experiment, out.state)) {

@@ -40,6 +40,20 @@ void check_words(const io::YamlNode& node, const plant::Effect& effect,
   }
 }
 
+bool has_column(const Samples& samples, long first, long count) {
+  if (samples.size() == 0 || first + count > samples.value.cols()) return false;
+  return samples.value.middleCols(first, count).array().isFinite().any();
+}
+
+// A start says names and sizes; what the numbers are measured in stands once, in the definition.
+void describe(const SceneEffectDefinition& definition, SceneFit& fit) {
+  for (effects::FreeParameter& free : fit.free)
+    if (const effects::EffectParameter* described = definition.find(free.name)) {
+      free.unit = described->unit;
+      free.vanishes = described->vanishes;
+    }
+}
+
 }  // namespace
 
 const effects::EffectParameter* SceneEffectDefinition::find(const std::string& parameter) const {
@@ -75,14 +89,59 @@ std::vector<SceneFit> starts_of(const SceneEffectDefinition& definition,
   if (!definition.starts) return out;
   for (const effects::Start& start : definition.starts(context)) {
     SceneFit fit{start.effect(), start.free()};
-    for (effects::FreeParameter& free : fit.free)
-      if (const effects::EffectParameter* described = definition.find(free.name)) {
-        free.unit = described->unit;
-        free.vanishes = described->vanishes;
-      }
+    describe(definition, fit);
     out.push_back(std::move(fit));
   }
   return out;
+}
+
+std::vector<std::string> scene_spoken_for(const std::string& symptom) {
+  std::vector<std::pair<int, std::string>> ranked;
+  const auto add = [&](const auto& definitions) {
+    for (const auto& one : definitions)
+      for (const effects::Sign& sign : one.speaks_for)
+        if (sign.symptom == symptom) ranked.emplace_back(sign.rank, one.name);
+  };
+  add(scene_effect_definitions());
+  add(effects::effect_definitions());
+  std::ranges::stable_sort(ranked, {}, [](const auto& entry) { return entry.first; });
+  std::vector<std::string> names;
+  for (auto& [rank, name] : ranked) names.push_back(std::move(name));
+  return names;
+}
+
+bool is_seen(const SceneExperiment& experiment, int plant) {
+  for (std::size_t m = 0; m < experiment.markers.size(); ++m) {
+    if (experiment.markers[m].plant != plant) continue;
+    const auto at = static_cast<long>(m);
+    for (const SceneTrial& trial : experiment.trials) {
+      if (has_column(trial.markers, 3 * at, 3)) return true;
+      for (const Samples& pixels : trial.pixels)
+        if (has_column(pixels, 2 * at, 2)) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<SceneFit> baseline_effects(const SceneStartContext& context) {
+  std::vector<SceneFit> out;
+  for (const SceneEffectDefinition& one : scene_effect_definitions()) {
+    if (!one.in_baseline) continue;
+    for (SceneFit& fit : one.in_baseline->fits(context)) {
+      describe(one, fit);
+      out.push_back(std::move(fit));
+    }
+  }
+  return out;
+}
+
+const SceneEffectDefinition* told_of_baseline(const plant::Effect& effect,
+                                              const effects::FreeParameter& free) {
+  const SceneEffectDefinition* known = find_scene_effect(effect.name);
+  // As a cause, an effect has no priors.
+  const bool told = known && known->in_baseline && free.prior != 0.0 &&
+                    free.name == known->in_baseline->parameter;
+  return told ? known : nullptr;
 }
 
 bool apply_scene_effect(const plant::Effect& effect, const SceneExperiment& experiment,

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pedicel/discrepancy/scene/scene_state.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/yaml.h"
 
@@ -52,6 +54,41 @@ struct SceneEffectTarget {
 /// Where fits of a scene effect may begin.
 struct SceneStartContext {
   const SceneExperiment& experiment;
+  const SceneSettings& settings = default_scene_settings();
+};
+
+/// An effect with the numbers that a fit may change.
+struct SceneFit {
+  plant::Effect effect;
+  std::vector<effects::FreeParameter> free;
+};
+
+/// What a scene effect is of. What a run needs for it, and whether a run has it, follow from that.
+enum class SceneHome {
+  unset,
+  contact,  ///< of robot and plant
+  plant,
+  arm,     ///< a run needs a robot
+  wrench,  ///< a force sensor: a run needs a robot, and writes what the sensor says
+  camera,  ///< measured images alone: a run draws its cameras as the scene has them
+};
+
+/// What makes an effect part of every baseline, where nothing that was measured shows directly what
+/// it changes.
+struct InBaseline {
+  /// Its numbers, with priors; none: the data show it.
+  std::vector<SceneFit> (*fits)(const SceneStartContext&) = nullptr;
+  std::string parameter;  ///< a finding where it leaves 0
+  /// Components of it, from the first on, that have no slope where the robot touches nothing: they
+  /// are put to several values before the first fit.
+  int without_slope = 0;
+  std::string because;  ///< why it is named, for the verdict
+  /// A component as the verdict tells it among the parameters: its name, and the files' own value.
+  struct Told {
+    std::string name;
+    double nominal = 0.0;
+  };
+  Told (*told)(const SceneExperiment&, const plant::Effect&, int component) = nullptr;
 };
 
 /// Everything that is known of a scene effect, in one place.
@@ -59,6 +96,7 @@ struct SceneEffectDefinition {
   std::string name;        ///< as files say it
   std::string plain_name;  ///< for sentences
   std::string sentence;    ///< what it does
+  SceneHome home = SceneHome::unset;
   std::vector<effects::EffectParameter> parameters;
   void (*apply)(const SceneEffectTarget&) = nullptr;
   /// It changes what instruments say of a motion, and not the motion (where the arm follows its
@@ -66,7 +104,9 @@ struct SceneEffectDefinition {
   bool is_only_seen = false;
   /// From where fits of it start; none where the experiment cannot show it.
   std::vector<effects::Start> (*starts)(const SceneStartContext&) = nullptr;
-  std::string tells_apart;  ///< an experiment that parts it from its look-alikes
+  std::optional<InBaseline> in_baseline;
+  std::vector<effects::Sign> speaks_for;  ///< symptoms of scenes, by name and rank
+  std::string tells_apart;                ///< an experiment that parts it from its look-alikes
 
   const effects::EffectParameter* find(const std::string& parameter) const;
 };
@@ -76,15 +116,24 @@ const std::vector<SceneEffectDefinition>& scene_effect_definitions();
 /// Null where there is none of that name.
 const SceneEffectDefinition* find_scene_effect(const std::string& name);
 
-/// An effect with the numbers that a fit may change.
-struct SceneFit {
-  plant::Effect effect;
-  std::vector<effects::FreeParameter> free;
-};
+/// Names of the effects, of scenes and of plants, that a symptom of a scene speaks for: the
+/// strongest first.
+std::vector<std::string> scene_spoken_for(const std::string& symptom);
 
 /// Starts of a scene effect, with units and vanishing values of its definition.
 std::vector<SceneFit> starts_of(const SceneEffectDefinition& definition,
                                 const SceneStartContext& context);
+
+/// Whether a marker or an image point of a plant was measured.
+bool is_seen(const SceneExperiment& experiment, int plant);
+
+/// Effects of the baseline: see InBaseline. With units and vanishing values of their definitions.
+std::vector<SceneFit> baseline_effects(const SceneStartContext& context);
+
+/// The definition that makes a fitted number part of the baseline and tells of it; null: another
+/// number, or one of a cause.
+const SceneEffectDefinition* told_of_baseline(const plant::Effect& effect,
+                                              const effects::FreeParameter& free);
 
 /// Changes the state. False where it is no scene effect.
 bool apply_scene_effect(const plant::Effect& effect, const SceneExperiment& experiment,

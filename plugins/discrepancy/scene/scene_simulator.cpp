@@ -14,6 +14,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+constexpr double far_below = 100.0;    // m: there no arm reaches, and a plant moves as anywhere
 constexpr std::size_t widest = 8;      // plants side by side: the solver's lanes
 constexpr std::size_t most_kept = 64;  // motions, some 2 MB each
 
@@ -121,10 +122,12 @@ struct SceneSimulator::Impl {
         if (apply_scene_effect(effect, experiment, out.state)) continue;
         (is_of_experiment(effect) ? out.sensors : out.member.effects).push_back(effect);
       }
+    if (request.variant->plants_away)
+      for (SceneState::Plant& plant : out.state.plants) plant.offset += Vec3(0.0, 0.0, -far_below);
     out.arm = std::make_unique<Arm>(experiment, out.state);
     out.key = key_of(request.trial, request.variant->draw, trial.follows_commands,
                      std::min(request.until, trial.duration()), all) +
-              key_of(request.variant->forces);
+              key_of(request.variant->forces) + (request.variant->plants_away ? "|away" : "");
     out.member.forces = request.variant->forces;
     out.path = &path(request.trial, request.variant->draw);
     return out;

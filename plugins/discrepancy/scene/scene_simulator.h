@@ -18,6 +18,7 @@ struct SceneVariant {
   /// number.
   int draw = 0;
   std::vector<SceneForce> forces{};
+  bool plants_away = false;  ///< plants stand far below, where nothing touches them
 };
 
 /// Simulates the trials of a measured scene with many variants of its model.

@@ -8,19 +8,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double spacing = 0.045;  // m, of the places tried along a curve
-constexpr int most_places = 40;
-constexpr double bin = 0.03;  // s, in which the force is one
-constexpr double least_way = 1.0e-3,
-                 most_way = 0.02;    // m, that a response moves what it moves most
-constexpr double rise = 0.05;        // s, of the force in a response
-constexpr double loud_bin = 2.0;     // noise units squared, of a bin that is not noise alone
-constexpr double clear_force = 5.0;  // standard errors
-constexpr double least_of_peak = 0.15;
-constexpr double least_share = 0.3;  // of the misfit, for a force to be found at all
-/// Of the stiffness against what the data see: along a stem nearly nothing moves, and a force there
-/// would be noise.
-constexpr double weak_axis = 3.0e-3;
+// Plants side by side in the solver: as many responses cost hardly more than one.
 constexpr std::size_t widest = 8;
 
 struct ForcePlace {
@@ -28,9 +16,10 @@ struct ForcePlace {
   plant::CurvePlace at;
 };
 
-std::vector<ForcePlace> places_of(const SceneExperiment& experiment) {
+std::vector<ForcePlace> places_of(const SceneExperiment& experiment,
+                                  const OutsideForceSettings& how) {
   std::vector<ForcePlace> places;
-  double gap = spacing;
+  double gap = how.spacing;
   do {
     places.clear();
     for (std::size_t p = 0; p < experiment.plants.size(); ++p)
@@ -38,13 +27,16 @@ std::vector<ForcePlace> places_of(const SceneExperiment& experiment) {
         double length = 0.0;
         for (std::size_t i = 1; i < curve.points.size(); ++i)
           length += (curve.points[i] - curve.points[i - 1]).norm();
+        // Two at least: of a short branch the middle and the tip are different things to pull at.
         const int count = std::max(2, static_cast<int>(std::ceil(length / gap)));
+        // Not at the foot, where a force moves nothing.
         for (int i = 1; i <= count; ++i)
           places.push_back({static_cast<int>(p),
                             plant::CurvePlace{curve.name, static_cast<double>(i) / count, {}}});
       }
+    // Large plants are looked at more coarsely, so that time does not grow with them.
     gap *= 1.3;
-  } while (static_cast<int>(places.size()) > most_places);
+  } while (static_cast<int>(places.size()) > how.places);
   return places;
 }
 
@@ -52,6 +44,7 @@ std::vector<ForcePlace> places_of(const SceneExperiment& experiment) {
 SceneExperiment with_places(const SceneExperiment& experiment, int trial,
                             const std::vector<ForcePlace>& places) {
   SceneExperiment own = experiment;
+  // One trial alone: a hand that pulls once does not pull in all of them.
   own.trials = {experiment.trials[static_cast<std::size_t>(trial)]};
   for (const ForcePlace& place : places) {
     SceneMarker marker;
@@ -61,8 +54,10 @@ SceneExperiment with_places(const SceneExperiment& experiment, int trial,
     own.markers.push_back(marker);
   }
   Samples& markers = own.trials.front().markers;
+  // A trial without markers has no times at which places could be told.
   if (markers.size() == 0)
     for (double t = 0.0; t < own.trials.front().duration(); t += 0.01) markers.time.push_back(t);
+  // What was not measured is NaN: it adds to no residual, and is predicted all the same.
   Eigen::MatrixXd wide = Eigen::MatrixXd::Constant(static_cast<long>(markers.time.size()),
                                                    3 * static_cast<long>(own.markers.size()),
                                                    std::numeric_limits<double>::quiet_NaN());
@@ -81,8 +76,9 @@ SceneExperiment with_places(const SceneExperiment& experiment, int trial,
 class ForceSearch {
  public:
   ForceSearch(const SceneExperiment& experiment, int trial, const std::vector<plant::Effect>& model,
-              const SceneNumerics& numerics, int threads)
-      : places_(places_of(experiment)),
+              const SceneNumerics& numerics, const OutsideForceSettings& how, int threads)
+      : how_(how),
+        places_(places_of(experiment, how)),
         own_(with_places(experiment, trial, places_)),
         first_(3 * static_cast<long>(experiment.markers.size())),
         data_(own_),
@@ -96,11 +92,13 @@ class ForceSearch {
     const SceneReadings here = simulate({base_}).front();
     if (!here.healthy) return best;
     const Eigen::VectorXd residual = residual_of(here);
+    // Before the first response, since all of them begin there.
     begin_ = onset(residual);
     const double size = suitable_size(here);
     std::vector<double> left;
     std::vector<OutsideForce> found;
     for (std::size_t p = 0; p < places_.size(); ++p) {
+      // Each place by itself. Two forces at once would explain anything.
       const Eigen::MatrixXd response = response_of(p, size, residual);
       found.push_back(course(residual, response));
       left.push_back(1.0 - found.back().share);
@@ -108,8 +106,10 @@ class ForceSearch {
     const auto least = std::ranges::min_element(left) - left.begin();
     best = found[static_cast<std::size_t>(least)];
     best.plant = places_[static_cast<std::size_t>(least)].plant;
+    // Places are 45 mm apart by default, and what is left is smooth between them.
     best.place = between(left, static_cast<std::size_t>(least));
-    best.found = best.share >= least_share && best.to > best.from;
+    // Some place is always the best one. What counts is how much it explains.
+    best.found = best.share >= how_.least_share && best.to > best.from;
     if (best.found) best.position = position(here, best, static_cast<std::size_t>(least));
     return best;
   }
@@ -123,6 +123,7 @@ class ForceSearch {
 
   Eigen::VectorXd residual_of(const SceneReadings& readings) const {
     Eigen::VectorXd out(data_.size(0));
+    // In noise units and with the data's own weights, as everywhere.
     data_.residual(0, readings, std::numeric_limits<double>::infinity(), out);
     return out;
   }
@@ -134,16 +135,19 @@ class ForceSearch {
     force.place = places_[place].at;
     force.force = size * Vec3::Unit(axis);
     force.from = begin_;
-    force.rise = rise;
+    // A force that begins at once rings a stem, and the course would be fitted to the ringing.
+    force.rise = how_.rise;
     variant.forces.push_back(force);
     return variant;
   }
 
   // N, such that what moves most moves far enough to be seen, and not far.
   double suitable_size(const SceneReadings& here) {
+    // A millinewton moves no plant far. Responses are linear, so the rest is a factor.
     double size = 1.0e-3;
     std::vector<SceneVariant> variants;
     for (std::size_t p = 0; p < places_.size() && variants.size() < widest; ++p)
+      // Tips move most. One batch of them is enough.
       if (places_[p].at.at == 1.0) variants.push_back(pushed(p, 0, size));
     double most = 0.0;
     for (const SceneReadings& one : simulate(variants)) {
@@ -153,6 +157,7 @@ class ForceSearch {
         for (long r = 0; r < moved.rows(); ++r)
           if (std::isfinite(moved(r, c))) most = std::max(most, std::abs(moved(r, c)));
     }
+    // A plant that hardly moves is not pushed without end.
     return most > 0.0 ? size * std::clamp(way_of(here) / most, 0.01, 1.0e4) : size;
   }
 
@@ -160,31 +165,35 @@ class ForceSearch {
   // sticks against a little slides under more.
   double way_of(const SceneReadings& here) const {
     const Eigen::MatrixXd& measured = own_.trials.front().markers.value;
-    double most = least_way;
+    double most = how_.least_response;
     for (long c = 0; c < first_; ++c)
       for (long r = 0; r < measured.rows(); ++r) {
         const double off = std::abs(measured(r, c) - here.markers(r, c));
+        // Markers on the arm are off by the arm.
         if (own_.markers[static_cast<std::size_t>(c / 3)].plant >= 0 && std::isfinite(off))
           most = std::max(most, off);
       }
-    return std::min(most, most_way);
+    return std::min(most, how_.most_response);
   }
 
   // s, before which the residual is noise: the force does not act there, and responses to one that
   // did would meet another contact.
   double onset(const Eigen::VectorXd& residual) const {
-    const auto bins = static_cast<std::size_t>(own_.trials.front().duration() / bin) + 1;
+    const std::size_t bins = bin_of(own_.trials.front().duration()) + 1;
     std::vector<double> square(bins, 0.0), count(bins, 0.0);
     for (long i = 0; i < residual.size(); ++i) {
-      const auto b = static_cast<std::size_t>(row_time_[static_cast<std::size_t>(i)] / bin);
+      const std::size_t b = bin_of(row_time_[static_cast<std::size_t>(i)]);
       if (b >= bins || residual[i] == 0.0) continue;
       square[b] += residual[i] * residual[i];
       count[b] += 1.0;
     }
-    const auto loud = [&](std::size_t b) { return square[b] > loud_bin * count[b]; };
+    const auto significant = [&](std::size_t b) {
+      return square[b] > how_.significant_bin * count[b];
+    };
     for (std::size_t b = 0; b + 2 < bins; ++b)
-      if (loud(b) && loud(b + 1) && loud(b + 2))
-        return std::max(0.0, (static_cast<double>(b) - 1.0) * bin);
+      if (significant(b) && significant(b + 1) && significant(b + 2))
+        // A bin earlier: what is significant began to grow before.
+        return std::max(0.0, (static_cast<double>(b) - 1.0) * how_.bin);
     return 0.0;
   }
 
@@ -193,6 +202,8 @@ class ForceSearch {
     const auto known = responses_.find(place);
     if (known != responses_.end()) return known->second;
     // Places that fill the solver's lanes together.
+    // One batch is kept, as places are asked for in their order. A response has as many rows as the
+    // data.
     responses_.clear();
     std::vector<SceneVariant> variants;
     std::vector<std::size_t> of;
@@ -209,6 +220,7 @@ class ForceSearch {
         if (one.healthy)
           columns.col(axis) = (residual - residual_of(one)) / size;
         else
+          // A push that the plant does not survive explains nothing.
           columns.col(axis).setZero();
       }
       responses_[of[i]] = columns;
@@ -226,17 +238,18 @@ class ForceSearch {
     for (const Samples& one : trial.pixels) add(one);
     for (const Samples& one : trial.wrenches) add(one);
     add(trial.torques);
+    // Elsewhere joints are what drives the model, and no data.
     if (trial.follows_commands) add(trial.joints);
   }
 
   // The force that explains the residual best, bin by bin.
   OutsideForce course(const Eigen::VectorXd& residual, const Eigen::MatrixXd& response) const {
-    const auto bins = static_cast<std::size_t>(own_.trials.front().duration() / bin) + 1;
+    const std::size_t bins = bin_of(own_.trials.front().duration()) + 1;
     std::vector<Mat3> normal(bins, Mat3::Zero());
     std::vector<Vec3> right(bins, Vec3::Zero());
     std::vector<double> square(bins, 0.0), count(bins, 0.0);
     for (long i = 0; i < residual.size(); ++i) {
-      const auto b = static_cast<std::size_t>(row_time_[static_cast<std::size_t>(i)] / bin);
+      const std::size_t b = bin_of(row_time_[static_cast<std::size_t>(i)]);
       if (b >= bins || residual[i] == 0.0) continue;
       const Vec3 row = response.row(i).transpose();
       normal[b] += row * row.transpose();
@@ -248,16 +261,20 @@ class ForceSearch {
     double all = 0.0, taken = 0.0;
     std::vector<double> clear(bins, 0.0);  // what it gains, in units of what is left a sample
     for (std::size_t b = 0; b < bins; ++b) {
-      out.time.push_back((static_cast<double>(b) + 0.5) * bin);
-      const double ridge = weak_axis * normal[b].trace() + 1.0e-12;
+      out.time.push_back((static_cast<double>(b) + 0.5) * how_.bin);
+      // Along a stem nearly nothing moves, and a force there would be noise.
+      const double ridge = how_.weak_axis * normal[b].trace() + 1.0e-12;
       const Mat3 inverse = (normal[b] + ridge * Mat3::Identity()).inverse();
       const Vec3 force = inverse * right[b];
       out.force.push_back(force);
+      // Noise leaves one unit a sample in the best model. Only what is above can be explained.
       const double own = std::max(0.0, square[b] - count[b]);
       const double gain =
+          // What the sum of squares falls by, between nothing and all that is above the noise.
           std::clamp(2.0 * force.dot(right[b]) - force.dot(normal[b] * force), 0.0, own);
       all += own;
       taken += gain;
+      // Three numbers were fitted to a bin: with fewer samples it leaves nothing by itself.
       const double left = count[b] > 3.0 ? std::max(1.0, (square[b] - gain) / count[b]) : 1.0;
       clear[b] = gain / left;
     }
@@ -266,28 +283,30 @@ class ForceSearch {
     return out;
   }
 
-  static void mark_active(OutsideForce& out, const std::vector<double>& clear) {
-    const auto seen = [&](std::size_t b) { return clear[b] > clear_force * clear_force; };
+  void mark_active(OutsideForce& out, const std::vector<double>& clear) const {
+    const auto seen = [&](std::size_t b) { return clear[b] > how_.clear_force * how_.clear_force; };
     std::vector<double> sizes;
     for (std::size_t b = 0; b < clear.size(); ++b)
       if (seen(b)) sizes.push_back(out.force[b].norm());
     if (sizes.empty()) return;
     // Where it begins, responses are small and forces wild.
     std::ranges::sort(sizes);
+    // Not the largest: one bin may be an outlier.
     const double peak = sizes[sizes.size() * 9 / 10];
     const auto strong = [&](std::size_t b) {
-      return seen(b) && out.force[b].norm() > least_of_peak * peak;
+      return seen(b) && out.force[b].norm() > how_.peak_share * peak;
     };
     std::vector<std::size_t> active;
+    // Three in a row, so that noise alone is no pull.
     for (std::size_t b = 0; b + 2 < clear.size(); ++b)
       if (strong(b) && strong(b + 1) && strong(b + 2)) active.push_back(b);
     if (active.empty()) return;
     // It began small.
     std::size_t first = active.front();
-    while (first > 0 && seen(first - 1) && out.force[first - 1].norm() > least_of_peak / 3.0 * peak)
+    while (first > 0 && seen(first - 1) && out.force[first - 1].norm() > how_.onset_share * peak)
       --first;
-    out.from = static_cast<double>(first) * bin;
-    out.to = static_cast<double>(active.back() + 3) * bin;
+    out.from = static_cast<double>(first) * how_.bin;
+    out.to = static_cast<double>(active.back() + 3) * how_.bin;
     Vec3 mean = Vec3::Zero();
     double square = 0.0;
     for (const std::size_t b : active) {
@@ -295,18 +314,22 @@ class ForceSearch {
       square += out.force[b].squaredNorm();
     }
     out.size = std::sqrt(square / static_cast<double>(active.size()));
+    // Of the mean, since a hand that pulls keeps to its direction. Of a push to and fro it says
+    // nothing.
     if (mean.norm() > 0.0) out.direction = mean.normalized();
   }
 
   // Between the places that were tried: the parabola through the best one and its neighbours.
   plant::CurvePlace between(const std::vector<double>& left, std::size_t best) const {
     plant::CurvePlace place = places_[best].at;
+    // At an end of a curve there is no neighbour to draw a parabola through.
     const bool inside = best > 0 && best + 1 < places_.size() &&
                         places_[best - 1].at.curve == place.curve &&
                         places_[best + 1].at.curve == place.curve;
     if (!inside) return place;
     const double a = left[best - 1], b = left[best], c = left[best + 1];
     const double bend = a - 2.0 * b + c;
+    // Half of the way at most: beyond it the neighbour would have been the best one.
     const double shift = bend > 0.0 ? std::clamp(0.5 * (a - c) / bend, -0.5, 0.5) : 0.0;
     place.at += shift * (places_[best + 1].at.at - place.at);
     return place;
@@ -319,7 +342,8 @@ class ForceSearch {
     int count = 0;
     for (long r = 0; r < markers.size(); ++r) {
       const double t = markers.time[static_cast<std::size_t>(r)];
-      if (t < force.from || t > force.from + 3.0 * bin) continue;
+      // Only the beginning. Later the force itself has moved the place.
+      if (t < force.from || t > force.from + 3.0 * how_.bin) continue;
       const Vec3 place = simulated(here, r, force.place, best) + off_beside(here, r, force);
       if (!place.allFinite()) continue;
       sum += place;
@@ -337,6 +361,7 @@ class ForceSearch {
     const double beyond = place.at - places_[best].at.at;
     if (beyond == 0.0) return at(best);
     const std::size_t other = beyond > 0.0 ? best + 1 : best - 1;
+    // Straight between neighbours: the stem bends little over 45 mm.
     const double share = beyond / (places_[other].at.at - places_[best].at.at);
     return (1.0 - share) * at(best) + share * at(other);
   }
@@ -363,11 +388,16 @@ class ForceSearch {
         off_above = off;
       }
     }
+    // Above the last marker a stem goes on as below it. Below the first one it is fixed at its
+    // foot, where nothing is off.
     if (!std::isfinite(above)) return off_below;
     const double share = (force.place.at - below) / (above - below);
     return (1.0 - share) * off_below + share * off_above;
   }
 
+  std::size_t bin_of(double time) const { return static_cast<std::size_t>(time / how_.bin); }
+
+  const OutsideForceSettings& how_;
   std::vector<ForcePlace> places_;
   SceneExperiment own_;
   long first_;  // column of the places' markers
@@ -398,8 +428,9 @@ OutsideForce find_outside_force(SceneEvaluator& evaluator, const std::vector<pla
     }
   }
   if (worst < 0) return {};
-  OutsideForce found =
-      ForceSearch(experiment, worst, model, evaluator.simulator().numerics(), threads).run();
+  OutsideForce found = ForceSearch(experiment, worst, model, evaluator.simulator().numerics(),
+                                   evaluator.settings().outside, threads)
+                           .run();
   found.trial = worst;
   return found;
 }

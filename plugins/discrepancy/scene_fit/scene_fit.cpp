@@ -11,13 +11,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-/// Root of the sum of squares, in noise units, that a difference should amount to: far above what
-/// the solver's tolerance and contacts that begin a step earlier or later make, and small beside
-/// how models bend.
-constexpr double wanted_change = 30.0;
-constexpr double first_step = 0.02;  // of an unknown
-constexpr double least_step = 1.0e-4, most_step = 0.3;
-
 long rows_of(const SceneDataSet& data, std::span<const int> trials) {
   long rows = 0;
   for (const int t : trials) rows += data.size(t);
@@ -32,7 +25,8 @@ class SceneCost : public ceres::CostFunction {
         model_(start),
         trials_(trials),
         rows_(rows_of(evaluator.data(), trials)),
-        step_(Eigen::VectorXd::Constant(start.size(), first_step)) {
+        step_(Eigen::VectorXd::Constant(start.size(), evaluator.settings().fit.first_step)) {
+    // A row a number for what is known beforehand; it stays zero where nothing is.
     set_num_residuals(static_cast<int>(rows_) + start.size());
     mutable_parameter_block_sizes()->push_back(start.size());
   }
@@ -42,6 +36,7 @@ class SceneCost : public ceres::CostFunction {
     const int n = model_.size();
     const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(parameters[0], n);
     // A model without free numbers has one point only.
+    // Ceres asks for residuals and then for derivatives at the same place. A simulation is dear.
     if (residual_.size() != rows_ || u != last_) {
       last_ = u;
       residual_ = column(u);
@@ -83,27 +78,32 @@ class SceneCost : public ceres::CostFunction {
     return evaluator_.residuals({&model, 1}, trials_).col(0);
   }
 
-  // One-sided differences, inwards of the bounds, as large as they have to be.
+  // One-sided differences, inwards of the bounds, as large as they have to be: far above what the
+  // solver's tolerance and contacts that begin a step earlier or later make, and small beside how
+  // models bend.
   void differentiate(const Eigen::VectorXd& u) const {
     const int n = model_.size();
     const Eigen::VectorXd high = model_.high();
     std::vector<Hypothesis> models;
     Eigen::VectorXd used(n);
     for (int p = 0; p < n; ++p) {
+      // Inwards, as a model beyond a bound may not be simulated.
       used[p] = u[p] + step_[p] <= high[p] ? step_[p] : -step_[p];
       Eigen::VectorXd moved = u;
       moved[p] += used[p];
       models.push_back(at(moved));
     }
     evaluations_ += n;
+    const SceneFitSettings& how = evaluator_.settings().fit;
     const Eigen::MatrixXd there = evaluator_.residuals(models, trials_);
     jacobian_.resize(rows_, n);
     for (int p = 0; p < n; ++p) {
       const Eigen::VectorXd change = residual_ - there.col(p);
       jacobian_.col(p) = change / used[p];
+      // A number that shows nothing would get a step without end.
       const double size = std::max(change.norm(), 1.0e-3);
-      step_[p] =
-          std::clamp(step_[p] * std::clamp(wanted_change / size, 0.1, 10.0), least_step, most_step);
+      step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0),
+                            how.least_step, how.most_step);
     }
     has_jacobian_ = true;
   }
@@ -128,6 +128,7 @@ void set_errors(SceneFitResult& result) {
     if (prior > 0.0) normal(p, p) += 1.0 / (prior * prior);
   }
   const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  // What a model leaves counts as noise of its numbers. Less than noise is chance.
   const double spread = std::max(1.0, result.sum.rms());
   for (long p = 0; p < n; ++p)
     if (inverse(p, p) > 0.0) result.standard_error[p] = spread * std::sqrt(inverse(p, p));
@@ -168,6 +169,7 @@ Eigen::MatrixXd SceneEvaluator::residuals(std::span<const Hypothesis> models,
     long row = 0;
     for (const int t : trials) {
       const long size = data_.size(t);
+      // In the order of the requests: models first, trials within.
       data_.residual(t, readings[next++], std::numeric_limits<double>::infinity(),
                      out.col(m).segment(row, size));
       row += size;
@@ -198,14 +200,16 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
     ceres::Solver::Options settings;
     settings.linear_solver_type = ceres::DENSE_QR;
     settings.max_num_iterations = options.iterations;
+    // In unit steps of the numbers, of which a thousand are no limit.
     settings.initial_trust_region_radius = 1.0e3;
     settings.max_trust_region_radius = 1.0e6;
     settings.logging_type = ceres::SILENT;
+    // What ends a fit is what a step gains. These two only catch what stands still.
     settings.parameter_tolerance = 1.0e-6;
     settings.gradient_tolerance = 1.0e-12;
     // Relative to the cost, half the sum of squares.
     settings.function_tolerance =
-        2.0 * options.least_gain /
+        2.0 * evaluator.settings().fit.least_gain /
         std::max(1.0, static_cast<double>(rows_of(evaluator.data(), options.trials)));
     const BoundedSolution solution = solve_bounded(cost, start.low(), start.high(), settings, u);
     converged = solution.converged;
@@ -215,55 +219,22 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
   return result;
 }
 
-namespace {
-
-bool has_column(const Samples& samples, long first, long count) {
-  if (samples.size() == 0 || first + count > samples.value.cols()) return false;
-  return samples.value.middleCols(first, count).array().isFinite().any();
-}
-
-// Of an upright thing the yaw about its root is not seen, and its prior keeps it.
-void add_unseen_place(const SceneExperiment& experiment, const ScenePlantFile& plant,
-                      Hypothesis& baseline) {
-  constexpr double way = 2.0e-3, turn = 0.02;  // m, rad: of a unit step
-  effects::Start start("plant_pose");
-  if (experiment.plants.size() > 1) start.word("plant", plant.name);
-  start.vector("offset", Vec3::Zero(), way, 0.15).signed_number("yaw", 0.0, turn, -1.0, 1.0);
-  const int first = baseline.size();
-  baseline.add(start);
-  for (int p = first; p < baseline.size(); ++p) {
-    effects::FreeParameter& free = baseline.free[static_cast<std::size_t>(p)];
-    const bool turns = free.name == "yaw";
-    free.unit = turns ? "rad" : "m";
-    free.vanishes = effects::Vanishes::at_zero;
-    free.prior = turns ? yaw_known_to / turn : place_known_to / way;
-  }
-}
-
-}  // namespace
-
-bool is_seen(const SceneExperiment& experiment, int plant) {
-  for (std::size_t m = 0; m < experiment.markers.size(); ++m) {
-    if (experiment.markers[m].plant != plant) continue;
-    const auto at = static_cast<long>(m);
-    for (const SceneTrial& trial : experiment.trials) {
-      if (has_column(trial.markers, 3 * at, 3)) return true;
-      for (const Samples& pixels : trial.pixels)
-        if (has_column(pixels, 2 * at, 2)) return true;
-    }
-  }
-  return false;
-}
-
-Hypothesis scene_baseline(const SceneExperiment& experiment) {
+Hypothesis scene_baseline(const SceneExperiment& experiment, const SceneSettings& settings) {
+  const SceneFitSettings& known = settings.fit;
   Hypothesis baseline;
   // The wide prior of density: what swings freely shows modulus over density alone.
   baseline.add(effects::Start("youngs_modulus").positive("factor", 1.0, 0.1, 10.0));
-  baseline.add(effects::Start("density").positive("factor", 1.0, 0.1, 10.0).prior(0.1, 1.0));
-  baseline.add(effects::Start("damping_time").positive("factor", 1.0, 0.02, 50.0).prior(1.0, 1.0));
-  for (std::size_t p = 0; p < experiment.plants.size(); ++p)
-    if (!is_seen(experiment, static_cast<int>(p)))
-      add_unseen_place(experiment, experiment.plants[p], baseline);
+  baseline.add(
+      effects::Start("density").positive("factor", 1.0, 0.1, 10.0).prior(known.density_prior, 1.0));
+  baseline.add(effects::Start("damping_time")
+                   .positive("factor", 1.0, 0.02, 50.0)
+                   .prior(known.damping_prior, 1.0));
+  for (const SceneFit& own : baseline_effects({experiment, settings})) {
+    Hypothesis added;
+    added.effects = {own.effect};
+    added.free = own.free;
+    baseline.add(added);
+  }
   return baseline;
 }
 

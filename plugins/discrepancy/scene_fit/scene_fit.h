@@ -7,14 +7,14 @@
 #include "pedicel/discrepancy/scene/scene_data.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_simulator.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 #include "pedicel/discrepancy/simulate/hypothesis.h"
 
 namespace pedicel::discrepancy {
 
 struct SceneFitOptions {
   std::vector<int> trials;
-  int iterations = 12;      ///< at most
-  double least_gain = 0.5;  ///< nats, of a step; in units of what the model leaves
+  int iterations = 12;  ///< at most
 };
 
 /// A model of a scene fitted to some trials.
@@ -31,18 +31,22 @@ struct SceneFitResult {
 /// Residuals of models over the same trials, side by side.
 class SceneEvaluator {
  public:
-  SceneEvaluator(SceneSimulator& simulator, const SceneDataSet& data)
-      : simulator_(simulator), data_(data) {}
+  /// Keeps references to all three.
+  SceneEvaluator(SceneSimulator& simulator, const SceneDataSet& data,
+                 const SceneSettings& settings = default_scene_settings())
+      : simulator_(simulator), data_(data), settings_(settings) {}
 
   /// One column a model.
   Eigen::MatrixXd residuals(std::span<const Hypothesis> models, std::span<const int> trials);
   SceneDataSet::Sum sum(const Eigen::VectorXd& residual, std::span<const int> trials) const;
   SceneSimulator& simulator() { return simulator_; }
   const SceneDataSet& data() const { return data_; }
+  const SceneSettings& settings() const { return settings_; }
 
  private:
   SceneSimulator& simulator_;
   const SceneDataSet& data_;
+  const SceneSettings& settings_;
 };
 
 /// Bounded least squares (Ceres) from the model's values on.
@@ -55,12 +59,7 @@ SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
 
 /// Modulus, density and damping of the plants, as factors on what their files say; and where a
 /// plant stands, where nothing that was measured shows it but what it does to the arm.
-Hypothesis scene_baseline(const SceneExperiment& experiment);
-
-/// Whether a marker or an image point of a plant was measured.
-bool is_seen(const SceneExperiment& experiment, int plant);
-
-/// m and rad, standard deviations: how well a file says where an unseen plant stands.
-inline constexpr double place_known_to = 0.03, yaw_known_to = 0.3;
+Hypothesis scene_baseline(const SceneExperiment& experiment,
+                          const SceneSettings& settings = default_scene_settings());
 
 }  // namespace pedicel::discrepancy

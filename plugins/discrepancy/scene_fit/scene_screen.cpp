@@ -22,6 +22,7 @@ struct Start {
 bool does_nothing(const SceneFit& start) {
   return std::ranges::all_of(start.free, [&](const effects::FreeParameter& free) {
     // A place or a direction is not among the numbers.
+    // So it has to be simulated where it stands.
     if (free.vanishes == effects::Vanishes::never) return false;
     const double value =
         start.effect.numbers.at(free.name)[static_cast<std::size_t>(free.component)];
@@ -38,8 +39,10 @@ Eigen::VectorXd linear_step(const Eigen::VectorXd& residual, const Eigen::Matrix
   const Eigen::VectorXd right = jacobian.transpose() * residual;
   for (long p = 0; p < n; ++p) {
     const double width = model.free[static_cast<std::size_t>(p)].width();
+    // A contact that is not touched has no derivative, and its step would be infinite.
     normal(p, p) += 1.0 / (width * width) + 1.0e-9;
   }
+  // Of the base's numbers, too: a cause is worth what they cannot do without it.
   const Eigen::VectorXd step = normal.ldlt().solve(right);
   left = 0.5 * (residual - jacobian * step).squaredNorm();
   return step;
@@ -59,16 +62,23 @@ class Screen {
     added.free = fit.free;
     start.model.add(added);
     start.vanishes = does_nothing(fit);
+    // A start that does nothing has the residual of the base, which is known.
     if (!start.vanishes) start.at = want(start.model);
     const Eigen::VectorXd u = start.model.unknowns(), high = start.model.high();
     for (int p = base_.model.size(); p < start.model.size(); ++p) {
-      // A tenth of what is known: derivatives of contacts need more than a trifle.
-      double step = start.model.free[static_cast<std::size_t>(p)].logarithmic ? 0.1 : 1.0;
+      // A part of what is known: derivatives of contacts need more than a trifle.
+      const SceneFitSettings& how = evaluator_.settings().fit;
+      double step = start.model.free[static_cast<std::size_t>(p)].logarithmic
+                        ? how.screen_factor_step
+                        : how.screen_step;
+      // Inwards of the bounds: beyond them a model may not be simulated at all.
       if (u[p] + step > high[p]) step = -step;
       Eigen::VectorXd moved = u;
       moved[p] += step;
       Hypothesis other = start.model;
       other.set_unknowns(moved);
+      // Asked for here and simulated later, all causes together, so that the solver's lanes are
+      // full.
       start.moved.push_back(want(other));
       start.step.push_back(step);
     }
@@ -77,6 +87,7 @@ class Screen {
 
   std::vector<ScreenedCause> run(std::vector<SeenFrom>* seen) {
     Eigen::MatrixXd all(base_.residual.size(), static_cast<long>(wanted_.size()));
+    // In parts, as readings of a long trial with cameras take megabytes a model.
     for (std::size_t first = 0; first < wanted_.size(); first += most_at_once) {
       const std::size_t count = std::min(most_at_once, wanted_.size() - first);
       all.middleCols(static_cast<long>(first), static_cast<long>(count)) =
@@ -87,7 +98,8 @@ class Screen {
       screened.push_back(judged(start, all));
       if (seen) keep_clearest(*seen, seen_from(start, all));
     }
-    std::ranges::stable_sort(screened, {}, &ScreenedCause::promised);
+    // Stable, so that ties go by the order of the definitions and verdicts repeat.
+    std::ranges::stable_sort(screened, {}, &ScreenedCause::linear_cost);
     return screened;
   }
 
@@ -101,6 +113,7 @@ class Screen {
     const Eigen::VectorXd here = start.at < 0 ? base_.residual : Eigen::VectorXd(all.col(start.at));
     const long own = static_cast<long>(start.moved.size()), old = base_.jacobian.cols();
     Eigen::MatrixXd jacobian(here.size(), old + own);
+    // Taken at the base. What a start of some size changes of it is left out.
     jacobian.leftCols(old) = base_.jacobian;
     for (long p = 0; p < own; ++p)
       jacobian.col(old + p) = (here - all.col(start.moved[static_cast<std::size_t>(p)])) /
@@ -108,8 +121,9 @@ class Screen {
     ScreenedCause out;
     out.name = start.name;
     out.model = start.model;
-    const Eigen::VectorXd step = linear_step(here, jacobian, start.model, out.promised);
+    const Eigen::VectorXd step = linear_step(here, jacobian, start.model, out.linear_cost);
     const Eigen::VectorXd u = start.model.unknowns() + step;
+    // A linear step may leave the bounds, and a fit may not begin there.
     out.model.set_unknowns(u.cwiseMax(start.model.low()).cwiseMin(start.model.high()));
     return out;
   }
@@ -124,6 +138,7 @@ class Screen {
         const double width = base_.model.free[static_cast<std::size_t>(p)].width();
         normal(p, p) += 1.0 / (width * width);
       }
+      // What the baseline's numbers can imitate is not seen, however large it is.
       left -= j * normal.ldlt().solve(j.transpose() * change);
     }
     return left.norm() / std::sqrt(std::max(1.0, static_cast<double>(base_.sum.count)));
@@ -148,6 +163,8 @@ class Screen {
       const double value = start.model.value(p);
       double way = 0.0;
       Eigen::VectorXd change;
+      // Where the start does nothing a step from there is its size. Elsewhere the start as a whole
+      // is.
       if (start.at < 0) {
         change = base_.residual - all.col(start.moved[static_cast<std::size_t>(p - old)]);
         way = free.logarithmic ? std::abs(step) : std::abs(free.scale * step);
@@ -160,6 +177,7 @@ class Screen {
                                                        : std::abs(value - free.nominal);
       }
       if (const double size = clear_of_base(change); size > 0.0)
+        // Of a vector the clearest component stands for it.
         out.a_unit = std::min(out.a_unit, way / size);
     }
     return out;
@@ -195,8 +213,9 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneF
   Screen screen(evaluator, base, trials);
   const SceneExperiment& experiment = evaluator.simulator().experiment();
   for (const SceneEffectDefinition& definition : scene_effect_definitions()) {
+    // Twice the same cause would be one with more numbers.
     if (std::ranges::find(has, definition.name) != has.end()) continue;
-    for (const SceneFit& start : starts_of(definition, {experiment})) {
+    for (const SceneFit& start : starts_of(definition, {experiment, evaluator.settings()})) {
       // An unseen plant's place is in the base already.
       const bool in_base = std::ranges::any_of(base.model.effects, [&](const plant::Effect& one) {
         return one.name == start.effect.name && one.words == start.effect.words;

@@ -8,11 +8,11 @@
 
 namespace pedicel::discrepancy {
 
-/// A model extended by a cause, and what the linear promises of it.
+/// A model extended by a cause, and what it would leave if it were linear.
 struct ScreenedCause {
-  std::string name;       ///< of the cause
-  Hypothesis model;       ///< the base with the cause, free numbers where the linear puts them
-  double promised = 0.0;  ///< nats, half the sum of squares that the linear expects
+  std::string name;          ///< of the cause
+  Hypothesis model;          ///< the base with the cause, free numbers where the linear puts them
+  double linear_cost = 0.0;  ///< nats, half the sum of squares that is left then
 };
 
 /// How large a cause would have to be to be seen beside the base's own numbers, as far as the

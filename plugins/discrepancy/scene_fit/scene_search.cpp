@@ -11,16 +11,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-/// Of a material's number, beside its standard error: what a file's own number is known to, and
-/// what two solvers make of it.
-constexpr double known_to = 0.02, clear = 3.0;
-/// Of the mean square beyond the noise: a number more must take so much of it.
-constexpr double price_of_number = 0.003;
-constexpr int baseline_iterations = 6, first_iterations = 4, last_iterations = 4;
-constexpr int most_renewals = 3;
-/// A leader whose linear promise is worse than so many times what the best has reached is left out.
-constexpr double behind = 4.0;
-
+// The Bayesian information criterion, halved: each number costs 1/2 ln n nats.
 double cost_of(const SceneFitResult& fit) {
   return 0.5 * fit.sum.square +
          0.5 * fit.model.size() * std::log(std::max(2.0, static_cast<double>(fit.sum.count)));
@@ -30,22 +21,26 @@ double square(double x) {
   return x * x;
 }
 
-// An unseen plant's place in the baseline: beyond what its numbers are sure of, and 1 mm.
-bool is_moved(const SceneFitResult& fit) {
-  constexpr double least = 1.0e-3;  // m
+// Effects of the baseline that left what the files say: beyond what their numbers are sure of, and
+// what a ruler says.
+std::vector<std::string> moved(const SceneFitResult& fit, const SceneSearchSettings& how) {
+  std::vector<std::string> names;
   for (int p = 0; p < fit.model.size(); ++p) {
     const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
     const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
-    if (effect.name != "plant_pose" || free.name != "offset" || free.prior == 0.0) continue;
-    const double error = std::hypot(fit.standard_error[p] * free.scale, least);
-    if (std::abs(fit.model.value(p)) > clear * error) return true;
+    if (!told_of_baseline(effect, free) || std::ranges::find(names, effect.name) != names.end())
+      continue;
+    const double error = std::hypot(fit.standard_error[p] * free.scale, how.least_displacement);
+    if (std::abs(fit.model.value(p)) > how.named_deviations * error) names.push_back(effect.name);
   }
-  return false;
+  return names;
 }
 
 // Damping is what solvers differ by most, and density is seen through little but weight.
-double allowance(const std::string& name) {
-  return name == "damping_time" ? 10.0 * known_to : name == "density" ? 2.0 * known_to : known_to;
+double allowance(const std::string& name, const SceneSearchSettings& how) {
+  return name == "damping_time" ? how.damping_known_to
+         : name == "density"    ? how.density_known_to
+                                : how.modulus_known_to;
 }
 
 // 1, relative: how well a plant's file says it knows a number of its material; 0: it does not say.
@@ -53,6 +48,7 @@ double stated_of(const SceneExperiment& experiment, const std::string& name) {
   const effects::EffectDefinition* known = effects::find_effect(name);
   double most = 0.0;
   for (const ScenePlantFile& plant : experiment.plants)
+    // The largest of several plants: a factor is on all of them.
     if (known && known->known_to)
       most = std::max(most, (plant.file.material.known_to.*(known->known_to)).value_or(0.0));
   return most;
@@ -61,18 +57,24 @@ double stated_of(const SceneExperiment& experiment, const std::string& name) {
 class Search {
  public:
   Search(SceneEvaluator& evaluator, const SceneSearchOptions& options)
-      : evaluator_(evaluator), options_(options), experiment_(evaluator.simulator().experiment()) {}
+      : evaluator_(evaluator),
+        options_(options),
+        how_(evaluator.settings().search),
+        experiment_(evaluator.simulator().experiment()) {}
 
   SceneFindings run() {
     tell("simulating the scene as the files say", 0.0);
     const Hypothesis plain;
+    // First of all: shares and verdicts are told against what the files say.
     const SceneFitResult nominal = look_at(evaluator_, plain, options_.trials);
     found_.nominal_excess = SceneDataSet::beyond_noise(nominal.sum);
     found_.nominal_check = held_out(plain);
     tell("fitting modulus, density and damping", 0.05);
-    found_.baseline = fit(first_baseline(), baseline_iterations, options_.trials);
+    found_.baseline = fit(first_baseline(), how_.baseline_iterations, options_.trials);
+    // With a place among its numbers a baseline has a long way, and everything after is judged
+    // against it.
     if (!found_.baseline.converged && found_.baseline.model.size() > 3)
-      found_.baseline = fit(found_.baseline.model, baseline_iterations, options_.trials);
+      found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
     judge_baseline();
     renew_at_baseline();
     look_for_causes();
@@ -85,21 +87,28 @@ class Search {
   // A plant that is not seen may stand where no derivative shows the way: when it is touched, or
   // whether, decides. So it is put to several places first.
   Hypothesis first_baseline() {
-    std::vector<Hypothesis> starts = {scene_baseline(experiment_)};
+    std::vector<Hypothesis> starts = {plain_baseline()};
+    const double far = how_.farthest_start;
     for (std::size_t p = 0; p < starts.front().free.size(); ++p) {
       const effects::FreeParameter& free = starts.front().free[p];
-      if (free.name != "offset" || free.component > 1) continue;
-      for (const double way : {-0.016, -0.008, -0.004, 0.004, 0.008, 0.016}) {
+      const plant::Effect& effect = starts.front().effects[static_cast<std::size_t>(free.effect)];
+      const SceneEffectDefinition* known = told_of_baseline(effect, free);
+      if (!known || free.component >= known->in_baseline->without_slope) continue;
+      for (const double way : {-far, -far / 2.0, -far / 4.0, far / 4.0, far / 2.0, far}) {
         starts.push_back(starts.front());
         starts.back().set_value(static_cast<int>(p), way);
       }
     }
+    // Every plant is seen.
     if (starts.size() == 1) return starts.front();
     const Eigen::MatrixXd left = evaluator_.residuals(starts, options_.trials);
     long best = 0;
+    // All at once, one simulation a place. The fit goes on from the best one.
     left.colwise().squaredNorm().minCoeff(&best);
     return starts[static_cast<std::size_t>(best)];
   }
+
+  Hypothesis plain_baseline() const { return scene_baseline(experiment_, evaluator_.settings()); }
 
   void judge_baseline() {
     found_.baseline_excess = SceneDataSet::beyond_noise(found_.baseline.sum);
@@ -118,14 +127,17 @@ class Search {
   // An unseen plant's place is part of the baseline, and with it when the tool touches: what
   // predictions do not know of themselves was taken at other times.
   void renew_at_baseline() {
+    // More than modulus, density and damping: a place is among them.
     if (!options_.renew_noise || found_.baseline.model.size() <= 3) return;
-    if (found_.baseline_excess <= options_.floor) return;
-    for (int again = 0; again < most_renewals && !stopped(); ++again) {
+    if (found_.baseline_excess <= how_.floor) return;
+    for (int again = 0; again < how_.renewals && !stopped(); ++again) {
       const double before = found_.baseline_excess;
       renew_noise(found_.baseline.model.effects);
-      found_.baseline = fit(found_.baseline.model, baseline_iterations, options_.trials);
+      found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
       judge_baseline();
-      if (found_.baseline_excess <= options_.floor || found_.baseline_excess > 0.8 * before) return;
+      if (found_.baseline_excess <= how_.floor ||
+          found_.baseline_excess > how_.renewed_share * before)
+        return;
     }
   }
 
@@ -134,16 +146,19 @@ class Search {
   void renew_at_best() {
     if (!options_.renew_noise || found_.candidates.empty() || stopped()) return;
     const SceneCandidate& best = found_.candidates.front();
-    if (is_enough(best) || best.excess > 0.5 * found_.baseline_excess) return;
-    const double near = behind * std::max(best.excess, allowed());
+    // One that leaves most of the misfit is not the cause, and its touches are no better than the
+    // files'.
+    if (is_enough(best) || best.excess > how_.halfway * found_.baseline_excess) return;
+    const double near = how_.behind * std::max(best.excess, allowed());
     tell("taking the noise of predictions anew", 0.55);
     const std::vector<plant::Effect> effects = best.fit.model.effects;
     renew_noise(effects);
+    // Not fitted again: it only has to be judged under the same noise as the others.
     found_.baseline = look_at(evaluator_, found_.baseline.model, options_.trials);
     judge_baseline();
     for (SceneCandidate& one : found_.candidates) {
       if (stopped()) return;
-      one.fit = one.excess <= near ? fit(one.fit.model, last_iterations, options_.trials)
+      one.fit = one.excess <= near ? fit(one.fit.model, how_.last_iterations, options_.trials)
                                    : look_at(evaluator_, one.fit.model, options_.trials);
       judge(one);
     }
@@ -154,9 +169,10 @@ class Search {
     if (stopped()) return;
     add_round(found_.baseline, found_.baseline_excess, {}, 0.2, 0.55);
     renew_at_best();
-    for (int more = 1; more < options_.most_causes && !stopped(); ++more) {
+    for (int more = 1; more < how_.causes && !stopped(); ++more) {
       if (found_.candidates.empty()) return;
       const SceneCandidate best = found_.candidates.front();
+      // The second round has not found a better one, so a third would look at the same models.
       if (static_cast<int>(best.names.size()) < more || is_enough(best)) return;
       add_round(best.fit, best.excess, best.names, 0.55, 0.9);
       renew_at_best();
@@ -165,17 +181,19 @@ class Search {
 
   // What a model may leave: two honest solvers differ by so much.
   double allowed() const {
-    return std::max(options_.floor, options_.solvers_share *
-                                        std::max(found_.nominal_excess, found_.baseline_excess));
+    return std::max(how_.floor,
+                    how_.solvers_share * std::max(found_.nominal_excess, found_.baseline_excess));
   }
   bool is_enough(const SceneCandidate& one) const {
+    // Both must hold: fitted trials alone would let many numbers win.
     if (one.excess > allowed()) return false;
     return !one.check_excess || !found_.nominal_check ||
            *one.check_excess <=
-               std::max(2.0 * options_.floor, 2.0 * options_.solvers_share * *found_.nominal_check);
+               how_.held_out_allowance *
+                   std::max(how_.floor, how_.solvers_share * *found_.nominal_check);
   }
 
-  // Extends a model by each cause that it has not; refits the most promising.
+  // Extends a model by each cause that it has not; refits those with the least linear cost.
   void add_round(const SceneFitResult& base, double base_excess,
                  const std::vector<std::string>& names, double from, double to) {
     tell("looking at all causes", from);
@@ -184,25 +202,29 @@ class Search {
     std::vector<ScreenedCause> screened =
         screen_causes(evaluator_, base, names, options_.trials, seen);
     std::erase_if(screened, [&](const ScreenedCause& one) {
-      return square(base_excess) - square(excess_of(one.promised, base.sum)) < options_.least_gain;
+      return square(base_excess) - square(excess_of(one.linear_cost, base.sum)) < how_.least_gain;
     });
     screened = tried(base, best_of_each(screened));
     double best = base_excess;
     int done = 0;
-    const int most = names.empty() ? options_.most_refits : (options_.most_refits + 1) / 2;
+    // A second cause is looked for on top of one that has explained much.
+    const int most = names.empty() ? how_.refits : (how_.refits + 1) / 2;
     for (const ScreenedCause& one : screened) {
       if (done == most || stopped()) break;
-      if (done > 0 && excess_of(one.promised, base.sum) > behind * std::max(best, allowed())) break;
+      // They are in order, so all that follow are farther behind.
+      if (done > 0 &&
+          excess_of(one.linear_cost, base.sum) > how_.behind * std::max(best, allowed()))
+        break;
       tell("refitting with " + one.name, from + (to - from) * (0.3 + 0.7 * done / most));
       SceneCandidate candidate;
       candidate.names = names;
       candidate.names.push_back(one.name);
-      candidate.fit = fit(one.model, first_iterations, options_.trials);
+      candidate.fit = fit(one.model, how_.first_iterations, options_.trials);
       judge(candidate);
       // Where it leaves too much it may not have arrived, unless it leaves most of it.
       if (!candidate.fit.converged && candidate.excess > allowed() &&
-          candidate.excess < 0.5 * base_excess && !stopped()) {
-        candidate.fit = fit(candidate.fit.model, last_iterations, options_.trials);
+          candidate.excess < how_.halfway * base_excess && !stopped()) {
+        candidate.fit = fit(candidate.fit.model, how_.last_iterations, options_.trials);
         judge(candidate);
       }
       best = std::min(best, candidate.excess);
@@ -219,6 +241,7 @@ class Search {
   }
 
   double excess_of(double cost, const SceneDataSet::Sum& sum) const {
+    // A cost is half of a sum of squares.
     return SceneDataSet::beyond_noise({2.0 * cost, sum.count});
   }
 
@@ -230,7 +253,8 @@ class Search {
 
   // Fewer numbers win where more hardly do better.
   double score(const SceneCandidate& one) const {
-    return square(one.excess) + price_of_number * one.fit.model.size() * (1.0 + square(one.excess));
+    return square(one.excess) +
+           how_.number_price * one.fit.model.size() * (1.0 + square(one.excess));
   }
 
   static std::vector<ScreenedCause> best_of_each(const std::vector<ScreenedCause>& screened) {
@@ -241,14 +265,15 @@ class Search {
     return kept;
   }
 
-  // The linear promises much: whoever keeps more of it, at the whole step, a half or a fifth, goes
+  // Linear costs are too good: whoever keeps more of one, at the whole step or a shorter one, goes
   // first, and from there.
   std::vector<ScreenedCause> tried(const SceneFitResult& base,
                                    std::vector<ScreenedCause> screened) {
-    constexpr std::size_t most_tried = 8;
-    if (screened.size() > most_tried) screened.resize(most_tried);
+    const auto most = static_cast<std::size_t>(how_.tried);
+    if (screened.size() > most) screened.resize(most);
     std::vector<Hypothesis> models;
-    constexpr double shares[] = {1.0, 0.4};
+    // A contact bends the way: half of a step may leave less than all of it.
+    const double shares[] = {1.0, how_.shorter_step};
     const Eigen::VectorXd old = base.model.unknowns();
     for (const ScreenedCause& one : screened)
       for (const double share : shares) {
@@ -256,6 +281,8 @@ class Search {
         Eigen::VectorXd u = model.unknowns();
         u.head(old.size()) = old + share * (u.head(old.size()) - old);
         for (long p = old.size(); p < u.size(); ++p)
+          // A number on a logarithmic scale has no size that a part could be taken of: it keeps its
+          // own.
           if (!model.free[static_cast<std::size_t>(p)].logarithmic) u[p] *= share;
         model.set_unknowns(u);
         models.push_back(model);
@@ -271,10 +298,12 @@ class Search {
         least = cost;
         screened[i].model = models[at];
       }
-      // Between what was promised and what came of it.
-      screened[i].promised = std::sqrt(std::max(screened[i].promised, 1.0) * std::max(least, 1.0));
+      // Between the linear cost and what came of it.
+      // Geometrically, as costs differ by powers of ten.
+      screened[i].linear_cost =
+          std::sqrt(std::max(screened[i].linear_cost, 1.0) * std::max(least, 1.0));
     }
-    std::ranges::stable_sort(screened, {}, &ScreenedCause::promised);
+    std::ranges::stable_sort(screened, {}, &ScreenedCause::linear_cost);
     return screened;
   }
 
@@ -303,14 +332,15 @@ class Search {
 
   void conclude() {
     using Outcome = SceneFindings::Outcome;
+    // What hides is told for the misfit that a cause must make to be looked for.
     found_.seen_units = allowed();
     const bool best_does = !found_.candidates.empty() && is_enough(found_.candidates.front());
     if (best_does && pays(found_.candidates.front())) {
       found_.outcome = Outcome::named;
-      find_rivals();
-      if (!found_.rivals.empty()) found_.outcome = Outcome::ambiguous;
+      find_competing();
+      if (!found_.competing.empty()) found_.outcome = Outcome::ambiguous;
       name_material(found_.candidates.front().fit);
-    } else if (found_.baseline_excess <= options_.floor) {
+    } else if (found_.baseline_excess <= how_.floor) {
       found_.outcome = Outcome::adequate;
       name_material(found_.baseline);
     } else {
@@ -321,15 +351,17 @@ class Search {
   }
 
   bool pays(const SceneCandidate& one) const {
-    return square(found_.baseline_excess) - square(one.excess) >= options_.least_gain;
+    return square(found_.baseline_excess) - square(one.excess) >= how_.least_gain;
   }
 
-  void find_rivals() {
+  void find_competing() {
     const SceneCandidate& best = found_.candidates.front();
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
+      // Two causes always explain what one does.
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
-      if (score(one) - score(best) < 0.5 * square(best.excess) + 0.02) found_.rivals.push_back(i);
+      if (score(one) - score(best) < how_.tie_share * square(best.excess) + how_.least_tie)
+        found_.competing.push_back(i);
     }
   }
 
@@ -339,10 +371,11 @@ class Search {
       if (p < 0) continue;
       const double off = std::log(fit.model.value(p));
       const double error =
-          std::hypot(fit.standard_error[p], allowance(name), stated_of(experiment_, name));
-      if (std::abs(off) > clear * error) found_.material.push_back(name);
+          std::hypot(fit.standard_error[p], allowance(name, how_), stated_of(experiment_, name));
+      // In logarithms: a factor of two and one of a half are equally far off.
+      if (std::abs(off) > how_.named_deviations * error) found_.material.push_back(name);
     }
-    if (is_moved(fit)) found_.material.push_back("plant_pose");
+    for (const std::string& name : moved(fit, how_)) found_.material.push_back(name);
   }
 
   // What is outside acts in some trials, and in some of their time: the baseline is that of the
@@ -361,14 +394,14 @@ class Search {
   void refit_what_is_clean(const std::vector<int>& all) {
     for (const int t : all) {
       if (stopped()) return;
-      SceneFitResult own = fit(scene_baseline(experiment_), first_iterations, {t});
-      if (SceneDataSet::beyond_noise(own.sum) > 2.0 * options_.floor) continue;
+      SceneFitResult own = fit(plain_baseline(), how_.first_iterations, {t});
+      if (SceneDataSet::beyond_noise(own.sum) > how_.clean_allowance * how_.floor) continue;
       found_.clean.push_back(t);
     }
     if (found_.clean.empty()) return;
-    const SceneFitResult clean =
-        fit(scene_baseline(experiment_), baseline_iterations, found_.clean);
-    if (SceneDataSet::beyond_noise(clean.sum) > 2.0 * options_.floor) {
+    const SceneFitResult clean = fit(plain_baseline(), how_.baseline_iterations, found_.clean);
+    // Each of them alone was explained by other numbers: then no one plant explains them.
+    if (SceneDataSet::beyond_noise(clean.sum) > how_.clean_allowance * how_.floor) {
       found_.clean.clear();
       return;
     }
@@ -382,6 +415,7 @@ class Search {
 
   SceneEvaluator& evaluator_;
   const SceneSearchOptions& options_;
+  const SceneSearchSettings& how_;
   const SceneExperiment& experiment_;
   SceneFindings found_;
 };

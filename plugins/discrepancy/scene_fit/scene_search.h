@@ -23,13 +23,6 @@ struct SceneCandidate {
 struct SceneSearchOptions {
   std::vector<int> trials;  ///< to be fitted
   std::vector<int> check;   ///< held out
-  int most_refits = 4;      ///< candidates refitted in full, the first round; half in the next
-  int most_causes = 2;
-  /// Noise units: what two honest solvers of such a scene differ by, and what they differ by as a
-  /// share of what is to be explained. A misfit below is none.
-  double floor = 0.35, solvers_share = 0.05;
-  /// A cause must lower the mean square beyond the noise by so much more to be looked for at all.
-  double least_gain = 0.06;
   int threads = 1;
   std::function<void(const std::string&, double)> progress;  ///< what is done, and its share
   std::function<bool()> stop;  ///< true: what is known so far is to be concluded
@@ -45,7 +38,7 @@ struct SceneFindings {
   double baseline_excess = 0.0;                         ///< noise units
   std::optional<double> nominal_check, baseline_check;  ///< the same on trials held out
   std::vector<SceneCandidate> candidates;               ///< those with causes, the best first
-  std::vector<std::size_t> rivals;  ///< of the best: candidates that do nearly as well
+  std::vector<std::size_t> competing;  ///< with the best: candidates that do nearly as well
   /// Of a number beside the causes, that left what is known of it: "youngs_modulus", "plant_pose".
   std::vector<std::string> material;
   std::vector<SeenFrom> seen;  ///< how large each cause would have to be, beside the baseline

@@ -45,22 +45,19 @@ class Writer {
 
  private:
   void take(const plant::Effect& effect) {
-    if (!find_scene_effect(effect.name)) {
+    const SceneEffectDefinition* known = find_scene_effect(effect.name);
+    if (!known) {
       // Of a plant's model: in its file (set_plant()). What is left is about measured data.
       if (is_of_experiment(effect)) out_.left.push_back(effect.name);
       return;
     }
-    if (effect.words.contains("camera") || of_a_camera(effect.name)) {
+    if (known->home == SceneHome::camera) {
       out_.left.push_back(effect.name);
       return;
     }
     scene_.effects.push_back({plant::effect_text(effect), {}});
     differs_ = true;
-    if (effect.name == "wrench_bias" || effect.name == "wrench_gain") add_sensors();
-  }
-
-  static bool of_a_camera(const std::string& name) {
-    return name == "camera_pose" || name == "camera_focal" || name == "lens_distortion";
+    if (known->home == SceneHome::wrench) add_sensors();
   }
 
   // Sensors whose effects the scene has write what the experiment's measured.

@@ -10,15 +10,6 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double least_push = 15.0;  // standard errors of a sample, for a push to say where it is
-constexpr double hold_share = 0.9;   // of the largest force: what is as strong says where, too
-constexpr double around_break = 0.012;  // s, to either side of a break
-constexpr double least_break = 0.25;    // of the largest force, that breaks off at once
-constexpr double finest = 2.5e-4;       // m, steps along the line of a force
-constexpr double farthest = 0.5;        // m, along it
-constexpr double near_stem = 0.03;      // m: what is farther from every stem is no place on one
-constexpr int places_a_curve = 80;
-
 /// Force and moment of the contact alone, in the sensor's frame, over time.
 struct Felt {
   std::vector<double> time;
@@ -52,7 +43,7 @@ SceneExperiment without_events(const SceneExperiment& experiment) {
 
 /// The scene with places along all curves as further markers of one trial, of one sample.
 SceneExperiment with_curves(const SceneExperiment& experiment, int trial, double time,
-                            std::vector<SceneMarker>& places) {
+                            int places_a_curve, std::vector<SceneMarker>& places) {
   SceneExperiment own = experiment;
   own.trials = {experiment.trials[static_cast<std::size_t>(trial)]};
   own.markers.clear();
@@ -77,8 +68,9 @@ SceneExperiment with_curves(const SceneExperiment& experiment, int trial, double
 class RobotAlone {
  public:
   RobotAlone(SceneSimulator& simulator, const std::vector<plant::Effect>& model, double force_std,
-             double moment_std)
+             double moment_std, const RobotAloneSettings& how)
       : simulator_(simulator),
+        how_(how),
         experiment_(simulator.experiment()),
         empty_(without_events(experiment_)),
         alone_(empty_, simulator.numerics(), 1),
@@ -104,7 +96,7 @@ class RobotAlone {
     for (std::size_t w = 0; w < trial.wrenches.size(); ++w) {
       if (trial.wrenches[w].size() < 10) continue;
       const Felt felt = less(trial.wrenches[w], own.wrenches[w]);
-      if (felt.largest() < least_push * force_std_) continue;
+      if (felt.largest() < how_.least_push * force_std_) continue;
       tell_place(t, trial, felt, experiment_.wrenches[w].link);
       tell_break(trial, felt);
     }
@@ -113,10 +105,7 @@ class RobotAlone {
   // As if no plant were there: what remains is weight, inertia and the sensor's own.
   SceneReadings untouched(int t) {
     SceneVariant variant{model_};
-    plant::Effect away;
-    away.name = "plant_pose";
-    away.numbers["offset"] = {0.0, 0.0, -100.0};
-    variant.effects.push_back(away);
+    variant.plants_away = true;
     const SceneSimulator::Request request{&variant, t};
     return alone_.run({&request, 1}).front();
   }
@@ -130,7 +119,7 @@ class RobotAlone {
     // The longest stretch of a firm push is one place; its middle stands for it.
     std::size_t best = 0, length = 0, begin = 0;
     for (std::size_t i = 0; i <= felt.force.size(); ++i) {
-      const bool firm = i < felt.force.size() && felt.force[i].norm() > hold_share * most;
+      const bool firm = i < felt.force.size() && felt.force[i].norm() > how_.firm_share * most;
       if (firm) continue;
       if (i - begin > length) best = begin, length = i - begin;
       begin = i + 1;
@@ -172,12 +161,12 @@ class RobotAlone {
         const auto& shapes = arm.description().links[at].collisions;
         for (std::size_t c = 0; c < shapes.size(); ++c) {
           const Vec3 place_C = (links[at] * shapes[c].X_LC).inverse() * place;
-          if (fields_[at][c]->distance(place_C) < 1.0e-3) return true;
+          if (fields_[at][c]->distance(place_C) < how_.touching) return true;
         }
       }
       return false;
     };
-    for (double s = -farthest; s < farthest; s += finest)
+    for (double s = -how_.line_reach; s < how_.line_reach; s += how_.line_step)
       if (inside(on_line + s * along)) return on_line + s * along;
     return std::nullopt;
   }
@@ -185,13 +174,13 @@ class RobotAlone {
   // The place on the stems of the fitted model, as they are bent then.
   void tell_along(int t, const SceneTrial& trial, double time, const Vec3& place, double error) {
     std::vector<SceneMarker> places;
-    const SceneExperiment own = with_curves(experiment_, t, time, places);
+    const SceneExperiment own = with_curves(experiment_, t, time, how_.places, places);
     SceneSimulator simulator(own, simulator_.numerics(), 1);
     const SceneVariant variant{model_};
     const SceneSimulator::Request request{&variant, 0};
     const SceneReadings bent = simulator.run({&request, 1}).front();
     if (!bent.healthy) return;
-    double nearest = near_stem;
+    double nearest = how_.near_stem;
     std::size_t best = places.size();
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double distance =
@@ -207,7 +196,7 @@ class RobotAlone {
     said.name = "hold_place";
     said.of = trial.name;
     said.value = at.at * length;
-    said.error = std::hypot(error, 0.5 * length / places_a_curve);
+    said.error = std::hypot(error, 0.5 * length / how_.places);
     said.unit = "m";
     said.shows = true;
     said.sentence = "In " + trial.name + " the tool pushes most at " + io::format_number(time, 3) +
@@ -235,7 +224,7 @@ class RobotAlone {
       for (auto k = static_cast<long>(i) + side; k >= 0 && k < static_cast<long>(felt.time.size());
            k += side) {
         const auto at = static_cast<std::size_t>(k);
-        if (std::abs(felt.time[at] - felt.time[i]) > around_break) break;
+        if (std::abs(felt.time[at] - felt.time[i]) > how_.around_break) break;
         sum += felt.force[at];
         ++count;
       }
@@ -249,17 +238,18 @@ class RobotAlone {
       most = fall;
       at = i;
     }
-    if (most < std::max(least_break * felt.largest(), 6.0 * force_std_)) return;
+    if (most < std::max(how_.break_share * felt.largest(), how_.break_deviations * force_std_))
+      return;
     const double sample = (felt.time.back() - felt.time.front()) /
                           static_cast<double>(std::max<std::size_t>(1, felt.time.size() - 1));
     SymptomNumber said;
     said.name = "force_breaks_off";
     said.of = trial.name;
     said.value = felt.time[at];
-    said.error = sample + around_break * force_std_ / most;
+    said.error = sample + how_.around_break * force_std_ / most;
     said.unit = "s";
     said.shows = true;
-    said.speaks_for = {"detachment_threshold", "contact_friction"};
+    said.speaks_for = scene_spoken_for(said.name);
     said.sentence = "In " + trial.name + " the force falls by " + io::format_number(most, 2) +
                     " N at " + io::format_number(said.value, 4) +
                     " s: something slips or comes off.";
@@ -267,6 +257,7 @@ class RobotAlone {
   }
 
   SceneSimulator& simulator_;
+  const RobotAloneSettings& how_;
   const SceneExperiment& experiment_;
   SceneExperiment empty_;
   SceneSimulator alone_;
@@ -281,8 +272,8 @@ class RobotAlone {
 
 std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
                                        const std::vector<plant::Effect>& model, double force_std,
-                                       double moment_std) {
-  return RobotAlone(simulator, model, force_std, moment_std).run();
+                                       double moment_std, const RobotAloneSettings& settings) {
+  return RobotAlone(simulator, model, force_std, moment_std, settings).run();
 }
 
 }  // namespace pedicel::discrepancy

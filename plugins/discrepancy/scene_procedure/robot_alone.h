@@ -5,6 +5,7 @@
 
 #include "pedicel/discrepancy/scene/scene_simulator.h"
 #include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 
@@ -14,6 +15,6 @@ namespace pedicel::discrepancy {
 /// `model`: effects of the fitted model. `force_std`, `moment_std`: N and N m.
 std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
                                        const std::vector<plant::Effect>& model, double force_std,
-                                       double moment_std);
+                                       double moment_std, const RobotAloneSettings& settings);
 
 }  // namespace pedicel::discrepancy

@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
-
 namespace pedicel::discrepancy {
 
 namespace {
@@ -47,7 +45,7 @@ class Exchange {
 
 Decoys scene_decoys(const SceneExperiment& experiment, const SceneDataSet& data,
                     std::span<const int> trials, std::span<const SceneReadings> without,
-                    std::span<const SceneReadings> with) {
+                    std::span<const SceneReadings> with, double too_alike) {
   long rows = 0;
   for (const int t : trials) rows += data.size(t);
   Eigen::VectorXd residual(rows), change(rows), reversed(rows), exchanged(rows);
@@ -68,7 +66,7 @@ Decoys scene_decoys(const SceneExperiment& experiment, const SceneDataSet& data,
     if (trial.follows_commands) exchange.table(trial.joints, 0);
     first += size;
   }
-  return decoys_of(residual, change, reversed, exchanged, Evidence{}.too_alike);
+  return decoys_of(residual, change, reversed, exchanged, too_alike);
 }
 
 }  // namespace pedicel::discrepancy

@@ -15,9 +15,6 @@ namespace pedicel::discrepancy {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-// The search has found the valley. A finer mesh only moves its bottom a little, and each iteration
-// takes a simulation for each number.
-constexpr int polishing = 3;  // iterations with the finer mesh
 
 bool healthy(const std::vector<SceneReadings>& readings) {
   return std::ranges::all_of(readings, [](const SceneReadings& one) { return one.healthy; });
@@ -76,10 +73,10 @@ class Procedure {
 
   // With a coarser mesh and step, whose own error counts as noise.
   void search() {
-    SceneNumerics coarse = options_.search;
+    SceneNumerics coarse;
     // Never finer than what judges: an experiment may ask for less than the search's default.
-    coarse.distance = std::max(coarse.distance, options_.numerics.distance);
-    coarse.dt = std::max(coarse.dt, options_.numerics.dt);
+    coarse.distance = std::max(options_.settings.search.mesh, options_.numerics.distance);
+    coarse.dt = std::max(options_.settings.search.dt, options_.numerics.dt);
     // A search that is cut short ends its simulations, as at the time limit: half of one says what
     // is not so.
     SceneSimulator simulator(experiment_, coarse, options_.threads,
@@ -88,7 +85,7 @@ class Procedure {
     // The finer predictions are at hand: what the coarse ones are off by is known, sample by
     // sample, and counts as noise there.
     widen_noise(simulator, data, {}, out_.nominal);
-    SceneEvaluator evaluator(simulator, data);
+    SceneEvaluator evaluator(simulator, data, options_.settings);
     SceneSearchOptions how;
     how.trials = out_.fit_trials;
     how.check = out_.check_trials;
@@ -106,16 +103,18 @@ class Procedure {
     more_ += simulator.simulations();
   }
 
-  // The model that is told, and its rivals, with the finer mesh.
+  // The model that is told, and those that compete with it, with the finer mesh.
   // Only few iterations, and from where the search ended: which cause it is has been decided.
   void polish() {
     SceneFindings& found = out_.findings;
-    SceneEvaluator evaluator(fine_, data_);
+    SceneEvaluator evaluator(fine_, data_, options_.settings);
     const auto refit = [&](SceneFitResult& fit) {
       if (stopped() || late()) return;
       SceneFitOptions how;
       how.trials = out_.fit_trials;
-      how.iterations = polishing;
+      // The search has found the valley. A finer mesh only moves its bottom a little, and each
+      // iteration takes a simulation for each number.
+      how.iterations = options_.settings.search.polishing;
       fit = fit_scene(evaluator, fit.model, how);
     };
     tell("refitting with a finer mesh", 0.85);
@@ -144,15 +143,19 @@ class Procedure {
   void finish() {
     tell("writing down what was found", 0.97);
     // With predictions of the fine simulator throughout, since these numbers are shown.
-    conclude_scene(fine_, data_, out_);
+    conclude_scene(fine_, data_, options_.settings.search, out_);
     // Of the refitted model and not of the extended one: a symptom is what the data show beside
     // what everybody would fit.
-    out_.verdict.symptoms = scene_symptoms(experiment_, data_, out_.refitted);
-    for (SymptomNumber& one : robot_alone(fine_, out_.model, data_.deviation(SceneChannel::force),
-                                          data_.deviation(SceneChannel::moment)))
+    out_.verdict.symptoms =
+        scene_symptoms(experiment_, data_, out_.refitted, options_.settings.symptoms);
+    for (SymptomNumber& one :
+         robot_alone(fine_, out_.model, data_.deviation(SceneChannel::force),
+                     data_.deviation(SceneChannel::moment), options_.settings.robot))
       out_.verdict.symptoms.push_back(std::move(one));
     out_.verdict.partial = out_.findings.partial;
     out_.text = findings_text(out_.findings, experiment_);
+    for (const std::string& sentence : changed_settings(options_.settings))
+      out_.text += "  " + sentence + "\n";
     // Last, so that what the conclusion simulated counts, too.
     set_cost();
   }

@@ -8,13 +8,14 @@
 
 #include "pedicel/discrepancy/scene_fit/scene_search.h"
 #include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 
 struct SceneDiagnosisOptions {
   /// Mesh and step of the predictions that are judged; those of the search are coarser.
   SceneNumerics numerics;
-  SceneNumerics search{.distance = 0.02, .dt = 2.0e-3};
+  SceneSettings settings;
   int threads = 1;
   double time_limit = std::numeric_limits<double>::infinity();  ///< s
   std::function<void(const std::string&, double)> progress;

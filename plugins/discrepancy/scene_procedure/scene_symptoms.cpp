@@ -4,36 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
-
-// As for plants without a robot: all symptoms of an experiment together then show by chance in less
-// than 1 % of cases.
-constexpr double shows_at = 5.0;     // standard errors
-constexpr double still = 0.15;       // s, in which nothing is expected to have moved
-constexpr double clear_push = 10.0;  // noise units, of a force that is a touch
-constexpr double light_push = 0.08;  // of the largest, likewise: an arm's own inertia is below
-// Short beside a touch, and long beside the samples of a force sensor: noise would else cross the
-// threshold before the tool does.
-constexpr double width = 0.012;    // s, to either side, over which forces are smoothed
-constexpr double firm_push = 0.4;  // of the largest force: there its ratio is told
-
-SymptomNumber symptom(const std::string& name, const std::string& of, double value, double error,
-                      const std::string& unit, std::vector<std::string> speaks_for) {
-  SymptomNumber out;
-  out.name = name;
-  out.of = of;
-  out.value = value;
-  out.error = error;
-  out.unit = unit;
-  // Without an error nothing is known of chance, and nothing shows.
-  out.shows = error > 0.0 && std::abs(value) > shows_at * error;
-  out.speaks_for = std::move(speaks_for);
-  return out;
-}
 
 /// Columns of a table over time, without what weight and inertia of the tool give: the prediction's
 /// own course at its own rest stands for them.
@@ -43,7 +19,9 @@ struct Push {
   std::vector<double> time, normal, across;  // s, N, N
 };
 
-void smooth(const std::vector<double>& time, std::vector<double>& x) {
+/// `width`: s, to either side: short beside a touch, and long beside the samples of a force sensor,
+/// whose noise would else cross the threshold before the tool does.
+void smooth(const std::vector<double>& time, std::vector<double>& x, double width) {
   // A copy: a running mean must not read what it has written.
   const std::vector<double> given = x;
   std::size_t first = 0, last = 0;
@@ -58,12 +36,13 @@ void smooth(const std::vector<double>& time, std::vector<double>& x) {
 }
 
 /// `noise`: N, of each component; 0 for predictions.
-Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench, double noise) {
+Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench, double noise,
+             const SceneSymptomSettings& how) {
   Push out;
   Vec3 rest = Vec3::Zero();
   int count = 0;
-  for (long r = 0; r < wrench.rows() && time[static_cast<std::size_t>(r)] < time.front() + still;
-       ++r)
+  for (long r = 0;
+       r < wrench.rows() && time[static_cast<std::size_t>(r)] < time.front() + how.still; ++r)
     // The mean while nothing has moved yet: weight of the tool, and the sensor's zero.
     if (wrench.row(r).head<3>().allFinite()) {
       rest += wrench.row(r).head<3>().transpose();
@@ -92,8 +71,8 @@ Push push_of(const std::vector<double>& time, const Eigen::MatrixXd& wrench, dou
   }
   // After the lengths: components that turn would cancel in a mean, and a contact that slips to and
   // fro would look frictionless.
-  smooth(out.time, out.normal);
-  smooth(out.time, out.across);
+  smooth(out.time, out.normal, how.smoothing);
+  smooth(out.time, out.across, how.smoothing);
   return out;
 }
 
@@ -120,8 +99,8 @@ std::pair<double, double> touch(const Push& push, double least) {
 class Symptoms {
  public:
   Symptoms(const SceneExperiment& experiment, const SceneDataSet& data,
-           std::span<const SceneReadings> predicted)
-      : experiment_(experiment), data_(data), predicted_(predicted) {}
+           std::span<const SceneReadings> predicted, const SceneSymptomSettings& how)
+      : experiment_(experiment), data_(data), predicted_(predicted), how_(how) {}
 
   std::vector<SymptomNumber> run() {
     for (std::size_t t = 0; t < experiment_.trials.size() && t < predicted_.size(); ++t) {
@@ -151,16 +130,30 @@ class Symptoms {
   }
 
  private:
+  void add(const std::string& name, const std::string& of, double value, double error,
+           const std::string& unit) {
+    SymptomNumber out;
+    out.name = name;
+    out.of = of;
+    out.value = value;
+    out.error = error;
+    out.unit = unit;
+    // Without an error nothing is known of chance, and nothing shows.
+    out.shows = error > 0.0 && std::abs(value) > how_.shows_at * error;
+    out.speaks_for = scene_spoken_for(name);
+    found_.push_back(std::move(out));
+  }
+
   // What a wrist feels is what the tool touches with, so all about contact is read from its wrench.
   void contact(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
                std::size_t sensor) {
     // As stated, or as the samples scatter at rest.
     const double noise = data_.deviation(SceneChannel::force);
-    const Push measured = push_of(samples.time, samples.value, noise),
-               told = push_of(samples.time, model, 0.0);
+    const Push measured = push_of(samples.time, samples.value, noise, how_),
+               told = push_of(samples.time, model, 0.0, how_);
     // One threshold for both, from the measured side. With one for each, a model that pushes half
     // as hard would touch at the same time.
-    const double least = std::max(clear_push * noise, light_push * largest(measured));
+    const double least = std::max(how_.clear_push * noise, how_.light_push * largest(measured));
     const auto [begin, end] = touch(measured, least);
     const auto [begin_told, end_told] = touch(told, least);
     // A time is known to the sample, and to the window of the smoothing.
@@ -169,8 +162,7 @@ class Symptoms {
                               : 0.0;
     const auto tell = [&](const std::string& name, double a, double b, const std::string& what) {
       if (std::isnan(a) || std::isnan(b)) return;
-      found_.push_back(symptom(name, trial.name, a - b, 1.5 * sample + width / 3.0, "s",
-                               {"plant_pose", "tool_pose", "robot_latency", "joint_offset"}));
+      add(name, trial.name, a - b, 1.5 * sample + how_.smoothing / 3.0, "s");
       found_.back().sentence = "In " + trial.name + " the tool " + what + " " +
                                io::format_number(std::abs(a - b), 2) + " s " +
                                (a > b ? "later" : "earlier") + " than simulated, at " +
@@ -193,7 +185,8 @@ class Symptoms {
       for (std::size_t i = 0; i < push.time.size(); ++i) {
         // Of a light push the ratio is one of two noises. Firm is relative to its own largest, so
         // that a model with another stiffness is read over the same part of the push.
-        if (push.normal[i] < firm_push * most || most < 2.0 * clear_push * noise) continue;
+        if (push.normal[i] < how_.firm_push * most || most < 2.0 * how_.clear_push * noise)
+          continue;
         normal += push.normal[i];
         across += push.across[i];
         ++count;
@@ -205,26 +198,25 @@ class Symptoms {
     double error = 0.0, none = 0.0;
     const double a = ratio(measured, error), b = ratio(told, none);
     if (std::isnan(a) || std::isnan(b)) return;
-    // A floor of 0.01, so that a long push does not make a difference of next to nothing
+    // A floor, so that a long push does not make a difference of next to nothing
     // significant.
-    found_.push_back(symptom("friction_ratio", trial.name, a - b, std::max(error, 0.01), "1",
-                             {"contact_friction", "wrench_gain"}));
+    add("friction_ratio", trial.name, a - b, std::max(error, how_.ratio_known_to), "1");
     found_.back().sentence = "In " + trial.name + " the tangential force is " +
                              io::format_number(a, 3) + " of the normal one, simulated " +
                              io::format_number(b, 3) + ".";
     const double slip = slip_of(measured, noise), slip_told = slip_of(told, noise);
     if (std::isnan(slip) || std::isnan(slip_told)) return;
-    found_.push_back(symptom("slip", trial.name, slip - slip_told, 0.1, "s", {"contact_friction"}));
+    add("slip", trial.name, slip - slip_told, how_.slip_known_to, "s");
     found_.back().sentence = "In " + trial.name + " the contact begins to slip at " +
                              io::format_number(slip, 3) + " s, simulated at " +
                              io::format_number(slip_told, 3) + " s.";
   }
 
   // When the ratio of a firm push first reaches what it is at most.
-  static double slip_of(const Push& push, double noise) {
+  double slip_of(const Push& push, double noise) const {
     std::vector<double> ratios, times;
     for (std::size_t i = 0; i < push.time.size(); ++i)
-      if (push.normal[i] > 3.0 * clear_push * noise) {
+      if (push.normal[i] > 3.0 * how_.clear_push * noise) {
         ratios.push_back(push.across[i] / push.normal[i]);
         times.push_back(push.time[i]);
       }
@@ -234,11 +226,10 @@ class Symptoms {
     std::ranges::sort(sorted);
     // What the ratio is at most, but for spikes. While a contact sticks the ratio rises, and when
     // it slips it stays: that is Coulomb's law.
-    const double high = sorted[sorted.size() * 95 / 100];
+    const double high = how_.slip_ratio * sorted[sorted.size() * 95 / 100];
     // Three in a row, so that noise alone does not begin to slip.
     for (std::size_t i = 0; i + 2 < ratios.size(); ++i)
-      if (ratios[i] > 0.95 * high && ratios[i + 1] > 0.95 * high && ratios[i + 2] > 0.95 * high)
-        return times[i];
+      if (ratios[i] > high && ratios[i + 1] > high && ratios[i + 2] > high) return times[i];
     return std::nan("");
   }
 
@@ -248,7 +239,7 @@ class Symptoms {
     Eigen::Matrix<double, 6, 1> off = Eigen::Matrix<double, 6, 1>::Zero();
     int count = 0;
     for (long r = 0; r < samples.size() &&
-                     samples.time[static_cast<std::size_t>(r)] < samples.time.front() + still;
+                     samples.time[static_cast<std::size_t>(r)] < samples.time.front() + how_.still;
          ++r) {
       // Unlike the pushes this is not taken off: here the rest itself is asked for.
       const Eigen::RowVectorXd d = samples.value.row(r) - model.row(r);
@@ -262,15 +253,13 @@ class Symptoms {
     const std::string name = experiment_.wrenches[sensor].name;
     const double root = std::sqrt(static_cast<double>(count));
     // The root of three: the length of a vector of three noises.
-    found_.push_back(symptom("wrench_at_rest", trial.name, off.head<3>().norm(),
-                             1.7 * data_.deviation(SceneChannel::force) / root, "N",
-                             {"wrench_bias", "payload", "wrench_gain"}));
+    add("wrench_at_rest", trial.name, off.head<3>().norm(),
+        1.7 * data_.deviation(SceneChannel::force) / root, "N");
     found_.back().sentence = "At rest the sensor " + name + " says " +
                              io::format_number(off.head<3>().norm(), 3) +
                              " N more than weight explains.";
-    found_.push_back(symptom("moment_at_rest", trial.name, off.tail<3>().norm(),
-                             1.7 * data_.deviation(SceneChannel::moment) / root, "N m",
-                             {"wrench_bias", "payload"}));
+    add("moment_at_rest", trial.name, off.tail<3>().norm(),
+        1.7 * data_.deviation(SceneChannel::moment) / root, "N m");
     found_.back().sentence = "At rest the sensor " + name + " says a moment of " +
                              io::format_number(off.tail<3>().norm(), 3) +
                              " N m more than weight explains.";
@@ -298,11 +287,10 @@ class Symptoms {
     }
     if (bottom <= 0.0) return;
     const double shift = top / bottom;
-    // With a floor of 0.2 ms, so that a long record does not make a lag of next to nothing
+    // With a floor, so that a long record does not make a lag of next to nothing
     // significant.
-    found_.push_back(symptom("robot_lag", trial.name, -shift,
-                             data_.deviation(SceneChannel::position) / std::sqrt(bottom) + 2.0e-4,
-                             "s", {"robot_latency", "latency"}));
+    add("robot_lag", trial.name, -shift,
+        data_.deviation(SceneChannel::position) / std::sqrt(bottom) + how_.clock_known_to, "s");
     found_.back().sentence =
         "In " + trial.name + " the arm's log is " + io::format_number(1.0e3 * std::abs(shift), 2) +
         " ms " + (shift < 0.0 ? "behind" : "ahead of") + " what the markers on the arm show.";
@@ -338,8 +326,7 @@ class Symptoms {
     const auto mrad = [](double angle) { return io::format_number(1.0e3 * angle, 2); };
     const double error =
         data_.deviation(SceneChannel::pixel) / std::sqrt(static_cast<double>(count));
-    found_.push_back(symptom("image_motion", trial.name, fit.head<2>().norm(), 2.0 * error + 0.02,
-                             "px", {"camera_pose", "camera_focal", "lens_distortion"}));
+    add("image_motion", trial.name, fit.head<2>().norm(), 2.0 * error + how_.pixel_known_to, "px");
     found_.back().sentence = "The image of " + camera.name + " is moved by (" +
                              io::format_number(fit[0], 2) + ", " + io::format_number(fit[1], 2) +
                              ") px, turned by " + io::format_number(1.0e3 * fit[2], 2) +
@@ -353,7 +340,7 @@ class Symptoms {
     Vec3 sum = Vec3::Zero();
     int count = 0;
     for (long r = 0; r < trial.markers.size() && trial.markers.time[static_cast<std::size_t>(r)] <
-                                                     trial.markers.time.front() + still;
+                                                     trial.markers.time.front() + how_.still;
          ++r)
       for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
         // Markers on the arm are the business of lag().
@@ -369,11 +356,10 @@ class Symptoms {
     // A mean over markers: a bend moves them differently and averages out less than a shift, which
     // is common to all.
     const Vec3 mean = sum / count;
-    found_.push_back(symptom(
-        "plant_shift", trial.name, mean.norm(),
+    add("plant_shift", trial.name, mean.norm(),
         1.7 * data_.deviation(SceneChannel::position) / std::sqrt(static_cast<double>(count)) +
-            5.0e-5,
-        "m", {"plant_pose", "frame_rotation"}));
+            how_.place_known_to,
+        "m");
     found_.back().sentence = "At rest the plant's markers are off by (" +
                              io::format_number(1.0e3 * mean.x(), 2) + ", " +
                              io::format_number(1.0e3 * mean.y(), 2) + ", " +
@@ -382,7 +368,6 @@ class Symptoms {
 
   // When fruits came off, recorded less simulated.
   void detachment(const SceneTrial& trial, const SceneReadings& model) {
-    constexpr double known_to = 0.01;  // s, of a recorded moment
     for (const SceneEvent& event : trial.events) {
       if (event.event != "detached") continue;
       const auto told = std::ranges::find_if(model.events, [&](const SceneEvent& one) {
@@ -392,9 +377,8 @@ class Symptoms {
                                " s in " + trial.name + ", ";
       // One that stays on in the model is later by the rest of the trial at least.
       const bool stays = told == model.events.end();
-      found_.push_back(symptom("detachment", trial.name,
-                               event.time - (stays ? trial.duration() : told->time), known_to, "s",
-                               {"detachment_threshold", "detachment_law"}));
+      add("detachment", trial.name, event.time - (stays ? trial.duration() : told->time),
+          how_.event_known_to, "s");
       found_.back().sentence =
           when + (stays ? "and stays on in the simulation."
                         : "simulated at " + io::format_number(told->time, 4) + " s.");
@@ -404,6 +388,7 @@ class Symptoms {
   const SceneExperiment& experiment_;
   const SceneDataSet& data_;
   std::span<const SceneReadings> predicted_;
+  const SceneSymptomSettings& how_;
   std::vector<SymptomNumber> found_;
 };
 
@@ -411,8 +396,9 @@ class Symptoms {
 
 std::vector<SymptomNumber> scene_symptoms(const SceneExperiment& experiment,
                                           const SceneDataSet& data,
-                                          std::span<const SceneReadings> predicted) {
-  return Symptoms(experiment, data, predicted).run();
+                                          std::span<const SceneReadings> predicted,
+                                          const SceneSymptomSettings& settings) {
+  return Symptoms(experiment, data, predicted, settings).run();
 }
 
 }  // namespace pedicel::discrepancy

@@ -5,6 +5,7 @@
 
 #include "pedicel/discrepancy/scene/scene_data.h"
 #include "pedicel/discrepancy/select/verdict.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 
@@ -14,6 +15,7 @@ namespace pedicel::discrepancy {
 /// first.
 std::vector<SymptomNumber> scene_symptoms(const SceneExperiment& experiment,
                                           const SceneDataSet& data,
-                                          std::span<const SceneReadings> predicted);
+                                          std::span<const SceneReadings> predicted,
+                                          const SceneSymptomSettings& settings);
 
 }  // namespace pedicel::discrepancy

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pedicel/discrepancy/scene_procedure/scene_decoys.h"
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
 
@@ -36,10 +35,12 @@ struct Misfit {
 
 class Conclusion {
  public:
-  Conclusion(SceneSimulator& simulator, const SceneDataSet& data, SceneDiagnosis& diagnosis)
+  Conclusion(SceneSimulator& simulator, const SceneDataSet& data, const SceneSearchSettings& how,
+             SceneDiagnosis& diagnosis)
       : simulator_(simulator),
         experiment_(simulator.experiment()),
         data_(data),
+        how_(how),
         d_(diagnosis),
         found_(diagnosis.findings),
         v_(diagnosis.verdict) {}
@@ -133,22 +134,20 @@ class Conclusion {
       v_.parameters[name] = {own * factor.value, own * factor.low, own * factor.high,
                              known->material_unit};
     }
-    set_root(model);
+    set_baseline_effects(model);
   }
 
   // Where an unseen plant is attached.
-  void set_root(const SceneFitResult& model) {
+  void set_baseline_effects(const SceneFitResult& model) {
     for (int p = 0; p < model.model.size(); ++p) {
       const effects::FreeParameter& free = model.model.free[static_cast<std::size_t>(p)];
       const plant::Effect& effect = model.model.effects[static_cast<std::size_t>(free.effect)];
-      if (effect.name != "plant_pose" || free.prior == 0.0 || free.name != "offset") continue;
-      const auto named = effect.words.find("plant");
-      const int at = named == effect.words.end() ? 0 : experiment_.plant_index(named->second);
-      const ScenePlantFile& plant = experiment_.plants[static_cast<std::size_t>(at)];
-      const double own = (plant.pose * plant.file.root)[free.component];
+      const SceneEffectDefinition* known = told_of_baseline(effect, free);
+      if (!known) continue;
+      const InBaseline::Told told = known->in_baseline->told(experiment_, effect, free.component);
       Estimate place = estimate_of(model, p);
-      for (double* value : {&place.value, &place.low, &place.high}) *value += own;
-      v_.parameters[plant.name + "_root_" + "xyz"[free.component]] = place;
+      for (double* value : {&place.value, &place.low, &place.high}) *value += told.nominal;
+      v_.parameters[told.name] = place;
     }
   }
 
@@ -157,14 +156,14 @@ class Conclusion {
     if (found_.explained()) {
       for (const std::string& name : all.front().names)
         v_.causes.push_back(cause_of(all.front(), name));
-      // Under `ambiguous` all that may be it stand side by side. What is common to two rivals is
-      // named once, with the numbers of the better one.
-      for (const std::size_t r : found_.rivals) {
-        const SceneCandidate& rival = all[r];
-        for (const std::string& name : rival.names)
+      // Under `ambiguous` all that may be it stand side by side. What is common to two of them
+      // is named once, with the numbers of the better one.
+      for (const std::size_t r : found_.competing) {
+        const SceneCandidate& other = all[r];
+        for (const std::string& name : other.names)
           if (std::ranges::none_of(v_.causes,
                                    [&](const NamedCause& one) { return one.name == name; }))
-            v_.causes.push_back(cause_of(rival, name));
+            v_.causes.push_back(cause_of(other, name));
       }
     } else if (found_.outcome == SceneFindings::Outcome::unknown) {
       // Three, since the list is read by people who look for an idea. `competing` has all.
@@ -264,11 +263,10 @@ class Conclusion {
       cause.parameters[free.name].push_back(estimate_of(model, p));
       cause.words = effect.words;
     }
-    if (const SceneEffectDefinition* known = find_scene_effect(cause.name))
-      cause.plain = known->plain_name;
-    cause.because =
-        "nothing shows where the plant stands but what it does to the arm, and that "
-        "puts it there";
+    const SceneEffectDefinition* known = find_scene_effect(cause.name);
+    if (!known || !known->in_baseline) return;
+    cause.plain = known->plain_name;
+    cause.because = known->in_baseline->because;
   }
 
   std::vector<SceneReadings> predict(const std::vector<plant::Effect>& effects) {
@@ -337,12 +335,13 @@ class Conclusion {
 
   // A cause must gain by its shape, not by its size: a decoy has the same size.
   void tell_decoys() {
-    const Decoys decoys = scene_decoys(experiment_, data_, d_.fit_trials, d_.refitted, d_.extended);
+    const Decoys decoys =
+        scene_decoys(experiment_, data_, d_.fit_trials, d_.refitted, d_.extended, how_.too_alike);
     const auto nats = [](double value) { return io::format_number(value, 3); };
     v_.causes.front().because += ". Decoys of it gain less: " + nats(decoys.reversed) +
                                  " nats backwards in time, " + nats(decoys.exchanged) +
                                  " at other markers, of " + nats(decoys.own);
-    if (decoys.lose(Levels{}.clear_margin)) return;
+    if (decoys.lose(how_.decoy_margin)) return;
     v_.outcome = Outcome::unknown;
     v_.remainder =
         "the same change backwards in time, or at other markers, explains the data as well";
@@ -410,6 +409,7 @@ class Conclusion {
   SceneSimulator& simulator_;
   const SceneExperiment& experiment_;
   const SceneDataSet& data_;
+  const SceneSearchSettings& how_;
   SceneDiagnosis& d_;
   const SceneFindings& found_;
   Verdict& v_;
@@ -418,8 +418,8 @@ class Conclusion {
 }  // namespace
 
 void conclude_scene(SceneSimulator& simulator, const SceneDataSet& data,
-                    SceneDiagnosis& diagnosis) {
-  Conclusion(simulator, data, diagnosis).run();
+                    const SceneSearchSettings& settings, SceneDiagnosis& diagnosis) {
+  Conclusion(simulator, data, settings, diagnosis).run();
 }
 
 }  // namespace pedicel::discrepancy

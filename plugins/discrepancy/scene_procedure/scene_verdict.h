@@ -5,6 +5,7 @@
 namespace pedicel::discrepancy {
 
 /// Fills `diagnosis.verdict` from its findings and predictions. `data`: as they are judged.
-void conclude_scene(SceneSimulator& simulator, const SceneDataSet& data, SceneDiagnosis& diagnosis);
+void conclude_scene(SceneSimulator& simulator, const SceneDataSet& data,
+                    const SceneSearchSettings& settings, SceneDiagnosis& diagnosis);
 
 }  // namespace pedicel::discrepancy

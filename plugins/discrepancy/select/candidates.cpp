@@ -403,7 +403,7 @@ class Refits {
       std::vector<Hypothesis> starts =
           continued(base_.hypothesis, from->fit.hypothesis, cause, budget_.gust_start);
       Evaluator& evaluator = coarse_.front();
-      starts = promising(evaluator, from->fit, starts);
+      starts = screened(evaluator, from->fit, starts);
       if (starts.empty()) continue;
       starts.resize(std::min(static_cast<std::size_t>(budget_.special_starts), starts.size()));
       keep_better(to->fit, best_fit(evaluator, base_, starts, rough(2 * budget_.whole_iterations),
@@ -415,8 +415,8 @@ class Refits {
   // Those whose change of the special case's prediction would gain more than chance gives, with
   // the size that fits best and the special case's own numbers refitted: to first order, which
   // costs a simulation each in place of a fit. The closest to the data come first.
-  std::vector<Hypothesis> promising(Evaluator& evaluator, const FitSummary& special,
-                                    const std::vector<Hypothesis>& starts) const {
+  std::vector<Hypothesis> screened(Evaluator& evaluator, const FitSummary& special,
+                                   const std::vector<Hypothesis>& starts) const {
     const Eigen::MatrixXd residuals = evaluator.residuals(starts, options_.fit);
     std::vector<Hypothesis> found;
     Scan scanned;

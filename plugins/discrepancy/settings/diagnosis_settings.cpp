@@ -33,7 +33,8 @@ std::vector<DiagnosisSetting> described(DiagnosisSettings& settings) {
   return rows;
 }
 
-void set_setting(DiagnosisSettings& settings, const std::string& assignment) {
+void assign_setting(const std::vector<DiagnosisSetting>& rows, const std::string& assignment,
+                    const std::string& example, const std::string& page) {
   const std::size_t equals = assignment.find('=');
   const std::string name = assignment.substr(0, equals);
   double value = 0.0;
@@ -42,14 +43,18 @@ void set_setting(DiagnosisSettings& settings, const std::string& assignment) {
   const char* last = assignment.data() + assignment.size();
   const auto read = std::from_chars(first, last, value);
   if (first == last || read.ec != std::errc() || read.ptr != last)
-    throw UsageError("--set " + assignment + ": expected NAME=NUMBER, as levels.clear_odds=4");
-  for (const DiagnosisSetting& setting : described(settings)) {
+    throw UsageError("--set " + assignment + ": expected NAME=NUMBER, as " + example);
+  for (const DiagnosisSetting& setting : rows) {
     if (setting.name != name) continue;
     if (const auto refusal = set_parameter(setting, value)) throw UsageError("--set " + *refusal);
     return;
   }
-  throw UsageError("--set " + assignment + ": no setting of the diagnosis is called \"" + name +
-                   "\"; expected one of `pedicel manual diagnosis_settings`");
+  throw UsageError("--set " + assignment + ": no setting of this diagnosis is called \"" + name +
+                   "\"; expected one of `pedicel manual " + page + "`");
+}
+
+void set_setting(DiagnosisSettings& settings, const std::string& assignment) {
+  assign_setting(described(settings), assignment, "levels.clear_odds=4", "diagnosis_settings");
 }
 
 }  // namespace pedicel::discrepancy

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 
@@ -34,6 +35,14 @@ class SettingRows {
   void seconds(const char* name, double& value, const char* sentence, Why why) {
     add(name, "s", &value, 1.0e-5, 0.1, sentence, std::move(why));
   }
+  /// s, m, rad and px of what was measured.
+  void measure(const char* name, const char* unit, double& value, const char* sentence, Why why) {
+    add(name, unit, &value, 1.0e-5, 10.0, sentence, std::move(why));
+  }
+  /// A step, above 0 because something is divided by it.
+  void step(const char* name, double& value, const char* sentence, Why why) {
+    add(name, "1", &value, 1.0e-6, 1.0, sentence, std::move(why));
+  }
   void count(const char* name, int& value, const char* sentence, Why why) {
     add(name, "1", &value, 1.0, 1.0e5, sentence, std::move(why));
   }
@@ -51,9 +60,20 @@ class SettingRows {
   std::vector<DiagnosisSetting>& rows_;
 };
 
+/// Sets one of `rows` from "NAME=NUMBER". `example` and `page` of the manual stand in the
+/// UsageError that says what was expected.
+void assign_setting(const std::vector<DiagnosisSetting>& rows, const std::string& assignment,
+                    const std::string& example, const std::string& page);
+
 void add_levels(Levels& levels, std::vector<DiagnosisSetting>& rows);
 void add_evidence(Evidence& evidence, std::vector<DiagnosisSetting>& rows);
 void add_budget(Budget& budget, std::vector<DiagnosisSetting>& rows);
 void add_accuracy(Accuracy& accuracy, std::vector<DiagnosisSetting>& rows);
+
+void add_scene_search(SceneSearchSettings& search, std::vector<DiagnosisSetting>& rows);
+void add_scene_fit(SceneFitSettings& fit, std::vector<DiagnosisSetting>& rows);
+void add_outside_force(OutsideForceSettings& outside, std::vector<DiagnosisSetting>& rows);
+void add_robot_alone(RobotAloneSettings& robot, std::vector<DiagnosisSetting>& rows);
+void add_scene_symptoms(SceneSymptomSettings& symptoms, std::vector<DiagnosisSetting>& rows);
 
 }  // namespace pedicel::discrepancy

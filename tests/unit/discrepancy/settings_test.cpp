@@ -6,7 +6,7 @@
 #include <set>
 
 #include "pedicel/core/check.h"
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "pedicel/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -51,10 +51,22 @@ TEST(DiagnosisSettings, DescribeEveryFieldOnce) {
   }
 }
 
-TEST(DiagnosisSettings, SayWhatAndWhy) {
-  DiagnosisSettings settings;
+TEST(SceneSettings, DescribeEveryFieldOnce) {
+  SceneSettings settings;
+  const std::vector<DiagnosisSetting> all = described(settings);
+  EXPECT_LT(bytes_left(settings.search, all), alignof(double));
+  EXPECT_LT(bytes_left(settings.fit, all), alignof(double));
+  EXPECT_LT(bytes_left(settings.outside, all), alignof(double));
+  EXPECT_LT(bytes_left(settings.robot, all), alignof(double));
+  EXPECT_LT(bytes_left(settings.symptoms, all), alignof(double));
+  std::set<std::string> names;
+  for (const DiagnosisSetting& setting : all)
+    EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+}
+
+void expect_whole(const std::vector<DiagnosisSetting>& all) {
   const auto units = known_units();
-  for (const DiagnosisSetting& setting : described(settings)) {
+  for (const DiagnosisSetting& setting : all) {
     EXPECT_TRUE(setting.sentence.ends_with('.')) << setting.name;
     EXPECT_TRUE(setting.doubled.ends_with('.')) << setting.name;
     EXPECT_FALSE(setting.source.empty()) << setting.name;
@@ -63,6 +75,42 @@ TEST(DiagnosisSettings, SayWhatAndWhy) {
     EXPECT_LE(setting.get(), setting.maximum) << setting.name;
     EXPECT_GT(setting.get(), 0.0) << setting.name;  // or half and twice of it would be the same
   }
+}
+
+TEST(DiagnosisSettings, SayWhatAndWhy) {
+  DiagnosisSettings settings;
+  expect_whole(described(settings));
+}
+
+TEST(SceneSettings, SayWhatAndWhy) {
+  SceneSettings settings;
+  expect_whole(described(settings));
+}
+
+TEST(SceneSettings, AreSetByNameAndSaid) {
+  SceneSettings settings;
+  EXPECT_TRUE(changed_settings(settings).empty());
+  set_setting(settings, "search.floor=0.7");
+  set_setting(settings, "robot.places=40");
+  EXPECT_EQ(settings.search.floor, 0.7);
+  EXPECT_EQ(settings.robot.places, 40);
+  EXPECT_EQ(default_scene_settings().search.floor, 0.35);
+  EXPECT_THAT(changed_settings(settings),
+              testing::ElementsAre("setting search.floor is 0.7 in place of 0.35",
+                                   "setting robot.places is 40 in place of 80"));
+}
+
+TEST(SceneSettings, AreOthersThanThoseOfAPlant) {
+  SceneSettings scene;
+  DiagnosisSettings plant;
+  EXPECT_THAT([&] { set_setting(scene, "levels.clear_odds=4"); },
+              ThrowsMessage<UsageError>(HasSubstr("`pedicel manual scene_settings`")));
+  EXPECT_THAT([&] { set_setting(plant, "search.floor=0.5"); },
+              ThrowsMessage<UsageError>(HasSubstr("`pedicel manual diagnosis_settings`")));
+  EXPECT_THAT([&] { set_setting(scene, "search.floor"); },
+              ThrowsMessage<UsageError>(HasSubstr("as search.floor=0.5")));
+  EXPECT_THAT([&] { set_setting(scene, "fit.first_step=0"); },
+              ThrowsMessage<UsageError>(HasSubstr("must be between")));
 }
 
 TEST(DiagnosisSettings, AreSetByName) {

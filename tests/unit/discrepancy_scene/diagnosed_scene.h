@@ -30,7 +30,9 @@ class DiagnosedScene : public testing::Test {
     how.numerics = numerics_;
     made_ = observed_scene(plain, variant, how);
     SceneDiagnosisOptions options;
-    options.numerics = options.search = numerics_;
+    options.numerics = numerics_;
+    options.settings.search.mesh = numerics_.distance;
+    options.settings.search.dt = numerics_.dt;
     if (stops_) {
       options.stop = &stop_;
       options.progress = [this](const std::string& what, double) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "arm_at_stem.h"
+#include "pedicel/discrepancy/settings/diagnosis_settings.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -30,7 +31,8 @@ class SceneDecoys : public testing::Test {
     experiment_.trials.front().markers.value = measured;
     const SceneDataSet data(experiment_);
     const int trial = 0;
-    return scene_decoys(experiment_, data, {&trial, 1}, {&without_, 1}, {&with_, 1});
+    return scene_decoys(experiment_, data, {&trial, 1}, {&without_, 1}, {&with_, 1},
+                        Evidence{}.too_alike);
   }
   ArmAtStem at_;
   SceneExperiment experiment_;

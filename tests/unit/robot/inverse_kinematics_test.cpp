@@ -106,7 +106,7 @@ TEST_F(InverseKinematics, LoyaltyPrefersTheDescentFromTheStart) {
   ASSERT_FALSE(own.reached);
   const IkResult best = inverse_kinematics(model_, target, start);
   IkSettings settings;
-  settings.loyalty = 1e6;
+  settings.start_preference = 1e6;
   const IkResult loyal = inverse_kinematics(model_, target, start, settings);
   EXPECT_THAT(loyal.sentence, HasSubstr("unreachable"));
   EXPECT_NEAR(loyal.position_error, own.position_error, 1e-12);

@@ -8,6 +8,7 @@ SceneEffectDefinition define_camera_focal() {
   d.name = "camera_focal";
   d.plain_name = "a camera with another focal length";
   d.sentence = "the focal length of a camera differs from its calibration";
+  d.home = SceneHome::camera;
   d.is_only_seen = true;
   d.parameters = {factor_of("factor", "on both focal lengths"), which("camera", "camera")};
   d.apply = [](const SceneEffectTarget& t) {
@@ -21,6 +22,7 @@ SceneEffectDefinition define_camera_focal() {
                            .positive("factor", 1.0, 0.5, 2.0));
     return starts;
   };
+  d.speaks_for = {{"image_motion", 2}};
   d.tells_apart = "calibrate the camera with a chessboard";
   return d;
 }

@@ -8,6 +8,7 @@ SceneEffectDefinition define_camera_pose() {
   d.name = "camera_pose";
   d.plain_name = "a camera that stands elsewhere";
   d.sentence = "a camera stands or looks elsewhere than its calibration says";
+  d.home = SceneHome::camera;
   d.is_only_seen = true;
   d.parameters = {vector_of("offset", "m", "in the world"),
                   vector_of("rotation", "rad", "rotation vector in the camera's own frame", false),
@@ -31,6 +32,7 @@ SceneEffectDefinition define_camera_pose() {
                            .vector("rotation", Vec3::Zero(), 2.0e-3, 0.5));
     return starts;
   };
+  d.speaks_for = {{"image_motion", 1}};
   d.tells_apart = "calibrate the camera against the arm with a marker on the tool";
   return d;
 }

@@ -9,6 +9,7 @@ SceneEffectDefinition define_contact_compliance() {
   d.name = "contact_compliance";
   d.plain_name = "a soft contact";
   d.sentence = "pad and tissue give way where they touch";
+  d.home = SceneHome::contact;
   d.parameters = {
       {.name = "stiffness",
        .unit = "N/m",

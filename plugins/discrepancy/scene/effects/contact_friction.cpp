@@ -9,6 +9,7 @@ SceneEffectDefinition define_contact_friction() {
   d.name = "contact_friction";
   d.plain_name = "another friction at the robot";
   d.sentence = "the plant slides on the robot with another Coulomb coefficient";
+  d.home = SceneHome::contact;
   d.parameters = {
       {.name = "coefficient",
        .unit = "1",
@@ -55,6 +56,7 @@ SceneEffectDefinition define_contact_friction() {
                            .vanishing_at(std::max(0.01, own)));
     return starts;
   };
+  d.speaks_for = {{"friction_ratio", 1}, {"slip", 1}, {"force_breaks_off", 2}};
   d.tells_apart =
       "drag the tool along the stem under a steady push, and look when it begins to slide";
   return d;

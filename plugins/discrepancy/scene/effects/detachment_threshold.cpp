@@ -10,6 +10,7 @@ SceneEffectDefinition define_detachment_threshold() {
   d.name = "detachment_threshold";
   d.plain_name = "stalks that hold more or less";
   d.sentence = "fruits come off at a multiple of the thresholds of the file";
+  d.home = SceneHome::plant;
   d.parameters = {factor_of("factor", "on every threshold of the file"), which("plant", "plant")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_plant([&](SceneState::Plant& plant) { plant.threshold *= t.number("factor"); });
@@ -31,6 +32,7 @@ SceneEffectDefinition define_detachment_threshold() {
           effects::Start("detachment_threshold").positive("factor", factor, 0.1, 10.0));
     return starts;
   };
+  d.speaks_for = {{"detachment", 1}, {"force_breaks_off", 1}};
   d.tells_apart = "pull a fruit with a force gauge until it comes off";
   return d;
 }

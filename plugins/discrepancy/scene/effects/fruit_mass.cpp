@@ -10,6 +10,7 @@ SceneEffectDefinition define_fruit_mass() {
   d.name = "fruit_mass";
   d.plain_name = "fruits of another mass";
   d.sentence = "the fruits weigh a multiple of what the file says";
+  d.home = SceneHome::plant;
   d.parameters = {factor_of("factor", "on the mass of every fruit"), which("plant", "plant")};
   d.apply = [](const SceneEffectTarget& t) {
     t.each_plant([&](SceneState::Plant& plant) { plant.fruit_mass *= t.number("factor"); });

@@ -9,6 +9,7 @@ SceneEffectDefinition define_joint_friction() {
   d.name = "joint_friction";
   d.plain_name = "friction in the joints of the arm";
   d.sentence = "joints have more friction than their file says";
+  d.home = SceneHome::arm;
   d.is_only_seen = true;
   d.parameters = {
       {.name = "coulomb",

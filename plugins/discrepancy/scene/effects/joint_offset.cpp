@@ -7,6 +7,7 @@ SceneEffectDefinition define_joint_offset() {
   d.name = "joint_offset";
   d.plain_name = "an encoder whose zero is off";
   d.sentence = "an encoder's zero is off: the link stands at the reading plus the offset";
+  d.home = SceneHome::arm;
   d.parameters = {
       {.name = "offset",
        .unit = "rad",
@@ -27,6 +28,7 @@ SceneEffectDefinition define_joint_offset() {
                            .signed_number("offset", 0.0, 2.0e-3, -0.2, 0.2));
     return starts;
   };
+  d.speaks_for = {{"touch_onset", 4}, {"touch_end", 4}};
   d.tells_apart = "drive the joint against its stop, or level the link, and read the encoder";
   return d;
 }

@@ -8,6 +8,7 @@ SceneEffectDefinition define_lens_distortion() {
   d.name = "lens_distortion";
   d.plain_name = "a lens that distorts";
   d.sentence = "the lens of a camera distorts more than its calibration says";
+  d.home = SceneHome::camera;
   d.is_only_seen = true;
   d.parameters = {
       {.name = "k1",
@@ -29,6 +30,7 @@ SceneEffectDefinition define_lens_distortion() {
                            .signed_number("k1", 0.0, 0.01, -1.0, 1.0));
     return starts;
   };
+  d.speaks_for = {{"image_motion", 3}};
   d.tells_apart = "calibrate the camera with a chessboard";
   return d;
 }

@@ -9,6 +9,7 @@ SceneEffectDefinition define_payload() {
   d.name = "payload";
   d.plain_name = "a load at the tool";
   d.sentence = "the tool carries a mass that its file does not have";
+  d.home = SceneHome::arm;
   d.is_only_seen = true;
   d.parameters = {
       {.name = "mass",
@@ -43,6 +44,7 @@ SceneEffectDefinition define_payload() {
                 .signed_number("mass", 0.02, 0.02, 0.0, 50.0)
                 .vector("centre", Vec3::Zero(), 0.02, 1.0)};
   };
+  d.speaks_for = {{"wrench_at_rest", 2}, {"moment_at_rest", 2}};
   d.tells_apart = "hold the tool still in several orientations, away from the plant";
   return d;
 }

@@ -2,11 +2,54 @@
 
 namespace pedicel::discrepancy {
 
+namespace {
+
+// Of an upright thing the yaw about its root is not seen, and its prior keeps it.
+SceneFit unseen_place(const SceneStartContext& context, const ScenePlantFile& plant) {
+  constexpr double way = 2.0e-3, turn = 0.02;  // m, rad: of a unit step
+  effects::Start start("plant_pose");
+  if (context.experiment.plants.size() > 1) start.word("plant", plant.name);
+  start.vector("offset", Vec3::Zero(), way, 0.15).signed_number("yaw", 0.0, turn, -1.0, 1.0);
+  SceneFit fit{start.effect(), start.free()};
+  for (effects::FreeParameter& free : fit.free)
+    free.prior = free.name == "yaw" ? context.settings.fit.yaw_known_to / turn
+                                    : context.settings.fit.place_known_to / way;
+  return fit;
+}
+
+InBaseline where_nothing_shows_it() {
+  InBaseline own;
+  own.fits = [](const SceneStartContext& c) {
+    std::vector<SceneFit> fits;
+    for (std::size_t p = 0; p < c.experiment.plants.size(); ++p)
+      if (!is_seen(c.experiment, static_cast<int>(p)))
+        fits.push_back(unseen_place(c, c.experiment.plants[p]));
+    return fits;
+  };
+  own.parameter = "offset";
+  // Horizontally: when a tool touches, or whether, decides. Upwards a stem goes on.
+  own.without_slope = 2;
+  own.because =
+      "nothing shows where the plant stands but what it does to the arm, and that puts it there";
+  own.told = [](const SceneExperiment& experiment, const plant::Effect& effect, int component) {
+    const auto named = effect.words.find("plant");
+    const int at = named == effect.words.end() ? 0 : experiment.plant_index(named->second);
+    const ScenePlantFile& plant = experiment.plants[static_cast<std::size_t>(at)];
+    // Where its root is, since that is what a ruler finds.
+    return InBaseline::Told{plant.name + "_root_" + "xyz"[component],
+                            (plant.pose * plant.file.root)[component]};
+  };
+  return own;
+}
+
+}  // namespace
+
 SceneEffectDefinition define_plant_pose() {
   SceneEffectDefinition d;
   d.name = "plant_pose";
   d.plain_name = "a plant that stands elsewhere";
   d.sentence = "the plant stands elsewhere in the frame of the robot";
+  d.home = SceneHome::plant;
   d.parameters = {
       {.name = "offset",
        .unit = "m",
@@ -45,6 +88,8 @@ SceneEffectDefinition define_plant_pose() {
     }
     return starts;
   };
+  d.in_baseline = where_nothing_shows_it();
+  d.speaks_for = {{"touch_onset", 1}, {"touch_end", 1}, {"plant_shift", 1}};
   d.tells_apart = "measure where the plant's root is in the frame of the robot";
   return d;
 }

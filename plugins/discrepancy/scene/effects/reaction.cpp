@@ -7,6 +7,7 @@ SceneEffectDefinition define_reaction() {
   d.name = "reaction";
   d.plain_name = "an arm that the plant moves";
   d.sentence = "the plant moves the arm: its joints give way between encoder and link";
+  d.home = SceneHome::arm;
   d.parameters = {
       {.name = "joint_stiffness",
        .unit = "N m/rad",

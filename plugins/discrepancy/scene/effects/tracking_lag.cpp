@@ -9,6 +9,7 @@ SceneEffectDefinition define_tracking_lag() {
   d.name = "tracking_lag";
   d.plain_name = "a controller that lags";
   d.sentence = "the position controller follows its commands with a lag of first order";
+  d.home = SceneHome::arm;
   d.parameters = {
       {.name = "time",
        .unit = "s",

@@ -8,6 +8,7 @@ SceneEffectDefinition define_wrench_bias() {
   d.name = "wrench_bias";
   d.plain_name = "a wrench sensor whose zero is off";
   d.sentence = "a wrench sensor has a constant bias";
+  d.home = SceneHome::wrench;
   d.is_only_seen = true;
   d.parameters = {vector_of("force", "N", "in the sensor's frame"),
                   vector_of("moment", "N m", "in the sensor's frame", false),
@@ -28,6 +29,7 @@ SceneEffectDefinition define_wrench_bias() {
     }
     return starts;
   };
+  d.speaks_for = {{"wrench_at_rest", 1}, {"moment_at_rest", 1}};
   d.tells_apart = "read the sensor while nothing touches the tool, in several orientations";
   return d;
 }

@@ -8,6 +8,7 @@ SceneEffectDefinition define_wrench_gain() {
   d.name = "wrench_gain";
   d.plain_name = "a wrench sensor with a wrong gain";
   d.sentence = "a wrench sensor reads a multiple of what acts";
+  d.home = SceneHome::wrench;
   d.is_only_seen = true;
   d.parameters = {factor_of("gain", "on force and moment"), which("wrench", "sensor")};
   d.apply = [](const SceneEffectTarget& t) {
@@ -22,6 +23,7 @@ SceneEffectDefinition define_wrench_gain() {
     }
     return starts;
   };
+  d.speaks_for = {{"friction_ratio", 2}, {"wrench_at_rest", 3}};
   d.tells_apart = "hang a known weight on the tool";
   return d;
 }
