@@ -55,6 +55,11 @@ class Sentences(unittest.TestCase):
         self.assertEqual(sentences.check(page(item * 5)), [])
 
 
+    def test_the_first_page_has_120_lines(self):
+        self.assertEqual(sentences.check_first_page(page("word\n" * 120)), [])
+        self.assertEqual(sentences.check_first_page(page("word\n" * 121)), [(121, "121 lines, expected at most 120")])
+
+
 class Links(unittest.TestCase):
     def test_a_page_an_anchor_and_a_place_that_are_missing(self):
         text = "[a](nowhere.md) [b](effects.md#no-such) [c](effects.md#effects-of-a-plant) `engine/no_such.h` `engine/core`"
@@ -100,6 +105,20 @@ class Words(unittest.TestCase):
         self.assertNotIn("quiet", old)
         text = "A quiet page with `leftover` in code.\n\nThe leftover.\n\n| a |\n|---|\n| two Rivals |\n"
         self.assertEqual([line for line, _ in words.check(page(text), old)], [3, 7])
+
+
+class Outputs(unittest.TestCase):
+    def test_a_command_prints_one_thing_on_all_pages(self):
+        one = page("```console\n$ pedicel a\nx\n$ pedicel b\n```\n", MANUAL / "one.md")
+        two = page("Text.\n\n```console\n$ pedicel b\ny\n$ pedicel a\nz\n```\n", MANUAL / "two.md")
+        self.assertEqual(commands.check_same([one, one]), [])
+        self.assertEqual(commands.check_same([one, two]),
+                         [(two, 6, "`pedicel a` prints something else in one.md:2")])
+
+    def test_readme_and_tutorial_are_compared(self):
+        shown = [{command for _, command, _ in commands.told(Page(file))}
+                 for file in (ROOT / "README.md", MANUAL / "tutorial_diagnose.md")]
+        self.assertIn("pedicel diagnose measured --out diagnosis", shown[0] & shown[1])
 
 
 class Rooms(unittest.TestCase):
