@@ -30,7 +30,7 @@ struct DatasetArguments {
   RunArguments run;
   std::string randomise, at;
   long count = 100;
-  std::optional<int> seed;
+  std::string seed;  // as it was typed, like the numbers of a run
   cluster::ClusterOptions cluster;
   int part = -1;  // of the set, which a task of --cluster makes
 };
@@ -42,6 +42,7 @@ void add_options(CLI::App& verb, DatasetArguments& a) {
                   "what varies from picture to picture: a file with `vary` (pedicel-variation)");
   verb.add_option("--out", a.run.out, "folder (default: out/NAME-dataset); a set there goes on");
   verb.add_option("--seed", a.seed, "picture i is drawn from this plus i (default: the scene's)")
+      ->type_name("INT")
       ->check(CLI::Range(0, 1000000000));
   verb.add_option("--at", a.at,
                   "simulated time of the pictures, s, or FROM:TO to draw it between (default: "
@@ -96,7 +97,7 @@ DataSetOptions options_of(const DatasetArguments& a) {
   DataSetOptions options;
   RunArguments run = a.run;
   run.camera.clear();  // that of a run is the video's
-  if (a.seed) run.numbers.emplace_back("seed", std::to_string(*a.seed));
+  if (!a.seed.empty()) run.numbers.emplace_back("seed", a.seed);
   const RunOptions of_run = run_options(run);
   options.scene = load_scene(run);
   options.simulation = of_run.simulation;

@@ -12,10 +12,11 @@ language = "en"
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3  # headings that can be linked to, down to the third level
 suppress_warnings = ["myst.header"]
+smartquotes = False  # it makes one dash of the two of an option
 html_theme = "alabaster"
 html_theme_options = {
     "description": "A sandbox where robots handle plants",
-    "page_width": "1200px",
+    "page_width": "min(1200px, 100%)",  # a narrower window cuts no line
     "sidebar_width": "250px",
     "body_max_width": "100%",
 }
@@ -30,9 +31,10 @@ if (KATEX / "katex.min.js").exists():
     html_static_path = [str(KATEX)]
     html_css_files = ["katex.min.css"]
     draw = (
-        "addEventListener('load', () => { for (const e of document.querySelectorAll('.math'))"
+        "addEventListener('load', () => { for (const e of document.querySelectorAll('.math')) {"
         " katex.render(e.textContent.trim().slice(2, -2), e,"
-        " {displayMode: e.tagName == 'DIV', throwOnError: false}); });"
+        " {displayMode: e.tagName == 'DIV', throwOnError: false});"
+        " if (e.tagName == 'DIV') e.style.overflow = 'auto hidden'; } });"
     )
     html_js_files = ["katex.min.js", (None, {"body": draw})]
 

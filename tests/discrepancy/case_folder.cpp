@@ -109,7 +109,7 @@ ordered_json effect_json(const plant::Effect& e) {
   return out;
 }
 
-ordered_json stranger_json(const reference::Stranger& s) {
+ordered_json outside_json(const reference::OutsideEffect& s) {
   return {{"kind", reference::name_of(s.kind)},
           {"where", {{"curve", s.place.curve}, {"at", s.place.at}}},
           {"point", {s.point.x(), s.point.y(), s.point.z()}},
@@ -131,7 +131,7 @@ std::string truth_text(const HiddenCase& c) {
                    {"expected", name_of(c.expected)}};
   for (const char* list : {"causes", "outside", "refitted"}) out[list] = ordered_json::array();
   for (const plant::Effect& e : c.causes) out["causes"].push_back(effect_json(e));
-  for (const reference::Stranger& s : c.strangers) out["outside"].push_back(stranger_json(s));
+  for (const reference::OutsideEffect& s : c.outside) out["outside"].push_back(outside_json(s));
   for (const plant::Effect& e : c.refitted) out["refitted"].push_back(effect_json(e));
   out["look_alikes"] = c.look_alikes;
   out["sine"] = c.sine;

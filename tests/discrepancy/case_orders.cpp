@@ -109,7 +109,7 @@ std::vector<CaseOrder> look_alikes() {
 std::vector<CaseOrder> outsiders() {
   std::vector<CaseOrder> list;
   for (int k = 0; k < 32; ++k) {
-    const EffectUse& use = stranger_uses()[k % stranger_uses().size()];
+    const EffectUse& use = outside_uses()[k % outside_uses().size()];
     const int v = k / 4;
     CaseOrder order =
         order_of(Kind::outside, v + k, plants[(v + k) % 4], use.packs[v % use.packs.size()]);

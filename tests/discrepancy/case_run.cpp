@@ -76,8 +76,8 @@ std::optional<double> lead_of(const HiddenCase& hidden, const Diagnosis& diagnos
 void score_force(const HiddenCase& hidden, const discrepancy::MissingForce& force, Score& score) {
   score.force_kind = force.kind;
   score.other_kinds = force.other_kinds;
-  if (hidden.strangers.empty() || !force.place) return;
-  const plant::CurvePlace& truth = hidden.strangers.front().place;
+  if (hidden.outside.empty() || !force.place) return;
+  const plant::CurvePlace& truth = hidden.outside.front().place;
   if (truth.curve == force.place->curve) score.force_away = std::abs(truth.at - force.place->at);
   if (force.place_error > 0.0) score.force_error = force.place_error;
   score.force_elsewhere = std::ranges::any_of(

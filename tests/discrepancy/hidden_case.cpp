@@ -119,7 +119,7 @@ class Maker {
   }
 
   // What other causes, the plant's mesh and junctions led otherwise make of the data.
-  Parting parting(const std::string& truth, const Sight& eye) const {
+  Distinguishability distinguishability(const std::string& truth, const Sight& eye) const {
     const auto change = [&](const std::vector<plant::Effect>& effects) -> Eigen::VectorXd {
       Subject subject = plain_;
       subject.effects.insert(subject.effects.end(), effects.begin(), effects.end());
@@ -201,7 +201,8 @@ class Maker {
     if (effect.sized) {
       const Sight eye = sight(effect.name);
       const bool apart = order().told_apart;
-      const auto others = apart ? std::optional(parting(effect.name, eye)) : std::nullopt;
+      const auto others =
+          apart ? std::optional(distinguishability(effect.name, eye)) : std::nullopt;
       std::map<double, Eigen::VectorXd> changes;
       const auto change = [&](double u) -> const Eigen::VectorXd& {
         return changes.contains(u) ? changes[u] : changes[u] = look(eye, effect, u);
@@ -256,7 +257,7 @@ class Maker {
     const std::size_t known = case_.refitted.size();
     case_.causes.assign(subject_.effects.begin() + static_cast<long>(known),
                         subject_.effects.end());
-    case_.strangers = subject_.strangers;
+    case_.outside = subject_.outside;
     if (order().kind == Kind::look_alike) case_.look_alikes = order().hidden;
     switch (order().kind) {
       case Kind::null:

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "discrepancy/distinguishability.h"
 #include "discrepancy/hidden_effect.h"
-#include "discrepancy/parting.h"
 
 namespace pedicel::hidden {
 
@@ -40,16 +40,16 @@ struct HiddenCase {
   CaseOrder order;
   std::uint64_t seed = 0;
   std::string name;
-  std::vector<plant::Effect> causes;           ///< what is to be named, with the true parameters
-  std::vector<reference::Stranger> strangers;  ///< what is outside the list
-  std::vector<plant::Effect> refitted;         ///< true factors on the nominal modulus and damping
+  std::vector<plant::Effect> causes;              ///< what is to be named, with the true parameters
+  std::vector<reference::OutsideEffect> outside;  ///< what is outside the list
+  std::vector<plant::Effect> refitted;  ///< true factors on the nominal modulus and damping
   Expected expected = Expected::adequate;
   std::vector<std::string> look_alikes;  ///< every name that an ambiguous verdict may list
   double sine = 1.0;                     ///< of the angle between look-alikes
-  std::vector<double> smallest;          ///< identifiable size of each cause or stranger
-  std::vector<double> size;              ///< of each; in effects_size's own units
-  std::vector<double> visible;           ///< noise units beyond a refit, of each on its own
-  Parting::Nearest nearest;              ///< of one effect that is told apart: what comes nearest
+  std::vector<double> smallest;  ///< identifiable size of each cause or effect outside the list
+  std::vector<double> size;      ///< of each; in effects_size's own units
+  std::vector<double> visible;   ///< noise units beyond a refit, of each on its own
+  Distinguishability::Nearest nearest;  ///< of one effect that is told apart: what comes nearest
   Noise noise;
   Setting setting;  ///< the nominal plant and its markers
   std::vector<reference::TrialPlan> trials;

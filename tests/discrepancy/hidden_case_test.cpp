@@ -93,7 +93,7 @@ TEST(HiddenCases, SizesAreMultiplesOfTheSmallest) {
 // The change (7, 3, 2, 5, 4, 1): a refit takes the first entry, another cause the second and third
 // (it mixes its two effects) or the fifth (one of its two places), and what solvers differ by at
 // most 2 of the fourth, of which 3 stay.
-TEST(HiddenCases, PartingLeavesWhatNoOtherCauseMakes) {
+TEST(HiddenCases, DistinguishabilityLeavesWhatNoOtherCauseMakes) {
   const auto unit = [](int i) -> Eigen::VectorXd { return Eigen::VectorXd::Unit(6, i); };
   const auto along = [](int i, const char* name) {
     plant::Effect e;
@@ -110,11 +110,11 @@ TEST(HiddenCases, PartingLeavesWhatNoOtherCauseMakes) {
   };
   Eigen::VectorXd truth(6);
   truth << 7, 3, 2, 5, 4, 1;
-  const Parting with({unit(0)}, {2.0 * unit(3)}, causes, change);
-  const Parting::Nearest nearest = with.nearest(truth);
+  const Distinguishability with({unit(0)}, {2.0 * unit(3)}, causes, change);
+  const Distinguishability::Nearest nearest = with.nearest(truth);
   EXPECT_EQ(nearest.cause, "has_a_place");
   EXPECT_NEAR(nearest.distance, std::sqrt(3 * 3 + 2 * 2 + 3 * 3 + 1), 1e-9);
-  const Parting alone({unit(0)}, {2.0 * unit(3)}, {}, change);
+  const Distinguishability alone({unit(0)}, {2.0 * unit(3)}, {}, change);
   EXPECT_EQ(alone.nearest(truth).cause, "");
   EXPECT_NEAR(alone.nearest(truth).distance, std::sqrt(3 * 3 + 2 * 2 + 3 * 3 + 4 * 4 + 1), 1e-9);
   // Nothing is taken the other way round.
@@ -261,7 +261,7 @@ TEST(HiddenCases, FolderGivesNothingAway) {
   EXPECT_EQ(text.find("effects"), std::string::npos);
   EXPECT_EQ(io::read_file((folder / c.name).string() + ".truth.json"), truth_text(c));
   EXPECT_EQ(c.expected, Expected::unknown);
-  EXPECT_EQ(c.strangers.size(), 1u);
+  EXPECT_EQ(c.outside.size(), 1u);
 }
 
 }  // namespace

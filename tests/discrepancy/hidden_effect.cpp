@@ -9,7 +9,7 @@ namespace pedicel::hidden {
 namespace {
 
 using plant::Effect;
-using reference::Stranger;
+using reference::OutsideEffect;
 using reference::Subject;
 using Numbers = std::map<std::string, std::vector<double>>;
 
@@ -35,7 +35,7 @@ class Draw {
   }
 
   HiddenEffect run() {
-    if (!constants() && !laws() && !later() && !air() && !instruments() && !strangers())
+    if (!constants() && !laws() && !later() && !air() && !instruments() && !outside())
       throw std::invalid_argument("no effect is called " + name_);
     return result_;
   }
@@ -256,37 +256,37 @@ class Draw {
     };
   }
 
-  bool strangers() {
-    Stranger s;
+  bool outside() {
+    OutsideEffect s;
     s.place = setting_.hold;
     s.place.at = round(random_.uniform(0.5, 0.9));
     s.direction = across();
     const double reach = scale_.reach;
     result_.outside = true;
     if (name_ == "string") {  // just taut, and so slack on one side
-      s.kind = Stranger::Kind::string;
+      s.kind = OutsideEffect::Kind::string;
       s.point = scale_.held + 0.5 * reach * across();
       s.slack = 0.5 * reach - 0.005 * reach;
       result_.guess = 0.3, result_.cap = 2000;
     } else if (name_ == "stake") {  // just out of reach, and so met on one side
-      s.kind = Stranger::Kind::stake;
+      s.kind = OutsideEffect::Kind::stake;
       s.place = setting_.hold;
       s.point = scale_.held - 0.01 * reach * across();
       result_.guess = 0.3, result_.cap = 2000;
     } else if (name_ == "push") {
-      s.kind = Stranger::Kind::push;
+      s.kind = OutsideEffect::Kind::push;
       s.frequency = round(random_.uniform(0.4, 2.5));
       result_.guess = 1e-3, result_.cap = 1.0;
     } else if (name_ == "attraction") {
-      s.kind = Stranger::Kind::attraction;
+      s.kind = OutsideEffect::Kind::attraction;
       s.point = scale_.held + 0.15 * reach * across() + Vec3(0, 0, 0.03);
       result_.guess = 5e-3, result_.cap = 1.0;
     } else {
       return false;
     }
     result_.add = [s](double u, Subject& subject) {
-      subject.strangers.push_back(s);
-      subject.strangers.back().size = u;
+      subject.outside.push_back(s);
+      subject.outside.back().size = u;
     };
     return true;
   }
@@ -356,7 +356,7 @@ const std::vector<EffectUse>& later_uses() {
   return uses;
 }
 
-const std::vector<EffectUse>& stranger_uses() {
+const std::vector<EffectUse>& outside_uses() {
   using enum PackKind;
   static const std::vector<EffectUse> uses = {
       {"string", {release, mix, push}},

@@ -44,6 +44,6 @@ struct EffectUse {
 const std::vector<EffectUse>& effect_uses();
 /// Effects that came later: their cases stand behind all others, whose numbers stay.
 const std::vector<EffectUse>& later_uses();
-const std::vector<EffectUse>& stranger_uses();
+const std::vector<EffectUse>& outside_uses();
 
 }  // namespace pedicel::hidden

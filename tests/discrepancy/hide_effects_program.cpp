@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "discrepancy/measured_anew.h"
+#include "discrepancy/resimulated.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/yaml.h"
 #include "pedicel/plant/effect_reader.h"
@@ -12,7 +12,7 @@
 namespace {
 
 using namespace pedicel;
-using reference::Stranger;
+using reference::OutsideEffect;
 
 struct Arguments {
   std::string experiment, out;
@@ -28,12 +28,12 @@ plant::Effect parse_effect(const std::string& text, Diagnostics& diagnostics) {
   return plant::read_effect(node, known ? known->file : effects::EffectFile::plant);
 }
 
-Stranger parse_stranger(const std::string& text, Diagnostics& diagnostics) {
-  using enum Stranger::Kind;
+OutsideEffect parse_outside(const std::string& text, Diagnostics& diagnostics) {
+  using enum OutsideEffect::Kind;
   io::YamlMap map(io::parse_yaml(text, "--outside", diagnostics), "something from outside");
   const std::string kind = map.choice("kind", {"string", "stake", "push", "attraction"}, "string");
-  Stranger s;
-  for (const Stranger::Kind k : {string, stake, push, attraction})
+  OutsideEffect s;
+  for (const OutsideEffect::Kind k : {string, stake, push, attraction})
     if (kind == reference::name_of(k)) s.kind = k;
   s.place = {map.text("curve"), map.number("at", io::fraction), {}};
   s.size = map.number("size", io::positive);
@@ -49,13 +49,12 @@ void hide(const Arguments& a) {
   Diagnostics diagnostics;
   auto experiment = discrepancy::read_experiment(a.experiment, diagnostics);
   std::vector<plant::Effect> effects;
-  std::vector<Stranger> strangers;
+  std::vector<OutsideEffect> outside;
   for (const std::string& text : a.set) effects.push_back(parse_effect(text, diagnostics));
-  for (const std::string& text : a.outside) strangers.push_back(parse_stranger(text, diagnostics));
+  for (const std::string& text : a.outside) outside.push_back(parse_outside(text, diagnostics));
   if (!experiment || diagnostics.has_errors()) throw InvalidFile(diagnostics);
   experiment->title = std::filesystem::path(a.out).filename().string();
-  write_experiment(a.out,
-                   hidden::measured_anew(std::move(*experiment), effects, strangers, a.options));
+  write_experiment(a.out, hidden::resimulated(std::move(*experiment), effects, outside, a.options));
 }
 
 }  // namespace

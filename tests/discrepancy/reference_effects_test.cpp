@@ -470,27 +470,27 @@ TEST(ReferenceEffects, StemsGiveAlongThemselves) {
 TEST(ReferenceEffects, Strangers) {
   TrialPlan t;
   t.gravity.setZero();
-  const auto tip_y = [&](const Stranger& s, double load) {
+  const auto tip_y = [&](const OutsideEffect& s, double load) {
     Subject subject = hinge({});
-    subject.strangers = {s};
+    subject.outside = {s};
     t.loads = {{{"stem", 1.0, {}}, Vec3(0, load, 0)}};
     return settled_point(subject, t, {"stem", 1.0, {}}, {1.0, 0.005}).y();
   };
   const double k = K / (L * L), push = 0.05 * k * L;
-  Stranger s;
+  OutsideEffect s;
   s.place = {"stem", 1.0, {}};
   s.point = Vec3(0, -0.1, L);
   s.slack = 0.102;
   s.size = 2 * k;
   EXPECT_NEAR(tip_y(s, -push), -0.05 * L, 1e-4 * L);
   EXPECT_NEAR(tip_y(s, push), (push + s.size * 0.002) / (k + s.size), 1e-4 * L);
-  s.kind = Stranger::Kind::stake;
+  s.kind = OutsideEffect::Kind::stake;
   s.point = Vec3(0, 0.004, 0);
   s.direction = Vec3(0, -1, 0);
   s.size = 1e5;
   EXPECT_NEAR(tip_y(s, -push), -0.05 * L, 1e-4 * L);
   EXPECT_NEAR(tip_y(s, push), 0.004, 1e-5);
-  s.kind = Stranger::Kind::attraction;
+  s.kind = OutsideEffect::Kind::attraction;
   s.point = Vec3(0, 0.05, L);
   s.size = 0.02 * k * L;
   const double y = tip_y(s, 0.0);

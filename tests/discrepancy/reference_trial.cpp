@@ -33,8 +33,8 @@ PointLaw within(PointLaw law, double from, double to) {
   };
 }
 
-PointLaw stranger_law(const Stranger& s) {
-  using enum Stranger::Kind;
+PointLaw outside_law(const OutsideEffect& s) {
+  using enum OutsideEffect::Kind;
   return [&s](double t, double, const Vec3& x, const Vec3&) -> PointPush {
     const Vec3 away = s.point - x;
     const double r = away.norm();
@@ -74,8 +74,8 @@ class Run {
                                        return PointPush{f, 0.0};
                                      },
                                      load.from, load.to)});
-    for (const Stranger& s : subject.strangers)
-      around.forces.push_back({at(tree, s.place), stranger_law(s)});
+    for (const OutsideEffect& s : subject.outside)
+      around.forces.push_back({at(tree, s.place), outside_law(s)});
     if (trial.base) around.clamp = [this](double t) { return trial_.base->at(t); };
     solver = std::make_unique<Solver>(std::move(tree), std::move(around));
     hang(mesh);
@@ -291,7 +291,7 @@ Pose Rows::at(double t) const {
           rotation.empty() ? Quat::Identity() : rotation[i - 1].slerp(u, rotation[i])};
 }
 
-const char* name_of(Stranger::Kind kind) {
+const char* name_of(OutsideEffect::Kind kind) {
   constexpr const char* names[] = {"string", "stake", "push", "attraction"};
   return names[static_cast<int>(kind)];
 }

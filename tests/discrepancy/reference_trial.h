@@ -54,7 +54,7 @@ struct MarkerPlan {
 };
 
 /// What no effect stands for.
-struct Stranger {
+struct OutsideEffect {
   enum class Kind {
     string,  ///< pulls like a spring of `size` (N/m) beyond `slack` (m) from `point`, never pushes
     stake,   ///< a face through `point` with outward `direction` pushes with `size` (N/m)
@@ -66,7 +66,7 @@ struct Stranger {
   Vec3 point = Vec3::Zero(), direction = Vec3::UnitX();
   double size = 0.0, slack = 0.0, frequency = 1.0;
 };
-const char* name_of(Stranger::Kind kind);
+const char* name_of(OutsideEffect::Kind kind);
 
 struct Mesh {
   double spacing = 0.01;  ///< m, longest segment
@@ -77,7 +77,7 @@ struct Mesh {
 struct Subject {
   plant::PlantFile plant;
   std::vector<plant::Effect> effects;
-  std::vector<Stranger> strangers;
+  std::vector<OutsideEffect> outside;
 };
 
 /// Samples without noise; outliers are not part of it.

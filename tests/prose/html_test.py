@@ -51,6 +51,11 @@ class Html(unittest.TestCase):
             for asked in re.findall(r'(?:src|href)="((?:_static|_images)/[^"?#]+)', text):
                 self.assertTrue((self.html / asked).exists(), f"{page.name}: {asked}")
 
+    def test_options_keep_both_dashes(self):
+        text = (self.html / "settings.html").read_text(encoding="utf-8")
+        self.assertIn("also --duration", text)
+        self.assertNotIn("\u2013duration", text)
+
     def test_formulas_are_drawn(self):
         text = (self.html / "theory_rods.html").read_text(encoding="utf-8")
         self.assertIn('<span class="math', text)

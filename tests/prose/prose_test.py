@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from prose_checks import changelog, commands, examples, files, keys, links, rooms, sentences, words  # noqa: E402
+from prose_checks import changelog, commands, examples, files, keys, links, rooms, rows, sentences, words  # noqa: E402
 from prose_checks.page import Page  # noqa: E402
 from prose_checks.program import Program  # noqa: E402
 
@@ -53,6 +53,11 @@ class Sentences(unittest.TestCase):
     def test_a_list_item_counts_by_itself(self):
         item = "- " + "word " * 15 + "end\n"
         self.assertEqual(sentences.check(page(item * 5)), [])
+
+
+    def test_the_first_page_has_120_lines(self):
+        self.assertEqual(sentences.check_first_page(page("word\n" * 120)), [])
+        self.assertEqual(sentences.check_first_page(page("word\n" * 121)), [(121, "121 lines, expected at most 120")])
 
 
 class Links(unittest.TestCase):
@@ -100,6 +105,36 @@ class Words(unittest.TestCase):
         self.assertNotIn("quiet", old)
         text = "A quiet page with `leftover` in code.\n\nThe leftover.\n\n| a |\n|---|\n| two Rivals |\n"
         self.assertEqual([line for line, _ in words.check(page(text), old)], [3, 7])
+
+
+class Bounds(unittest.TestCase):
+    def test_a_file_page_has_the_bounds_of_the_setting(self):
+        def faults(row):
+            pages = {"plant_file.md": page("| key | unit | default | bounds | what it is |\n|---|---|---|---|---|\n" + row),
+                     "scene_file.md": page("| `dt` | s | 1/240 | 1e-7 to 1 | x |\n")}
+            told = ("settings\t1\t| `detach.force` | N | the plant's | above 0 | x |\n"
+                    "settings\t1\t| `dt` | s | the scene's | 1e-07 to 1 | x |\n"
+                    "settings\t1\t| `sun` | 1 | 0.82 | 0 to 4 | x |\n")
+            return [(line, text) for _, line, text in rows.check_bounds(pages, told)]
+
+        self.assertEqual(faults("| `force` | N | none | above 0 | y |\n"), [])
+        for wrong in ("| `force` | kN | none | above 0 | y |\n", "| `force` | N | none | 0 or more | y |\n"):
+            self.assertEqual(faults(wrong), [(3, "`force`: expected the unit N and the bounds above 0")])
+        self.assertEqual(faults(""), [(1, "`force` has no row with unit, default, bounds and what it is")])
+
+
+class Outputs(unittest.TestCase):
+    def test_a_command_prints_one_thing_on_all_pages(self):
+        one = page("```console\n$ pedicel a\nx\n$ pedicel b\n```\n", MANUAL / "one.md")
+        two = page("Text.\n\n```console\n$ pedicel b\ny\n$ pedicel a\nz\n```\n", MANUAL / "two.md")
+        self.assertEqual(commands.check_same([one, one]), [])
+        self.assertEqual(commands.check_same([one, two]),
+                         [(two, 6, "`pedicel a` prints something else in one.md:2")])
+
+    def test_readme_and_tutorial_are_compared(self):
+        shown = [{command for _, command, _ in commands.told(Page(file))}
+                 for file in (ROOT / "README.md", MANUAL / "tutorial_diagnose.md")]
+        self.assertIn("pedicel diagnose measured --out diagnosis", shown[0] & shown[1])
 
 
 class Rooms(unittest.TestCase):

@@ -44,6 +44,34 @@ def check_lines(page, program, root):
     return faults
 
 
+def told(page):
+    """(line, command, what the page says that it prints) of every command that is shown with its output."""
+    for _, language, _, lines in page.blocks:
+        if language != "console":
+            continue
+        for at, (number, line) in enumerate(lines):
+            if not line.startswith("$ "):
+                continue
+            said = []
+            for _, text in lines[at + 1 :]:
+                if text.startswith("$ "):
+                    break
+                said.append(text.rstrip())
+            if said:
+                yield number, line[2:], said
+
+
+def check_same(pages):
+    """(page, line, fault): one command prints one thing, on whatever page it stands."""
+    first, faults = {}, []
+    for page in pages:
+        for line, command, said in told(page):
+            place, known = first.setdefault(command, (f"{page.path.name}:{line}", said))
+            if known != said:
+                faults.append((page, line, f"`{command}` prints something else in {place}"))
+    return faults
+
+
 def check_options(page, program):
     """Every long option of every verb stands in a table of the page."""
     listed = {span for spans in page.keys().values() for span in spans}

@@ -22,6 +22,9 @@ MATERIAL = re.compile(r"\{\"material\.(\w+)\"")
 DETACH = re.compile(r"\{\"detach\.(\w+)\"")
 EFFECT = re.compile(r"\bd\.name = \"(\w+)\"")
 EFFECT_NUMBER = re.compile(r"\{\.name = \"([a-z_0-9]+)\"")
+DEVIATION = re.compile(r"\{\"(\w+_std)\", &")
+PAIR = re.compile(r"pair_of\(map, \"(\w+)\"")
+TEXTS = re.compile(r"texts\(map, \"(\w+)\"")
 JSON = re.compile(r"(?:\{|json\[)\"([a-z_0-9]+)\"[,\]]")
 QUANTITY = re.compile(r"^\s+\{\"(\w+)\", \"", re.M)
 SCRIPT_QUANTITY = re.compile(r"if \(name == \"(\w+)\"\)")
@@ -53,9 +56,17 @@ RULES = [
          "engine/world/scene_common.cpp", "engine/world/scene_plants.cpp",
          "engine/world/scene_robot.cpp", "engine/world/scene_views.cpp",
          "engine/world/scene_sensors.cpp", "engine/world/variation.cpp",
-         "engine/world/scene_expect.cpp"), READER, 90),
+         "engine/world/scene_expect.cpp", "engine/robot/waypoint_reader.cpp"), READER, 90),
     Rule("experiment.md", ("plugins/discrepancy/data/experiment_reader.cpp",
          "plugins/discrepancy/data/drive_reader.cpp"), READER, 33, end=r"^  }$"),
+    Rule("scene_experiment.md", ("plugins/discrepancy/scene/scene_experiment_reader.cpp",), (*READER, DEVIATION),
+         32, end=r"^  }$", leave_out=("pixels_", "wrench_")),
+    Rule("scene_experiment.md", ("plugins/discrepancy/scene/effects/*.cpp",), (EFFECT,), 17, end=""),
+    Rule("logs.md", ("plugins/discrepancy/log_import/log_map.cpp",), READER, 27),
+    Rule("import.md", ("plugins/discrepancy/import/picture_camera.cpp",), (*READER, PAIR), 7),
+    Rule("cluster.md", ("engine/cluster/cluster_profile.cpp",), (*READER, TEXTS), 12),
+    Rule("effects.md", ("plugins/plant/effect_reader.cpp",), READER, 2, end="",
+         leave_out=("curve", "at")),
     Rule("effects.md", ("plugins/effects/*.cpp",), (EFFECT, EFFECT_NUMBER), 45, end=""),
     Rule("settings.md", ("engine/world/settings.cpp",), (NUMBER,), 5),
     Rule("settings.md", ("plugins/cosserat/solver/rod_settings.cpp",), (PARAMETER,), 4),

@@ -4,7 +4,8 @@ import re
 import subprocess
 import tempfile
 
-VERBS = ["sweep", "validate", "bench", "diagnose", "fit", "import", "transfer", "lab", "pick", "dataset", "observe", "manual"]
+VERBS = ["sweep", "cluster", "validate", "bench", "diagnose", "fit", "import", "transfer", "lab", "pick", "dataset",
+         "observe", "manual"]
 
 
 class Program:

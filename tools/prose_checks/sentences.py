@@ -1,9 +1,9 @@
-"""Length of sentences: none above 40 words, a page's median below 20."""
+"""Length of sentences: none above 40 words, a page's median below 20. The top README is 120 lines at most."""
 
 import re
 import statistics
 
-LONGEST, MEDIAN = 40, 20
+LONGEST, MEDIAN, FIRST_PAGE = 40, 20, 120
 NOT_PROSE = {"Sources"}
 # A full stop ends a sentence where a blank and a capital, a quote or code follow it.
 END = re.compile(r"(?<=[.!?])\s+(?=[A-Z0-9\"*`\[(])")
@@ -42,3 +42,9 @@ def check(page):
         if median >= MEDIAN:
             faults.append((1, f"sentences have a median of {median:g} words, expected below {MEDIAN}"))
     return faults
+
+
+def check_first_page(page):
+    """The top README: whoever meets the program reads it whole."""
+    lines = len(page.lines)
+    return [(lines, f"{lines} lines, expected at most {FIRST_PAGE}")] if lines > FIRST_PAGE else []

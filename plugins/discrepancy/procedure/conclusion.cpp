@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <variant>
 
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/select/decoys.h"
@@ -13,6 +14,20 @@
 namespace pedicel::discrepancy {
 
 namespace {
+
+// The effect that is found in the data before any physics: no simulation makes it.
+bool is_found_in_data(const effects::EffectDefinition& one) {
+  return std::holds_alternative<effects::NoChange>(one.change);
+}
+
+// The effect that says when stalks break. It is fitted to events, and by no fit of samples.
+bool is_about_stalks(const effects::EffectDefinition& one) {
+  return one.home == effects::Home::stalk;
+}
+
+std::string name_of(bool (*is_it)(const effects::EffectDefinition&)) {
+  return std::ranges::find_if(effects::effect_definitions(), is_it)->name;
+}
 
 // How far a factor that is needed is from 1 in its deviations; 0 where our own errors may have
 // moved it so far.
@@ -452,7 +467,7 @@ void conclude_outliers(Diagnosis& diagnosis) {
   // Among competing models, or where nothing is known, they would read as one more explanation.
   if (verdict.outcome != Outcome::adequate && verdict.outcome != Outcome::named) return;
   NamedCause cause;
-  cause.name = "outliers";
+  cause.name = name_of(is_found_in_data);
   const double count = admission.outliers, fraction = admission.outlier_fraction();
   const double error = interval95 * std::sqrt(count) / admission.points;
   cause.parameters["fraction"] = {
@@ -476,7 +491,7 @@ void conclude_detachment(Diagnosis& diagnosis) {
     return;
   }
   NamedCause cause;
-  cause.name = "detachment_law";
+  cause.name = name_of(is_about_stalks);
   plant::Effect effect;
   effect.name = cause.name;
   const BreakLaw& law = strength.law->law;

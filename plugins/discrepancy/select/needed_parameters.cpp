@@ -53,15 +53,17 @@ std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& mode
   return {instead};
 }
 
-// A law of damping in place of more damping time, at sizes of which one is near.
-std::vector<Hypothesis> damped_by(const Cause& law, const FitSummary& model) {
-  const int damping = model.hypothesis.factor_on("damping_time");
-  // A law adds damping; it cannot explain less.
-  if (damping < 0 || model.hypothesis.value(damping) < 1.0) return {};
+// A law in place of more of the number that it stands for, such as a law of damping in place of
+// more damping time, at sizes of which one is near.
+std::vector<Hypothesis> put_instead(const Cause& law, const std::string& number,
+                                    const FitSummary& model) {
+  const int needed = model.hypothesis.factor_on(number);
+  // A law adds to what the number does; it cannot explain less.
+  if (needed < 0 || model.hypothesis.value(needed) < 1.0) return {};
   std::vector<Hypothesis> starts;
   // A factor of three apart: nearer than that a fit finds its way.
   for (const double share : {0.1, 0.3, 1.0, 3.0, 10.0}) {
-    starts.push_back(without(model.hypothesis, damping));
+    starts.push_back(without(model.hypothesis, needed));
     starts.back().add(law.starts.front().shrunk(share));
     starts.back().name = law.name;
   }
@@ -111,8 +113,8 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
   ask(exchanged(base, needed.model));
   for (const Cause& cause : causes)
     if (const effects::EffectDefinition* known = effects::find_effect(cause.name);
-        known && known->instead_of == "damping_time")
-      ask(damped_by(cause, needed.model));
+        known && known->instead_of == needed.names.front())
+      ask(put_instead(cause, needed.names.front(), needed.model));
   return needed;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "pedicel/discrepancy/data/sentence.h"
+#include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 
@@ -409,8 +410,9 @@ BreakLaw break_law_of(const plant::PlantFile& plant, const plant::PlantFruit& fr
   for (int i = 0; i < stalk_load_count; ++i)
     if (limits[i]) law.scale[i] = *limits[i];
   for (const plant::Effect& effect : plant.effects) {
+    const effects::EffectDefinition* known = effects::find_effect(effect.name);
     const bool meant = !effect.place || effect.place->curve == fruit.place.curve;
-    if (effect.name != "detachment_law" || !meant) continue;
+    if (!known || known->home != effects::Home::stalk || !meant) continue;
     // A law takes the place of all thresholds of its fruits, as it does in a simulation.
     law = BreakLaw();
     const std::array names{"force", "moment", "torsion"};

@@ -17,12 +17,12 @@ struct MeasuringOptions {
 };
 
 /// The trials of an experiment done again by the reference simulator, on its plant with `effects`
-/// and `strangers` hidden in it: same drives, same sample times, noise as the experiment states it.
+/// and `outside` hidden in it: same drives, same sample times, noise as the experiment states it.
 /// Throws std::invalid_argument where samples do not come at equal intervals from 0 on, and for
 /// plants that the reference does not know.
-discrepancy::Experiment measured_anew(discrepancy::Experiment experiment,
-                                      const std::vector<plant::Effect>& effects,
-                                      const std::vector<reference::Stranger>& strangers,
-                                      const MeasuringOptions& options);
+discrepancy::Experiment resimulated(discrepancy::Experiment experiment,
+                                    const std::vector<plant::Effect>& effects,
+                                    const std::vector<reference::OutsideEffect>& outside,
+                                    const MeasuringOptions& options);
 
 }  // namespace pedicel::hidden

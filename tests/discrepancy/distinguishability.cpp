@@ -1,4 +1,4 @@
-#include "discrepancy/parting.h"
+#include "discrepancy/distinguishability.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +44,9 @@ double least_length(const MatrixXd& inner) {
 
 }  // namespace
 
-Parting::Parting(const MatrixXd& columns, const std::vector<VectorXd>& conventions,
-                 const std::vector<OtherCause>& causes, const Change& change)
+Distinguishability::Distinguishability(const MatrixXd& columns,
+                                       const std::vector<VectorXd>& conventions,
+                                       const std::vector<OtherCause>& causes, const Change& change)
     : columns_(basis_of(columns, MatrixXd(columns.rows(), 0))),
       conventions_(columns.rows(), static_cast<long>(conventions.size())) {
   for (std::size_t i = 0; i < conventions.size(); ++i)
@@ -60,7 +61,7 @@ Parting::Parting(const MatrixXd& columns, const std::vector<VectorXd>& conventio
     }
 }
 
-Parting::Nearest Parting::nearest(const VectorXd& change) const {
+Distinguishability::Nearest Distinguishability::nearest(const VectorXd& change) const {
   MatrixXd vectors(change.size(), 1 + conventions_.cols());
   vectors << across(columns_, change), conventions_;
   const MatrixXd all = vectors.transpose() * vectors;

@@ -1,5 +1,5 @@
 // Trials done again with something hidden in the plant: what is hidden shows, the rest stays.
-#include "discrepancy/measured_anew.h"
+#include "discrepancy/resimulated.h"
 
 #include <gtest/gtest.h>
 
@@ -39,13 +39,13 @@ plant::Effect mass_at_the_tip(double mass) {
 
 // Who takes hold of a plant finds it where it stands: nothing pulls at time 0. Of a path that was
 // made for the plant without the mass, k times the way between the two does.
-TEST(MeasuredAnew, HoldsTakeThePlantWhereItStands) {
+TEST(Resimulated, HoldsTakeThePlantWhereItStands) {
   const Experiment before = pulled_stem();
   const auto effects = {mass_at_the_tip(0.01)};
   MeasuringOptions stays;
   stays.follow_plant = false;
-  const Trial followed = measured_anew(before, effects, {}, {}).trials[0];
-  const Trial kept = measured_anew(before, effects, {}, stays).trials[0];
+  const Trial followed = resimulated(before, effects, {}, {}).trials[0];
+  const Trial kept = resimulated(before, effects, {}, stays).trials[0];
   EXPECT_LT(followed.force.value.row(0).norm(), 1e-4);
   EXPECT_GT(kept.force.value.row(0).norm(), 0.05);
   const Vec3 moved =
@@ -54,38 +54,38 @@ TEST(MeasuredAnew, HoldsTakeThePlantWhereItStands) {
   EXPECT_EQ(kept.holds[0].path.position, before.trials[0].holds[0].path.position);
 }
 
-TEST(MeasuredAnew, NoiseIsAsStatedAndComesFromTheSeed) {
+TEST(Resimulated, NoiseIsAsStatedAndComesFromTheSeed) {
   Experiment e = pulled_stem();
-  const Eigen::MatrixXd clean = measured_anew(e, {}, {}, {}).trials[0].markers.value;
+  const Eigen::MatrixXd clean = resimulated(e, {}, {}, {}).trials[0].markers.value;
   e.noise.position_std = 1e-3;
-  const Eigen::MatrixXd noisy = measured_anew(e, {}, {}, {}).trials[0].markers.value;
+  const Eigen::MatrixXd noisy = resimulated(e, {}, {}, {}).trials[0].markers.value;
   const double n = static_cast<double>(clean.size());
   // The mean square of n normal numbers lies within 5 sqrt(2/n) of 1.
   EXPECT_NEAR((noisy - clean).squaredNorm() / n / 1e-6, 1.0, 5 * std::sqrt(2 / n));
-  EXPECT_EQ(measured_anew(e, {}, {}, {}).trials[0].markers.value, noisy);
+  EXPECT_EQ(resimulated(e, {}, {}, {}).trials[0].markers.value, noisy);
   MeasuringOptions other;
   other.seed = 2;
-  EXPECT_NE(measured_anew(e, {}, {}, other).trials[0].markers.value, noisy);
+  EXPECT_NE(resimulated(e, {}, {}, other).trials[0].markers.value, noisy);
 }
 
 // A push of a giant, which is none at time 0.
-TEST(MeasuredAnew, RefusesWhatDiverges) {
-  reference::Stranger push;
-  push.kind = reference::Stranger::Kind::push;
+TEST(Resimulated, RefusesWhatDiverges) {
+  reference::OutsideEffect push;
+  push.kind = reference::OutsideEffect::Kind::push;
   push.place = {"stem", 1.0, {}};
   push.size = 1e12;
   try {
-    measured_anew(pulled_stem(), {}, {push}, {});
+    resimulated(pulled_stem(), {}, {push}, {});
     ADD_FAILURE() << "not refused";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "trial \"pull\": the simulation diverged");
   }
 }
 
-TEST(MeasuredAnew, RefusesUnevenSamples) {
+TEST(Resimulated, RefusesUnevenSamples) {
   Experiment e = pulled_stem();
   e.trials[0].markers.time[3] += 0.005;
-  EXPECT_THROW(measured_anew(e, {}, {}, {}), std::invalid_argument);
+  EXPECT_THROW(resimulated(e, {}, {}, {}), std::invalid_argument);
 }
 
 }  // namespace

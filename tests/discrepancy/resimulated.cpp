@@ -1,4 +1,4 @@
-#include "discrepancy/measured_anew.h"
+#include "discrepancy/resimulated.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -60,11 +60,11 @@ void follow_plant(Trial& trial, const Subject& hidden, const Mesh& mesh) {
 
 }  // namespace
 
-Experiment measured_anew(Experiment experiment, const std::vector<plant::Effect>& effects,
-                         const std::vector<reference::Stranger>& strangers,
-                         const MeasuringOptions& options) {
+Experiment resimulated(Experiment experiment, const std::vector<plant::Effect>& effects,
+                       const std::vector<reference::OutsideEffect>& outside,
+                       const MeasuringOptions& options) {
   const Mesh mesh{options.mesh * experiment.plant.distance, options.dt};
-  const Subject hidden{experiment.plant, effects, strangers};
+  const Subject hidden{experiment.plant, effects, outside};
   const double position_std = experiment.noise.position_std.value_or(0.0);
   const double force_std = experiment.noise.force_std.value_or(0.0);
   std::vector<reference::MarkerPlan> markers;

@@ -7,7 +7,7 @@ namespace pedicel::hidden {
 
 /// What of a change of the data no other known cause could have made as well. To first order: sizes
 /// near the smallest identifiable are small.
-class Parting {
+class Distinguishability {
  public:
   /// The change that effects make.
   using Change = std::function<Eigen::VectorXd(const std::vector<plant::Effect>&)>;
@@ -15,8 +15,9 @@ class Parting {
   /// `columns` are the changes by the parameters that a refit may change, `conventions` those that
   /// honest solvers may differ by; of each any share from none to all may be refitted. All are
   /// whitened channels.
-  Parting(const Eigen::MatrixXd& columns, const std::vector<Eigen::VectorXd>& conventions,
-          const std::vector<OtherCause>& causes, const Change& change);
+  Distinguishability(const Eigen::MatrixXd& columns,
+                     const std::vector<Eigen::VectorXd>& conventions,
+                     const std::vector<OtherCause>& causes, const Change& change);
 
   struct Nearest {
     double distance = 0.0;  ///< noise units

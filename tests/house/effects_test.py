@@ -1,0 +1,36 @@
+#!/usr/bin/python3
+"""No file but its own knows an effect of plants or measurements by name."""
+
+import sys
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+
+from house_checks import plant_effects, source  # noqa: E402
+
+
+class PlantEffects(unittest.TestCase):
+    def test_the_tree(self):
+        texts = {path: (ROOT / path).read_text(encoding="utf-8") for path in source.files(ROOT)}
+        self.assertGreater(len(plant_effects.effects_of(texts)), 30)
+        self.assertEqual(plant_effects.check(texts), [])
+
+    def test_a_name_in_another_file(self):
+        own = Path("plugins/effects/creep.cpp")
+        other = Path("plugins/discrepancy/fit/causes.cpp")
+        texts = {
+            own: 'd.name = "creep";\n',
+            Path("plugins/effects/density.cpp"): "",
+            Path("plugins/effects/relaxation.cpp"): 'd.limits = {{"time", true, "creep"}};\n',
+            other: '// "creep" in a comment\nif (name == "density") a = "creep and more";\nif (name == "creep") b();\n',
+            Path("tests/unit/a_test.cpp"): 'effect("creep");\n',
+        }
+        self.assertEqual(plant_effects.check(texts),
+                         [(str(other), 3, "names the effect creep; expected a field of its definition")])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,37 @@
+"""An effect of plants and measurements is one file: no other one knows it by name.
+
+A name that is a key of files as well (a modulus, a wind, a sensor's latency) is left alone.
+"""
+
+import re
+
+EFFECTS = "plugins/effects"
+FOLDERS = ("app/", "plugins/")
+KEYS = {"youngs_modulus", "density", "damping_time", "wind", "latency"}
+# What still knows a name, and why: the junctions that another solver softens are that effect at a
+# size below what anybody would name.
+KNOWN = {("plugins/discrepancy/fit/causes.cpp", "attachment_compliance")}
+STRING = re.compile(r"//[^\n]*|\"((?:[^\"\\\n]|\\.)*)\"")
+
+
+def strings_of(text):
+    """(line, text) of every string; comments have none."""
+    for found in STRING.finditer(text):
+        if found.group(1) is not None:
+            yield text.count("\n", 0, found.start()) + 1, found.group(1)
+
+
+def effects_of(texts):
+    return {path.stem for path in texts if str(path.parent) == EFFECTS and path.suffix == ".cpp"}
+
+
+def check(texts):
+    """`texts`: what each file holds."""
+    names = effects_of(texts) - KEYS
+    return [
+        (str(path), line, f"names the effect {said}; expected a field of its definition")
+        for path, text in texts.items()
+        if str(path).startswith(FOLDERS) and str(path.parent) != EFFECTS
+        for line, said in strings_of(text)
+        if said in names and (str(path), said) not in KNOWN
+    ]
