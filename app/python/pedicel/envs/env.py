@@ -11,7 +11,8 @@ from .task import Task
 
 class PedicelEnv(Env):
     """gymnasium.Env of a task. Options of make(): action (tool, joint), observation (state, picture,
-    mixed), picture_size (width, height), vary (None, a map, a file or a Variation), render_mode."""
+    mixed), picture_size (width, height), vary (None, a map, a file or a Variation), gentleness (what
+    each N, N s, 1, J or organ of `info["gentleness"]` costs, by its name), render_mode, scene."""
 
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 10}
     task_type: Type[Task] = Task
@@ -40,9 +41,13 @@ class PedicelEnv(Env):
         if action.shape != self.action_space.shape:
             raise ValueError(f"action has shape {action.shape}, expected {self.action_space.shape}")
         self.task.act(action)
+        left, failed = self.task.steps_of_action, None
         try:
-            self.simulation.step(self.task.steps_of_action)
-            failed = None
+            while left:
+                steps = min(left, self.task.due())
+                self.simulation.step(steps)
+                self.task.passed(steps)
+                left -= steps
         except Unstable as fault:
             failed = str(fault)
         reward, terminated, truncated = self.task.outcome(action)
