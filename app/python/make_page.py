@@ -105,7 +105,7 @@ def of_class(cls, more=""):
     text = f"\n## {cls.__name__}\n\n{prose(inspect.getdoc(cls) or '')}\n"
     init = vars(cls).get("__init__")
     call = compiled("__init__", init)[0] if init is not None else ""
-    if init is not None and not call.startswith("__init__(*args"):
+    if init is not None and "Initialize self" not in (inspect.getdoc(init) or ""):
         text += f"\n```python\n{cls.__name__}{call[len('__init__'):]}\n```\n"
         says = compiled("__init__", init)[1]
         if says.strip():
