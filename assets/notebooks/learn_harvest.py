@@ -32,7 +32,7 @@ def features(observations):
     on, force = observations[:, 31:32], observations[:, 34:35]
     near = np.exp(-np.sum(to_fruit**2, axis=1, keepdims=True) / 0.02**2)
     held = near * np.minimum(force / 2.0, 1.0)
-    above = np.exp(-np.sum(to_tray[:, :2] ** 2, axis=1, keepdims=True) / 0.06**2)
+    above = np.exp(-np.sum(to_tray[:, :2] ** 2, axis=1, keepdims=True) / 0.05**2)
     one = np.ones_like(on)
     taking = np.concatenate([10 * to_fruit, 2 * near, 2 * held, one, 50 * observations[:, 35:36]], axis=1)
     laying = np.concatenate([5 * to_tray, 2 * above, one, 0 * one, 0 * one], axis=1)
@@ -60,7 +60,8 @@ def returns(parameters, seed):
 
 
 # %% [markdown]
-# What the policy by hand does in four episodes is fitted by least squares. That alone is slow and clumsy.
+# What the policy by hand does in four episodes is fitted by least squares, without the moments in which
+# it waits.
 
 # %%
 def shown(seeds):
@@ -71,8 +72,9 @@ def shown(seeds):
         ended = False
         while not ended:
             action = scripted.harvest(env.task)
-            seen.append(features(observation[None])[0])
-            done.append(np.arctanh(np.clip(action[[0, 1, 2, 6]], -0.95, 0.95)))
+            if np.abs(action).max() > 0.2:
+                seen.append(features(observation[None])[0])
+                done.append(np.arctanh(np.clip(action[[0, 1, 2, 6]], -0.95, 0.95)))
             observation, _, terminated, truncated, _ = env.step(action)
             ended = terminated or truncated
     return np.array(seen), np.array(done)
@@ -83,7 +85,7 @@ seen, done = shown(range(500, 504))
 square = seen.T @ seen + 0.1 * np.eye(2 * inputs)
 mean = np.linalg.solve(square, seen.T @ done).T.ravel()
 size = len(mean)
-spread = 0.15 * np.ones(size)
+spread = 0.06 * np.ones(size)
 
 # %% [markdown]
 # Then many that are like it are tried at once, and the next ones are drawn around the best.
@@ -93,7 +95,7 @@ while time.perf_counter() - begin < seconds:
     tried = mean + spread * drawn.normal(size=(worlds, size))
     score = returns(tried, 1000 + generation)
     elite = tried[np.argsort(score)[-best:]]
-    mean, spread = 0.3 * mean + 0.7 * elite.mean(axis=0), 0.3 * spread + 0.7 * elite.std(axis=0) + 0.01
+    mean, spread = 0.3 * mean + 0.7 * elite.mean(axis=0), 0.3 * spread + 0.7 * elite.std(axis=0) + 0.005
     generation += 1
     print(f"{time.perf_counter() - begin:6.0f} s, generation {generation}: mean {score.mean():6.2f}, "
           f"best {score.max():6.2f}", flush=True)
@@ -117,11 +119,11 @@ def single(policy, seeds):
     return np.mean(found), laid
 
 
-seeds = range(1, 11) if seconds >= 300 else range(1, 2)
+seeds = range(1, 6) if seconds >= 60 else range(1, 2)
 results = {"learned": single(lambda env, o: actions(mean[None], o[None])[0], seeds),
            "by hand": single(lambda env, o: scripted.harvest(env.task), seeds),
            "random": single(lambda env, o: env.action_space.sample(), seeds)}
 for name, (total, laid) in results.items():
     print(f"{name}: {total:.2f}, {laid} of {len(seeds)} laid down")
-if seconds >= 300:
+if seconds >= 60:
     assert results["learned"][0] > max(results["by hand"][0], results["random"][0])

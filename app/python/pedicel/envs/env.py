@@ -1,10 +1,11 @@
 """One environment: a task in a simulation of its own."""
 
+import warnings
 from typing import Any, Dict, Optional, Type
 
 import numpy as np
 
-from .. import Simulation, Unstable, asset
+from .. import NoPictures, Simulation, Unstable, asset
 from .interface import Env
 from .task import Task
 
@@ -27,7 +28,7 @@ class PedicelEnv(Env):
         self.task.begin_here(np.random.default_rng(0), {})
         self.observation_space, self.action_space = self.task.spaces()
         self.metadata = dict(self.metadata, render_fps=round(1.0 / self.task.period))
-        self._window = None
+        self._window, self._told = None, False
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None):
         super().reset(seed=seed)
@@ -65,11 +66,17 @@ class PedicelEnv(Env):
         picture = self.task.picture(640, 480)
         if self.render_mode == "rgb_array":
             return picture
-        if self._window is None:
+        if self._window is None and not self._told:
             from .window import Window
 
-            self._window = Window(type(self).__name__)
-        self._window.show(picture)
+            try:
+                self._window = Window(type(self).__name__)
+            except NoPictures as why:
+                # An episode goes on without its window: what is learned does not depend on it.
+                warnings.warn(f"{why}; nothing is shown", stacklevel=2)
+                self._told = True
+        if self._window is not None:
+            self._window.show(picture)
         return None
 
     def close(self) -> None:
