@@ -33,9 +33,9 @@ struct NamedKeypoint {
   std::string organ;
 };
 
-std::vector<Thing> things_of(const app::NamedThings& things) {
+std::vector<Thing> things_of(const std::vector<app::NamedThing>& things) {
   std::vector<Thing> all;
-  for (const app::NamedThing& one : things.all())
+  for (const app::NamedThing& one : things)
     all.push_back(
         {static_cast<int>(all.size()), one.name, std::string(name_of(one.kind)), one.plant});
   return all;
@@ -97,8 +97,9 @@ CameraPicture take(Run& self, const std::string& camera, const std::optional<int
   if (width) wanted.size = {*width, *height};
   CameraPicture picture;
   picture.seen = self.sense(wanted);
-  picture.things = things_of(self.things());
-  for (const app::NamedThing& one : self.things().all())
+  const std::vector<app::NamedThing> things = self.things();
+  picture.things = things_of(things);
+  for (const app::NamedThing& one : things)
     picture.class_of.push_back(static_cast<std::uint8_t>(one.kind));
   return picture;
 }
@@ -199,8 +200,7 @@ py::dict record_of(const app::Gentleness::Record& one, bool fruit) {
   return entry;
 }
 
-py::dict gentleness_total(Run& self) {
-  const app::Gentleness::Total total = self.run().simulation().gentleness().total();
+py::dict dict_of(const app::Gentleness::Total& total) {
   py::dict all;
   all["peak_force"] = total.peak_force;
   all["impulse"] = total.impulse;
@@ -211,25 +211,51 @@ py::dict gentleness_total(Run& self) {
   return all;
 }
 
-py::dict gentleness_of(Run& self) {
-  const app::Simulation& simulation = self.run().simulation();
-  py::dict all = gentleness_total(self), organs;
+py::dict gentleness_total(Run& self) {
+  return dict_of(self.alone(
+      [](app::SteeredRun& one) { return one.simulation().gentleness().total(); }));
+}
+
+/// What was done to an organ or a fruit.
+struct Handled {
+  std::string name;
+  bool fruit;
+  app::Gentleness::Record record;
+};
+
+std::vector<Handled> handled(const app::Simulation& simulation) {
+  std::vector<Handled> all;
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
     for (std::size_t o = 0; o < model.organs.size(); ++o)
-      organs[model.organs[o].c_str()] = record_of(simulation.gentleness().organs(p)[o], false);
+      all.push_back({model.organs[o], false, simulation.gentleness().organs(p)[o]});
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
-      organs[app::fruit_name(model, f).c_str()] =
-          record_of(simulation.gentleness().fruits(p)[static_cast<std::size_t>(f)], true);
+      all.push_back({app::fruit_name(model, f), true,
+                     simulation.gentleness().fruits(p)[static_cast<std::size_t>(f)]});
   }
-  all["organs"] = organs;
+  return all;
+}
+
+py::dict gentleness_of(Run& self) {
+  const auto [total, organs] = self.alone([](app::SteeredRun& one) {
+    return std::pair(one.simulation().gentleness().total(), handled(one.simulation()));
+  });
+  py::dict all = dict_of(total), by_name;
+  for (const Handled& one : organs)
+    by_name[one.name.c_str()] = record_of(one.record, one.fruit);
+  all["organs"] = by_name;
   return all;
 }
 
 py::dict wrenches_of(Run& self) {
+  const auto read = self.alone([](app::SteeredRun& run) {
+    std::vector<std::pair<std::string, app::Wrench>> all;
+    for (const app::WrenchSensor& one : run.simulation().wrenches())
+      all.emplace_back(one.scene().name, one.reading());
+    return all;
+  });
   py::dict all;
-  for (const app::WrenchSensor& one : self.run().simulation().wrenches())
-    all[one.scene().name.c_str()] = array_of(Eigen::VectorXd(one.reading()));
+  for (const auto& [name, wrench] : read) all[name.c_str()] = array_of(Eigen::VectorXd(wrench));
   return all;
 }
 

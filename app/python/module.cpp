@@ -69,9 +69,10 @@ void add_variation(py::module_& module) {
                   "The map as YAML (or JSON); `name` stands for the file in errors.")
       .def(
           "draw",
-          [](const Variation& self, std::uint64_t seed) {
+          [](const Variation& self, long seed) {
             py::dict drawn;
-            for (const auto& [key, value] : self.draw(seed)) drawn[key.c_str()] = value;
+            const auto all = self.draw(static_cast<std::uint64_t>(checked_seed(seed)));
+            for (const auto& [key, value] : all) drawn[key.c_str()] = value;
             return drawn;
           },
           "seed"_a, "Settings for Simulation or reset(): the same for the same seed.")

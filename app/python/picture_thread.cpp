@@ -1,19 +1,36 @@
 #include "pedicel/app/python/picture_thread.h"
 
+#include <pthread.h>
+
 #include "pedicel/app/python/errors.h"
+#include "pedicel/core/check.h"
 
 namespace pedicel::python {
 
-PictureThread& PictureThread::get() {
-  static PictureThread one;
-  return one;
-}
+namespace {
 
-PictureThread::~PictureThread() {
-  end();
+bool drew_before_fork = false;
+
+}  // namespace
+
+PictureThread& PictureThread::get() {
+  // Never taken apart: end() is called as the interpreter ends, and after a fork the thread of the
+  // one that came along cannot be waited for.
+  static PictureThread* one = new PictureThread;
+  static const int of_fork = pthread_atfork(nullptr, nullptr, [] {
+    // Mesa has threads of its own by then, which did not come along.
+    drew_before_fork |= one->thread_.joinable();
+    one = new PictureThread;
+  });
+  static_cast<void>(of_fork);
+  return *one;
 }
 
 void PictureThread::run(const std::function<void(app::PictureTaker&)>& task) {
+  if (drew_before_fork)
+    throw UsageError(
+        "pictures: this process was forked off one that has drawn, expected one that was started "
+        "anew (multiprocessing's spawn)");
   const std::lock_guard one_caller(callers_);
   std::unique_lock lock(mutex_);
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });

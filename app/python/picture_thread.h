@@ -14,8 +14,8 @@ namespace pedicel::python {
 /// Python may ask from any.
 class PictureThread {
  public:
+  /// A process that was forked off has one of its own.
   static PictureThread& get();
-  ~PictureThread();
 
   /// Runs `task` there, and waits for it. Passes on what it throws. Throws NoPictures where there
   /// is no OpenGL off screen. Without the interpreter's lock.

@@ -177,7 +177,7 @@ void add_drawing(PlantClass& plant) {
           [](Plant& p, const std::string& name, const std::string& to) {
             plant::rename(p.file, name, to);
           },
-          "name"_a, "to"_a)
+          "name"_a, "to"_a, "Gives a stem, a fruit or a leaf another name.")
       .def(
           "place",
           [](Plant& p, const std::string& name, const std::string& stem, double at) {
@@ -251,7 +251,12 @@ void add_plant_class(py::module_& module) {
       .def(
           "text", [](const Plant& p) { return plant::plant_text(p.file); },
           "The plant file's text; parse(text()) is equal to it.")
-      .def("copy", [](const Plant& p) { return p; })
+      .def("copy", [](const Plant& p) { return p; }, "Another plant with the same in it.")
+      .def("__copy__", [](const Plant& p) { return p; })
+      .def("__deepcopy__", [](const Plant& p, const py::dict&) { return p; }, "memo"_a)
+      .def(py::pickle(
+          [](const Plant& p) { return plant::plant_text(p.file); },
+          [](const std::string& text) { return parse_plant(text, "a pickled plant"); }))
       .def("check", &check,
            "Builds it: segments, length (m) and how far it settles from its drawing. Raises "
            "InvalidFile with every fault.")

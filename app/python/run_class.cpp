@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 
@@ -23,18 +24,18 @@ using RunClass = py::class_<Run>;
 
 /// Numbers a joint, or a map of joint names to numbers: the others stay as they are.
 std::vector<double> joint_numbers(Run& self, const py::object& values) {
-  const app::RobotControl& robot = app::robot_of(self.run().simulation());
-  const robot::KinematicModel& model = robot.robot().model();
-  const auto joints = static_cast<std::size_t>(model.dofs());
+  self.alone([](app::SteeredRun& one) { app::robot_of(one.simulation()); });
+  const std::vector<std::string>& names = self.state().layout().of(app::Rows::joint);
+  const std::size_t joints = names.size();
   if (!py::isinstance<py::dict>(values))
     return numbers_of(values.cast<Numbers>(), joints, "joints");
   std::vector<double> numbers(joints, std::numeric_limits<double>::quiet_NaN());
   for (const auto& [name, value] : values.cast<py::dict>()) {
-    const int joint = model.joint_index(name.cast<std::string>());
-    if (joint < 0)
+    const auto joint = std::ranges::find(names, name.cast<std::string>());
+    if (joint == names.end())
       throw UsageError("no joint " + in_quotes(name.cast<std::string>()) +
-                       ", expected one of: " + app::list_of(model.joint_names()));
-    numbers[static_cast<std::size_t>(joint)] = value.cast<double>();
+                       ", expected one of: " + app::list_of(names));
+    numbers[static_cast<std::size_t>(joint - names.begin())] = value.cast<double>();
   }
   return numbers;
 }
@@ -94,7 +95,8 @@ void add_robot(RunClass& run) {
       "go_to",
       [](Run& self, const py::object& values) {
         std::vector<double> numbers = joint_numbers(self, values);
-        const Eigen::VectorXd goal = app::robot_of(self.run().simulation()).goal();
+        const Eigen::VectorXd goal = self.alone(
+            [](app::SteeredRun& one) { return app::robot_of(one.simulation()).goal(); });
         for (std::size_t i = 0; i < numbers.size(); ++i)
           if (std::isnan(numbers[i])) numbers[i] = goal[static_cast<Eigen::Index>(i)];
         self.act({0, app::Act::Kind::go_to, "", std::move(numbers)});
@@ -118,10 +120,12 @@ void add_robot(RunClass& run) {
   run.def(
       "tool_jacobian",
       [](Run& self) {
-        const app::RobotControl& robot = app::robot_of(self.run().simulation());
-        const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> j =
-            robot.robot().model().jacobian(robot.robot().positions(), robot.tool_link(),
-                                           self.run().simulation().scene().robot->tool_offset);
+        using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
+        const Jacobian j = self.alone([](app::SteeredRun& one) -> Jacobian {
+          const app::RobotControl& robot = app::robot_of(one.simulation());
+          return robot.robot().model().jacobian(robot.robot().positions(), robot.tool_link(),
+                                                one.simulation().scene().robot->tool_offset);
+        });
         return py::array_t<double>(
             {static_cast<py::ssize_t>(6), static_cast<py::ssize_t>(j.cols())}, j.data());
       },
@@ -131,7 +135,9 @@ void add_robot(RunClass& run) {
     run.def_property_readonly(
         name,
         [read](Run& self) {
-          return array_of(read(app::robot_of(self.run().simulation()).robot().model()));
+          return array_of(self.alone([&](app::SteeredRun& one) -> Eigen::VectorXd {
+            return read(app::robot_of(one.simulation()).robot().model());
+          }));
         },
         words);
   };
@@ -149,7 +155,11 @@ void add_robot(RunClass& run) {
       "joint_efforts", [](const Model& m) { return m.effort_limits(); },
       "(joints,), N m or N: what the robot's file allows.");
   run.def_property_readonly(
-      "gripper_joint", [](Run& self) { return app::robot_of(self.run().simulation()).gripper(); },
+      "gripper_joint",
+      [](Run& self) {
+        return self.alone(
+            [](app::SteeredRun& one) { return app::robot_of(one.simulation()).gripper(); });
+      },
       "Index of the joint that the scene calls the gripper; -1: none.");
 }
 
@@ -191,21 +201,27 @@ void add_forces(RunClass& run) {
 }
 
 std::vector<world::Event> events_of(Run& self) {
-  return app::events_of(self.run().simulation());
+  return self.alone([](app::SteeredRun& one) { return app::events_of(one.simulation()); });
 }
 
 py::dict quantities_of(Run& self) {
+  const auto read = self.alone([](app::SteeredRun& one) {
+    std::vector<std::pair<std::string, double>> all;
+    for (const app::Channel& channel : app::channels_of(one.simulation()))
+      all.emplace_back(channel.name, channel.read());
+    return all;
+  });
   py::dict all;
-  for (const app::Channel& channel : app::channels_of(self.run().simulation()))
-    all[channel.name.c_str()] = channel.read();
+  for (const auto& [name, value] : read) all[name.c_str()] = value;
   return all;
 }
 
 py::dict parameters_of(Run& self) {
+  const auto described = self.alone([](app::SteeredRun& one) {
+    return app::document_parameters(one.constants().document, one.constants().files);
+  });
   py::dict all;
-  const app::SteeredScene& scene = self.run().constants();
-  for (const app::SessionParameter& one : app::document_parameters(scene.document, scene.files))
-    all[one.key.c_str()] = one;
+  for (const app::SessionParameter& one : described) all[one.key.c_str()] = one;
   return all;
 }
 
@@ -219,7 +235,10 @@ void add_rest(RunClass& run) {
       "of `--set`) until the next reset. The steps draw no random numbers: the same acts give "
       "the same bits with any seed. `seed` is kept for what draws some, as noise and variation "
       "do.");
-  run.def_readwrite("seed", &Run::seed, "Of everything random.");
+  run.def_property(
+      "seed", [](Run& self) { return self.sensed().seed; },
+      [](Run& self, long seed) { self.sensed().seed = checked_seed(seed); },
+      "Of everything random: a whole number from 0 on.");
   run.def(
       "save",
       [](Run& self) {
@@ -273,34 +292,35 @@ void add_rest(RunClass& run) {
       "Share of a fruit's disc, 0 to 1, that nothing stands before, seen from a camera of the "
       "scene "
       "(empty: the first) or from a place (m, world). By geometry, without a picture.");
-  run.def_property_readonly(
-      "time", [](Run& self) { return self.run().simulation().world().time(); },
-      "Simulated time, s.");
-  run.def_property_readonly(
-      "steps", [](Run& self) { return self.run().steps(); }, "Steps since the start.");
-  run.def_property_readonly(
-      "dt", [](Run& self) { return self.run().simulation().world().dt(); }, "s, of a step.");
-  run.def_property_readonly(
-      "duration", [](Run& self) { return self.run().simulation().scene().duration; },
+  const auto reads = [&](const char* name, auto read, const char* words) {
+    run.def_property_readonly(
+        name, [read](Run& self) { return self.alone(read); }, words);
+  };
+  using One = app::SteeredRun&;
+  reads("time", [](One one) { return one.simulation().world().time(); }, "Simulated time, s.");
+  reads("steps", [](One one) { return one.steps(); }, "Steps since the start.");
+  reads("dt", [](One one) { return one.simulation().world().dt(); }, "s, of a step.");
+  reads(
+      "duration", [](One one) { return one.simulation().scene().duration; },
       "s, that the scene runs for; step() goes beyond it.");
-  run.def_property_readonly(
+  reads(
       "state_hash",
-      [](Run& self) {
+      [](One one) {
         char text[17];
         std::snprintf(text, sizeof text, "%016llx",
-                      static_cast<unsigned long long>(self.run().simulation().state_hash()));
+                      static_cast<unsigned long long>(one.simulation().state_hash()));
         return std::string(text);
       },
       "Of the whole state, bit by bit: that of a run off screen with the same steps.");
-  run.def_property_readonly(
-      "notes", [](Run& self) { return self.run().simulation().notes(); },
+  reads(
+      "notes", [](One one) { return one.simulation().notes(); },
       "What is worth knowing of the scene and stops nothing, one sentence each.");
-  run.def_property_readonly(
+  reads(
       "camera_names",
-      [](Run& self) {
+      [](One one) {
         std::vector<std::string> names;
-        for (const world::SceneCamera& one : self.run().simulation().scene().cameras)
-          names.push_back(one.name);
+        for (const world::SceneCamera& camera : one.simulation().scene().cameras)
+          names.push_back(camera.name);
         return names;
       },
       "Cameras of the scene.");

@@ -12,16 +12,22 @@ namespace pedicel::python {
 
 namespace py = pybind11;
 
+long checked_seed(long seed) {
+  if (seed >= 0) return seed;
+  throw UsageError("seed is " + std::to_string(seed) + ", expected a whole number from 0 on");
+}
+
 void Run::step(long count) {
   constexpr double heard = 0.1;  // s, after which Ctrl-C is heard
   if (count < 0) throw UsageError("step(" + std::to_string(count) + "): expected 0 steps or more");
+  check_process();
   const py::gil_scoped_release release;
   const std::lock_guard lock(mutex());
   Timer since;
   bool good = !run().failed();
   for (long i = 0; i < count && good; ++i) {
     good = run().step();
-    if (sensors_ && generation_ == run().generation()) sensors_->remember();
+    sensed().remember(run());
     if (since.seconds() < heard) continue;
     since.restart();
     const py::gil_scoped_acquire acquire;
@@ -34,13 +40,13 @@ void Run::step(long count) {
 }
 
 void Run::reset(const std::optional<long>& wanted_seed, const py::dict& settings) {
-  if (wanted_seed) seed = *wanted_seed;
+  if (wanted_seed) sensed().seed = checked_seed(*wanted_seed);
   app::SteeredScene::Settings texts = settings_of(settings);
-  // What the scene draws is drawn anew; without it a seed changes nothing, and costs nothing.
-  const world::Scene& scene = *run().scene().files.scene;
-  if (wanted_seed && (!scene.vary.empty() || !scene.wrenches.empty()))
-    texts.insert(texts.begin(), {"seed", std::to_string(std::abs(*wanted_seed % 1000000000))});
   alone([&](app::SteeredRun& one) {
+    // What the scene draws is drawn anew; without it a seed changes nothing, and costs nothing.
+    const world::Scene& scene = *one.scene().files.scene;
+    if (wanted_seed && (!scene.vary.empty() || !scene.wrenches.empty()))
+      texts.insert(texts.begin(), {"seed", std::to_string(*wanted_seed % 1000000000)});
     // Refused settings leave it at time 0, too.
     try {
       one.reset(texts);
@@ -70,25 +76,33 @@ void check_camera(const app::Simulation& simulation, const std::string& camera) 
 
 }  // namespace
 
-app::SceneSensors& Run::sensors() {
-  if (!sensors_ || generation_ != run().generation())
-    sensors_ = std::make_unique<app::SceneSensors>(run().simulation());
-  generation_ = run().generation();
-  return *sensors_;
+app::SceneSensors& RunSensors::of(app::SteeredRun& run) {
+  if (!of_run || generation != run.generation())
+    of_run = std::make_unique<app::SceneSensors>(run.simulation());
+  generation = run.generation();
+  return *of_run;
+}
+
+void RunSensors::remember(app::SteeredRun& run) {
+  if (of_run && generation == run.generation()) of_run->remember();
 }
 
 app::SensedPicture Run::sense(const app::SenseRequest& wanted) {
   std::optional<app::SensedPicture> picture;
-  alone([&](app::SteeredRun&) {
+  alone([&](app::SteeredRun& one) {
+    app::SceneSensors& sensors = sensed().of(one);
     PictureThread::get().run([&](app::PictureTaker& taker) {
-      picture = sensors().take(taker, wanted, static_cast<std::uint64_t>(seed));
+      picture = sensors.take(taker, wanted, static_cast<std::uint64_t>(sensed().seed));
     });
   });
   return std::move(*picture);
 }
 
-const app::NamedThings& Run::things() {
-  return *alone([&](app::SteeredRun&) { return &sensors().things(); });
+std::vector<app::NamedThing> Run::things() {
+  return alone([&](app::SteeredRun& one) {
+    const auto all = sensed().of(one).things().all();
+    return std::vector<app::NamedThing>(all.begin(), all.end());
+  });
 }
 
 py::array_t<std::uint8_t> Run::render(const std::string& camera, int width, int height, bool strain,
@@ -96,7 +110,7 @@ py::array_t<std::uint8_t> Run::render(const std::string& camera, int width, int 
   std::optional<render::Image> image;
   alone([&](app::SteeredRun& one) {
     check_camera(one.simulation(), camera);
-    app::SceneView& view = sensors().view();
+    app::SceneView& view = sensed().of(one).view();
     app::Frame frame;
     view.fill(frame, strain);
     if (!text) frame.caption.clear(), frame.note.clear(), frame.legend.reset();

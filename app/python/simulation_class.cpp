@@ -13,18 +13,22 @@ namespace {
 class Simulation : public Run {
  public:
   explicit Simulation(const std::shared_ptr<const app::SteeredScene>& scene)
-      : run_(scene), state_(app::StateLayout(run_.simulation()), 1) {
-    seed = scene->assets->scene.seed;
+      : run_(std::make_unique<app::SteeredRun>(scene), scene->assets->scene.threads > 1),
+        state_(app::StateLayout(run_->simulation()), 1) {
+    sensed_.seed = scene->assets->scene.seed;
     fill();
   }
-  app::SteeredRun& run() override { return run_; }
+  app::SteeredRun& run() override { return *run_; }
   app::StateArrays& state() override { return state_; }
   std::mutex& mutex() override { return mutex_; }
+  void check_process() const override { run_.check("a Simulation"); }
+  RunSensors& sensed() override { return sensed_; }
 
  private:
-  app::SteeredRun run_;
+  Threaded<app::SteeredRun> run_;
   app::StateArrays state_;
   std::mutex mutex_;
+  RunSensors sensed_;
 };
 
 std::unique_ptr<Simulation> make_simulation(const py::object& scene, const py::dict& plants,

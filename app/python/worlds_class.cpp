@@ -6,6 +6,7 @@
 #include "pedicel/app/python/scenes.h"
 #include "pedicel/app/steer/steered_worlds.h"
 #include "pedicel/core/check.h"
+#include "pedicel/core/timer.h"
 
 namespace pedicel::python {
 
@@ -17,10 +18,16 @@ namespace {
 using Mask = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
 struct Worlds {
-  Worlds(std::shared_ptr<const app::SteeredScene> scene, int count, int threads)
-      : all(std::move(scene), count, threads) {}
-  app::SteeredWorlds all;
+  explicit Worlds(std::unique_ptr<app::SteeredWorlds> made)
+      : all(*made),
+        built(std::move(made), all.threads() > 1),
+        sensed(static_cast<std::size_t>(all.size())) {
+    for (RunSensors& one : sensed) one.seed = all.run(0).scene().assets->scene.seed;
+  }
+  app::SteeredWorlds& all;
+  Threaded<app::SteeredWorlds> built;
   std::mutex mutex;
+  std::vector<RunSensors> sensed;  // by world
 };
 
 /// One of them; Python keeps the others alive with it.
@@ -30,6 +37,8 @@ class World : public Run {
   app::SteeredRun& run() override { return worlds_.all.run(world_); }
   app::StateArrays& state() override { return worlds_.all.state(); }
   std::mutex& mutex() override { return worlds_.mutex; }
+  void check_process() const override { worlds_.built.check("a world of Worlds"); }
+  RunSensors& sensed() override { return worlds_.sensed[static_cast<std::size_t>(world_)]; }
   int world() const override { return world_; }
   void fill_all() override { worlds_.all.fill(); }
 
@@ -44,7 +53,8 @@ std::unique_ptr<Worlds> make_worlds(const py::object& scene, int count, int thre
                                     const py::kwargs& settings) {
   const auto built = make_scene(scene, plants, packages, settings);
   const py::gil_scoped_release release;
-  return std::make_unique<Worlds>(built, count, threads);
+  return std::make_unique<Worlds>(
+      std::make_unique<app::SteeredWorlds>(built, count, threads));
 }
 
 std::vector<std::uint8_t> marks(Worlds& self, const std::optional<Mask>& mask) {
@@ -58,14 +68,31 @@ std::vector<std::uint8_t> marks(Worlds& self, const std::optional<Mask>& mask) {
 }
 
 void step(Worlds& self, long count, const std::optional<Mask>& mask) {
+  constexpr double heard = 0.25;  // s, after which Ctrl-C is heard
+  constexpr long least = 32;      // steps between two looks: worlds wait for each other there
   if (count < 0) throw UsageError("step(" + std::to_string(count) + "): expected 0 steps or more");
+  self.built.check("a Worlds");
   const std::vector<std::uint8_t> marked = marks(self, mask);
   const py::gil_scoped_release release;
   const std::lock_guard lock(self.mutex);
-  self.all.step(count, marked);
+  const auto stepped = [&self](int world) {
+    self.sensed[static_cast<std::size_t>(world)].remember(self.all.run(world));
+  };
+  for (long most = least; count > 0;) {
+    const long now = std::min(count, most);
+    const Timer since;
+    self.all.step(now, marked, stepped);
+    count -= now;
+    const double seconds = since.seconds();
+    most = std::max(least, std::lround(static_cast<double>(now) * heard / std::max(seconds, 1e-6)));
+    if (count == 0) return;
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
 }
 
 void reset(Worlds& self, const std::optional<Mask>& mask) {
+  self.built.check("a Worlds");
   const std::vector<std::uint8_t> marked = marks(self, mask);
   const py::gil_scoped_release release;
   const std::lock_guard lock(self.mutex);
@@ -77,6 +104,7 @@ void act(Worlds& self, app::Act::Kind kind, const Numbers& values) {
   if (values.ndim() != 2 || values.shape(0) != self.all.size() || values.shape(1) != joints)
     throw UsageError("values: expected an array of " + std::to_string(self.all.size()) +
                      " worlds x " + std::to_string(joints) + " joints");
+  self.built.check("a Worlds");
   const py::gil_scoped_release release;
   const std::lock_guard lock(self.mutex);
   for (int w = 0; w < self.all.size(); ++w)
@@ -92,6 +120,7 @@ void add_state(py::class_<Worlds>& worlds) {
           Worlds& one = self.cast<Worlds&>();
           const auto field = static_cast<app::Field>(f);
           if (one.all.state().want(field)) {
+            one.built.check("a Worlds");
             const py::gil_scoped_release release;
             const std::lock_guard lock(one.mutex);
             one.all.fill();
@@ -118,7 +147,10 @@ void add_targets(py::class_<Worlds>& worlds) {
 template <class Number, class Read>
 py::array_t<Number> each(Worlds& self, const Read& read) {
   py::array_t<Number> numbers(static_cast<py::ssize_t>(self.all.size()));
-  for (int w = 0; w < self.all.size(); ++w) numbers.mutable_at(w) = read(self.all.run(w));
+  Number* to = numbers.mutable_data();
+  const py::gil_scoped_release release;
+  const std::lock_guard lock(self.mutex);
+  for (int w = 0; w < self.all.size(); ++w) to[w] = read(self.all.run(w));
   return numbers;
 }
 

@@ -88,6 +88,14 @@ void add_fruit(Channels& all, const Simulation& simulation, int p, int f) {
                    return cosserat::margin_used(simulation.rods().model(p),
                                                 simulation.rods().state(p), f);
                  }});
+  const auto load = [&simulation, p, f](Vec3 cosserat::JointLoad::*part) {
+    const cosserat::RodState& state = simulation.rods().state(p);
+    if (state.fruit_gone[f]) return std::numeric_limits<double>::quiet_NaN();
+    const cosserat::RodModel& own = simulation.rods().model(p);
+    return (cosserat::joint_load(own, state, own.fruits[f].element).*part).norm();
+  };
+  all.push_back({name + "_stalk_N", [load] { return load(&cosserat::JointLoad::force); }});
+  all.push_back({name + "_stalk_Nm", [load] { return load(&cosserat::JointLoad::moment); }});
   all.push_back({name + "_contact_N", [&simulation, p, f] {
                    return simulation.plant_step().contacts().fruits(p)[f].normal;
                  }});

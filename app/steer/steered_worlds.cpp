@@ -44,12 +44,15 @@ void SteeredWorlds::fill() {
   pool_.for_each(size(), [&](int w) { fill(w); });
 }
 
-void SteeredWorlds::step(long steps, std::span<const std::uint8_t> mask) {
+void SteeredWorlds::step(long steps, std::span<const std::uint8_t> mask,
+                         const std::function<void(int)>& stepped) {
   // A world stays with its thread to the end: no waiting for each other, warm caches.
   pool_.for_each(size(), [&](int w) {
     if (!is_marked(mask, w)) return;
-    for (long i = 0; i < steps; ++i)
+    for (long i = 0; i < steps; ++i) {
       if (!run(w).step()) break;
+      if (stepped) stepped(w);
+    }
     fill(w);
   });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,7 +22,9 @@ class SteeredWorlds {
   int threads() const { return pool_.threads(); }
 
   /// So many steps in every world whose mark is not 0 (empty: in all); one that fails does no more.
-  void step(long steps, std::span<const std::uint8_t> mask);
+  /// `stepped` is called with the world after each of its steps, on the thread that does them.
+  void step(long steps, std::span<const std::uint8_t> mask,
+            const std::function<void(int)>& stepped = {});
   /// Worlds whose mark is not 0 (empty: all) begin anew.
   void reset(std::span<const std::uint8_t> mask);
   /// Writes the state of all worlds.

@@ -41,6 +41,24 @@ bool set_pose(Pose& pose, const std::string& rest, const std::string& text,
   return true;
 }
 
+/// "SECTION.KEY" of what describes its numbers itself. Whether `rest` begins with the section.
+template <class Described>
+bool set_described(Described& described, const std::string& section, const std::string& rest,
+                   const std::string& text, const std::string& asked) {
+  if (!rest.starts_with(section + ".")) return false;
+  const std::string name = rest.substr(section.size() + 1);
+  const std::vector<Parameter> parameters = described.parameters();
+  const Parameter* parameter = find_parameter(parameters, name);
+  if (!parameter)
+    throw UsageError(asked + ": there is no " + section + "." + name +
+                     ", expected one of: " + parameter_names(parameters));
+  const std::optional<double> value = to_number(text);
+  if (!value) throw UsageError(asked + " = \"" + text + "\": must be a number");
+  if (const auto refused = set_parameter(*parameter, *value))
+    throw UsageError(asked + ": " + section + "." + *refused);
+  return true;
+}
+
 bool set_camera(SceneCamera& camera, const std::string& rest, const std::string& text,
                 const std::string& asked) {
   for (const auto& [word, place] : {std::pair<const char*, Vec3*>{"eye", &camera.eye},
@@ -51,6 +69,7 @@ bool set_camera(SceneCamera& camera, const std::string& rest, const std::string&
         throw UsageError(asked + ": expected eye and target to be apart");
       return true;
     }
+  if (set_described(camera.noise, "noise", rest, text, asked)) return true;
   if (rest != "fov") return false;
   camera.field_of_view = within(text, 0.01, 3.0, asked);
   return true;
@@ -65,20 +84,6 @@ auto* named_in(Things& things, const std::string& key, std::string& rest) {
       return &one;
     }
   return static_cast<decltype(&things.front())>(nullptr);
-}
-
-bool set_look(SceneLook& look, const std::string& name, const std::string& text,
-              const std::string& asked) {
-  const std::vector<Parameter> parameters = look.parameters();
-  const Parameter* parameter = find_parameter(parameters, name);
-  if (!parameter)
-    throw UsageError(asked + ": there is no look." + name +
-                     ", expected one of: " + parameter_names(parameters));
-  const std::optional<double> value = to_number(text);
-  if (!value) throw UsageError(asked + " = \"" + text + "\": must be a number");
-  if (const auto refused = set_parameter(*parameter, *value))
-    throw UsageError(asked + ": look." + *refused);
-  return true;
 }
 
 /// Every load keeps its size and its other angle.
@@ -102,7 +107,7 @@ bool set_place(Scene& scene, const std::string& key, const std::string& text,
                const std::string& given) {
   const std::string asked = given + key;
   std::string rest;
-  if (key.starts_with("look.")) return set_look(scene.look, key.substr(5), text, asked);
+  if (set_described(scene.look, "look", key, text, asked)) return true;
   if (key == "loads.angle" || key == "loads.azimuth") {
     if (scene.loads.empty()) throw UsageError(asked + ": the scene has no loads");
     constexpr double turn = 2.0 * std::numbers::pi;
@@ -126,16 +131,22 @@ bool set_place(Scene& scene, const std::string& key, const std::string& text,
     SceneCamera* camera = named_in(scene.cameras, key.substr(8), rest);
     if (camera && set_camera(*camera, rest, text, asked)) return true;
     throw UsageError(asked +
-                     ": expected cameras.NAME.eye.x, cameras.NAME.target.x (y, z) or "
-                     "cameras.NAME.fov of a camera of the scene");
+                     ": expected cameras.NAME.eye.x, cameras.NAME.target.x (y, z), "
+                     "cameras.NAME.fov or cameras.NAME.noise.KEY of a camera of the scene");
+  }
+  if (key.starts_with("wrenches.")) {
+    SceneWrench* wrench = named_in(scene.wrenches, key.substr(9), rest);
+    if (wrench && set_described(wrench->noise, "noise", rest, text, asked)) return true;
+    throw UsageError(asked +
+                     ": expected wrenches.NAME.noise.KEY of a force sensor of the scene");
   }
   return false;
 }
 
 std::string place_keys() {
   return "plants.NAME.position.x, plants.NAME.yaw, bodies.NAME.position.x, robot.position.x, "
-         "cameras.NAME.eye.x, cameras.NAME.target.x, cameras.NAME.fov, loads.angle, loads.azimuth, "
-         "look.KEY";
+         "cameras.NAME.eye.x, cameras.NAME.target.x, cameras.NAME.fov, cameras.NAME.noise.KEY, "
+         "wrenches.NAME.noise.KEY, loads.angle, loads.azimuth, look.KEY";
 }
 
 }  // namespace pedicel::world

@@ -20,6 +20,7 @@ void scale_lengths(PlantFile& plant, double factor) {
   for (PlantCurve& curve : plant.curves)
     for (Vec3& point : curve.points) point = plant.root + factor * (point - plant.root);
   plant.connect *= factor;
+  plant.distance *= factor;
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ inline constexpr io::Bounds shape_bounds{0.05, 20.0};
 /// Null where there is no such key.
 const ShapeFactor* find_shape_factor(std::string_view key);
 
-/// Lengths grow about the root, and with them how near curves must be to be joined; the spacing of
-/// nodes stays.
+/// Lengths grow about the root, and with them how near curves must be to be joined and the spacing
+/// of nodes: a plant keeps its segments, so that a simulation of it can begin anew with others.
 void scale_shape(PlantFile& plant, ShapeFactor::What what, double factor);
 
 }  // namespace pedicel::plant

@@ -83,6 +83,39 @@ class CamerasTest(Case):
         # The ball behind is hidden from the front.
         self.assertNotIn(ids["behind"], np.unique(seen.instances))
 
+    def test_a_plants_masks_and_depths_are_those_of_rays(self):
+        near = SCENE.replace("{name: side,", "{name: near, eye: [0.3, -0.3, 0.3], target: [0, 0, 0.2], fov: 0.6, "
+                             "size: [320, 240]}\n  - {name: side,")
+        sim = pedicel.Simulation(self.write("near.scene.yaml", near))
+        sim.set_force("twig/berry", [0.03, 0.05, 0])
+        sim.step(40)
+        seen = sim.camera("near")
+        ids = {t.name: t.id for t in seen.things}
+        rays, eye = rays_of(seen).reshape(-1, 3), seen.pose[:3]
+        labels, depths = seen.instances.ravel(), seen.depth.ravel()
+        nodes = np.vstack([[0, 0, 0], sim.positions])
+        radius, berry = 0.003, 0.01
+        gap, depth = np.full(len(rays), np.inf), np.full(len(rays), np.inf)
+        for a, b in zip(nodes[:-1], nodes[1:]):            # from each ray to the axis of each segment
+            t = np.linspace(0, 1, 21)[:, None]
+            for point in a + t * (b - a):
+                way = np.linalg.norm(np.cross(rays, point - eye), axis=1) / np.linalg.norm(rays, axis=1)
+                along = rays @ (point - eye) / (rays ** 2).sum(axis=1)
+                closer = way < gap
+                gap, depth = np.where(closer, way, gap), np.where(closer, along, depth)
+        to_berry = np.linalg.norm(np.cross(rays, sim.fruit_positions[0] - eye), axis=1) / np.linalg.norm(rays, axis=1)
+        stem = (gap < 0.6 * radius) & (to_berry > 2.5 * berry)
+        self.assertGreater(stem.sum(), 200)
+        self.assertTrue(np.all(labels[stem] == ids["twig/stem"]))
+        self.assertEqual(np.sum((labels == ids["twig/stem"]) & (gap > 1.5 * radius)), 0)
+        # The near side of a stem of 3 mm; its axis is sampled every millimetre.
+        middle = stem & (gap < 0.3 * radius)
+        self.assertLess(np.abs(depths[middle] - (depth[middle] - radius)).max(), 0.002)
+        fruit = (to_berry < 0.85 * berry) & (gap > 1.5 * radius)
+        self.assertGreater(fruit.sum(), 30)
+        self.assertTrue(np.all(labels[fruit] == ids["twig/berry"]))
+        self.assertEqual(np.sum((labels == ids["twig/berry"]) & (to_berry > 2 * berry)), 0)
+
     def test_the_sky_is_empty(self):
         seen = pedicel.Simulation(self.balls).camera("up")
         self.assertTrue(np.all(seen.instances == 0) and np.all(np.isinf(seen.depth)))
@@ -161,6 +194,21 @@ class CamerasTest(Case):
         self.assertAlmostEqual(seen.time, before.time, places=9)
         self.assertTrue(np.array_equal(seen.rgb, before.rgb))
         self.assertFalse(np.array_equal(sim.camera("side", width=160, height=120, noise=False).rgb, seen.rgb))
+
+    def test_a_late_camera_of_a_world_is_that_of_a_simulation(self):
+        late = SCENE.replace("fov: 0.6}", "fov: 0.6, noise: {latency: 0.05, rgb_std: 0.01}}")
+        path = self.write("late.scene.yaml", late)
+        sim, worlds = pedicel.Simulation(path, threads=1), pedicel.Worlds(path, 2)
+        for run in (sim, worlds[1]):
+            run.reset(seed=4)
+            run.set_force("twig/berry", [0.2, 0, 0])
+            run.camera("side", width=64, height=48)
+        sim.step(30), worlds.step(30)
+        exact, seen = sim.camera("side", width=160, height=120), worlds[1].camera("side", width=160, height=120)
+        self.assertAlmostEqual(seen.time, 0.1)
+        self.assertEqual(exact.time, seen.time)
+        self.assertTrue(np.array_equal(exact.rgb, seen.rgb))
+        self.assertEqual(worlds[1].seed, 4)
 
     def test_cameras_are_checked(self):
         sim = pedicel.Simulation(self.balls)

@@ -1,6 +1,10 @@
 """The contract of Gymnasium's environment checker, and what the tasks promise."""
 
+import shutil
+import subprocess
+import sys
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
@@ -10,6 +14,31 @@ from pedicel import envs
 from pedicel.envs import scripted
 
 NAMES = list(envs.registry)
+
+#: A program that looks at its own window.
+SHOWN = """
+import numpy as np
+from pedicel import envs
+
+env = envs.make("pedicel/Probe-v0", render_mode="human")
+env.reset(seed=1)
+env.step(np.zeros(env.action_space.shape))
+window = env._window
+window.root.update()
+size = f"{window.label.winfo_width() - 2}x{window.label.winfo_height() - 2}"
+shown = window.image.get(320, 240)
+same = tuple(shown) == tuple(env.task.picture(640, 480)[240, 320])
+env.close()
+print(size, "the same," if same else f"another {shown},", "gone" if env._window is None else "there")
+"""
+
+
+def turned(before, after):
+    """The way from one turn to another (quaternions x y z w), rad, about the world's axes."""
+    x, y, z, w = before * [-1, -1, -1, 1]
+    a, b, c, d = after
+    way = np.array([d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x, d * z + a * y - b * x + c * w])
+    return 2 * way * np.sign(d * w - a * x - b * y - c * z)
 
 
 class ContractTest(unittest.TestCase):
@@ -120,6 +149,140 @@ class ContractTest(unittest.TestCase):
             envs.make("pedicel/Probe-v0", action="thought")
         with self.assertRaisesRegex(ValueError, "Harvest-v0"):
             envs.make("pedicel/Unknown-v0")
+
+    def test_a_tool_twist_is_the_tools_velocity(self):
+        env = self.environment("pedicel/Probe-v0", vary=None)
+        for axis in range(6):
+            env.reset(seed=1)
+            action = np.zeros(env.action_space.shape, dtype=np.float32)
+            action[axis], action[-1] = 0.4, -1.0
+            for _ in range(2):                               # the motors come up to speed
+                env.step(action)
+            before = env.simulation.tool_pose.copy()
+            env.step(action)
+            after = env.simulation.tool_pose
+            moved = (after[:3] - before[:3]) / env.task.period
+            way = turned(before[3:], after[3:]) / env.task.period
+            wanted = np.zeros(6)
+            wanted[axis] = 0.4 * (env.task.control.reach if axis < 3 else env.task.control.turn)
+            np.testing.assert_allclose(moved, wanted[:3], atol=0.012, err_msg=str(axis))
+            np.testing.assert_allclose(way, wanted[3:], atol=0.05, err_msg=str(axis))
+
+    def test_a_joint_action_is_its_speed(self):
+        env = self.environment("pedicel/Harvest-v0", vary=None, action="joint")
+        env.reset(seed=1)
+        action = np.zeros(env.action_space.shape, dtype=np.float32)
+        action[0], action[3], action[-1] = 0.5, -0.5, -1.0
+        opening = env.simulation.joint_positions[env.simulation.gripper_joint]
+        for _ in range(3):
+            env.step(action)
+        speeds = env.simulation.joint_velocities[env.task.control.arm]
+        np.testing.assert_allclose(speeds, [0.3, 0, 0, -0.3, 0, 0], atol=0.02)
+        shut = opening - env.simulation.joint_positions[env.simulation.gripper_joint]
+        self.assertAlmostEqual(shut, 3 * env.task.period * env.task.control.grip, delta=0.002)
+
+    def test_what_handling_costs_is_in_the_reward(self):
+        env = self.environment("pedicel/Reveal-v0", gentleness={"peak_force": 0.5, "impulse": 2.0, "touched": 0.1})
+        env.reset(seed=1)
+        sums = dict.fromkeys(("peak_force", "impulse", "touched"), 0.0)
+        for _ in range(25):
+            _, reward, terminated, _, info = env.step(scripted.reveal(env.task))
+            self.assertAlmostEqual(sum(info["reward_terms"].values()), reward)
+            for name in sums:
+                sums[name] += info["reward_terms"]["gentle_" + name]
+        self.assertGreater(info["gentleness"]["peak_force"], 0)
+        begun = env.task.handled                             # the whole of it since the reset
+        for name, price in (("peak_force", 0.5), ("impulse", 2.0), ("touched", 0.1)):
+            self.assertAlmostEqual(sums[name], -price * begun[name])
+        for bad in ({"smell": 1.0}, {"impulse": -1.0}, {"impulse": float("nan")}):
+            with self.assertRaisesRegex(ValueError, "gentleness"):
+                envs.make("pedicel/Reveal-v0", gentleness=bad)
+
+    def test_an_action_may_come_late(self):
+        def speeds(latency):
+            env = self.environment("pedicel/Harvest-v0", vary={
+                "env.latency": {"distribution": "choice", "values": [latency]}}, action="joint")
+            env.reset(seed=1)
+            action = np.zeros(env.action_space.shape, dtype=np.float32)
+            action[0] = 0.5
+            found = []
+            for _ in range(5):
+                env.step(action)
+                found.append(env.simulation.joint_velocities[env.task.control.arm[0]])
+            return np.array(found)
+
+        at_once, late, later = speeds(0.0), speeds(0.15), speeds(0.25)
+        self.assertTrue(np.all(at_once > 0.2), at_once)
+        self.assertLess(abs(late[0]), 0.02)
+        self.assertGreater(late[1], 0.2)                     # since half of the second action
+        self.assertTrue(np.all(np.abs(later[:2]) < 0.02) and later[2] > 0.2, later)
+        for bad in (-0.1, 3.0, "soon"):
+            env = self.environment("pedicel/Probe-v0")
+            with self.assertRaisesRegex(pedicel.UsageError, "env.latency"):
+                env.reset(seed=1, options={"settings": {"env.latency": bad}})
+
+    def test_everything_may_vary(self):
+        for name in NAMES:
+            file = f"environments/{name[8:-3].lower()}_wide.vary.yaml"
+            keys = pedicel.Variation.read(pedicel.asset(file)).keys
+            for kind in ("material.", "shape.radius", "shape.length", "plants.", "coupling.friction", "env.latency",
+                         "look.sun", "look.stem_hue", "cameras.", ".noise.latency"):
+                self.assertTrue([k for k in keys if kind in k], (name, kind))
+            env = self.environment(name, vary=file)
+            vector = envs.make_vec(name, 2, vary=file)
+            self.addCleanup(vector.close)
+            both = vector.reset(seed=10)[0]
+            starts = []
+            for seed in range(10, 16):
+                observation, _ = env.reset(seed=seed)
+                if seed < 12:
+                    self.assertTrue(np.array_equal(observation, both[seed - 10]), (name, seed))
+                starts.append(observation)
+                self.assertTrue(np.all(np.isfinite(env.step(env.action_space.sample())[0])))
+            self.assertEqual(len({start.tobytes() for start in starts}), 6, name)
+            # Worlds whose actions come late by different times have the bits of single ones, too.
+            env.reset(seed=11)
+            random = np.random.default_rng(3)
+            for _ in range(5):
+                actions = random.uniform(-1, 1, vector.action_space.shape).astype(np.float32)
+                actions[:, -1] = -1.0
+                together, alone = vector.step(actions), env.step(actions[1])
+                self.assertTrue(np.array_equal(together[0][1], alone[0]), name)
+
+    def test_plants_that_cannot_stand_are_drawn_again(self):
+        soft = {"material.youngs_modulus": {"distribution": "choice", "values": [1e5, 5e8]}}
+        env = self.environment("pedicel/Harvest-v0", vary=soft)
+        drawn = []
+        for seed in range(4):
+            env.reset(seed=seed)
+            drawn.append(float(env.task.settings["material.youngs_modulus"]))
+        self.assertEqual(drawn, [5e8] * 4)
+        never = {"material.youngs_modulus": {"distribution": "choice", "values": [1e5]}}
+        env = self.environment("pedicel/Harvest-v0", vary=never)
+        with self.assertRaises(pedicel.InvalidFile):
+            env.reset(seed=1)
+
+    def test_a_window_shows_the_picture(self):
+        env = self.environment("pedicel/Probe-v0", render_mode="human")
+        hidden = dict.fromkeys(["tkinter"])                  # as where python3-tk is not installed
+        with unittest.mock.patch.dict(sys.modules, hidden):
+            try:
+                pedicel.Simulation(pedicel.asset("environments/probe.scene.yaml")).render(width=16, height=16)
+            except pedicel.NoPictures as why:
+                self.skipTest(str(why))
+            with self.assertWarnsRegex(UserWarning, "python3-tk.*nothing is shown"):
+                env.reset(seed=1)
+            env.step(env.action_space.sample())              # once is enough
+        if not shutil.which("xvfb-run"):
+            self.skipTest("xvfb-run is not there")
+        try:
+            import tkinter
+        except ImportError:
+            self.skipTest("python3-tk is not there")
+        run = subprocess.run(["xvfb-run", "-a", sys.executable, "-c", SHOWN], capture_output=True, text=True,
+                             timeout=300)
+        self.assertEqual((run.returncode, run.stdout.strip()), (0, "640x480 the same, gone"), run.stderr)
+        del tkinter
 
     def test_pictures_are_observations(self):
         try:

@@ -59,6 +59,19 @@ class ErrorsTest(Case):
             sim.step(-1)
         self.assertEqual(sim.steps, 0)
 
+    def test_seeds_are_whole_and_not_negative(self):
+        sim = pedicel.Simulation(self.scene)
+        for bad in (lambda: sim.reset(seed=-1), lambda: setattr(sim, "seed", -5),
+                    lambda: pedicel.Variation.parse("dt: {low: 0.001, high: 0.002}").draw(-1)):
+            with self.assertRaisesRegex(pedicel.UsageError, "from 0 on"):
+                bad()
+        for bad in (1.5, "one", 2**70):
+            with self.assertRaises(TypeError):
+                sim.reset(seed=bad)
+        self.assertEqual(sim.seed, 0)
+        sim.reset(seed=2**62)
+        self.assertEqual(sim.seed, 2**62)
+
     def test_what_is_refused_leaves_the_run_as_it_was(self):
         sim, other = pedicel.Simulation(self.scene), pedicel.Simulation(self.scene)
         for bad in (lambda: sim.set_force("twig/apple", [0, 0, 1]), lambda: sim.set("rods.x", 1)):

@@ -50,9 +50,10 @@ class ExperimentsTest(Case):
     def test_a_wrong_modulus_is_found(self):
         plan, out = self.plan(), os.path.join(self.folder, "measured")
         stiffer = self.write("stiffer.plant.yaml", STEM.replace("2.0e+8", "2.6e+8"))
-        self.assertEqual(pedicel.observe(stiffer, plan, out, noise_position=2e-4, seed=3), out)
+        observed = pedicel.observe(stiffer, plan, out, noise_position=2e-4, seed=3)
+        self.assertEqual((observed.folder, observed.trials), (out, ["load", "other"]))
         shutil.copy(os.path.join(plan, "plant.yaml"), os.path.join(out, "plant.yaml"))
-        good = pedicel.validate(out)
+        good = pedicel.validate(observed)
         self.assertTrue(good, good.text)
 
         fit = pedicel.fit(out, ["youngs_modulus"], out=os.path.join(self.folder, "fit"))

@@ -1,6 +1,8 @@
 """Plants are built, edited, saved, and simulated."""
 
+import copy
 import os
+import pickle
 import unittest
 
 import numpy as np
@@ -42,6 +44,13 @@ class PlantTest(Case):
         for sim in (a, b):
             sim.step(20)
         self.assertEqual(a.state_hash, b.state_hash)
+
+    def test_a_plant_can_be_copied_and_sent(self):
+        plant = bush()
+        for other in (copy.copy(plant), copy.deepcopy(plant), pickle.loads(pickle.dumps(plant)), plant.copy()):
+            self.assertEqual(other, plant)
+            other.set("material.density", 500)
+            self.assertNotEqual(other, plant)
 
     def test_a_fruit_without_a_density_has_the_usual_one(self):
         plant = bush()

@@ -44,6 +44,13 @@ class SimulationTest(Case):
         self.assertAlmostEqual(float(last["time_s"]), sim.time)
         for name, value in now.items():
             self.assertAlmostEqual(value, float(last[name]), delta=1e-6 + 1e-5 * abs(value), msg=name)
+        for row, fruit in enumerate(sim.fruit_names):
+            force, moment = np.linalg.norm(sim.stalk_loads[row].reshape(2, 3), axis=1)
+            self.assertAlmostEqual(now[fruit + "_stalk_N"], force)
+            self.assertAlmostEqual(now[fruit + "_stalk_Nm"], moment)
+            self.assertAlmostEqual(now[fruit + "_margin_used_1"], sim.stalk_margins[row])
+        for row, link in enumerate(sim.touching_names):
+            self.assertAlmostEqual(now[f"contact_{link}_normal_N"], sim.link_contact_forces[row])
 
     def test_arrays_agree_with_each_other(self):
         sim = pedicel.Simulation(PULL_UP)

@@ -3,6 +3,8 @@
 import math
 import unittest
 
+import numpy as np
+
 import pedicel
 from given import Case
 
@@ -56,6 +58,17 @@ class VariationTest(Case):
         sim.reset()
         self.assertEqual(sim.state_hash, plain)
         self.assertEqual(sim.parameters[key].value, 700)
+
+    def test_lengths_and_sensors_vary_in_a_run_that_goes_on(self):
+        sim, n = pedicel.Simulation(self.scene), len(pedicel.Simulation(self.scene).segment_names)
+        lengths = []
+        for factor in (0.8, 0.93, 1.0, 1.07, 1.21, 2.0):
+            sim.reset(settings={"shape.length": factor, "shape.radius": 1.5, "cameras.side.noise.latency": 0.05})
+            self.assertEqual(len(sim.segment_names), n)
+            lengths.append(sim.positions[-1, 2] / factor)
+        np.testing.assert_allclose(lengths, lengths[2], rtol=0.02)
+        with self.assertRaisesRegex(pedicel.UsageError, "haze"):
+            sim.reset(settings={"cameras.side.noise.haze": 1})
 
     def test_settings_that_make_other_rows_are_refused(self):
         sim = pedicel.Simulation(self.scene)

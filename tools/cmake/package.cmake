@@ -63,6 +63,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libosmesa6, ffmpeg, fonts-roboto-un
 if(PEDICEL_PYTHON)
   string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
          ", python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-tk")
 endif()
 find_program(SHLIBDEPS dpkg-shlibdeps)
 if(SHLIBDEPS)

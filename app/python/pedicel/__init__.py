@@ -10,8 +10,8 @@ import atexit
 from . import _core
 from ._core import CameraPicture, Event, Keypoint, Parameter, Plant, Reach, Run, Simulation, Thing, Variation, World, Worlds
 from .errors import Diagnostic, Error, InvalidFile, NoPictures, Unstable, UsageError, WriteError
-from .experiments import (Cause, Estimate, Fit, FittedParameter, Validation, Verdict, diagnose, fit,
-                          observe, validate)
+from .experiments import (Cause, Estimate, Fit, FittedParameter, Observed, Validation, Verdict, diagnose,
+                          fit, observe, validate)
 from .program import command
 
 __version__: str = _core.version
@@ -21,7 +21,7 @@ atexit.register(_core.end_pictures)
 
 __all__ = [
     "CameraPicture", "Cause", "Diagnostic", "Error", "Estimate", "Event", "Fit", "FittedParameter", "InvalidFile",
-    "Keypoint", "NoPictures", "Parameter", "Plant", "Reach", "Run", "Simulation", "Thing", "Unstable", "UsageError",
+    "Keypoint", "NoPictures", "Observed", "Parameter", "Plant", "Reach", "Run", "Simulation", "Thing", "Unstable", "UsageError",
     "Validation", "Variation", "Verdict", "World", "Worlds", "WriteError", "asset", "command", "diagnose", "fit", "observe",
     "validate",
 ]

@@ -79,6 +79,20 @@ class Fit:
 
 
 @dataclass(frozen=True)
+class Observed:
+    """An experiment that was simulated. It is taken wherever a path of one is."""
+
+    folder: str  #: that it was written to
+    trials: List[str]  #: names of the folders of its trials
+
+    def __fspath__(self) -> str:
+        return self.folder
+
+    def __str__(self) -> str:
+        return self.folder
+
+
+@dataclass(frozen=True)
 class Validation:
     """Whether files are good, and what was found in them."""
 
@@ -157,12 +171,11 @@ def fit(experiment: Path, parameters: Sequence[str], *, out: Optional[Path] = No
 
 def observe(model: Path, like: Path, out: Path, *, plant: str = "", seed: int = 1,
             noise_position: float = 0.0, noise_force: float = 0.0, noise_colour: float = 0.0,
-            effects: Sequence[str] = ()) -> str:
+            effects: Sequence[str] = ()) -> Observed:
     """Simulates the trials of `like` with another plant, and writes an experiment folder.
 
     model: plant file, or scene or experiment whose plant is meant. noise_position: m, noise_force: N,
     standard deviations. effects: as in a file, "{name: ..., ...}": simulated, but not written.
-    Returns the folder.
     """
     words: List[Any] = ["observe", model, "--like", like, "--out", out, "--seed", seed,
                         "--noise-position", noise_position, "--noise-force", noise_force,
@@ -170,7 +183,10 @@ def observe(model: Path, like: Path, out: Path, *, plant: str = "", seed: int = 
     for effect in effects:
         words += ["--set", effect]
     command(*words, *(["--plant", plant] if plant else []))
-    return os.fspath(out)
+    folder = os.fspath(out)
+    trials = sorted(entry.name for entry in os.scandir(folder) if entry.is_dir()
+                    and any(name.endswith(".csv") for name in os.listdir(entry.path)))
+    return Observed(folder, trials)
 
 
 def validate(*files: Path, packages: Sequence[str] = ()) -> Validation:

@@ -9,6 +9,7 @@ PlantFile plant() {
   PlantFile file;
   file.root = Vec3(1, 0, 0);
   file.connect = 0.01;
+  file.distance = 0.025;
   PlantCurve curve;
   curve.points = {Vec3(1, 0, 0), Vec3(1, 0, 0.5)};
   curve.radius = {0.004, 0.002};
@@ -36,6 +37,7 @@ TEST(PlantShape, EachFactorChangesItsOwnAlone) {
   EXPECT_EQ(file.curves[0].points, (std::vector<Vec3>{Vec3(1, 0, 0), Vec3(1, 0, 1)}));
   EXPECT_EQ(file.curves[0].radius, plant().curves[0].radius);
   EXPECT_EQ(file.connect, 0.02);
+  EXPECT_EQ(file.distance, 0.05);
   file = plant();
   scale(file, "shape.fruit", 0.5);
   scale(file, "shape.leaf", 3.0);

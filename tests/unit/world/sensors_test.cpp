@@ -118,17 +118,25 @@ TEST(PlaceSettings, PutThingsWhereTheySay) {
   set("bodies.ball.position.z", "0.7");
   set("cameras.a.eye.x", "2");
   set("cameras.a.fov", "0.4");
+  set("cameras.a.noise.latency", "0.07");
   EXPECT_EQ(scene.plants[0].pose.position, Vec3(0, 0.3, 0));
   EXPECT_NEAR(scene.plants[0].pose.rotation.angularDistance(Quat::Identity()), 1.5, 1e-9);
   EXPECT_EQ(scene.bodies[0].pose.position.z(), 0.7);
   EXPECT_EQ(scene.cameras[0].eye, Vec3(2, 0, 1));
   EXPECT_EQ(scene.cameras[0].field_of_view, 0.4);
+  EXPECT_EQ(scene.cameras[0].noise.latency, 0.07);
+  EXPECT_EQ(scene.cameras[0].noise.depth_std, 0.002);  // as the file says
+  scene.wrenches.emplace_back().name = "wrist";
+  set("wrenches.wrist.noise.force_std", "0.3");
+  EXPECT_EQ(scene.wrenches[0].noise.force_std, 0.3);
   // A key of the plant itself stays one.
   set("plants.wood.material.density", "500");
   EXPECT_EQ(scene.plants[0].set.back().key, "material.density");
   for (const auto& [key, value] :
        {std::pair("plants.wood.position.x", "far"), std::pair("bodies.none.yaw", "1"),
-        std::pair("look.none", "1"), std::pair("cameras.a.fov", "9"), std::pair("robot.yaw", "1")})
+        std::pair("look.none", "1"), std::pair("cameras.a.fov", "9"), std::pair("robot.yaw", "1"),
+        std::pair("cameras.a.noise.haze", "1"), std::pair("cameras.a.noise.latency", "-1"),
+        std::pair("wrenches.wrist.noise.latency", "late"), std::pair("wrenches.none.noise.latency", "0")})
     EXPECT_THROW(set(key, value), UsageError) << key;
 }
 

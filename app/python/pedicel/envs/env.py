@@ -1,17 +1,19 @@
 """One environment: a task in a simulation of its own."""
 
+import warnings
 from typing import Any, Dict, Optional, Type
 
 import numpy as np
 
-from .. import Simulation, Unstable, asset
+from .. import NoPictures, Simulation, Unstable, asset
 from .interface import Env
 from .task import Task
 
 
 class PedicelEnv(Env):
     """gymnasium.Env of a task. Options of make(): action (tool, joint), observation (state, picture,
-    mixed), picture_size (width, height), vary (None, a map, a file or a Variation), render_mode."""
+    mixed), picture_size (width, height), vary (None, a map, a file or a Variation), gentleness (what
+    each N, N s, 1, J or organ of `info["gentleness"]` costs, by its name), render_mode, scene."""
 
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 10}
     task_type: Type[Task] = Task
@@ -26,7 +28,7 @@ class PedicelEnv(Env):
         self.task.begin_here(np.random.default_rng(0), {})
         self.observation_space, self.action_space = self.task.spaces()
         self.metadata = dict(self.metadata, render_fps=round(1.0 / self.task.period))
-        self._window = None
+        self._window, self._told = None, False
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None):
         super().reset(seed=seed)
@@ -40,9 +42,13 @@ class PedicelEnv(Env):
         if action.shape != self.action_space.shape:
             raise ValueError(f"action has shape {action.shape}, expected {self.action_space.shape}")
         self.task.act(action)
+        left, failed = self.task.steps_of_action, None
         try:
-            self.simulation.step(self.task.steps_of_action)
-            failed = None
+            while left:
+                steps = min(left, self.task.due())
+                self.simulation.step(steps)
+                self.task.passed(steps)
+                left -= steps
         except Unstable as fault:
             failed = str(fault)
         reward, terminated, truncated = self.task.outcome(action)
@@ -60,11 +66,17 @@ class PedicelEnv(Env):
         picture = self.task.picture(640, 480)
         if self.render_mode == "rgb_array":
             return picture
-        if self._window is None:
+        if self._window is None and not self._told:
             from .window import Window
 
-            self._window = Window(type(self).__name__)
-        self._window.show(picture)
+            try:
+                self._window = Window(type(self).__name__)
+            except NoPictures as why:
+                # An episode goes on without its window: what is learned does not depend on it.
+                warnings.warn(f"{why}; nothing is shown", stacklevel=2)
+                self._told = True
+        if self._window is not None:
+            self._window.show(picture)
         return None
 
     def close(self) -> None:

@@ -12,9 +12,9 @@ from .task import Task
 class HarvestTask(Task):
     """Grasp the wanted fruit, take it off its stalk, lay it into the tray.
 
-    State: joints and their speeds, the tool's pose, time left, tool to fruit (m), tool to tray (m),
-    the fruit's velocity, whether it is on, its stalk's margin, the largest margin of the others, what
-    presses the fruit (N), the gripper's opening (m). The episode terminates when the fruit lies in the
+    State: joints and their speeds, the tool's pose, time left, tool to fruit (m), tool to tray (m).
+    Then the fruit's velocity, whether it is on, its stalk's margin, the largest margin of the others,
+    what presses the fruit (N), the gripper's opening (m). The episode terminates when the fruit lies in the
     tray, when another fruit came off, or when the wanted one fell elsewhere.
     """
 

@@ -11,7 +11,7 @@ from .task import Task
 class RevealTask(Task):
     """Push what hides the fruit aside, and load no stalk beyond its limit.
 
-    State: joints and their speeds, the tool's pose, time left, tool to fruit (m), the share of the
+    State: joints and their speeds, the tool's pose, time left, tool to fruit (m). Then the share of the
     fruit that the camera sees, the largest stalk margin, the force at the gripper (N), and twelve
     places along the plant that hides it (m, from the tool). The episode terminates when the camera
     has seen `wanted` of the fruit for half a second, or when a stalk's margin passes `limit`.

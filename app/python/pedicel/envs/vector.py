@@ -71,7 +71,7 @@ class PedicelVectorEnv(VectorEnv):
             raise ValueError("a world has ended, expected reset(options={'reset_mask': ...}) before step()")
         for w in np.flatnonzero(steps):
             self.tasks[w].act(actions[w])
-        self.worlds.step(self.tasks[0].steps_of_action, steps)
+        self._pass_period(steps)
         rewards = np.zeros(self.num_envs)
         terminated, truncated = np.zeros(self.num_envs, dtype=bool), np.zeros(self.num_envs, dtype=bool)
         infos: Dict[str, Any] = {}
@@ -87,6 +87,16 @@ class PedicelVectorEnv(VectorEnv):
         if self.autoreset == "SameStep" and self.ended.any():
             self._begin_ended(infos)
         return self._observations(), rewards, terminated, truncated, infos
+
+    def _pass_period(self, steps: np.ndarray) -> None:
+        """The steps of an action, in parts where one comes late."""
+        left, acting = self.tasks[0].steps_of_action, np.flatnonzero(steps)
+        while left and len(acting):
+            part = min([left] + [self.tasks[w].due() for w in acting])
+            self.worlds.step(part, steps)
+            for w in acting:
+                self.tasks[w].passed(part)
+            left -= part
 
     def _begin_ended(self, infos: Dict[str, Any]) -> None:
         last = np.full(self.num_envs, None, dtype=object)

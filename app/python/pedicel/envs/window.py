@@ -14,7 +14,8 @@ class Window:
 
             self.root = tkinter.Tk()
         except Exception as why:  # no Tk (Debian: python3-tk), or no display
-            raise NoPictures(f"render_mode human: no window can be opened ({why})") from why
+            raise NoPictures(f"render_mode human: no window can be opened, expected python3-tk and a display "
+                             f"({why})") from why
         self.root.title(title)
         self.label = tkinter.Label(self.root)
         self.label.pack()
