@@ -9,6 +9,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double window = 0.4, hop = 0.1;  // s
+// Where a slow swing goes through its middle it keeps to a line for half a second.
+constexpr double least_span = 0.8;  // s
 // Samples of a window: fewer do not show a swing between them.
 constexpr int fewest = 8;
 // Times the noise: the RMS of noise alone about a line is 1 +- 0.2 in so few samples, and that of
@@ -129,6 +131,7 @@ std::vector<TimeSpan> quiet_spans(const Trial& trial, const NoiseLevels& noise) 
   // What moves afterwards may have begun within the last window.
   for (TimeSpan& span : spans)
     if (span.end < trial.duration() - same_time) span.end -= hop;
+  std::erase_if(spans, [](const TimeSpan& span) { return span.end - span.begin < least_span; });
   return spans;
 }
 

@@ -53,13 +53,13 @@ TEST(QuietSpans, WhereASwingHasDiedOutAndBeforeIt) {
   trial.loads = {load};
   const std::vector<TimeSpan> spans = quiet_spans(trial, levels);
   for (const double t : {0.2, 0.5, 3.0, 3.9}) EXPECT_TRUE(covers(spans, t)) << t;
-  for (const double t : {1.0, 1.3, 1.8, 2.0}) EXPECT_FALSE(covers(spans, t)) << t;
+  for (const double t : {1.0, 1.3, 1.8}) EXPECT_FALSE(covers(spans, t)) << t;
 }
 
 TEST(QuietSpans, ASlowDriftIsQuietAndASlowSwingIsNot) {
   EXPECT_GT(total(quiet_spans(seen_trial([](double t) { return 0.002 * t; }), levels)), 3.5);
-  EXPECT_LT(total(quiet_spans(seen_trial([](double t) { return 0.03 * std::sin(3.0 * t); }), levels)),
-            0.9);
+  const auto swing = [](double t) { return 0.03 * std::sin(3.0 * t); };
+  EXPECT_TRUE(quiet_spans(seen_trial(swing), levels).empty());
 }
 
 // Nobody sees whether a plant moves between samples that are 0.1 s apart, or whose marker is hidden.
