@@ -43,8 +43,7 @@ void add_loads(Experiment& experiment, const std::string& name, const Vec3& firs
                const Vec3& second) {
   Trial trial;
   trial.name = trial.folder = name;
-  for (int i = 0; i <= std::lround(7.0 / interval); ++i)
-    trial.markers.time.push_back(interval * i);
+  for (int i = 0; i <= std::lround(7.0 / interval); ++i) trial.markers.time.push_back(interval * i);
   trial.markers.value.setZero(trial.markers.size(), 9);
   for (const auto& [force, from, to] :
        {std::tuple{first, -1.0, 3.0}, std::tuple{second, 5.0, 1.0e3}}) {
@@ -94,7 +93,10 @@ void expect_same_verdict(const std::vector<plant::Effect>& hidden, std::uint64_t
     for (const auto& [name, numbers] : b.parameters)
       for (std::size_t i = 0; i < numbers.size(); ++i)
         expect_close(a.parameters.at(name)[i], numbers[i], a.name + " " + name);
-    if (b.share.fit) EXPECT_NEAR(*a.share.fit, *b.share.fit, 0.02);
+    ASSERT_EQ(a.share.fit.has_value(), b.share.fit.has_value()) << a.name;
+    if (b.share.fit) {
+      EXPECT_NEAR(*a.share.fit, *b.share.fit, 0.02) << a.name;
+    }
   }
   for (const auto& [name, number] : plain.verdict.parameters)
     expect_close(quick.verdict.parameters.at(name), number, name);

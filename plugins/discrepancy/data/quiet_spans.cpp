@@ -47,9 +47,9 @@ class Line {
 // Whether the columns from `first` on keep to lines. Nothing where too little was measured.
 std::optional<bool> keeps_still(const Samples& samples, int first, int columns, double std,
                                 const TimeSpan& within) {
-  const auto begin = std::lower_bound(samples.time.begin(), samples.time.end(),
-                                      within.begin - same_time) -
-                     samples.time.begin();
+  const auto begin =
+      std::lower_bound(samples.time.begin(), samples.time.end(), within.begin - same_time) -
+      samples.time.begin();
   const auto end =
       std::upper_bound(samples.time.begin(), samples.time.end(), within.end + same_time) -
       samples.time.begin();
@@ -102,8 +102,7 @@ bool is_quiet(const Trial& trial, const NoiseLevels& noise, const TimeSpan& with
   if (trial.base && !keeps_still(*trial.base, noise.position, within)) return false;
   const int columns = static_cast<int>(trial.markers.value.cols());
   if (!keeps_still(trial.markers, 0, columns, noise.position, within).value_or(false)) return false;
-  if (trial.force.size() > 0 &&
-      !keeps_still(trial.force, 0, 3, noise.force, within).value_or(true))
+  if (trial.force.size() > 0 && !keeps_still(trial.force, 0, 3, noise.force, within).value_or(true))
     return false;
   if (trial.wrench.size() == 0) return true;
   return keeps_still(trial.wrench, 0, 3, noise.force, within).value_or(true) &&

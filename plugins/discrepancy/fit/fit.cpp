@@ -15,9 +15,9 @@ namespace {
 
 constexpr double open_direction = 1.0e-3;  // noise units an unknown: nothing to be seen
 
-/// Residuals and their derivatives at a point. Two points are kept: the last one, because Ceres asks
-/// for the derivatives at a point whose residuals it has seen, and the best one, where a fit ends
-/// that has tried in vain to go on.
+/// Residuals and their derivatives at a point. Two points are kept: the last one, because Ceres
+/// asks for the derivatives at a point whose residuals it has seen, and the best one, where a fit
+/// ends that has tried in vain to go on.
 class Problem : public ceres::CostFunction {
  public:
   Problem(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
@@ -88,8 +88,7 @@ class Problem : public ceres::CostFunction {
   double objective(const Point& point) const {
     if (point.u.size() == 0) return std::numeric_limits<double>::infinity();
     double sum = point.residual.squaredNorm();
-    for (int p = 0; p < start_.size(); ++p)
-      sum += std::pow(prior(p) * (point.u[p] - centre(p)), 2);
+    for (int p = 0; p < start_.size(); ++p) sum += std::pow(prior(p) * (point.u[p] - centre(p)), 2);
     return sum;
   }
 

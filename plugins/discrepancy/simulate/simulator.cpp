@@ -143,8 +143,8 @@ struct Simulator::Impl {
   StepPlan plan(int trial, const Effects& effects, double until, int most) const {
     const Trial& one = experiment.trials[trial];
     if (one.is_static) return make_step_plan({}, 1.0, one.duration(), one.duration());
-    return make_step_plan(jumps_of(one, effects), numerics.dt, one.duration(), until,
-                          quiet[trial], most);
+    return make_step_plan(jumps_of(one, effects), numerics.dt, one.duration(), until, quiet[trial],
+                          most);
   }
 
   // Up to the end of the window, of a trial that begins in motion. What comes off ends it before.
@@ -174,9 +174,8 @@ struct Simulator::Impl {
       until[place->second] = std::max(until[place->second], one.until);
     }
     for (std::size_t j = 0; j < jobs.size(); ++j)
-      jobs[j].plan =
-          plan(jobs[j].trial, jobs[j].member.effects, until[j],
-               jobs[j].member.forces.empty() ? numerics.quiet : 1);
+      jobs[j].plan = plan(jobs[j].trial, jobs[j].member.effects, until[j],
+                          jobs[j].member.forces.empty() ? numerics.quiet : 1);
     return jobs;
   }
 
@@ -328,7 +327,7 @@ struct Simulator::Impl {
   const Experiment& experiment;  // what is simulated
   const Numerics numerics;
   const PlantMaker maker;
-  const std::vector<StartPlan> starts;  // by trial
+  const std::vector<StartPlan> starts;             // by trial
   const std::vector<std::vector<TimeSpan>> quiet;  // by trial
   ThreadPool pool;
   MotionCache cache{cache_bytes};

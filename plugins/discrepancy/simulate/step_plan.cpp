@@ -16,8 +16,8 @@ int taken_as_one(std::span<const TimeSpan> quiet, double begin, double length, i
   const double t = begin + step * length;
   for (const TimeSpan& span : quiet) {
     if (t < span.begin - same_time || t >= span.end) continue;
-    const int end = std::min(
-        count, static_cast<int>(std::floor((span.end - begin + same_time) / length)));
+    const int end =
+        std::min(count, static_cast<int>(std::floor((span.end - begin + same_time) / length)));
     int taken = std::min(2 * before, most);
     while (taken > 1 && step + 2 * taken - 1 > end) taken /= 2;
     return taken;

@@ -23,8 +23,8 @@ struct StepPlan {
 /// `events`: times of jumps, in any order, those outside (0, end) left out. Goes on with equal
 /// steps from `end` to `until` where that is later, and stops with the first step that reaches
 /// `until` where that is sooner: the steps before it are the same for every `until`. Within a span
-/// of `quiet` a step is as long as up to `most` others. Neighbours differ by a factor of two at most,
-/// up to which BDF2 is of second order.
+/// of `quiet` a step is as long as up to `most` others. Neighbours differ by a factor of two at
+/// most, up to which BDF2 is of second order.
 StepPlan make_step_plan(std::span<const double> events, double dt, double end, double until,
                         std::span<const TimeSpan> quiet = {}, int most = 1);
 

@@ -139,9 +139,8 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
     direction.statistic =
         unit.back() * (direction.change.dot(base.residual) + direction.against.dot(left));
     direction.systematic =
-        numerical.size() > 0
-            ? unit.back() * direction.change.head(numerical.size()).dot(numerical)
-            : 0.0;
+        numerical.size() > 0 ? unit.back() * direction.change.head(numerical.size()).dot(numerical)
+                             : 0.0;
     // Our own error may push either way, so all of it is taken off.
     const double beyond = std::abs(direction.statistic) - std::abs(direction.systematic);
     if (beyond <= most) continue;
@@ -156,10 +155,9 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
   Eigen::MatrixXd correlation(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j <= i; ++j)
-      correlation(i, j) = correlation(j, i) =
-          unit[i] * unit[j] *
-          (directions[i].change.dot(directions[j].change) +
-           directions[i].against.dot(directions[j].against));
+      correlation(i, j) = correlation(j, i) = unit[i] * unit[j] *
+                                              (directions[i].change.dot(directions[j].change) +
+                                               directions[i].against.dot(directions[j].against));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
   // A root of the correlations. By eigenvalues, since directions of one cause are nearly the same
   // and the matrix is singular; rounding makes some of them a little negative.

@@ -62,7 +62,8 @@ TEST(QuietSpans, ASlowDriftIsQuietAndASlowSwingIsNot) {
   EXPECT_TRUE(quiet_spans(seen_trial(swing), levels).empty());
 }
 
-// Nobody sees whether a plant moves between samples that are 0.1 s apart, or whose marker is hidden.
+// Nobody sees whether a plant moves between samples that are 0.1 s apart, or whose marker is
+// hidden.
 TEST(QuietSpans, WhatIsNotSeenIsNotQuiet) {
   const Motion1 still = [](double) { return 0.0; };
   EXPECT_TRUE(quiet_spans(seen_trial(still, 4.0, 0.1), levels).empty());
