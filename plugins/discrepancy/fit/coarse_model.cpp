@@ -28,7 +28,10 @@ CoarseModel::CoarseModel(FitSetup& setup, const FitSummary& anchor) : setup_(set
   constexpr std::array<std::array<double, 2>, 3> by_mesh_and_step{{{2, 2}, {1, 2}, {1, 1}}};
   for (const auto [mesh, step] : by_mesh_and_step) {
     const double distance = std::min(mesh * fine.distance, coarsest);
-    anchor_at(anchor, {distance, step * fine.dt, fine.junction});
+    Numerics coarse = fine;
+    coarse.distance = distance;
+    coarse.dt = step * fine.dt;
+    anchor_at(anchor, coarse);
     if (error_ <= allowed) break;
   }
 }

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double open_direction = 1.0e-3;  // noise units an unknown: nothing to be seen
 
-/// Residuals and their derivatives at a point; the last one is kept, because Ceres asks for the
-/// derivatives at a point whose residuals it has seen.
+/// Residuals and their derivatives at a point. Two points are kept: the last one, because Ceres
+/// asks for the derivatives at a point whose residuals it has seen, and the best one, where a fit
+/// ends that has tried in vain to go on.
 class Problem : public ceres::CostFunction {
  public:
   Problem(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
@@ -36,28 +37,31 @@ class Problem : public ceres::CostFunction {
     const Eigen::Map<const Eigen::VectorXd> u(parameters[0], start_.size());
     compute(u);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
-    r.head(samples_) = residual_;
+    r.head(samples_) = now_.residual;
     for (int p = 0; p < start_.size(); ++p) r[samples_ + p] = prior(p) * (u[p] - centre(p));
     if (!jacobians || !jacobians[0]) return true;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
         jacobians[0], num_residuals(), start_.size());
     j.setZero();
-    j.topRows(samples_) = -jacobian_;
+    j.topRows(samples_) = -now_.jacobian;
     for (int p = 0; p < start_.size(); ++p) j(samples_ + p, p) = prior(p);
     return true;
   }
 
   void compute(const Eigen::VectorXd& u) const {
-    if (at_.size() > 0 && u == at_) return;
+    if (now_.is_at(u)) return;
+    if (best_.is_at(u)) {
+      std::swap(now_, best_);
+      return;
+    }
+    if (best_.u.size() == 0 || objective(now_) < objective(best_)) std::swap(now_, best_);
     const Eigen::MatrixXd r = evaluator_.residuals(differences_.points(u), options_);
-    at_ = u;
-    residual_ = r.col(0);
-    jacobian_ = differences_.jacobian(r);
+    now_ = {u, r.col(0), differences_.jacobian(r)};
     // Where the model misses the data by many times the noise, the data weigh less against what is
     // known beforehand. Set once, so that the cost stays one function.
     if (spread_ == 0.0) {
       const int seen = evaluator_.data().samples(options_.trials, options_.horizon);
-      spread_ = std::sqrt(std::max(1.0, residual_.squaredNorm() / std::max(1, seen)));
+      spread_ = std::sqrt(std::max(1.0, now_.residual.squaredNorm() / std::max(1, seen)));
     }
   }
 
@@ -65,15 +69,29 @@ class Problem : public ceres::CostFunction {
   /// swing by a radian, or moves nothing, and a step from a wrong derivative is refused.
   void find_differences(const Eigen::VectorXd& u) const {
     compute(u);
-    if (!differences_.suited()) at_.resize(0);
+    if (!differences_.suited()) now_ = {};
   }
 
   const DataSet& data() const { return evaluator_.data(); }
-  const Eigen::VectorXd& residual() const { return residual_; }
-  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+  const Eigen::VectorXd& residual() const { return now_.residual; }
+  const Eigen::MatrixXd& jacobian() const { return now_.jacobian; }
   double spread() const { return spread_; }
 
  private:
+  struct Point {
+    Eigen::VectorXd u, residual;
+    Eigen::MatrixXd jacobian;
+    bool is_at(const Eigen::VectorXd& there) const { return u.size() > 0 && u == there; }
+  };
+
+  // What a fit minimises.
+  double objective(const Point& point) const {
+    if (point.u.size() == 0) return std::numeric_limits<double>::infinity();
+    double sum = point.residual.squaredNorm();
+    for (int p = 0; p < start_.size(); ++p) sum += std::pow(prior(p) * (point.u[p] - centre(p)), 2);
+    return sum;
+  }
+
   double prior(int p) const {
     return hypothesis_.free[p].prior > 0.0 ? spread_ / hypothesis_.free[p].prior : 0.0;
   }
@@ -90,8 +108,7 @@ class Problem : public ceres::CostFunction {
   mutable Differences differences_;
   mutable double spread_ = 0.0;
   int samples_;
-  mutable Eigen::VectorXd at_, residual_;
-  mutable Eigen::MatrixXd jacobian_;
+  mutable Point now_, best_;
 };
 
 Eigen::VectorXd bounded(const Hypothesis& start) {

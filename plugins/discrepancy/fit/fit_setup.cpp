@@ -15,7 +15,9 @@ FitSetup::FitSetup(const Experiment& experiment, int threads, const NoiseRule& r
       settings_(&settings),
       data_(experiment),
       rule_(rule),
-      numerics_{2.0 * experiment.plant.distance, 2.0 * accuracy().usual_dt},
+      numerics_{.distance = 2.0 * experiment.plant.distance,
+                .dt = 2.0 * accuracy().usual_dt,
+                .quiet = accuracy().quiet_steps},
       threads_(threads),
       stop_(stop) {
   data_.choose_noise(measured_series(experiment), rule_);
@@ -96,7 +98,10 @@ bool FitSetup::is_fine_enough(const NumericsCheck& check) const {
 
 // Nodes as in the file and usual steps come before anything finer than either.
 Numerics FitSetup::finer(const NumericsCheck& check) const {
-  const Numerics next = refined(check), usual{experiment_->plant.distance, accuracy().usual_dt};
+  const Numerics next = refined(check);
+  Numerics usual = check.numerics;
+  usual.distance = experiment_->plant.distance;
+  usual.dt = accuracy().usual_dt;
   const bool beyond = next.dt < usual.dt || next.distance < usual.distance;
   return is_coarse(check.numerics) && beyond ? usual : next;
 }

@@ -250,6 +250,7 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
   // The choice needs no more accuracy than the competing models' own; a coarse step makes it
   // cheap.
   options.numerics.dt = std::max(options.numerics.dt, options.settings.accuracy.design_dt);
+  options.numerics.quiet = 1;  // nobody has seen yet when a design rests
   // As coarse as the plant file draws it. The fits may have had to be finer than that, for data
   // more precise than this choice.
   options.numerics.distance = std::max(options.numerics.distance, experiment.plant.distance);

@@ -44,6 +44,10 @@ void add_steps(Accuracy& a, SettingRows& rows) {
   rows.seconds("usual_dt", a.usual_dt, "Step of fits; twice as long ones are tried first.",
                {measured, "markers err by 17 um rms at a release",
                 "Fits take half the time, and fast plants are refined more often."});
+  rows.count("quiet_steps", a.quiet_steps,
+             "Steps that are taken as one where no instrument sees anything move.",
+             {measured, "page of measurements, diagnosis: time",
+              "Trials with long rests take less time, and small swings in them are damped."});
   rows.seconds("design_dt", a.design_dt, "Least step of trials that could be done next.",
                {budget, "the choice needs no more accuracy than the models' own",
                 "The next experiment is chosen in half the time."});

@@ -160,6 +160,7 @@ struct Accuracy {
   double own_amplitude = 2.0;      ///< times our own error
   double least_across = 0.05;      ///< of a unit vector
   double far_end = 0.6;            ///< m a length of the plant
+  int quiet_steps = 4;
   int motion_shapes = 4;
   int power_neighbourhood = 10;
 };

@@ -8,6 +8,7 @@
 #include "pedicel/core/check.h"
 #include "pedicel/core/thread_pool.h"
 #include "pedicel/discrepancy/data/path_smoothing.h"
+#include "pedicel/discrepancy/simulate/data_set.h"
 #include "pedicel/discrepancy/simulate/motion_cache.h"
 #include "pedicel/discrepancy/simulate/trial_run.h"
 #include "pedicel/io/csv.h"
@@ -65,6 +66,17 @@ std::string key_of(const Simulator::Request& request, const Effects& effects, bo
   return key;
 }
 
+// Of its instruments: what is stated, or an estimate from the data.
+NoiseLevels noise_levels(const Experiment& experiment) {
+  const AllSeries all = measured_series(experiment);
+  const StatedNoise& stated = experiment.noise;
+  const auto level = [](const std::vector<Series>& series, const std::optional<double>& said) {
+    return choose_noise(series, said.value_or(0.0), NoiseRule{}).std;
+  };
+  return {level(all.position, stated.position_std), level(all.force, stated.force_std),
+          level(all.moment, stated.moment_std)};
+}
+
 /// Jobs of one trial with the same steps, as many side by side as there are lanes.
 struct Group {
   std::vector<int> jobs;
@@ -81,6 +93,8 @@ struct Simulator::Impl {
         numerics(how),
         maker(given, how.distance, how.junction * how.distance),
         starts(plan_starts(experiment, how.junction)),
+        quiet(how.quiet > 1 ? all_quiet_spans(experiment)
+                            : std::vector<std::vector<TimeSpan>>(experiment.trials.size())),
         pool(threads),
         stop(caller ? *caller : never) {
     check_places();
@@ -119,10 +133,18 @@ struct Simulator::Impl {
     return job;
   }
 
-  StepPlan plan(int trial, const Effects& effects, double until) const {
+  static std::vector<std::vector<TimeSpan>> all_quiet_spans(const Experiment& experiment) {
+    const NoiseLevels noise = noise_levels(experiment);
+    std::vector<std::vector<TimeSpan>> all;
+    for (const Trial& trial : experiment.trials) all.push_back(quiet_spans(trial, noise));
+    return all;
+  }
+
+  StepPlan plan(int trial, const Effects& effects, double until, int most) const {
     const Trial& one = experiment.trials[trial];
     if (one.is_static) return make_step_plan({}, 1.0, one.duration(), one.duration());
-    return make_step_plan(jumps_of(one, effects), numerics.dt, one.duration(), until);
+    return make_step_plan(jumps_of(one, effects), numerics.dt, one.duration(), until, quiet[trial],
+                          most);
   }
 
   // Up to the end of the window, of a trial that begins in motion. What comes off ends it before.
@@ -131,7 +153,7 @@ struct Simulator::Impl {
     double end = starts[trial].window;
     for (const MeasuredEvent& event : experiment.trials[trial].events)
       if (event.is_detachment()) end = std::min(end, event.time);
-    return plan(trial, effects, end);
+    return plan(trial, effects, end, 1);
   }
 
   /// Requests of the same motion to one job, as long as the longest of them needs.
@@ -152,7 +174,8 @@ struct Simulator::Impl {
       until[place->second] = std::max(until[place->second], one.until);
     }
     for (std::size_t j = 0; j < jobs.size(); ++j)
-      jobs[j].plan = plan(jobs[j].trial, jobs[j].member.effects, until[j]);
+      jobs[j].plan = plan(jobs[j].trial, jobs[j].member.effects, until[j],
+                          jobs[j].member.forces.empty() ? numerics.quiet : 1);
     return jobs;
   }
 
@@ -260,7 +283,7 @@ struct Simulator::Impl {
     member.effects = effects_of(experiment, {&variant, trial});
     member.forces = variant.forces;
     member.start = &starts[trial];
-    const StepPlan steps = plan(trial, member.effects, one.duration());
+    const StepPlan steps = plan(trial, member.effects, one.duration(), 1);
     ++simulations;
     return std::move(run_trial(maker, experiment, one, steps, {&member, 1}, stop,
                                rehearsal(trial, member.effects))
@@ -304,7 +327,8 @@ struct Simulator::Impl {
   const Experiment& experiment;  // what is simulated
   const Numerics numerics;
   const PlantMaker maker;
-  const std::vector<StartPlan> starts;  // by trial
+  const std::vector<StartPlan> starts;             // by trial
+  const std::vector<std::vector<TimeSpan>> quiet;  // by trial
   ThreadPool pool;
   MotionCache cache{cache_bytes};
   const std::atomic<bool> never{false};

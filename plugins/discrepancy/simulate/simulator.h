@@ -20,6 +20,8 @@ struct Numerics {
   /// 1, of `distance`: the short segment below a junction (plant::BuildOptions). 0: none, and the
   /// branches' places err with the first power of `distance`.
   double junction = 0.05;
+  /// Steps that are taken as one where nothing moves (quiet_spans); a power of two. 1: nowhere.
+  int quiet = 1;
 
   bool operator==(const Numerics&) const = default;
 };

@@ -67,12 +67,6 @@ void project_out_nuisance(const FitSummary& base, std::vector<Direction>& direct
   }
 }
 
-Eigen::VectorXd joined(const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
-  Eigen::VectorXd both(first.size() + second.size());
-  both << first, second;
-  return both;
-}
-
 std::vector<std::size_t> all_of(const std::vector<Direction>& directions) {
   std::vector<std::size_t> all(directions.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -132,19 +126,21 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
             const Eigen::VectorXd& numerical, std::uint64_t seed,
             const DiagnosisSettings& settings) {
   Alarm alarm;
-  std::vector<Eigen::VectorXd> unit;
+  // What a direction is divided by; a copy of each would be as large as all of them.
+  std::vector<double> unit;
   // The base has paid for its numbers' distance from what is known. That is a part of what is left.
-  const Eigen::VectorXd residual = joined(base.residual, prior_rows(base).left);
+  const Eigen::VectorXd left = prior_rows(base).left;
   double most = 0.0;
   for (std::size_t d = 0; d < directions.size(); ++d) {
     Direction& direction = directions[d];
     const double size = length(direction);
-    unit.push_back(joined(direction.change, direction.against));
     // What the parameters explain in full has no direction of its own, and a statistic of zero.
-    unit.back() *= size > no_change ? 1.0 / size : 0.0;
-    direction.statistic = unit.back().dot(residual);
+    unit.push_back(size > no_change ? 1.0 / size : 0.0);
+    direction.statistic =
+        unit.back() * (direction.change.dot(base.residual) + direction.against.dot(left));
     direction.systematic =
-        numerical.size() > 0 ? unit.back().head(numerical.size()).dot(numerical) : 0.0;
+        numerical.size() > 0 ? unit.back() * direction.change.head(numerical.size()).dot(numerical)
+                             : 0.0;
     // Our own error may push either way, so all of it is taken off.
     const double beyond = std::abs(direction.statistic) - std::abs(direction.systematic);
     if (beyond <= most) continue;
@@ -159,7 +155,9 @@ Alarm judge(std::vector<Direction>& directions, const FitSummary& base,
   Eigen::MatrixXd correlation(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j <= i; ++j)
-      correlation(i, j) = correlation(j, i) = unit[i].dot(unit[j]);
+      correlation(i, j) = correlation(j, i) = unit[i] * unit[j] *
+                                              (directions[i].change.dot(directions[j].change) +
+                                               directions[i].against.dot(directions[j].against));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
   // A root of the correlations. By eigenvalues, since directions of one cause are nearly the same
   // and the matrix is singular; rounding makes some of them a little negative.
