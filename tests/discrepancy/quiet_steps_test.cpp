@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "discrepancy/measured_anew.h"
+#include "discrepancy/resimulated.h"
 #include "pedicel/discrepancy/procedure/diagnosis.h"
 #include "pedicel/discrepancy/report/report.h"
 
@@ -64,7 +64,7 @@ Experiment loaded(const std::vector<plant::Effect>& hidden, std::uint64_t seed) 
   add_loads(experiment, "both", Vec3(-0.06, 0.06, 0), Vec3(0, 0, -0.08));
   MeasuringOptions options;
   options.seed = seed;
-  return measured_anew(std::move(experiment), hidden, {}, options);
+  return resimulated(std::move(experiment), hidden, {}, options);
 }
 
 Diagnosis diagnosed(const Experiment& experiment, int quiet_steps) {
