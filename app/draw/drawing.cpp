@@ -99,6 +99,16 @@ void add_visual(DrawList& shape, const robot::Visual& visual) {
   }
 }
 
+// A flat parabola of height h over the way d is longer than it by 8/3 h^2/d. Hung upright it only
+// lies beside itself.
+double sag_of(const Vec3& from_W, const Vec3& to_W, double length) {
+  const double way = (to_W - from_W).norm();
+  const double level = (to_W - from_W).head<2>().norm();
+  if (!(level > 0.0 && length > way)) return 0.0;
+  const double sag = std::min(std::sqrt(0.375 * way * (length - way)), 0.5 * length);
+  return sag > string_radius ? sag : 0.0;
+}
+
 }  // namespace
 
 void add_cylinder(DrawList& list, const Pose& pose, double radius, double length,
@@ -187,24 +197,27 @@ std::vector<DrawList> robot_shapes(const robot::RobotDescription& robot) {
   return shapes;
 }
 
-// A flat parabola of height h over the way d is longer than it by 8/3 h^2/d.
+std::array<Vec3, string_parts + 1> string_course(const Vec3& from_W, const Vec3& to_W,
+                                                 double length) {
+  const double sag = sag_of(from_W, to_W, length);
+  std::array<Vec3, string_parts + 1> places;
+  for (int i = 0; i <= string_parts; ++i) {
+    const double t = static_cast<double>(i) / string_parts;
+    places[static_cast<std::size_t>(i)] =
+        from_W + t * (to_W - from_W) - 4.0 * sag * t * (1.0 - t) * Vec3::UnitZ();
+  }
+  return places;
+}
+
 void add_string(DrawList& list, const Vec3& from_W, const Vec3& to_W, double length,
                 const render::Colour& colour) {
-  constexpr double radius = 0.0012;  // m
   const Shading look{colour, 0.9f, 0.1f};
-  const double way = (to_W - from_W).norm();
-  const double level = (to_W - from_W).head<2>().norm();
-  // Hung upright it only lies beside itself.
-  const double sag = level > 0.0 && length > way
-                         ? std::min(std::sqrt(0.375 * way * (length - way)), 0.5 * length)
-                         : 0.0;
-  const int parts = sag > radius ? 12 : 1;
-  const auto place = [&](int i) {
-    const double t = static_cast<double>(i) / parts;
-    return Vec3(from_W + t * (to_W - from_W) - 4.0 * sag * t * (1.0 - t) * Vec3::UnitZ());
+  const auto add = [&](const Vec3& from, const Vec3& to) {
+    list.capsules.push_back({from, to, string_radius, string_radius, look});
   };
-  for (int i = 0; i < parts; ++i)
-    list.capsules.push_back({place(i), place(i + 1), radius, radius, look});
+  if (sag_of(from_W, to_W, length) == 0.0) return add(from_W, to_W);
+  const auto places = string_course(from_W, to_W, length);
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) add(places[i], places[i + 1]);
 }
 
 void add_force(DrawList& list, const Vec3& point_W, const Vec3& force_W, double metres_per_newton,

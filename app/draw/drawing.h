@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,13 @@ render::DrawList body_shape(const world::BodyDescription& body);
 /// The visuals of every link, in the links' frames and the order of the description.
 std::vector<render::DrawList> robot_shapes(const robot::RobotDescription& robot);
 
-/// The string of a tie from end to end (m, W). What is longer than the way sags.
+inline constexpr double string_radius = 0.0012;  ///< m, as strings are drawn
+inline constexpr int string_parts = 12;          ///< of one that sags
+/// Where a string of `length` (m) runs from end to end (m, W), string_parts + 1 places evenly along
+/// it. What is longer than the way sags; a taut one is straight.
+std::array<Vec3, string_parts + 1> string_course(const Vec3& from_W, const Vec3& to_W,
+                                                 double length);
+/// The string of a tie so.
 void add_string(render::DrawList& list, const Vec3& from_W, const Vec3& to_W, double length,
                 const render::Colour& colour);
 inline constexpr render::Colour twine = render::Colour::hex(0xcdb36b);

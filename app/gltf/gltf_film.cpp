@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <span>
 
 #include "pedicel/app/draw/drawing.h"
 #include "pedicel/app/gltf/gltf_surfaces.h"
@@ -25,6 +26,20 @@ struct Track {
   std::vector<float> places, turns, sizes;    // m; x, y, z, w; 0 or 1 three times
 };
 
+// Each frame is the one before, turned by the shortest way: the tube between two has no twist.
+Pose pose_along(std::span<const Vec3> places, std::size_t index) {
+  Vec3 axis = Vec3::UnitZ();
+  Quat turn = Quat::Identity();
+  for (std::size_t i = 0; i <= index; ++i) {
+    const std::size_t next = std::min(i + 1, places.size() - 1);
+    const Vec3 way = places[next] - places[next - 1];
+    if (!(way.norm() > 0.0)) continue;  // a clip
+    turn = Quat::FromTwoVectors(axis, way.normalized()) * turn;
+    axis = way.normalized();
+  }
+  return {places[index], turn};
+}
+
 class GltfFilm : public RunWatcher {
  public:
   GltfFilm(Simulation& simulation, std::filesystem::path file)
@@ -37,6 +52,7 @@ class GltfFilm : public RunWatcher {
                        " rod elements, expected at most " + std::to_string(gltf_most_elements));
     add_robot();
     for (int p = 0; p < simulation.rods().size(); ++p) add_plant(p);
+    add_strings();
     check_size();
   }
 
@@ -108,6 +124,27 @@ class GltfFilm : public RunWatcher {
             return Pose{point_on(own, state, fruit.element, fruit.back),
                         state.orientation[fruit.element]};
           });
+  }
+
+  // A string is a skin on the places along it.
+  void add_strings() {
+    for (const SceneTies::One& tie : simulation_.ties().all()) {
+      constexpr int places = string_parts + 1;
+      skins_.push_back({tie.name, tracks_.size(), places,
+                        gltf_.mesh(tie.name, {string_surface(places)})});
+      for (std::size_t i = 0; i < places; ++i)
+        tracks_.push_back({tie.name,
+                           -1,
+                           [this, &tie, i]() -> std::optional<Pose> {
+                             const auto course = simulation_.ties().course(tie);
+                             if (!course) return std::nullopt;
+                             return pose_along(
+                                 string_course(course->from_W, course->to_W, course->length), i);
+                           },
+                           {},
+                           {},
+                           {}});
+    }
   }
 
   // Fruits that came off are bodies that were not there before.

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "pedicel/app/draw/drawing.h"
 #include "pedicel/app/draw/plant_drawing.h"
 #include "pedicel/geometry/primitives_mesh.h"
 #include "pedicel/render/mesh_normals.h"
@@ -64,23 +65,32 @@ Pose along(const Vec3& p0, const Vec3& p1) {
   return {0.5 * (p0 + p1), Quat::FromTwoVectors(Vec3::UnitZ(), p1 - p0)};
 }
 
-void add_stem(GltfSurface& surface, const cosserat::Element& element, int joint) {
-  const auto first = static_cast<std::uint32_t>(surface.positions.size() / 3);
-  for (int end = 0; end < 2; ++end)
-    for (int s = 0; s < stem_sides; ++s) {
-      const double angle = 2.0 * std::numbers::pi * s / stem_sides;
-      const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
-      const double radius = end == 0 ? element.radius_near : element.radius_far;
-      Gathered::put(surface.positions, radius * out - Vec3(0, 0, end == 0 ? element.length : 0.0));
-      Gathered::put(surface.normals, out);
-      surface.joints.push_back(static_cast<std::uint16_t>(joint));
-    }
+/// A circle about a joint's third axis, `back` (m) behind the joint.
+void add_ring(GltfSurface& surface, double radius, double back, int joint) {
+  for (int s = 0; s < stem_sides; ++s) {
+    const double angle = 2.0 * std::numbers::pi * s / stem_sides;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+    Gathered::put(surface.positions, radius * out - Vec3(0, 0, back));
+    Gathered::put(surface.normals, out);
+    surface.joints.push_back(static_cast<std::uint16_t>(joint));
+  }
+}
+
+/// The triangles between two rings, of which `first` is the first vertex.
+void join_rings(GltfSurface& surface, std::uint32_t first) {
   for (std::uint32_t s = 0; s < stem_sides; ++s) {
     const std::uint32_t next = (s + 1) % stem_sides;
     for (const std::uint32_t corner :
          {s, next, stem_sides + s, next, stem_sides + next, stem_sides + s})
       surface.indices.push_back(first + corner);
   }
+}
+
+void add_stem(GltfSurface& surface, const cosserat::Element& element, int joint) {
+  const auto first = static_cast<std::uint32_t>(surface.positions.size() / 3);
+  add_ring(surface, element.radius_near, element.length, joint);
+  add_ring(surface, element.radius_far, 0.0, joint);
+  join_rings(surface, first);
 }
 
 }  // namespace
@@ -136,6 +146,15 @@ std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model, const Plan
   if (!stems.indices.empty()) all.push_back(std::move(stems));
   if (!leaves.indices.empty()) all.push_back(std::move(leaves));
   return all;
+}
+
+GltfSurface string_surface(int places) {
+  GltfSurface surface{{}, {}, {}, {}, {twine, 0.9F, 0.1F}, false};
+  for (int i = 0; i < places; ++i) {
+    add_ring(surface, string_radius, 0.0, i);
+    if (i > 0) join_rings(surface, static_cast<std::uint32_t>((i - 1) * stem_sides));
+  }
+  return surface;
 }
 
 }  // namespace pedicel::app

@@ -5,6 +5,7 @@
 #include "pedicel/app/plants/start_overlaps.h"
 #include "pedicel/app/run/colliders.h"
 #include "pedicel/app/run/scene_assets.h"
+#include "pedicel/cosserat/contact/plant_blades.h"
 
 namespace pedicel::app {
 
@@ -90,6 +91,14 @@ void SceneContacts::add_blades(const SceneAssets& assets, int p) {
   source->ignore_touching(rods_.model(p), rods_.state(p));
   blades_.push_back(source.get());
   rods_.add_contact_source(p, std::move(source));
+  if (!assets.coupling.plant_contact) return;
+  std::vector<cosserat::BladeTriangle> triangles;
+  for (const Blade& blade : blades) {
+    cosserat::BladeTriangle& corners = triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = {blade[i].element, blade[i].back};
+  }
+  rods_.add_contact_source(p, std::make_unique<cosserat::PlantBlades>(
+                                  std::move(triangles), coupling::blade_half_thickness));
 }
 
 coupling::ColliderSource& SceneContacts::add_source(const SceneAssets& assets, int p) {

@@ -102,6 +102,21 @@ void MarkerTopics::add_fruits(int plant, ros::MarkerArray& all) const {
   }
 }
 
+// Each has as many places in every message, so that what lies between two can be shown.
+void MarkerTopics::add_strings(ros::MarkerArray& all) const {
+  const std::vector<SceneTies::One>& ties = simulation_.ties().all();
+  for (std::size_t t = 0; t < ties.size(); ++t) {
+    ros::Marker line = marker("ties", static_cast<int>(t), ros::Marker::line_strip);
+    line.color = colour_of(twine);
+    line.scale.x = 2.0 * string_radius;
+    if (const auto course = simulation_.ties().course(ties[t]))
+      for (const Vec3& place : string_course(course->from_W, course->to_W, course->length))
+        line.points.push_back(point_of(place));
+    finish(line);
+    all.markers.push_back(std::move(line));
+  }
+}
+
 ros::MarkerArray MarkerTopics::bodies(double) const {
   ros::MarkerArray all;
   const world::SimWorld& world = simulation_.world();
@@ -136,6 +151,7 @@ void MarkerTopics::tell(double time) {
     add_leaves(p, all);
     add_fruits(p, all);
   }
+  add_strings(all);
   if (!all.markers.empty()) plants_.tell(time, all);
   if (const ros::MarkerArray things = bodies(time); !things.markers.empty())
     bodies_.tell(time, things);

@@ -6,7 +6,7 @@
 
 namespace pedicel::app {
 
-/// /plant: stems, leaves and fruits as RViz draws them; /bodies: rigid bodies and fruits that came
+/// /plant: stems, leaves, fruits and strings as RViz draws them; /bodies: rigid bodies and fruits that came
 /// off.
 class MarkerTopics : public TopicSource {
  public:
@@ -17,6 +17,7 @@ class MarkerTopics : public TopicSource {
   void add_stems(int plant, ros::MarkerArray& all) const;
   void add_leaves(int plant, ros::MarkerArray& all) const;
   void add_fruits(int plant, ros::MarkerArray& all) const;
+  void add_strings(ros::MarkerArray& all) const;
   ros::MarkerArray bodies(double time) const;
   ros::Marker marker(const std::string& ns, int id, std::int32_t type) const;
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "analytic/sphere_source.h"
+#include "pedicel/cosserat/contact/plant_blades.h"
 #include "pedicel/cosserat/solver/rod_system.h"
 #include "unit/cosserat/random_plants.h"
 
@@ -52,6 +53,8 @@ class Canopy {
     contact.friction = random_.uniform(0, 1.2);
     system_.let_plants_touch(contact);
     add_ties();
+    add_strings();
+    if (random_.integer(0, 1)) add_blades();
     add_loads();
     if (random_.integer(0, 1)) add_ram();
     cut_at_ = random_.integer(0, 1) ? random_.integer(10, 100) : -1;
@@ -86,6 +89,44 @@ class Canopy {
       tie.stiffness = std::pow(10.0, random_.uniform(0, 3));
       system_.ties(p).push_back(tie);
     }
+  }
+
+  // From plant to plant, or within one.
+  void add_strings() {
+    const int count = random_.integer(0, 3);
+    for (int i = 0; i < count; ++i) {
+      PlantString string;
+      for (PlantString::End* end : {&string.a, &string.b}) {
+        end->plant = any_plant();
+        end->element = any_element(end->plant);
+        end->back = random_.uniform() * system_.model(end->plant).elements[end->element].length;
+      }
+      if (string.a.plant == string.b.plant && string.a.element == string.b.element) continue;
+      const Vec3 way = *place_of(system_, string.b) - *place_of(system_, string.a);
+      string.length = random_.uniform(0.9, 1.0) * way.norm();
+      string.stiffness = std::pow(10.0, random_.uniform(0, 4));
+      system_.add_string(string);
+    }
+    if (!system_.strings().empty())
+      text_ += ", " + std::to_string(system_.strings().size()) + " strings";
+  }
+
+  // Between three nodes of a branch, or of two that part.
+  void add_blades() {
+    std::size_t all = 0;
+    for (int p = 0; p < system_.size(); ++p) {
+      std::vector<BladeTriangle> triangles;
+      const RodModel& model = system_.model(p);
+      for (int i = random_.integer(0, 12); i > 0; --i) {
+        const int e = any_element(p), parent = model.elements[e].parent;
+        const int before = parent < 0 ? -1 : model.elements[parent].parent;
+        if (before >= 0) triangles.push_back({BladePlace{e, 0.0}, BladePlace{parent, 0.0}, BladePlace{before, 0.0}});
+      }
+      all += triangles.size();
+      if (!triangles.empty())
+        system_.add_contact_source(p, std::make_unique<PlantBlades>(triangles, 1.5e-4));
+    }
+    text_ += ", " + std::to_string(all) + " blades";
   }
 
   void add_loads() {
@@ -141,6 +182,10 @@ class Canopy {
           sum +=
               0.5 * one.position_stiffness *
               (system_.state(p).position[one.a] - system_.state(p).position[one.b]).squaredNorm();
+    }
+    for (const PlantString& string : system_.strings()) {
+      const double pull = tension(system_, string);
+      sum += 0.5 * pull * pull / string.stiffness;
     }
     return sum;
   }

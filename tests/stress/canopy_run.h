@@ -5,8 +5,8 @@
 
 namespace pedicel::stress {
 
-/// What came of plants that stand in each other, are pulled, rammed, tied and cut, all of it drawn
-/// from a seed.
+/// What came of plants that stand in each other, some with leaf blades, are pulled, rammed, tied to
+/// posts and to each other, and cut, all of it drawn from a seed.
 struct CanopyOutcome {
   std::string fault;        ///< empty: none
   std::string description;  ///< what was drawn, one line

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "pedicel/core/check.h"
+#include "pedicel/cosserat/contact/blade_contact.h"
 
 namespace pedicel::cosserat {
 
@@ -31,6 +32,26 @@ RodSettings settings_for_leaning(RodSettings settings) {
   return settings;
 }
 
+// Null where no plant has blades.
+std::unique_ptr<BladeContact> blade_contact_of(const JoinedModel& joined,
+                                               std::span<const Canopy::PlantStep> plants,
+                                               const SelfContactSettings& settings) {
+  std::vector<BladeContact::Plant> all;
+  bool any = false;
+  for (std::size_t p = 0; p < plants.size(); ++p) {
+    const JoinedModel::Part& part = joined.parts()[p];
+    all.push_back({part.first_element, part.elements, nullptr});
+    for (ContactSource* source : plants[p].contacts)
+      if (auto* blades = dynamic_cast<PlantBlades*>(source)) {
+        blades->change_settings(settings);
+        all.back().blades = blades;
+        any = true;
+      }
+  }
+  if (!any) return nullptr;
+  return std::make_unique<BladeContact>(joined.model(), std::move(all));
+}
+
 // Their joints' memory starts where the plant stands, as DirectSolver has it.
 void begin_memory(const RodModel& model, RodState& state) {
   const std::size_t joints = model.laws.size();
@@ -49,6 +70,9 @@ class Canopy::Sources : public ContactSource {
  public:
   explicit Sources(bool within) : within_(within) {}
   bool is_within_plant() const override { return within_; }
+
+  /// Contacts of the plants' blades with each other's plants; null: none has any.
+  std::unique_ptr<BladeContact> blades;
 
   // The plants of the step that begins.
   void take(const JoinedModel& joined, std::span<const PlantStep> plants) {
@@ -166,10 +190,12 @@ Canopy::Canopy(const RodSettings& settings, const std::optional<SelfContactSetti
   join(plants);
   solver_ = std::make_unique<DirectSolver>(settings_for_leaning(settings),
                                            std::array{&joined_->model()}, threads);
-  if (contact)
+  if (contact) {
     contact_ = std::make_unique<SelfContact>(joined_->model(), *contact, first_elements(*joined_));
-  else
+    sources_->blades = blade_contact_of(*joined_, plants, *contact);
+  } else {
     own_ = std::make_unique<Sources>(true);
+  }
 }
 
 void Canopy::join(std::span<const PlantStep> plants) {
@@ -201,7 +227,8 @@ void Canopy::step(std::span<PlantStep> plants, double dt, const Vec3& gravity, T
   sources_->take(*joined_, plants);
   if (own_) own_->take(*joined_, plants);
   ContactSource* const within = own_ ? static_cast<ContactSource*>(own_.get()) : contact_.get();
-  const std::array<ContactSource*, 2> contacts{within, sources_.get()};
+  const std::array<ContactSource*, 3> all_contacts{within, sources_.get(), sources_->blades.get()};
+  const std::span<ContactSource* const> contacts(all_contacts.data(), sources_->blades ? 3 : 2);
   PlantStep all{&joined_->model(), &state_, loads_,  contacts, model_changed,
                 state_changed,     {},      clamps_, ties_,    air_};
   solver_->step({&all, 1}, dt, gravity, pool);

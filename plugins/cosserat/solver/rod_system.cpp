@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "pedicel/core/check.h"
+#include "pedicel/cosserat/contact/plant_blades.h"
 
 namespace pedicel::cosserat {
 
@@ -138,10 +139,14 @@ void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
     throw UsageError("RodSystem::let_plants_touch: position-based solver, must be the direct one");
   // A running canopy keeps what its contacts remember. A new one is made with these settings
   // anyway.
-  if (canopy_ && touching_)
+  if (canopy_ && touching_) {
     canopy_->change_settings(settings);
-  else
+    for (const Plant& plant : plants_)
+      for (ContactSource* source : plant.source_pointers)
+        if (auto* blades = dynamic_cast<PlantBlades*>(source)) blades->change_settings(settings);
+  } else {
     canopy_.reset();
+  }
   touching_ = settings;
   beds_.clear();
 }
