@@ -1,12 +1,15 @@
 #include "pedicel/app/playback/drawn_markers.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pedicel/app/draw/drawing.h"
 
 namespace pedicel::app {
 
 namespace {
+
+constexpr double farthest = 1.0e6;  // m, from the origin
 
 Vec3 place_of(const ros::Point& p) {
   return {p.x, p.y, p.z};
@@ -60,7 +63,27 @@ void add_triangles(render::DrawList& list, const ros::Marker& marker, const Pose
                            pose * place_of(marker.points[i + 2]), shading_of(marker)});
 }
 
+/// False for what is no number, too.
+bool is_in_sight(const Vec3& p) {
+  return p.cwiseAbs().maxCoeff() <= farthest;
+}
+
+/// Whether there is anything to draw: others' logs may hold sizes of 0, and places that are none.
+bool can_be_drawn(const ros::Marker& marker) {
+  const ros::Vector3& s = marker.scale;
+  const ros::Quaternion& q = marker.pose.orientation;
+  const bool triangles = marker.type == ros::Marker::triangle_list;
+  const bool thick = marker.type == ros::Marker::cube || marker.type == ros::Marker::cylinder;
+  if (!triangles && !(s.x > 0.0)) return false;
+  if (thick && !(s.y > 0.0 && s.z > 0.0)) return false;
+  return is_in_sight({s.x, s.y, s.z}) && is_in_sight(place_of(marker.pose.position)) &&
+         is_in_sight({q.x, q.y, q.z}) && std::abs(q.w) <= farthest &&
+         std::ranges::all_of(marker.points,
+                             [](const ros::Point& p) { return is_in_sight(place_of(p)); });
+}
+
 void add_marker(render::DrawList& list, const ros::Marker& marker) {
+  if (!can_be_drawn(marker)) return;
   const Pose pose = pose_of_marker(marker.pose);
   const render::Shading shading = shading_of(marker);
   const Vec3 scale(marker.scale.x, marker.scale.y, marker.scale.z);

@@ -11,7 +11,8 @@ ros::MarkerArray between(const ros::MarkerArray& before, const ros::MarkerArray&
                          double share);
 
 /// Adds what markers show: boxes, spheres, cylinders, lines, lists of spheres and of triangles.
-/// Other kinds, and texts, are left out. Frames are taken for the world's.
+/// Other kinds, texts, and what has no size or no place within 1000 km are left out. Frames are
+/// taken for the world's.
 void add_markers(render::DrawList& list, const ros::MarkerArray& markers);
 
 }  // namespace pedicel::app

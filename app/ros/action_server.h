@@ -9,6 +9,7 @@
 #include "pedicel/app/ros/dds_node.h"
 #include "pedicel/ros_messages/action_messages.h"
 #include "pedicel/ros_messages/cdr.h"
+#include "pedicel/ros_messages/type_hash.h"
 
 namespace pedicel::app {
 
@@ -40,15 +41,19 @@ class ActionServer {
   ActionServer(DdsNode& node, CommandQueue& queue, const std::string& name, Handlers handlers)
       : node_(node), queue_(queue), name_(name), do_(std::move(handlers)) {
     const std::string base = name + "/_action/", type = Action::action;
-    status_ = node.publish(base + "status", ros::GoalStatusArray::name, "", Delivery::latched);
-    feedback_ = node.publish(base + "feedback", type + "_FeedbackMessage", "", Delivery::reliable);
-    send_ = serve<ros::SendGoalRequest<Action>>(
+    status_ = node.publish(base + "status", ros::GoalStatusArray::name,
+                           ros::type_hash_of<ros::GoalStatusArray>(), Delivery::latched);
+    const std::string feedback = type + "_FeedbackMessage";
+    feedback_ =
+        node.publish(base + "feedback", feedback,
+                     ros::type_hash_of<ros::FeedbackMessage<Action>>(feedback), Delivery::reliable);
+    send_ = serve<ros::SendGoalRequest<Action>, ros::SendGoalResponse>(
         base + "send_goal", type + "_SendGoal",
         [this](const RequestId& id, const auto& request) { goal(id, request); });
-    result_ = serve<ros::GetResultRequest>(
+    result_ = serve<ros::GetResultRequest, ros::GetResultResponse<Action>>(
         base + "get_result", type + "_GetResult",
         [this](const RequestId& id, const auto& request) { result(id, request.goal_id); });
-    cancel_ = serve<ros::CancelGoal::Request>(
+    cancel_ = serve<ros::CancelGoal::Request, ros::CancelGoal::Response>(
         base + "cancel_goal", ros::CancelGoal::service,
         [this](const RequestId& id, const auto& request) { cancel(id, request.goal_info); });
   }
@@ -78,9 +83,11 @@ class ActionServer {
   };
   static constexpr std::size_t most_waiting = 100;
 
-  template <class Request, class Take>
+  template <class Request, class Response, class Take>
   int serve(const std::string& service, const std::string& type, Take take) {
-    return node_.serve(service, type,
+    const ServiceHashes hashes{ros::type_hash_of<Request>(type + "_Request"),
+                               ros::type_hash_of<Response>(type + "_Response")};
+    return node_.serve(service, type, hashes,
                        [this, service, take](const RequestId& id, std::string bytes) {
                          queue_.put([this, service, take, id, bytes = std::move(bytes)] {
                            const auto request = ros::from_cdr<Request>(bytes);

@@ -222,13 +222,13 @@ void DdsNode::subscribe(const std::string& topic, const std::string& type, const
                 });
 }
 
-int DdsNode::serve(const std::string& service, const std::string& type,
+int DdsNode::serve(const std::string& service, const std::string& type, const ServiceHashes& hashes,
                    std::function<void(RequestId, std::string)> take) {
   const std::string name = in_namespace(impl_->options.ros_namespace, service);
   dds::Topic* replies = impl_->topic(dds_reply_topic(name), dds_type(type + "_Response"));
-  impl_->services.push_back(impl_->writer(replies, Delivery::reliable, ""));
+  impl_->services.push_back(impl_->writer(replies, Delivery::reliable, hashes.response));
   dds::Topic* requests = impl_->topic(dds_request_topic(name), dds_type(type + "_Request"));
-  impl_->reader(requests, "",
+  impl_->reader(requests, hashes.request,
                 [take = std::move(take)](const dds::SampleInfo& info, std::string bytes) {
                   // A client of ROS says the reader that waits for the answer.
                   const rtps::GUID_t& reader = info.related_sample_identity.writer_guid();

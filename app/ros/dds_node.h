@@ -25,6 +25,11 @@ struct RequestId {
   std::int64_t number = 0;
 };
 
+/// What ROS 2 tells the two halves of a service's definition by: "RIHS01_...".
+struct ServiceHashes {
+  std::string request, response;
+};
+
 /// A participant of DDS that speaks as a node of ROS 2 does. Bytes are CDR with its header.
 /// Callbacks come on threads of DDS. Throws std::runtime_error where DDS refuses.
 class DdsNode {
@@ -43,8 +48,8 @@ class DdsNode {
   void write(int publisher, std::string_view cdr);
   void subscribe(const std::string& topic, const std::string& type, const std::string& hash,
                  std::function<void(std::string)> take);
-  /// Returns the service's number. `type`: "pkg/srv/Name".
-  int serve(const std::string& service, const std::string& type,
+  /// Returns the service's number. `type`: "pkg/srv/Name"; hashes: RIHS01 of its two halves.
+  int serve(const std::string& service, const std::string& type, const ServiceHashes& hashes,
             std::function<void(RequestId, std::string)> take);
   void reply(int service, const RequestId& to, std::string_view cdr);
 

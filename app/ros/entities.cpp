@@ -12,12 +12,67 @@ namespace pedicel::app {
 namespace {
 
 constexpr std::size_t longest_expression = 200;
+constexpr double most_parts = 2000.0;  // of an expression, written out
 
-/// The C library's regular expressions: they take time linear in the name.
+/// How many parts the C library makes of an expression. It writes "+" and "{n,m}" out: nested, 200
+/// bytes would take all memory. At least as many as it makes.
+double parts_of(const std::string& text) {
+  std::vector<double> outer;     // of the groups around
+  double sum = 0.0, last = 0.0;  // of the group, but for the last part; of the last part
+  const auto add = [&](double parts) { sum += last, last = parts; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\\') {
+      ++i;
+      add(1.0);
+    } else if (c == '[') {
+      // What stands first in brackets closes none.
+      i += i + 1 < text.size() && text[i + 1] == '^' ? 2 : 1;
+      i = std::min(text.find(']', i + 1), text.size());
+      add(1.0);
+    } else if (c == '(') {
+      add(0.0);
+      outer.push_back(sum);
+      sum = 0.0;
+    } else if (c == ')' && !outer.empty()) {
+      const double inner = sum + last + 1.0;
+      sum = outer.back();
+      last = inner;
+      outer.pop_back();
+    } else if (c == '+') {
+      last *= 2.0;
+    } else if (c == '{') {
+      double most = 0.0, number = 0.0;
+      for (; i < text.size() && text[i] != '}'; ++i) {
+        const bool digit = text[i] >= '0' && text[i] <= '9';
+        number = digit ? 10.0 * number + (text[i] - '0') : 0.0;
+        most = std::max(most, number);
+      }
+      last *= most + 1.0;
+    } else {
+      add(1.0);
+    }
+  }
+  for (const double one : outer) sum += one;
+  return sum + last;
+}
+
+/// Whether an expression looks for what it found before ("\\1"), which may take for ever.
+bool looks_back(const std::string& text) {
+  for (std::size_t i = 0; i + 1 < text.size(); ++i)
+    if (text[i] == '\\') {
+      ++i;
+      if (text[i] >= '1' && text[i] <= '9') return true;
+    }
+  return false;
+}
+
+/// The C library's regular expressions: without looking back they take time linear in the name.
 class Expression {
  public:
   explicit Expression(const std::string& text)
-      : good_(::regcomp(&own_, text.c_str(), REG_EXTENDED | REG_NOSUB) == 0) {}
+      : good_(!looks_back(text) && parts_of(text) <= most_parts &&
+              ::regcomp(&own_, text.c_str(), REG_EXTENDED | REG_NOSUB) == 0) {}
   ~Expression() {
     if (good_) ::regfree(&own_);
   }
@@ -100,7 +155,8 @@ std::optional<std::vector<Entity>> filtered(std::vector<Entity> all,
   const Expression expression("^(" + (filters.filter.empty() ? ".*" : filters.filter) + ")$");
   if (!expression.good())
     return refuse(ros::SimulationResult::operation_failed,
-                  "the filter is no regular expression (POSIX extended)");
+                  "the filter is no regular expression (POSIX extended, without \\1, and at most "
+                  "2000 parts where repetitions are written out)");
   std::set<std::uint8_t> categories;
   for (const ros::EntityCategory& one : filters.categories) categories.insert(one.category);
   std::erase_if(all, [&](const Entity& entity) {

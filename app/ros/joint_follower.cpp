@@ -7,8 +7,11 @@ namespace pedicel::app {
 
 namespace {
 
-bool all_finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+constexpr double farthest = 1.0e4;  // rad or m; differences of numbers near the largest are none
+
+/// False for what is no number, too.
+bool all_within_reach(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::abs(value) <= farthest; });
 }
 
 }  // namespace
@@ -55,8 +58,8 @@ std::optional<JointFollower::Plan> JointFollower::plan(const ros::JointTrajector
     rows[0][c] = leads_ ? target(joint) : told(joint);
   }
   for (const ros::JointTrajectoryPoint& point : message.points) {
-    if (static_cast<long>(point.positions.size()) != size || !all_finite(point.positions))
-      return refuse("a point without a finite position of each joint");
+    if (static_cast<long>(point.positions.size()) != size || !all_within_reach(point.positions))
+      return refuse("a point without a position of each joint within 10,000 rad or m");
     double time = ros::seconds_of(point.time_from_start);
     const Eigen::VectorXd row = Eigen::Map<const Eigen::VectorXd>(point.positions.data(), size);
     if (time <= 0.0 && times.size() == 1) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pedicel/core/stop.h"
+#include "pedicel/ros_messages/type_hash.h"
 
 namespace pedicel::app {
 
@@ -20,8 +21,10 @@ void RosServices::serve(
     std::function<typename Service::Response(const typename Service::Request&)> answer) {
   // The number is known once the service is there, and a request may come before.
   const auto number = std::make_shared<int>(-1);
+  const ServiceHashes hashes{ros::type_hash_of<typename Service::Request>(),
+                             ros::type_hash_of<typename Service::Response>()};
   *number = server_.node_->serve(
-      name, Service::service,
+      name, Service::service, hashes,
       [this, name, number, answer = std::move(answer)](const RequestId& id, std::string bytes) {
         server_.queue_.put([this, name, number, answer, id, bytes = std::move(bytes)] {
           const auto request = ros::from_cdr<typename Service::Request>(bytes);

@@ -142,6 +142,10 @@ ros::SpawnEntity::Response SceneEdits::spawn(const ros::SpawnEntity::Request& re
     if (uri.starts_with("file://")) uri = uri.substr(7);
     file = std::filesystem::path(uri).is_absolute() ? std::filesystem::path(uri)
                                                     : scene_.file.parent_path() / uri;
+    // A pipe or a terminal would be waited for.
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none))
+      return refuse(Spawn::resource_parse_error, file.string() + ": expected a file");
     try {
       text = io::read_text_file(file);
     } catch (const std::exception& fault) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "pedicel/core/diagnostics.h"
+#include "pedicel/mcap/unpack.h"
 
 namespace pedicel::mcap {
 
@@ -91,11 +92,16 @@ class FileReader {
       fail("a chunk of " + std::to_string(size) + " bytes, expected at most " +
            std::to_string(limits_.record));
     std::string_view records = small;
-    if (compression == "zstd")
+    if (compression == "zstd") {
       records = decompressed(small, size);
-    else if (!compression.empty())
+    } else if (compression == "lz4") {
+      if (const std::string fault = unpack(compression, small, size, records_); !fault.empty())
+        fail(fault);
+      records = records_;
+    } else if (!compression.empty()) {
       fail("a chunk is compressed with " + in_quotes(compression) +
-           ", expected zstd or none (mcap compress --compression zstd writes it anew)");
+           ", expected zstd, lz4 or none (mcap compress --compression zstd writes it anew)");
+    }
     if (records.size() != size)
       fail("a chunk of " + std::to_string(records.size()) + " bytes, and its head says " +
            std::to_string(size));

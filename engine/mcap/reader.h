@@ -33,9 +33,9 @@ struct ReadEnd {
   std::uint64_t at = 0;  ///< byte at which the first part that is not whole begins
 };
 
-/// Reads a file from front to back, chunks (plain or zstd) and messages without, and needs neither
-/// index nor summary. Throws InvalidFile with the byte where something is no MCAP, damaged (CRC) or
-/// beyond the limits, and what `take` throws.
+/// Reads a file from front to back, chunks (plain, zstd or LZ4) and messages without, and needs
+/// neither index nor summary. Throws InvalidFile with the byte where something is no MCAP, damaged
+/// (CRC) or beyond the limits, and what `take` throws.
 ReadEnd read(std::istream& file, const std::string& name,
              const std::function<void(const Message&)>& take, const ReaderLimits& limits = {});
 ReadEnd read(const std::filesystem::path& file, const std::function<void(const Message&)>& take,

@@ -8,6 +8,15 @@ namespace pedicel::ros {
 /// the first definition with all that it holds.
 std::string type_hash(const std::vector<Definition>& definitions);
 
+/// The same of a message; `name` where it has another one than its struct says, as all parts of
+/// actions have.
+template <Message M>
+std::string type_hash_of(const std::string& name = M::name) {
+  std::vector<Definition> definitions = definitions_of<M>();
+  definitions.front().name = name;
+  return type_hash(definitions);
+}
+
 /// SHA-256 as hexadecimal digits.
 std::string sha256(const std::string& bytes);
 

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "pedicel/core/diagnostics.h"
-#include "pedicel/rosbag/unpack.h"
+#include "pedicel/mcap/unpack.h"
 
 namespace pedicel::rosbag {
 
@@ -149,7 +149,8 @@ class BagReader {
     const std::string compression(head.text("compression"));
     std::string_view records = content_;
     if (compression != "none") {
-      if (const std::string fault = unpack(compression, content_, size, unpacked_); !fault.empty())
+      if (const std::string fault = mcap::unpack(compression, content_, size, unpacked_);
+          !fault.empty())
         fail(fault);
       records = unpacked_;
     }

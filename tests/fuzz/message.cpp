@@ -1,8 +1,10 @@
-#include <cmath>
+#include <iterator>
 
+#include "pedicel/ros_messages/action_messages.h"
 #include "pedicel/ros_messages/cdr.h"
 #include "pedicel/ros_messages/control_messages.h"
 #include "pedicel/ros_messages/marker_messages.h"
+#include "pedicel/ros_messages/ros1.h"
 #include "pedicel/ros_messages/simulation_messages.h"
 #include "reading.h"
 
@@ -13,6 +15,11 @@ namespace {
 // What is read is written and read again as the same.
 template <ros::Message M>
 void read(const std::string& bytes) {
+  // As ROS 1 has it, too: a log may be one of both.
+  if (const auto old = ros::from_ros1<M>(bytes)) {
+    const auto again = ros::from_cdr<M>(ros::to_cdr(*old));
+    fuzz::require(again && ros::to_cdr(*again) == ros::to_cdr(*old), "the same in both");
+  }
   const auto message = ros::from_cdr<M>(bytes);
   if (!message) return;
   const std::string written = ros::to_cdr(*message);
@@ -21,43 +28,42 @@ void read(const std::string& bytes) {
   fuzz::require(again && ros::to_cdr(*again) == written, "the same again");
 }
 
+// Each that the node, the import or the window reads.
+constexpr void (*readers[])(const std::string&) = {
+    read<ros::JointState>,
+    read<ros::WrenchStamped>,
+    read<ros::TFMessage>,
+    read<ros::JointTrajectory>,
+    read<ros::MarkerArray>,
+    read<ros::CameraInfo>,
+    read<ros::PointCloud2>,
+    read<ros::DynamicJointState>,
+    read<ros::GetEntities::Request>,
+    read<ros::StepSimulation::Request>,
+    read<ros::PoseStamped>,
+    read<ros::PointStamped>,
+    read<ros::TransformStamped>,
+    read<ros::PoseArray>,
+    read<ros::String>,
+    read<ros::Image>,
+    read<ros::GetSimulatorFeatures::Request>,
+    read<ros::ResetSimulation::Request>,
+    read<ros::SetSimulationState::Request>,
+    read<ros::GetEntityState::Request>,
+    read<ros::SpawnEntity::Request>,
+    read<ros::DeleteEntity::Request>,
+    read<ros::SetEntityState::Request>,
+    read<ros::SendGoalRequest<ros::FollowJointTrajectory>>,
+    read<ros::SendGoalRequest<ros::GripperCommand>>,
+    read<ros::GetResultRequest>,
+    read<ros::CancelGoal::Request>,
+};
+
 }  // namespace
 
 // The first byte says which message the rest is.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const std::string bytes = fuzz::text_of(data + 1, size - 1);
-  switch (data[0] % 10) {
-    case 0:
-      read<ros::JointState>(bytes);
-      break;
-    case 1:
-      read<ros::WrenchStamped>(bytes);
-      break;
-    case 2:
-      read<ros::TFMessage>(bytes);
-      break;
-    case 3:
-      read<ros::JointTrajectory>(bytes);
-      break;
-    case 4:
-      read<ros::MarkerArray>(bytes);
-      break;
-    case 5:
-      read<ros::CameraInfo>(bytes);
-      break;
-    case 6:
-      read<ros::PointCloud2>(bytes);
-      break;
-    case 7:
-      read<ros::DynamicJointState>(bytes);
-      break;
-    case 8:
-      read<ros::GetEntities::Request>(bytes);
-      break;
-    default:
-      read<ros::StepSimulation::Request>(bytes);
-      break;
-  }
+  readers[data[0] % std::size(readers)](fuzz::text_of(data + 1, size - 1));
   return 0;
 }

@@ -43,7 +43,7 @@ class LogReader {
   LogTopic& topic_of(const mcap::Message& message) {
     const auto found = std::ranges::find(out_.topics, message.channel.topic, &LogTopic::name);
     if (found != out_.topics.end()) return *found;
-    out_.topics.push_back({message.channel.topic, message.schema.name, 0, 0, false});
+    out_.topics.push_back({message.channel.topic, message.schema.name, 0, 0, 0, false});
     return out_.topics.back();
   }
 
@@ -63,7 +63,7 @@ class LogReader {
                                                   out_.wrenches[name].push_back(timed(m.header, m));
                                                 }) ||
                     take_as<ros::TFMessage>(
-                        topic, message, [&](const ros::TFMessage& m) { take_frames(name, m); }) ||
+                        topic, message, [&](const ros::TFMessage& m) { take_frames(topic, m); }) ||
                     take_as<ros::String>(topic, message,
                                          [&](const ros::String& m) {
                                            out_.texts[name].push_back({logged_, logged_, m.data});
@@ -103,14 +103,22 @@ class LogReader {
            });
   }
 
-  void take_frames(const std::string& topic, const ros::TFMessage& message) {
-    const bool fixed = topic.ends_with("tf_static");
+  // Neighbours of a time are looked up, so what goes back in time has no place: a run that was
+  // reset, a second sender.
+  void take_frames(LogTopic& topic, const ros::TFMessage& message) {
+    const bool fixed = topic.name.ends_with("tf_static");
     for (const ros::TransformStamped& one : message.transforms) {
       const FramePlace place{one.header.frame_id, pose_of(one.transform)};
-      if (fixed)
+      if (fixed) {
         out_.fixed_frames[one.child_frame_id] = place;
+        continue;
+      }
+      TimedList<FramePlace>& series = out_.frames[one.child_frame_id];
+      const Timed<FramePlace> now = timed(one.header, place);
+      if (!series.empty() && (now.stamp < series.back().stamp || now.logged < series.back().logged))
+        ++topic.late;
       else
-        out_.frames[one.child_frame_id].push_back(timed(one.header, place));
+        series.push_back(now);
     }
   }
 

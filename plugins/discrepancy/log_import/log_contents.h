@@ -35,6 +35,7 @@ struct LogTopic {
   std::string name, type;       ///< "/joint_states", "sensor_msgs/msg/JointState"
   std::uint64_t messages = 0;   ///< all of them
   std::uint64_t malformed = 0;  ///< that are no message of that type
+  std::uint64_t late = 0;       ///< places of frames whose times go back, which are left out
   bool is_read = false;         ///< its type is one that an experiment can take
 };
 

@@ -124,10 +124,19 @@ std::string wrenches_text(const LogContents& log, const LogScene& scene) {
     text += std::string(known ? "  - " : "  # - ") +
             "{name: " + yaml_word(unique_name(name_of_wrench(topic), taken)) +
             ", topic: " + yaml_word(topic) + ", link: " + (known ? yaml_word(frame) : "?") +
-            ", tared: false}" + (known ? "" : "   # in the frame " + frame) + "\n";
+            ", tared: false}" + (known ? "" : "   # in the frame " + printable(frame)) + "\n";
   }
   if (text.empty()) return "";
   return (text.find("  - ") == std::string::npos ? "# wrenches:\n" : "wrenches:\n") + text;
+}
+
+/// The first topic of happenings; others stand as comments, since a map has one.
+std::string events_text(const LogContents& log) {
+  std::string text;
+  for (const auto& [topic, texts] : log.texts)
+    if (topic.ends_with("events"))
+      text += (text.empty() ? "events: {topic: " : "# events: {topic: ") + yaml_word(topic) + "}\n";
+  return text;
 }
 
 /// A simulation's log is exact, and a misfit needs something to be measured by.
@@ -143,18 +152,17 @@ std::string noise_text(const LogContents& log) {
 std::string proposed_map(const LogContents& log, const LogScene& scene,
                          const std::filesystem::path& scene_path) {
   std::string text =
-      "# Proposed from the topics of " + log.file.filename().string() +
+      "# Proposed from the topics of " + printable(log.file.filename().string()) +
       ". The manual's page Logs explains every key.\nformat: pedicel-log-map\nversion: 1\n";
   text += "title: " + yaml_word("a run of " + scene.scene.name) + "\n";
   text += "scene: " + yaml_word(scene_path.string()) + "\n";
   text += "frame: world   # of the log, that is the scene's world\n";
   text += joints_text(log, scene) + markers_text(log, scene) + wrenches_text(log, scene);
-  for (const auto& [topic, texts] : log.texts)
-    if (topic.ends_with("events")) text += "events: {topic: " + yaml_word(topic) + "}\n";
-  text += noise_text(log);
+  text += events_text(log) + noise_text(log);
+  // Names of a log may hold anything: a line end in one is no line of the map.
   std::string other;
   for (const LogTopic& topic : log.topics)
-    if (!topic.is_read) other += "#   " + topic.name + " (" + topic.type + ")\n";
+    if (!topic.is_read) other += "#   " + printable(topic.name + " (" + topic.type + ")") + "\n";
   if (!other.empty()) text += "# Topics that an experiment cannot take:\n" + other;
   return text;
 }

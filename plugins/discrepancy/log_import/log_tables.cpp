@@ -45,6 +45,10 @@ class TrialMaker {
         out_.remarks.push_back(topic.name + ": " + std::to_string(topic.malformed) + " of " +
                                std::to_string(topic.messages) + " messages are no " + topic.type +
                                "; left out");
+    for (const LogTopic& topic : log_.topics)
+      if (topic.late > 0)
+        out_.remarks.push_back(topic.name + ": " + std::to_string(topic.late) +
+                               " places of frames whose times go back; left out");
     return std::move(out_);
   }
 
@@ -157,13 +161,21 @@ class TrialMaker {
     }
     const double sign = wanted.reversed ? -1.0 : 1.0;
     std::vector<double> rows;
+    std::size_t late = 0;
     for (const Timed<ros::WrenchStamped>& one : found->second) {
       const double time = time_of(one);
-      if (!is_within(time) || !after_last(samples, time)) continue;
+      if (!is_within(time)) continue;
+      if (!after_last(samples, time)) {
+        ++late;
+        continue;
+      }
       samples.time.push_back(trial_time(time));
       const ros::Vector3 &f = one.value.wrench.force, &m = one.value.wrench.torque;
       for (const double value : {f.x, f.y, f.z, m.x, m.y, m.z}) rows.push_back(sign * value);
     }
+    if (late > 0)
+      out_.remarks.push_back(wanted.topic + ": " + std::to_string(late) +
+                             " messages not in the order of time; left out");
     fill(samples, rows, 6);
     return samples;
   }

@@ -2,6 +2,7 @@
 """Foxglove's reader of MCAP and of ROS 2's messages reads the log of a run.
 Usage: mcap_test.py PEDICEL SCENE NPM_FOLDER"""
 import json
+import math
 import pathlib
 import shutil
 import subprocess
@@ -18,7 +19,7 @@ def main(program, scene, npm):
     here = pathlib.Path(__file__).parent
     with tempfile.TemporaryDirectory() as out:
         log = pathlib.Path(out) / "run.mcap"
-        subprocess.run([program, scene, "--headless", "--duration", "1", "--no-pictures", "--no-sweep", "--quiet",
+        subprocess.run([program, scene, "--headless", "--duration", "4", "--no-pictures", "--no-sweep", "--quiet",
                         "--out", f"{out}/run", "--log", log], timeout=120)
         # Node looks for packages beside the script.
         shutil.copy(here / "read_mcap.mjs", folder / "read_mcap.mjs")
@@ -33,16 +34,19 @@ def main(program, scene, npm):
              "/joint_commands": "sensor_msgs/msg/JointState", "/tf": "tf2_msgs/msg/TFMessage",
              "/tf_static": "tf2_msgs/msg/TFMessage", "/robot_description": "std_msgs/msg/String",
              "/wrist/wrench": "geometry_msgs/msg/WrenchStamped",
-             "/organ_forces": "control_msgs/msg/DynamicJointState",
+             "/organ_forces": "control_msgs/msg/DynamicJointState", "/events": "std_msgs/msg/String",
              "/plant": "visualization_msgs/msg/MarkerArray", "/bodies": "visualization_msgs/msg/MarkerArray"}
     assert {name: topic["type"] for name, topic in topics.items()} == types, topics.keys()
-    assert topics["/clock"]["last"] == {"clock": {"sec": 1, "nanosec": 0}}
+    assert topics["/clock"]["last"] == {"clock": {"sec": 4, "nanosec": 0}}
     state = topics["/joint_states"]["last"]
     assert state["name"][0] == "joint1" and len(state["position"]) == len(state["effort"]) == 7
     assert topics["/robot_description"]["last"]["data"].endswith("</robot>\n")
     wrench = topics["/wrist/wrench"]["last"]
     assert wrench["header"]["frame_id"] == "flange"
-    assert abs(wrench["wrench"]["force"]["x"] + 4.8) < 0.5, wrench
+    # The hand weighs 4.8 N, and hangs from the wrist.
+    assert abs(math.hypot(*wrench["wrench"]["force"].values()) - 4.8) < 0.8, wrench
+    event = json.loads(topics["/events"]["last"]["data"])
+    assert event["event"] == "detached" and event["what"] == "truss/fruit_5", event
     frames = [t["child_frame_id"] for t in topics["/tf"]["last"]["transforms"]]
     assert "truss/fruit_5" in frames and "flange" in frames, frames
     markers = topics["/plant"]["last"]["markers"]

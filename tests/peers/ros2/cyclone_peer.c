@@ -1,8 +1,11 @@
 // A subscriber to all topics of `pedicel SCENE --ros`, and a publisher of a joint trajectory, with
 // Eclipse Cyclone DDS. Usage: cyclone_peer DOMAIN SECONDS JOINT POSITION
+// The trajectory, which ends the scene's own program, is sent once something has happened, or after
+// a while.
 // Every line of standard output is "topic number words...": how many messages came, and of the last
 // one what a test looks at. "tf_gap_us" is the longest simulated time between two messages of /tf
-// (us), which is reliable: more than its period means that one was lost.
+// (us), which is reliable: more than its period means that one was lost. "writer" and "reader" lines
+// say what others offer, in the words of DDS: topic, type, reliability, durability, user data.
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -12,7 +15,7 @@
 #include "dds/dds.h"
 #include "topics.h"
 
-enum { topics = 15, longest = 400 };
+enum { topics = 16, longest = 400, most_endpoints = 300 };
 
 struct topic {
   const char *name;
@@ -100,6 +103,33 @@ static void send_trajectory(dds_entity_t writer, char *joint, double position) {
   if (dds_write(writer, &message) < 0) fprintf(stderr, "cannot write\n");
 }
 
+/* What discovery says of the others' writers or readers; our own have no user data. */
+static void list_endpoints(dds_entity_t participant, dds_entity_t builtin, const char *kind) {
+  static void *samples[most_endpoints];
+  static dds_sample_info_t info[most_endpoints];
+  const dds_entity_t reader = dds_create_reader(participant, builtin, NULL, NULL);
+  memset(samples, 0, sizeof samples);
+  const int n = dds_read(reader, samples, info, most_endpoints, most_endpoints);
+  for (int i = 0; i < n; ++i) {
+    const dds_builtintopic_endpoint_t *one = samples[i];
+    dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT;
+    dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE;
+    dds_duration_t blocking;
+    void *data = NULL;
+    size_t size = 0;
+    if (!info[i].valid_data || info[i].instance_state != DDS_IST_ALIVE) continue;
+    dds_qget_reliability(one->qos, &reliability, &blocking);
+    dds_qget_durability(one->qos, &durability);
+    if (dds_qget_userdata(one->qos, &data, &size) && size > 0)
+      printf("%s %s %s %s %s %.*s\n", kind, one->topic_name, one->type_name,
+             reliability == DDS_RELIABILITY_RELIABLE ? "reliable" : "best_effort",
+             durability == DDS_DURABILITY_VOLATILE ? "volatile" : "transient_local", (int)size,
+             (const char *)data);
+    dds_free(data);
+  }
+  if (n > 0) dds_return_loan(reader, samples, n);
+}
+
 int main(int argc, char **argv) {
   if (argc != 5) return 2;
   struct topic all[topics] = {
@@ -110,6 +140,7 @@ int main(int argc, char **argv) {
       {"rt/tf_static", &tf2_msgs_msg_dds__TFMessage__desc, true, true, 0, 0, ""},
       {"rt/robot_description", &std_msgs_msg_dds__String__desc, true, true, 0, 0, ""},
       {"rt/wrist/wrench", &geometry_msgs_msg_dds__WrenchStamped__desc, false, false, 0, 0, ""},
+      {"rt/pad/wrench", &geometry_msgs_msg_dds__WrenchStamped__desc, false, false, 0, 0, ""},
       {"rt/organ_forces", &control_msgs_msg_dds__DynamicJointState__desc, false, false, 0, 0, ""},
       {"rt/plant", &visualization_msgs_msg_dds__MarkerArray__desc, true, false, 0, 0, ""},
       {"rt/bodies", &visualization_msgs_msg_dds__MarkerArray__desc, true, false, 0, 0, ""},
@@ -144,11 +175,15 @@ int main(int argc, char **argv) {
   const dds_entity_t writer = dds_create_writer(participant, topic, qos, NULL);
   bool sent = false;
   const dds_time_t end = dds_time() + (dds_time_t)(atof(argv[2]) * 1e9);
+  const dds_time_t patience = dds_time() + DDS_SECS(6);
   while (dds_time() < end) {
     for (int i = 0; i < topics; ++i) take(&all[i]);
     dds_publication_matched_status_t matched;
     dds_get_publication_matched_status(writer, &matched);
-    if (!sent && matched.current_count > 0 && all[1].count > 0) {
+    bool happened = dds_time() > patience;
+    for (int i = 0; i < topics; ++i)
+      happened = happened || (all[i].count > 0 && strcmp(all[i].name, "rt/events") == 0);
+    if (!sent && happened && matched.current_count > 0 && all[1].count > 0) {
       send_trajectory(writer, argv[3], atof(argv[4]));
       sent = true;
     }
@@ -156,6 +191,8 @@ int main(int argc, char **argv) {
   }
   for (int i = 0; i < topics; ++i) printf("%s %d %s\n", all[i].name + 2, all[i].count, all[i].last);
   printf("sent %d\n", sent);
+  list_endpoints(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, "writer");
+  list_endpoints(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, "reader");
   printf("tf_gap_us %.0f\n", tf_gap * 1e6);
   dds_delete(participant);
   return 0;

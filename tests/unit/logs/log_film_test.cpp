@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "pedicel/app/playback/drawn_markers.h"
 #include "pedicel/app/playback/play_off_screen.h"
 #include "pedicel/core/diagnostics.h"
@@ -82,6 +84,32 @@ TEST(LogFilm, DrawsEveryKindThatWeSend) {
   EXPECT_DOUBLE_EQ(highest, 0.2);
   EXPECT_EQ(list.blades.size(), 1U);
   EXPECT_EQ(list.tubes.size(), 2U + 3U) << "two lines that do not meet, and a strip";
+}
+
+TEST(LogFilm, LeavesOutWhatHasNoSizeOrNoPlace) {
+  ros::MarkerArray all;
+  const double none = std::nan(""), most = 1.7e308;
+  for (std::int32_t type = 0; type < 14; ++type)
+    for (const double bad : {none, 1.0 / 0.0, most}) {
+      ros::Marker marker;
+      marker.type = type;
+      marker.scale = {0.1, 0.1, 0.1};
+      marker.points = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 2}};
+      ros::Marker sized = marker, placed = marker, turned = marker, bent = marker;
+      sized.scale = {bad, bad, bad};
+      placed.pose.position = {0, bad, 0};
+      turned.pose.orientation = {0, 0, bad, 1};
+      bent.points[2].z = bad;
+      for (const ros::Marker& one : {sized, placed, turned, bent}) all.markers.push_back(one);
+      if (type != ros::Marker::triangle_list) {
+        marker.scale = {0.0, 0.0, 0.0};
+        all.markers.push_back(marker);
+      }
+    }
+  render::DrawList list;
+  add_markers(list, all);
+  EXPECT_TRUE(list.boxes.empty() && list.spheres.empty() && list.meshes.empty());
+  EXPECT_TRUE(list.tubes.empty() && list.blades.empty());
 }
 
 TEST(LogFilm, RefusesALogWithNothingToSee) {

@@ -258,5 +258,79 @@ markers:
   EXPECT_EQ(trial.events[0].what, "stem");
 }
 
+// Names of a log may hold anything, and are no keys of the map that is proposed.
+TEST(LogImport, NamesOfALogAreNoLinesOfItsMap) {
+  const LoggedRun run("0.03", 0.1);
+  const std::filesystem::path file = run.path("odd.mcap");
+  {
+    mcap::Writer writer(file, {});
+    const auto channel = [&]<class M>(const std::string& topic, const M&) {
+      return writer.add_channel(topic,
+                                {M::name, "ros2msg", ros::schema_text(ros::definitions_of<M>())});
+    };
+    const std::string break_out = "\nfollows: commands\nframe: nowhere\nx";
+    const auto joints = channel("/joint_states", ros::JointState{});
+    const auto wrench = channel("/w" + break_out, ros::WrenchStamped{});
+    const auto poses = channel("/tip" + break_out, ros::PoseStamped{});
+    const auto clock = channel("/clock" + break_out, ros::Clock{});
+    for (const char* name : {"/events", "/more/events"})
+      writer.write(channel(name, ros::String{}), 0, ros::to_cdr(ros::String{"{}"}));
+    for (int i = 0; i <= 20; ++i) {
+      const auto time = static_cast<std::uint64_t>(i) * 10000000;
+      const ros::Header header{ros::stamp_of(0.01 * i), "hand" + break_out};
+      writer.write(joints, time, ros::to_cdr(ros::JointState{header, {"turn"}, {0.0}, {}, {}}));
+      writer.write(wrench, time, ros::to_cdr(ros::WrenchStamped{header, {}}));
+      writer.write(poses, time, ros::to_cdr(ros::PoseStamped{header, {}}));
+      writer.write(clock, time, ros::to_cdr(ros::Clock{}));
+    }
+  }
+  ImportArguments a = arguments(run);
+  a.files = {file.string()};
+  import_verb(a);
+  const std::string map = io::read_file(run.path("experiment/map.yaml"));
+  EXPECT_THAT(map, AllOf(HasSubstr("\nevents: {topic: \"/events\"}\n"),
+                         HasSubstr("\n# events: {topic: \"/more/events\"}\n"),
+                         HasSubstr("#   /clock\\nfollows"), HasSubstr("\nframe: world ")));
+  EXPECT_EQ(map.find("\nfollows"), std::string::npos);
+}
+
+// As of a run that was reset: a frame has one place at a time.
+TEST(LogImport, FramesWhoseTimesGoBackAreLeftOutAndCounted) {
+  const LoggedRun run("0.03", 0.1);
+  const std::filesystem::path file = run.path("reset.mcap");
+  {
+    mcap::Writer writer(file, {});
+    const auto channel = [&]<class M>(const std::string& topic, const M&) {
+      return writer.add_channel(topic,
+                                {M::name, "ros2msg", ros::schema_text(ros::definitions_of<M>())});
+    };
+    const auto joints = channel("/joint_states", ros::JointState{});
+    const auto frames = channel("/tf", ros::TFMessage{});
+    for (const int first : {0, 1})
+      for (int i = 0; i <= 20; ++i) {
+        const ros::Header header{ros::stamp_of(0.01 * i), "world"};
+        const auto time = static_cast<std::uint64_t>(21 * first + i) * 10000000;
+        writer.write(joints, time, ros::to_cdr(ros::JointState{header, {"turn"}, {0.0}, {}, {}}));
+        ros::TransformStamped place{header, "bush/stem", {}};
+        place.transform.translation = {0.4, 0.03, 0.6 - 0.001 * i - 0.1 * first};
+        writer.write(frames, time, ros::to_cdr(ros::TFMessage{{place}}));
+      }
+  }
+  ImportArguments a = arguments(run);
+  a.files = {file.string()};
+  a.quiet = false;
+  ::testing::internal::CaptureStderr();
+  import_verb(a);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              AllOf(HasSubstr("/tf: 20 places of frames whose times go back; left out"),
+                    HasSubstr("/joint_states: 21 messages with other joints, without values or not "
+                              "in the order of time; left out")));
+  const discrepancy::SceneExperiment experiment = experiment_of(a.out);
+  ASSERT_EQ(experiment.trials.size(), 1U);
+  const discrepancy::Samples& markers = experiment.trials.front().markers;
+  ASSERT_EQ(markers.size(), 21);
+  for (int i = 0; i <= 20; ++i) EXPECT_NEAR(markers.value(i, 2), 0.6 - 0.001 * i, 1e-9) << i;
+}
+
 }  // namespace
 }  // namespace pedicel::app

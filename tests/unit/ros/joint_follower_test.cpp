@@ -67,8 +67,10 @@ TEST_F(Follower, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refusal(path({"elbow9"}, {{1, {0}}})), HasSubstr("no joint \"elbow9\""));
   EXPECT_THAT(refusal(path({"joint1", "joint1"}, {{1, {0, 0}}})), HasSubstr("appears twice"));
   EXPECT_THAT(refusal(path({"joint1"}, {})), HasSubstr("no points"));
-  EXPECT_THAT(refusal(path({"joint1"}, {{1, {0, 0}}})), HasSubstr("a finite position"));
-  EXPECT_THAT(refusal(path({"joint1"}, {{1, {std::nan("")}}})), HasSubstr("a finite position"));
+  const auto no_position = HasSubstr("a point without a position of each joint");
+  EXPECT_THAT(refusal(path({"joint1"}, {{1, {0, 0}}})), no_position);
+  for (const double none : {std::nan(""), -1.0 / 0.0, 1.0e308, -1.0e308})
+    EXPECT_THAT(refusal(path({"joint1"}, {{1, {none}}})), no_position);
   EXPECT_THAT(refusal(path({"joint1"}, {{1, {0}}, {1, {0.1}}})), HasSubstr("does not increase"));
   EXPECT_THAT(refusal(path({"joint1"}, {{0, {1}}, {0.1, {0.1}}})), HasSubstr("farther away"));
   run(1.0);

@@ -145,6 +145,29 @@ TEST(PublishedFields, OfSimulationInterfaces) {
   EXPECT_EQ(lines<GetSimulatorFeatures::Response>(),
             "simulation_interfaces/srv/GetSimulatorFeatures_Response: "
             "simulation_interfaces/SimulatorFeatures features;");
+  EXPECT_EQ(lines<GetSimulatorFeatures::Request>(),
+            "simulation_interfaces/srv/GetSimulatorFeatures_Request: uint8 "
+            "structure_needs_at_least_one_member;");
+  EXPECT_EQ(lines<GetSimulationState::Request>(),
+            "simulation_interfaces/srv/GetSimulationState_Request: uint8 "
+            "structure_needs_at_least_one_member;");
+  EXPECT_EQ(lines<GetEntities::Request>(),
+            "simulation_interfaces/srv/GetEntities_Request: simulation_interfaces/EntityFilters "
+            "filters;");
+  EXPECT_EQ(lines<GetEntitiesStates::Request>(),
+            "simulation_interfaces/srv/GetEntitiesStates_Request: "
+            "simulation_interfaces/EntityFilters filters;");
+  EXPECT_EQ(lines<GetEntityState::Request>(),
+            "simulation_interfaces/srv/GetEntityState_Request: string entity;");
+  EXPECT_EQ(lines<ResetSimulation::Response>(),
+            "simulation_interfaces/srv/ResetSimulation_Response: simulation_interfaces/Result "
+            "result;");
+  EXPECT_EQ(lines<StepSimulation::Response>(),
+            "simulation_interfaces/srv/StepSimulation_Response: simulation_interfaces/Result "
+            "result;");
+  EXPECT_EQ(lines<SetSimulationState::Response>(),
+            "simulation_interfaces/srv/SetSimulationState_Response: simulation_interfaces/Result "
+            "result;");
   EXPECT_EQ(lines<ResetSimulation::Request>(),
             "simulation_interfaces/srv/ResetSimulation_Request: uint8 scope;");
   EXPECT_EQ(lines<StepSimulation::Request>(),
@@ -199,6 +222,8 @@ TEST(PublishedFields, OfActions) {
             "action_msgs/msg/GoalStatus: action_msgs/GoalInfo goal_info; int8 status;");
   EXPECT_EQ(lines<GoalStatusArray>(),
             "action_msgs/msg/GoalStatusArray: action_msgs/GoalStatus[] status_list;");
+  EXPECT_EQ(lines<CancelGoal::Request>(),
+            "action_msgs/srv/CancelGoal_Request: action_msgs/GoalInfo goal_info;");
   EXPECT_EQ(lines<CancelGoal::Response>(),
             "action_msgs/srv/CancelGoal_Response: int8 return_code; action_msgs/GoalInfo[] "
             "goals_canceling;");
@@ -236,18 +261,64 @@ TEST(PublishedFields, OfActions) {
             "multi_dof_index;");
   EXPECT_EQ(lines<GripperCommandMessage>(),
             "control_msgs/msg/GripperCommand: float64 position; float64 max_effort;");
+  EXPECT_EQ(lines<GripperCommand::Goal>(),
+            "control_msgs/action/GripperCommand_Goal: control_msgs/GripperCommand command;");
+  EXPECT_EQ(lines<GripperCommand::Feedback>(),
+            "control_msgs/action/GripperCommand_Feedback: float64 position; float64 effort; bool "
+            "stalled; bool reached_goal;");
+  EXPECT_EQ(lines<SendGoalRequest<GripperCommand>>(),
+            "control_msgs/action/GripperCommand: unique_identifier_msgs/UUID goal_id; "
+            "control_msgs/action/GripperCommand_Goal goal;");
+  EXPECT_EQ(lines<SendGoalResponse>(),
+            "action/SendGoal_Response: bool accepted; builtin_interfaces/Time stamp;");
+  EXPECT_EQ(lines<GetResultRequest>(),
+            "action/GetResult_Request: unique_identifier_msgs/UUID goal_id;");
+  EXPECT_EQ(lines<GetResultResponse<GripperCommand>>(),
+            "control_msgs/action/GripperCommand: int8 status; "
+            "control_msgs/action/GripperCommand_Result result;");
+  EXPECT_EQ(lines<FeedbackMessage<GripperCommand>>(),
+            "control_msgs/action/GripperCommand: unique_identifier_msgs/UUID goal_id; "
+            "control_msgs/action/GripperCommand_Feedback feedback;");
   EXPECT_EQ(lines<GripperCommand::Result>(),
             "control_msgs/action/GripperCommand_Result: float64 position; float64 effort; bool "
             "stalled; bool reached_goal;");
 }
 
-// The hash that rosidl gives std_msgs/msg/String, and the digest of FIPS 180-4's example.
+// Hashes that rosidl gives messages, and the digest of FIPS 180-4's example.
 TEST(PublishedFields, HashesAreThoseOfRosidl) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256(std::string(1000, 'a')),
             "41edece42d63e8d9bf515a9ba6932e1c20cbc9f5a5d134645adb5db1b9737ea3");
   EXPECT_EQ(type_hash(definitions_of<String>()),
             "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18");
+  EXPECT_EQ(type_hash_of<Clock>(),
+            "RIHS01_692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564");
+  EXPECT_EQ(type_hash_of<JointState>(),
+            "RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e");
+  EXPECT_EQ(type_hash_of<Image>(),
+            "RIHS01_d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47");
+  EXPECT_EQ(type_hash_of<CancelGoal::Request>(),
+            "RIHS01_3d3c84653c1f96918086887e1dcb236faec88b81a5b14fd4cf4840065bcdf8af");
+  EXPECT_EQ(type_hash_of<CancelGoal::Response>(),
+            "RIHS01_35e682cf3f510e83c70a82a4aac888496dedee56773bf9d8e5e0aa81f9e1c960");
+}
+
+/// What rosidl takes an empty message for.
+struct Empty : Nothing {
+  static constexpr const char* name = "std_msgs/msg/Empty";
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("structure_needs_at_least_one_member", self.structure_needs_at_least_one_member);
+  }
+};
+
+TEST(PublishedFields, AHashIsOfTheNameToo) {
+  EXPECT_EQ(type_hash_of<Empty>(),
+            "RIHS01_20b625256f32d5dbc0d04fee44f43c41e51c70d3502f84b4a08e7a9c26a96312");
+  const std::string name = "control_msgs/action/GripperCommand_GetResult_Request";
+  EXPECT_NE(type_hash_of<GetResultRequest>(name), type_hash_of<GetResultRequest>());
+  EXPECT_EQ(type_hash_of<GetResultRequest>(GetResultRequest::name),
+            type_hash_of<GetResultRequest>());
 }
 
 TEST(PublishedFields, ASchemaHoldsAllMessagesOnce) {

@@ -1,4 +1,4 @@
-#include "pedicel/rosbag/unpack.h"
+#include "pedicel/mcap/unpack.h"
 
 #include <algorithm>
 #include <memory>
@@ -11,7 +11,7 @@
 #include <lz4frame.h>
 #endif
 
-namespace pedicel::rosbag {
+namespace pedicel::mcap {
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr std::size_t block = 256 * 1024;
 [[maybe_unused]] std::string missing(const char* what, const char* package) {
   return std::string("a chunk in ") + what +
          ", and this program was built without it, expected one " + "built with " + package +
-         ", or a bag that `rosbag decompress` has unpacked";
+         ", or a log whose chunks are not packed";
 }
 
 #ifdef PEDICEL_BZIP2
@@ -89,4 +89,4 @@ std::string unpack(std::string_view compression, std::string_view packed,
   return "a chunk is packed in another way, expected none, bz2 or lz4";
 }
 
-}  // namespace pedicel::rosbag
+}  // namespace pedicel::mcap
