@@ -1,5 +1,7 @@
 #include "pedicel/app/python/arrays.h"
 
+#include <cmath>
+
 #include "pedicel/core/check.h"
 
 namespace pedicel::python {
@@ -60,13 +62,25 @@ std::vector<double> numbers_of(const Numbers& numbers, std::size_t count, const 
   return {numbers.data(), numbers.data() + count};
 }
 
+namespace {
+
+std::vector<double> finite_numbers(const Numbers& numbers, std::size_t count, const char* what) {
+  std::vector<double> all = numbers_of(numbers, count, what);
+  for (const double number : all)
+    if (!std::isfinite(number))
+      throw UsageError(std::string(what) + ": a number is not finite, expected finite ones");
+  return all;
+}
+
+}  // namespace
+
 Vec3 vec3_of(const Numbers& numbers, const char* what) {
-  const std::vector<double> v = numbers_of(numbers, 3, what);
+  const std::vector<double> v = finite_numbers(numbers, 3, what);
   return {v[0], v[1], v[2]};
 }
 
 Quat quat_of(const Numbers& numbers, const char* what) {
-  const std::vector<double> q = numbers_of(numbers, 4, what);
+  const std::vector<double> q = finite_numbers(numbers, 4, what);
   const Quat quat(q[3], q[0], q[1], q[2]);
   if (!(quat.norm() > 1.0e-6))
     throw UsageError(std::string(what) + ": has no length, expected a quaternion x y z w");

@@ -212,8 +212,8 @@ py::dict dict_of(const app::Gentleness::Total& total) {
 }
 
 py::dict gentleness_total(Run& self) {
-  return dict_of(self.alone(
-      [](app::SteeredRun& one) { return one.simulation().gentleness().total(); }));
+  return dict_of(
+      self.alone([](app::SteeredRun& one) { return one.simulation().gentleness().total(); }));
 }
 
 /// What was done to an organ or a fruit.
@@ -241,8 +241,7 @@ py::dict gentleness_of(Run& self) {
     return std::pair(one.simulation().gentleness().total(), handled(one.simulation()));
   });
   py::dict all = dict_of(total), by_name;
-  for (const Handled& one : organs)
-    by_name[one.name.c_str()] = record_of(one.record, one.fruit);
+  for (const Handled& one : organs) by_name[one.name.c_str()] = record_of(one.record, one.fruit);
   all["organs"] = by_name;
   return all;
 }

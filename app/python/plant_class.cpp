@@ -32,7 +32,13 @@ std::vector<Vec3> points_of(const Numbers& points) {
 std::vector<double> radii_of(const py::object& radius) {
   if (py::isinstance<py::float_>(radius) || py::isinstance<py::int_>(radius))
     return {radius.cast<double>()};
-  return radius.cast<std::vector<double>>();
+  try {
+    return radius.cast<std::vector<double>>();
+  } catch (const py::cast_error&) {
+    throw UsageError("radius is a " +
+                     py::str(py::type::of(radius).attr("__name__")).cast<std::string>() +
+                     ", expected a number, or one a point, m");
+  }
 }
 
 plant::Interpolation interpolation_of(const std::string& word) {
@@ -251,12 +257,13 @@ void add_plant_class(py::module_& module) {
       .def(
           "text", [](const Plant& p) { return plant::plant_text(p.file); },
           "The plant file's text; parse(text()) is equal to it.")
-      .def("copy", [](const Plant& p) { return p; }, "Another plant with the same in it.")
+      .def(
+          "copy", [](const Plant& p) { return p; }, "Another plant with the same in it.")
       .def("__copy__", [](const Plant& p) { return p; })
-      .def("__deepcopy__", [](const Plant& p, const py::dict&) { return p; }, "memo"_a)
-      .def(py::pickle(
-          [](const Plant& p) { return plant::plant_text(p.file); },
-          [](const std::string& text) { return parse_plant(text, "a pickled plant"); }))
+      .def(
+          "__deepcopy__", [](const Plant& p, const py::dict&) { return p; }, "memo"_a)
+      .def(py::pickle([](const Plant& p) { return plant::plant_text(p.file); },
+                      [](const std::string& text) { return parse_plant(text, "a pickled plant"); }))
       .def("check", &check,
            "Builds it: segments, length (m) and how far it settles from its drawing. Raises "
            "InvalidFile with every fault.")

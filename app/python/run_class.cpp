@@ -95,8 +95,8 @@ void add_robot(RunClass& run) {
       "go_to",
       [](Run& self, const py::object& values) {
         std::vector<double> numbers = joint_numbers(self, values);
-        const Eigen::VectorXd goal = self.alone(
-            [](app::SteeredRun& one) { return app::robot_of(one.simulation()).goal(); });
+        const Eigen::VectorXd goal =
+            self.alone([](app::SteeredRun& one) { return app::robot_of(one.simulation()).goal(); });
         for (std::size_t i = 0; i < numbers.size(); ++i)
           if (std::isnan(numbers[i])) numbers[i] = goal[static_cast<Eigen::Index>(i)];
         self.act({0, app::Act::Kind::go_to, "", std::move(numbers)});
@@ -297,9 +297,12 @@ void add_rest(RunClass& run) {
         name, [read](Run& self) { return self.alone(read); }, words);
   };
   using One = app::SteeredRun&;
-  reads("time", [](One one) { return one.simulation().world().time(); }, "Simulated time, s.");
-  reads("steps", [](One one) { return one.steps(); }, "Steps since the start.");
-  reads("dt", [](One one) { return one.simulation().world().dt(); }, "s, of a step.");
+  reads(
+      "time", [](One one) { return one.simulation().world().time(); }, "Simulated time, s.");
+  reads(
+      "steps", [](One one) { return one.steps(); }, "Steps since the start.");
+  reads(
+      "dt", [](One one) { return one.simulation().world().dt(); }, "s, of a step.");
   reads(
       "duration", [](One one) { return one.simulation().scene().duration; },
       "s, that the scene runs for; step() goes beyond it.");

@@ -59,7 +59,6 @@ class Run {
                                          bool strain, bool text);
   app::SensedPicture sense(const app::SenseRequest& wanted);
   std::vector<app::NamedThing> things();
-
 };
 
 /// The seed. Throws UsageError where it is negative.

@@ -60,7 +60,14 @@ std::string setting_text(const py::handle& value) {
     for (const py::handle one : value) text += (text.empty() ? "" : ",") + setting_text(one);
     return text;
   }
-  const auto number = value.cast<double>();
+  double number = 0.0;
+  try {
+    number = value.cast<double>();
+  } catch (const py::cast_error&) {
+    throw UsageError("a setting is a " +
+                     py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
+                     ", expected a number, a word, or several numbers");
+  }
   // "nan" and "inf" are refused by their names.
   return std::isfinite(number) ? io::exact_number(number) : std::to_string(number);
 }

@@ -51,10 +51,12 @@ std::unique_ptr<Worlds> make_worlds(const py::object& scene, int count, int thre
                                     const py::dict& plants,
                                     const std::vector<std::string>& packages,
                                     const py::kwargs& settings) {
+  if (threads < 0)
+    throw UsageError("threads = " + std::to_string(threads) +
+                     ": expected 1 or more, or 0: all cores");
   const auto built = make_scene(scene, plants, packages, settings);
   const py::gil_scoped_release release;
-  return std::make_unique<Worlds>(
-      std::make_unique<app::SteeredWorlds>(built, count, threads));
+  return std::make_unique<Worlds>(std::make_unique<app::SteeredWorlds>(built, count, threads));
 }
 
 std::vector<std::uint8_t> marks(Worlds& self, const std::optional<Mask>& mask) {

@@ -137,8 +137,7 @@ bool set_place(Scene& scene, const std::string& key, const std::string& text,
   if (key.starts_with("wrenches.")) {
     SceneWrench* wrench = named_in(scene.wrenches, key.substr(9), rest);
     if (wrench && set_described(wrench->noise, "noise", rest, text, asked)) return true;
-    throw UsageError(asked +
-                     ": expected wrenches.NAME.noise.KEY of a force sensor of the scene");
+    throw UsageError(asked + ": expected wrenches.NAME.noise.KEY of a force sensor of the scene");
   }
   return false;
 }

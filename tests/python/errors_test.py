@@ -57,6 +57,14 @@ class ErrorsTest(Case):
             sim.set_force("twig/berry", [0, 0, float("nan")])
         with self.assertRaisesRegex(pedicel.UsageError, "0 steps"):
             sim.step(-1)
+        with self.assertRaisesRegex(pedicel.UsageError, "NoneType, expected a number"):
+            sim.set("material.density", None)
+        with self.assertRaisesRegex(pedicel.UsageError, "finite"):
+            sim.visible_share("twig/berry", [float("nan"), 0, 0])
+        with self.assertRaisesRegex(pedicel.UsageError, "all cores"):
+            pedicel.Worlds(self.scene, 1, threads=-3)
+        with self.assertRaisesRegex(pedicel.UsageError, "one a point"):
+            pedicel.Plant("rose").add_stem("stem", [[0, 0, 0], [0, 0, 1]], "thick")
         self.assertEqual(sim.steps, 0)
 
     def test_seeds_are_whole_and_not_negative(self):

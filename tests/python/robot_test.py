@@ -63,6 +63,8 @@ class RobotTest(Case):
         self.assertGreater(abs(np.dot(sim.tool_pose[3:], orientation)), 0.9999)
 
     def test_what_is_out_of_reach_is_said(self):
+        with self.assertRaisesRegex(pedicel.UsageError, "finite"):
+            self.sim.reach([float("nan"), 0.0, 0.0])
         found = self.sim.reach([5.0, 0.0, 0.0])
         self.assertFalse(found.reached)
         self.assertIn("unreachable", found.sentence)

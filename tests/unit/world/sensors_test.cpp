@@ -136,7 +136,8 @@ TEST(PlaceSettings, PutThingsWhereTheySay) {
        {std::pair("plants.wood.position.x", "far"), std::pair("bodies.none.yaw", "1"),
         std::pair("look.none", "1"), std::pair("cameras.a.fov", "9"), std::pair("robot.yaw", "1"),
         std::pair("cameras.a.noise.haze", "1"), std::pair("cameras.a.noise.latency", "-1"),
-        std::pair("wrenches.wrist.noise.latency", "late"), std::pair("wrenches.none.noise.latency", "0")})
+        std::pair("wrenches.wrist.noise.latency", "late"),
+        std::pair("wrenches.none.noise.latency", "0")})
     EXPECT_THROW(set(key, value), UsageError) << key;
 }
 
