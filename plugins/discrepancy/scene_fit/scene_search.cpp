@@ -14,8 +14,9 @@ namespace {
 /// Of a material's number, beside its standard error: what a file's own number is known to, and
 /// what two solvers make of it.
 constexpr double known_to = 0.02, clear = 3.0;
-/// Of the mean square beyond the noise: a number more must take so much of it.
-constexpr double price_of_number = 0.003;
+/// Of the mean square beyond the noise: a number more must take so much of it. A cause of one number
+/// that does as well as one of six is no chance: nearly all of what six numbers can do it cannot.
+constexpr double price_of_number = 0.007;
 constexpr int baseline_iterations = 6, first_iterations = 4, last_iterations = 4;
 constexpr int most_renewals = 3;
 /// A leader whose linear promise is worse than so many times what the best has reached is left out.
@@ -186,7 +187,7 @@ class Search {
     std::erase_if(screened, [&](const ScreenedCause& one) {
       return square(base_excess) - square(excess_of(one.promised, base.sum)) < options_.least_gain;
     });
-    screened = tried(base, best_of_each(screened));
+    screened = best_of_each(tried(base, screened));
     double best = base_excess;
     int done = 0;
     const int most = names.empty() ? options_.most_refits : (options_.most_refits + 1) / 2;
@@ -233,6 +234,8 @@ class Search {
     return square(one.excess) + price_of_number * one.fit.model.size() * (1.0 + square(one.excess));
   }
 
+  // Of several starts of a cause, and of several joints, cameras or sensors, the best stands for
+  // it.
   static std::vector<ScreenedCause> best_of_each(const std::vector<ScreenedCause>& screened) {
     std::map<std::string, int> seen;
     std::vector<ScreenedCause> kept;
@@ -241,11 +244,23 @@ class Search {
     return kept;
   }
 
-  // The linear promises much: whoever keeps more of it, at the whole step, a half or a fifth, goes
-  // first, and from there.
+  // The best start of each cause, then the next best of each.
+  static std::vector<ScreenedCause> in_turns(const std::vector<ScreenedCause>& screened) {
+    std::map<std::string, int> seen;
+    std::multimap<int, ScreenedCause> turns;
+    for (const ScreenedCause& one : screened) turns.emplace(seen[one.name]++, one);
+    std::vector<ScreenedCause> sorted;
+    for (auto& [turn, one] : turns) sorted.push_back(std::move(one));
+    return sorted;
+  }
+
+  // The linear promises much: whoever keeps more of it, at the whole step or at less than a half,
+  // goes first, and from there. Which joint it is, or from where a cause is best begun, the linear
+  // does not say: it may promise less of the right one.
   std::vector<ScreenedCause> tried(const SceneFitResult& base,
-                                   std::vector<ScreenedCause> screened) {
-    constexpr std::size_t most_tried = 8;
+                                   const std::vector<ScreenedCause>& all) {
+    constexpr std::size_t most_tried = 16;
+    std::vector<ScreenedCause> screened = in_turns(all);
     if (screened.size() > most_tried) screened.resize(most_tried);
     std::vector<Hypothesis> models;
     constexpr double shares[] = {1.0, 0.4};
@@ -309,14 +324,14 @@ class Search {
       found_.outcome = Outcome::named;
       find_rivals();
       if (!found_.rivals.empty()) found_.outcome = Outcome::ambiguous;
-      name_material(found_.candidates.front().fit);
+      found_.material = material_of(found_.candidates.front().fit);
     } else if (found_.baseline_excess <= options_.floor) {
       found_.outcome = Outcome::adequate;
-      name_material(found_.baseline);
+      found_.material = material_of(found_.baseline);
     } else {
       found_.outcome = Outcome::unknown;
       if (!stopped()) look_outside();
-      name_material(found_.baseline);
+      found_.material = material_of(found_.baseline);
     }
   }
 
@@ -324,25 +339,42 @@ class Search {
     return square(found_.baseline_excess) - square(one.excess) >= options_.least_gain;
   }
 
+  // Among those that do nearly as well as the best, whoever says the fewest things goes first: one
+  // thing that explains all is likelier than two or three that happen to look like it. A number of
+  // the material that is off is a thing, too.
   void find_rivals() {
     const SceneCandidate& best = found_.candidates.front();
+    const auto things = [this](const SceneCandidate& one) {
+      return one.names.size() + material_of(one.fit).size();
+    };
+    std::vector<std::size_t> near = {0};
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
-      if (score(one) - score(best) < 0.5 * square(best.excess) + 0.02) found_.rivals.push_back(i);
+      if (score(one) - score(best) < 0.5 * square(best.excess) + 0.02) near.push_back(i);
     }
+    std::size_t fewest = things(best);
+    for (const std::size_t i : near) fewest = std::min(fewest, things(found_.candidates[i]));
+    std::erase_if(near, [&](std::size_t i) { return things(found_.candidates[i]) > fewest; });
+    const std::size_t first = near.front();
+    for (std::size_t i = 1; i < near.size(); ++i) found_.rivals.push_back(near[i]);
+    std::rotate(found_.candidates.begin(), found_.candidates.begin() + static_cast<long>(first),
+                found_.candidates.begin() + static_cast<long>(first) + 1);
   }
 
-  void name_material(const SceneFitResult& fit) {
+  // Numbers beside the causes that left what is known of them.
+  std::vector<std::string> material_of(const SceneFitResult& fit) const {
+    std::vector<std::string> names;
     for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
       const int p = fit.model.factor_on(name);
       if (p < 0) continue;
       const double off = std::log(fit.model.value(p));
       const double error =
           std::hypot(fit.standard_error[p], allowance(name), stated_of(experiment_, name));
-      if (std::abs(off) > clear * error) found_.material.push_back(name);
+      if (std::abs(off) > clear * error) names.push_back(name);
     }
-    if (is_moved(fit)) found_.material.push_back("plant_pose");
+    if (is_moved(fit)) names.push_back("plant_pose");
+    return names;
   }
 
   // What is outside acts in some trials, and in some of their time: the baseline is that of the
