@@ -14,8 +14,9 @@ namespace {
 /// Of a material's number, beside its standard error: what a file's own number is known to, and
 /// what two solvers make of it.
 constexpr double known_to = 0.02, clear = 3.0;
-/// Of the mean square beyond the noise: a number more must take so much of it. A cause of one number
-/// that does as well as one of six is no chance: nearly all of what six numbers can do it cannot.
+/// Of the mean square beyond the noise: a number more must take so much of it. A cause of one
+/// number that does as well as one of six is no chance: nearly all of what six numbers can do it
+/// cannot.
 constexpr double price_of_number = 0.007;
 constexpr int baseline_iterations = 6, first_iterations = 4, last_iterations = 4;
 constexpr int most_renewals = 3;
