@@ -118,16 +118,22 @@ class SceneCost : public ceres::CostFunction {
   mutable int evaluations_ = 0;
 };
 
-void set_errors(SceneFitResult& result) {
+// Of the unknowns, were the noise white and all there is.
+Eigen::MatrixXd covariance_of(const SceneFitResult& result) {
   const long n = result.jacobian.cols();
-  result.standard_error.setConstant(n, std::numeric_limits<double>::infinity());
-  if (n == 0) return;
   Eigen::MatrixXd normal = result.jacobian.transpose() * result.jacobian;
   for (long p = 0; p < n; ++p) {
     const double prior = result.model.free[static_cast<std::size_t>(p)].prior;
     if (prior > 0.0) normal(p, p) += 1.0 / (prior * prior);
   }
-  const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  return normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+}
+
+void set_errors(SceneFitResult& result) {
+  const long n = result.jacobian.cols();
+  result.standard_error.setConstant(n, std::numeric_limits<double>::infinity());
+  if (n == 0) return;
+  const Eigen::MatrixXd inverse = covariance_of(result);
   // What a model leaves counts as noise of its numbers. Less than noise is chance.
   const double spread = std::max(1.0, result.sum.rms());
   for (long p = 0; p < n; ++p)
@@ -189,6 +195,13 @@ SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
                        std::span<const int> trials) {
   const SceneCost cost(evaluator, model, trials);
   return result_at(evaluator, model, cost, model.unknowns(), trials);
+}
+
+void widen_errors(SceneFitResult& fit, const Eigen::MatrixXd& off) {
+  if (fit.jacobian.cols() == 0 || off.cols() == 0) return;
+  const Eigen::MatrixXd moved = covariance_of(fit) * (fit.jacobian.transpose() * off);
+  for (long p = 0; p < moved.rows(); ++p)
+    fit.standard_error[p] = std::hypot(fit.standard_error[p], moved.row(p).norm());
 }
 
 SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,

@@ -57,6 +57,10 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
 SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
                        std::span<const int> trials);
 
+/// Adds to the standard errors what predictions may be off by: `off` has a column, in units of the
+/// noise over the residual's entries, for each reason; all of a column is off together.
+void widen_errors(SceneFitResult& fit, const Eigen::MatrixXd& off);
+
 /// Modulus, density and damping of the plants, as factors on what their files say; and where a
 /// plant stands, where nothing that was measured shows it but what it does to the arm.
 Hypothesis scene_baseline(const SceneExperiment& experiment,

@@ -204,7 +204,7 @@ class Search {
     std::erase_if(screened, [&](const ScreenedCause& one) {
       return square(base_excess) - square(excess_of(one.linear_cost, base.sum)) < how_.least_gain;
     });
-    screened = tried(base, best_of_each(screened));
+    screened = best_of_each(tried(base, screened));
     double best = base_excess;
     int done = 0;
     // A second cause is looked for on top of one that has explained much.
@@ -257,6 +257,8 @@ class Search {
            how_.number_price * one.fit.model.size() * (1.0 + square(one.excess));
   }
 
+  // Of several starts of a cause, and of several joints, cameras or sensors, the best stands for
+  // it.
   static std::vector<ScreenedCause> best_of_each(const std::vector<ScreenedCause>& screened) {
     std::map<std::string, int> seen;
     std::vector<ScreenedCause> kept;
@@ -265,10 +267,22 @@ class Search {
     return kept;
   }
 
+  // The best start of each cause, then the next best of each.
+  static std::vector<ScreenedCause> in_turns(const std::vector<ScreenedCause>& screened) {
+    std::map<std::string, int> seen;
+    std::multimap<int, ScreenedCause> turns;
+    for (const ScreenedCause& one : screened) turns.emplace(seen[one.name]++, one);
+    std::vector<ScreenedCause> sorted;
+    for (auto& [turn, one] : turns) sorted.push_back(std::move(one));
+    return sorted;
+  }
+
   // Linear costs are too good: whoever keeps more of one, at the whole step or a shorter one, goes
-  // first, and from there.
+  // first, and from there. Which joint it is, or from where a cause is best begun, they do not say:
+  // that of the right one may be worse.
   std::vector<ScreenedCause> tried(const SceneFitResult& base,
-                                   std::vector<ScreenedCause> screened) {
+                                   const std::vector<ScreenedCause>& all) {
+    std::vector<ScreenedCause> screened = in_turns(all);
     const auto most = static_cast<std::size_t>(how_.tried);
     if (screened.size() > most) screened.resize(most);
     std::vector<Hypothesis> models;
@@ -339,14 +353,14 @@ class Search {
       found_.outcome = Outcome::named;
       find_competing();
       if (!found_.competing.empty()) found_.outcome = Outcome::ambiguous;
-      name_material(found_.candidates.front().fit);
+      found_.material = material_of(found_.candidates.front().fit);
     } else if (found_.baseline_excess <= how_.floor) {
       found_.outcome = Outcome::adequate;
-      name_material(found_.baseline);
+      found_.material = material_of(found_.baseline);
     } else {
       found_.outcome = Outcome::unknown;
       if (!stopped()) look_outside();
-      name_material(found_.baseline);
+      found_.material = material_of(found_.baseline);
     }
   }
 
@@ -354,18 +368,34 @@ class Search {
     return square(found_.baseline_excess) - square(one.excess) >= how_.least_gain;
   }
 
+  // Among those that do nearly as well as the best, whoever says the fewest things goes first: one
+  // thing that explains all is likelier than two or three that happen to look like it. A number of
+  // the material that is off is a thing, too.
   void find_competing() {
     const SceneCandidate& best = found_.candidates.front();
+    const auto things = [this](const SceneCandidate& one) {
+      return one.names.size() + material_of(one.fit).size();
+    };
+    std::vector<std::size_t> near = {0};
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
       // Two causes always explain what one does.
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
       if (score(one) - score(best) < how_.tie_share * square(best.excess) + how_.least_tie)
-        found_.competing.push_back(i);
+        near.push_back(i);
     }
+    std::size_t fewest = things(best);
+    for (const std::size_t i : near) fewest = std::min(fewest, things(found_.candidates[i]));
+    std::erase_if(near, [&](std::size_t i) { return things(found_.candidates[i]) > fewest; });
+    const std::size_t first = near.front();
+    for (std::size_t i = 1; i < near.size(); ++i) found_.competing.push_back(near[i]);
+    std::rotate(found_.candidates.begin(), found_.candidates.begin() + static_cast<long>(first),
+                found_.candidates.begin() + static_cast<long>(first) + 1);
   }
 
-  void name_material(const SceneFitResult& fit) {
+  // Numbers beside the causes that left what is known of them.
+  std::vector<std::string> material_of(const SceneFitResult& fit) const {
+    std::vector<std::string> names;
     for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
       const int p = fit.model.factor_on(name);
       if (p < 0) continue;
@@ -373,9 +403,10 @@ class Search {
       const double error =
           std::hypot(fit.standard_error[p], allowance(name, how_), stated_of(experiment_, name));
       // In logarithms: a factor of two and one of a half are equally far off.
-      if (std::abs(off) > how_.named_deviations * error) found_.material.push_back(name);
+      if (std::abs(off) > how_.named_deviations * error) names.push_back(name);
     }
-    for (const std::string& name : moved(fit, how_)) found_.material.push_back(name);
+    for (const std::string& name : moved(fit, how_)) names.push_back(name);
+    return names;
   }
 
   // What is outside acts in some trials, and in some of their time: the baseline is that of the

@@ -68,7 +68,7 @@ SceneExperiment with_curves(const SceneExperiment& experiment, int trial, double
 class RobotAlone {
  public:
   RobotAlone(SceneSimulator& simulator, const std::vector<plant::Effect>& model, double force_std,
-             double moment_std, const RobotAloneSettings& how)
+             double moment_std, const Vec3& standing_error, const RobotAloneSettings& how)
       : simulator_(simulator),
         how_(how),
         experiment_(simulator.experiment()),
@@ -77,6 +77,7 @@ class RobotAlone {
         model_(model),
         force_std_(force_std),
         moment_std_(moment_std),
+        standing_error_(standing_error),
         state_(nominal_state(experiment_)),
         fields_(link_fields(experiment_.robot)) {
     for (const auto* list : {&experiment_.scene_effects, &experiment_.effects, &model_})
@@ -196,7 +197,7 @@ class RobotAlone {
     said.name = "hold_place";
     said.of = trial.name;
     said.value = at.at * length;
-    said.error = std::hypot(error, 0.5 * length / how_.places);
+    said.error = std::hypot(error, 0.5 * length / how_.places, root_error(bent, best));
     said.unit = "m";
     said.shows = true;
     said.sentence = "In " + trial.name + " the tool pushes most at " + io::format_number(time, 3) +
@@ -205,6 +206,15 @@ class RobotAlone {
                     ") m: on " + at.curve + ", " + io::format_number(said.value, 3) +
                     " m from its foot.";
     found_.push_back(said);
+  }
+
+  // m, along the stem: where an unseen plant stands is fitted, too, and its foot with it.
+  double root_error(const SceneReadings& bent, std::size_t best) const {
+    const auto at = [&](std::size_t i) -> Vec3 {
+      return bent.markers.row(0).segment<3>(3 * static_cast<long>(i)).transpose();
+    };
+    const std::size_t other = best > 0 ? best - 1 : best + 1;
+    return (at(best) - at(other)).normalized().cwiseProduct(standing_error_).norm();
   }
 
   double length_of(int plant, const std::string& name) const {
@@ -263,6 +273,7 @@ class RobotAlone {
   SceneSimulator alone_;
   const std::vector<plant::Effect>& model_;
   double force_std_, moment_std_;
+  Vec3 standing_error_;  // m, W
   SceneState state_;
   LinkFields fields_;
   std::vector<SymptomNumber> found_;
@@ -272,8 +283,9 @@ class RobotAlone {
 
 std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
                                        const std::vector<plant::Effect>& model, double force_std,
-                                       double moment_std, const RobotAloneSettings& settings) {
-  return RobotAlone(simulator, model, force_std, moment_std, settings).run();
+                                       double moment_std, const Vec3& standing_error,
+                                       const RobotAloneSettings& settings) {
+  return RobotAlone(simulator, model, force_std, moment_std, standing_error, settings).run();
 }
 
 }  // namespace pedicel::discrepancy

@@ -12,9 +12,11 @@ namespace pedicel::discrepancy {
 /// What the robot's own sensors say of a plant, without any marker: in each trial with a wrench
 /// where the tool holds when it pushes most, in the world and along the stem of the fitted model,
 /// and when the force breaks off (something slips or comes off). One of each kind a trial.
-/// `model`: effects of the fitted model. `force_std`, `moment_std`: N and N m.
+/// `model`: effects of the fitted model. `force_std`, `moment_std`: N and N m. `standing_error`: m,
+/// W, how well the model knows where plants stand that nothing else shows; 0 where all are seen.
 std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
                                        const std::vector<plant::Effect>& model, double force_std,
-                                       double moment_std, const RobotAloneSettings& settings);
+                                       double moment_std, const Vec3& standing_error,
+                                       const RobotAloneSettings& settings);
 
 }  // namespace pedicel::discrepancy

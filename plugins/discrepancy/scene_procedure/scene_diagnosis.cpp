@@ -71,15 +71,19 @@ class Procedure {
     return all;
   }
 
+  SceneNumerics coarse() const {
+    SceneNumerics how;
+    // Never finer than what judges: an experiment may ask for less than the search's default.
+    how.distance = std::max(options_.settings.search.mesh, options_.numerics.distance);
+    how.dt = std::max(options_.settings.search.dt, options_.numerics.dt);
+    return how;
+  }
+
   // With a coarser mesh and step, whose own error counts as noise.
   void search() {
-    SceneNumerics coarse;
-    // Never finer than what judges: an experiment may ask for less than the search's default.
-    coarse.distance = std::max(options_.settings.search.mesh, options_.numerics.distance);
-    coarse.dt = std::max(options_.settings.search.dt, options_.numerics.dt);
     // A search that is cut short ends its simulations, as at the time limit: half of one says what
     // is not so.
-    SceneSimulator simulator(experiment_, coarse, options_.threads,
+    SceneSimulator simulator(experiment_, coarse(), options_.threads,
                              options_.cut_short ? nullptr : options_.stop);
     SceneDataSet data(experiment_);
     // The finer predictions are at hand: what the coarse ones are off by is known, sample by
@@ -127,17 +131,70 @@ class Procedure {
       // noise, so that they can be compared.
       widen_noise(fine_, data_, {found.candidates.front().fit.model.effects});
       refit(found.candidates.front().fit);
+      doubt(found.candidates.front().fit);
     } else if (!keep_baseline) {
       // An unseen plant's place moves touches as a cause does.
       if (found.baseline.model.size() > 3)
         widen_noise(fine_, data_, {found.baseline.model.effects});
       refit(found.baseline);
+      doubt(found.baseline);
     }
     out_.model = found.model().model.effects;
     out_.extended = predictions_of(fine_, {out_.model});
     // Without a cause there is one model, and it is simulated once.
     out_.refitted =
         found.explained() ? predictions_of(fine_, {found.baseline.model.effects}) : out_.extended;
+  }
+
+  void doubt(SceneFitResult& fit) {
+    if (stopped() || late()) return;
+    widen_errors(fit, doubts(fit.model.effects));
+  }
+
+  // What predictions of a model may be off by, over the fitted trials in units of the noise:
+  // by a coarser mesh, and by plants that hardly give along themselves. Two honest solvers differ
+  // by as much, from the first sample of a touch to its last, and so do numbers fitted with them.
+  // Standard errors of white noise would leave that out.
+  Eigen::MatrixXd doubts(const std::vector<plant::Effect>& effects) {
+    SceneVariant own{effects}, stiff{effects};
+    stiff.along = stiff_along;
+    SceneSimulator other(experiment_, coarse(), options_.threads, options_.stop);
+    std::vector<SceneSimulator::Request> asked, asked_other;
+    for (const int t : out_.fit_trials) {
+      asked.push_back({&own, t});
+      asked.push_back({&stiff, t});
+      asked_other.push_back({&own, t});
+    }
+    const std::vector<SceneReadings> here = fine_.run(asked), coarser = other.run(asked_other);
+    more_ += other.simulations();
+    long rows = 0, first = 0;
+    for (const int t : out_.fit_trials) rows += data_.size(t);
+    Eigen::MatrixXd off = Eigen::MatrixXd::Zero(rows, 2);
+    for (std::size_t i = 0; i < out_.fit_trials.size(); ++i) {
+      const int t = out_.fit_trials[i], size = data_.size(t);
+      const auto residual = [&](const SceneReadings& readings) {
+        Eigen::VectorXd r(size);
+        data_.residual(t, readings, std::numeric_limits<double>::infinity(), r);
+        return r;
+      };
+      const Eigen::VectorXd r = residual(here[2 * i]);
+      if (coarser[i].healthy) off.col(0).segment(first, size) = residual(coarser[i]) - r;
+      if (here[2 * i + 1].healthy) off.col(1).segment(first, size) = residual(here[2 * i + 1]) - r;
+      first += size;
+    }
+    return off;
+  }
+
+  // m, W, of the place of plants that nothing shows but what they do to the arm: the largest.
+  Vec3 standing_error() const {
+    const SceneFitResult& fit = out_.findings.model();
+    Vec3 error = Vec3::Zero();
+    for (int p = 0; p < fit.model.size() && p < fit.standard_error.size(); ++p) {
+      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+      if (free.name != "offset" || free.prior == 0.0) continue;
+      error[free.component] = std::max(error[free.component], fit.standard_error[p] * free.scale);
+    }
+    return error;
   }
 
   void finish() {
@@ -148,9 +205,9 @@ class Procedure {
     // what everybody would fit.
     out_.verdict.symptoms =
         scene_symptoms(experiment_, data_, out_.refitted, options_.settings.symptoms);
-    for (SymptomNumber& one :
-         robot_alone(fine_, out_.model, data_.deviation(SceneChannel::force),
-                     data_.deviation(SceneChannel::moment), options_.settings.robot))
+    for (SymptomNumber& one : robot_alone(fine_, out_.model, data_.deviation(SceneChannel::force),
+                                          data_.deviation(SceneChannel::moment), standing_error(),
+                                          options_.settings.robot))
       out_.verdict.symptoms.push_back(std::move(one));
     out_.verdict.partial = out_.findings.partial;
     out_.text = findings_text(out_.findings, experiment_);

@@ -14,7 +14,7 @@ struct SceneSearchSettings {
   double held_out_allowance = 2.0;              ///< times what fitted trials may leave
   double clean_allowance = 2.0;                 ///< times the floor
   double least_gain = 0.06;                     ///< mean square, noise units
-  double number_price = 0.003;                  ///< of the mean square beyond the noise
+  double number_price = 0.007;                  ///< of the mean square beyond the noise
   double tie_share = 0.5;                       ///< of the mean square that the best leaves
   double least_tie = 0.02;                      ///< mean square, noise units
   double behind = 4.0;                          ///< times the best misfit
@@ -36,7 +36,7 @@ struct SceneSearchSettings {
   int last_iterations = 4;
   int polishing = 3;
   int renewals = 3;
-  int tried = 8;
+  int tried = 16;
   int refits = 4;
   int causes = 2;
 };

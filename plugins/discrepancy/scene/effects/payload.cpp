@@ -40,9 +40,14 @@ SceneEffectDefinition define_payload() {
         std::ranges::none_of(c.experiment.trials,
                              [](const SceneTrial& trial) { return trial.torques.size() > 0; }))
       return {};
-    return {effects::Start("payload")
-                .signed_number("mass", 0.02, 0.02, 0.0, 50.0)
-                .vector("centre", Vec3::Zero(), 0.02, 1.0)};
+    // Where it sits shows by mass times lever alone: begun with a tenth of its mass, it would be
+    // put ten times as far away.
+    std::vector<effects::Start> starts;
+    for (const double mass : {0.02, 0.08, 0.4})
+      starts.push_back(effects::Start("payload")
+                           .signed_number("mass", mass, 0.02, 0.0, 50.0)
+                           .vector("centre", Vec3::Zero(), 0.02, 1.0));
+    return starts;
   };
   d.speaks_for = {{"wrench_at_rest", 2}, {"moment_at_rest", 2}};
   d.tells_apart = "hold the tool still in several orientations, away from the plant";
