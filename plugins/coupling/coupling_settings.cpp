@@ -31,7 +31,8 @@ std::vector<Parameter> parameters_of(CouplingSettings& s) {
        "solved "
        "as one, by the direct solver."},
       {"blade_contact", "1", &s.blade_contact, 0, 1,
-       "Whether leaf blades touch robots, bodies and the ground between their veins, too."},
+       "Whether leaf blades touch robots, bodies and the ground between their veins, too; with "
+       "plant_contact also other plants."},
   };
 }
 
