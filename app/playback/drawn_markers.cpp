@@ -65,7 +65,7 @@ void add_triangles(render::DrawList& list, const ros::Marker& marker, const Pose
 
 /// False for what is no number, too.
 bool is_in_sight(const Vec3& p) {
-  return p.cwiseAbs().maxCoeff() <= farthest;
+  return (p.array().abs() <= farthest).all();
 }
 
 /// Whether there is anything to draw: others' logs may hold sizes of 0, and places that are none.
