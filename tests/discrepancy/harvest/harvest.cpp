@@ -9,6 +9,9 @@
 #include "pedicel/discrepancy/scene/scene_data.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
+#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
+#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/yaml.h"
 
@@ -171,6 +174,28 @@ scene_case::Setting setting_of(const Options& options) {
   return setting;
 }
 
+Diagnosed diagnose(const std::filesystem::path& folder, const std::filesystem::path& out,
+                   int threads) {
+  const SceneExperiment experiment = read(folder, {});
+  discrepancy::SceneDiagnosisOptions options;
+  options.threads = threads;
+  discrepancy::SceneDiagnosis found = diagnose_scene(experiment, options);
+  Diagnosed told;
+  told.is_believed = found.verdict.outcome != discrepancy::Outcome::unknown;
+  const std::vector<discrepancy::SceneCandidate>& nearest = found.findings.candidates;
+  const std::vector<plant::Effect>& model =
+      told.is_believed || nearest.empty() ? found.model : nearest.front().fit.model.effects;
+  std::filesystem::create_directories(out);
+  found.verdict.extended_scene =
+      write_extended_scene(out, experiment, model, found.fit_trials.front()).file;
+  if (!found.verdict.extended_scene.empty()) told.extended = out / found.verdict.extended_scene;
+  told.verdict = to_json(found.verdict) + "\n";
+  told.findings = found.text;
+  io::write_file_atomically(out / "verdict.json", told.verdict);
+  io::write_file_atomically(out / "findings.txt", told.findings);
+  return told;
+}
+
 std::optional<double> Trial::gain(const Course& course) const {
   if (nominal.misfit < least_to_gain) return std::nullopt;
   return (nominal.misfit - course.misfit) / (nominal.misfit - 1.0);
@@ -238,12 +263,12 @@ std::vector<Said> said_of(const scene_case::Setting& setting, const std::string&
   return out;
 }
 
-std::string tables(const Comparison& comparison) {
+std::string tables(const Comparison& comparison, const std::string& extended) {
   std::string text;
   for (const Trial& trial : comparison.trials) {
     text += "\n`" + trial.name + "`, " + (trial.check ? "held out" : "fitted") +
-            "\n\n| | real | nominal scene | `extended.scene.yaml` | nominal scene with what is "
-            "hidden |\n|---|---|---|---|---|\n";
+            "\n\n| | real | nominal scene | " + extended +
+            " | nominal scene with what is hidden |\n|---|---|---|---|---|\n";
     const auto row = [&](const std::string& name, const auto& cell, bool of_real) {
       text += "| " + name + " | " + (of_real ? cell(trial.real) : "") + " | " +
               cell(trial.nominal) + " | " + (trial.extended ? cell(*trial.extended) : "none") +

@@ -43,7 +43,7 @@ struct Trial {
   std::vector<double> time;  ///< s, of the wrist's samples
   std::size_t stem = 0;      ///< points of the shapes on the stem; the others are on the truss
   Course real, nominal;
-  std::optional<Course> extended;  ///< where the diagnosis has written a scene
+  std::optional<Course> extended;  ///< by the diagnosis' scene, where there is one
   Course hidden;                   ///< the nominal scene with what is hidden
   /// 1, share of the misfit above the noise that a scene removes from the nominal one's; nothing
   /// where there is hardly any.
@@ -55,6 +55,16 @@ struct Comparison {
   std::vector<Trial> trials;
   const Trial& held_out() const;
 };
+
+/// What `pedicel diagnose` says of the experiment in a folder, and the scene that it writes.
+struct Diagnosed {
+  std::string verdict, findings;   ///< texts of verdict.json and findings.txt
+  std::filesystem::path extended;  ///< the scene's file; empty: the files' own is as good
+  bool is_believed = false;        ///< false: `unknown`; the scene is what came nearest
+};
+/// Writes into `out`. Throws InvalidFile.
+Diagnosed diagnose(const std::filesystem::path& folder, const std::filesystem::path& out,
+                   int threads);
 
 /// `folder`: the experiment as make_case() wrote it; `extended`: extended.scene.yaml of its
 /// diagnosis, or empty; `runs`: what really happened. Throws InvalidFile and SceneFailed.
@@ -73,8 +83,8 @@ struct Said {
 /// `verdict`: the text of verdict.json.
 std::vector<Said> said_of(const scene_case::Setting& setting, const std::string& verdict);
 
-/// Tables in Markdown.
-std::string tables(const Comparison& comparison);
+/// Tables in Markdown. `extended`: how the diagnosis' scene is called.
+std::string tables(const Comparison& comparison, const std::string& extended);
 std::string tables(const std::vector<Said>& said, const std::string& verdict);
 
 /// The force at the wrist of a trial over time, and two views of the plant just before the fruit

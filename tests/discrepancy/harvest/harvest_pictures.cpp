@@ -38,7 +38,11 @@ std::string shape_picture(const Trial& trial, bool from_side) {
   plot.width = plot.height = 360;
   const auto add = [&](const Course& course, const std::string& name, const char* colour,
                        bool dashed) {
-    plots::PlotSeries line{.label = name, .markers = true, .dashed = dashed, .colour = colour};
+    plots::PlotSeries line;
+    line.label = name;
+    line.markers = true;
+    line.dashed = dashed;
+    line.colour = colour;
     for (std::size_t p = 0; p < course.shape.size(); ++p) {
       const Vec3& point = course.shape[p];
       if (p == trial.stem) line.x.push_back(std::nan("")), line.y.push_back(std::nan(""));

@@ -1,7 +1,8 @@
-// harvest --out DIR make|compare [--seed N] [--trials N] [--hide "NAME KEY=V[,V]"]... [--nothing]
+// harvest --out DIR make|diagnose|compare [--seed N] [--trials N] [--hide "NAME KEY=V[,V]"]...
+// [--nothing]
 //         [--threads N]
-// make: writes the real harvest into DIR/experiment. compare: reads its diagnosis from
-// DIR/diagnosis, and writes table.md and pictures into DIR.
+// make: writes the real harvest into DIR/experiment. diagnose: writes its diagnosis into
+// DIR/diagnosis. compare: writes table.md and pictures into DIR.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -46,8 +47,11 @@ void compare(const Arguments& a, const scene_case::Setting& setting) {
   if (!fs::exists(extended)) extended.clear();
   const harvest::Comparison found =
       harvest::compare(a.out / "experiment", extended, setting, runs, a.threads);
+  // `unknown`: its scene is what came nearest.
+  const bool is_believed = verdict.find("\"verdict\": \"unknown\"") == std::string::npos;
   const std::string text =
-      harvest::tables(harvest::said_of(setting, verdict), verdict) + harvest::tables(found);
+      harvest::tables(harvest::said_of(setting, verdict), verdict) +
+      harvest::tables(found, is_believed ? "`extended.scene.yaml`" : "what came nearest");
   io::write_file_atomically(a.out / "table.md", text);
   for (const harvest::Trial& trial : found.trials) {
     io::write_file_atomically(a.out / (trial.name + "_force.svg"), harvest::force_picture(trial));
@@ -64,9 +68,9 @@ void compare(const Arguments& a, const scene_case::Setting& setting) {
 int main(int argc, char** argv) {
   CLI::App app{"A harvest made by MuJoCo beside what scenes foretell of it."};
   Arguments a;
-  app.add_option("what", a.what, "make or compare")
+  app.add_option("what", a.what, "make, diagnose or compare")
       ->required()
-      ->check(CLI::IsMember({"make", "compare"}));
+      ->check(CLI::IsMember({"make", "diagnose", "compare"}));
   app.add_option("--out", a.out, "folder of everything")->capture_default_str();
   app.add_option("--seed", a.options.seed, "what sizes and noise are drawn from");
   app.add_option("--trials", a.options.trials, "2 or 3; the second is held out")
@@ -81,7 +85,12 @@ int main(int argc, char** argv) {
     if (!a.hide.empty()) a.options.hidden.clear();
     for (const std::string& text : a.hide) a.options.hidden.push_back(scene_case::hidden_of(text));
     const scene_case::Setting setting = harvest::setting_of(a.options);
-    a.what == "make" ? make(a, setting) : compare(a, setting);
+    if (a.what == "make") make(a, setting);
+    if (a.what == "diagnose")
+      std::printf(
+          "%s",
+          harvest::diagnose(a.out / "experiment", a.out / "diagnosis", a.threads).findings.c_str());
+    if (a.what == "compare") compare(a, setting);
   } catch (const io::WriteError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return exit_unwritable;
