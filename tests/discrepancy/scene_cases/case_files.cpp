@@ -12,9 +12,9 @@ namespace pedicel::scene_case {
 namespace {
 
 constexpr double joint_std = 2.0e-5, position_std = 3.0e-4, force_std = 0.03, moment_std = 2.0e-3;
-constexpr double pixel_std = 0.4;                                               // px
-constexpr double focal = 900.0;                                                 // px
-constexpr double joint_rate = 250.0, marker_rate = 100.0, wrench_rate = 250.0;  // Hz
+constexpr double pixel_std = 0.4;     // px
+constexpr double focal = 900.0;       // px
+constexpr double joint_rate = 250.0;  // Hz
 
 std::string list(const std::vector<double>& values) {
   std::ostringstream out;
@@ -90,6 +90,13 @@ std::string plant(const Setting& s) {
       << "sampling: {connect: 0.004, distance: 0.02}\nroot: [0, 0, 0]\ncurves:\n"
       << "  - {name: stem, interpolation: linear, points: [[0, 0, 0], [0, 0, " << s.height
       << "]], radius: " << s.radius << "}\n";
+  if (!s.truss) return out.str();
+  const Truss& truss = *s.truss;
+  const Vec3 foot(0.0, 0.0, truss.from);
+  out << "  - {name: truss, interpolation: linear, points: [" << list(foot) << ", "
+      << list(Vec3(foot + truss.length * truss.direction)) << "], radius: " << truss.radius
+      << "}\nfruits:\n  - {name: fruit, curve: truss, at: 1, radius: " << truss.fruit_radius
+      << ", density: " << truss.fruit_density << ", detach: {force: " << truss.strength << "}}\n";
   return out.str();
 }
 
@@ -98,7 +105,8 @@ std::string scene(const Setting& s, const Vec3& start) {
   out.precision(10);
   out << "format: pedicel-scene\nversion: 1\nname: nominal\n"
       << "purpose: The nominal scene of a measured experiment, as believed.\n"
-      << "see: A finger pushes a stem.\nduration: 3\ndt: 0.001\ncoupling: {friction: " << s.friction
+      << "see: A finger " << (s.truss ? "takes a fruit and pulls it off" : "pushes a stem")
+      << ".\nduration: 3\ndt: 0.001\ncoupling: {friction: " << s.friction
       << "}\nplants:\n  - {name: bush, file: plant.yaml, position: " << list(s.root)
       << "}\nrobot:\n  {name: arm, file: reacher.urdf, joints: {shoulder: " << start[0]
       << ", elbow: " << start[1] << ", lift: " << start[2] << "}, tool: finger}\n";
@@ -144,15 +152,21 @@ std::string camera() {
          ", size: [1280, 720]}\n";
 }
 
-std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
-  std::string text =
-      "format: pedicel-experiment\nversion: 1\ntitle: a finger pushes a stem and lets it go\n"
-      "scene: scene.yaml\nmarkers:\n";
+std::string markers(const Setting& s) {
+  std::string text = "markers:\n";
   int m = 0;
   for (const auto& [curve, at] : markers_of(s))
     text += "  - {name: m" + std::to_string(m++) + ", plant: bush, curve: " + curve +
             ", at: " + list({at}) + "}\n";
-  text += "  - {name: nail, link: finger, offset: " + list(nail) + "}\n";
+  return text + "  - {name: nail, link: finger, offset: " + list(nail) + "}\n";
+}
+
+std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
+  std::string text =
+      "format: pedicel-experiment\nversion: 1\ntitle: a finger " +
+      std::string(s.truss ? "takes a fruit and pulls it off" : "pushes a stem and lets it go") +
+      "\nscene: scene.yaml\n";
+  if (!s.unseen) text += markers(s);
   if (s.camera) text += camera();
   text += "wrenches:\n  - {name: wrist, link: hand}\nnoise: {joint_std: " + list({joint_std}) +
           ", position_std: " + list({position_std}) +
@@ -160,13 +174,14 @@ std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
           ", force_std: " + list({force_std}) + ", moment_std: " + list({moment_std}) +
           "}\ntrials:\n";
   for (const Drive& drive : drives)
-    text +=
-        "  - {name: " + drive.name + ", folder: " + drive.name + ", robot: {follows: joints}}\n";
+    text += "  - {name: " + drive.name + ", folder: " + drive.name +
+            (s.truss ? drive.check ? ", use: check" : ", use: fit" : "") +
+            ", robot: {follows: joints}}\n";
   return text;
 }
 
 std::string answer(const Setting& s, const std::vector<Drive>& drives,
-                   const std::vector<Outside>& outside) {
+                   const std::vector<Run>& runs) {
   std::string text =
       "# What is hidden. The diagnosis does not read it.\nseed: " + std::to_string(s.seed) +
       "\nhidden:" + (s.hidden.empty() ? " []\n" : "\n");
@@ -176,9 +191,9 @@ std::string answer(const Setting& s, const std::vector<Drive>& drives,
     text += "}\n";
   }
   for (std::size_t d = 0; d < drives.size(); ++d)
-    if (outside[d].acts)
-      text += "# In " + drives[d].name + " it acts from " + list({outside[d].from}) + " s on, at " +
-              list(outside[d].place) + " m.\n";
+    if (const Outside& outside = runs[d].outside; outside.acts)
+      text += "# In " + drives[d].name + " it acts from " + list({outside.from}) + " s on, at " +
+              list(outside.place) + " m.\n";
   return text;
 }
 
@@ -189,7 +204,9 @@ class Table {
       : text_("time," + head + "\n"), random_(seed) {}
   void row(double t) { add("%.4f", t), first_ = false; }
   void value(double v, double deviation) {
-    text_ += ",", add("%.9g", v + deviation * normal_(random_));
+    text_ += ",";
+    const double seen = v + deviation * normal_(random_);
+    if (std::isfinite(seen)) add("%.9g", seen);
   }
   void end() { text_ += "\n", first_ = true; }
   const std::string& text() const { return text_; }
@@ -214,15 +231,19 @@ class Tables {
 
   void write_all(std::uint64_t seed) {
     write_joints(seed);
-    write_markers(seed + 1);
+    if (!s_.unseen) write_markers(seed + 1);
     write_wrench(seed + 2);
     if (s_.camera) write_pixels(seed + 3);
+    if (s_.truss) write_events();
   }
 
  private:
-  std::size_t step(double t) const {
-    return std::min(run_.joints.size() - 1,
-                    static_cast<std::size_t>(std::max(0.0, std::round(t / run_.dt))));
+  std::size_t step(double t) const { return run_.step(t); }
+
+  void write_events() {
+    std::string text = "time,event,what,by\n" + list({drive_.grasp}) + ",grasped,fruit,finger\n";
+    if (run_.came_off) text += list({*run_.came_off}) + ",detached,fruit,finger\n";
+    write(folder_ / "events.csv", text);
   }
 
   void write_joints(std::uint64_t seed) {
@@ -276,13 +297,10 @@ class Tables {
     Table table("fx,fy,fz,tx,ty,tz", seed);
     for (int r = 0; r <= static_cast<int>(drive_.duration * wrench_rate); ++r) {
       const double t = r / wrench_rate;
-      Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
-      const std::size_t first = step(t - 0.5 / wrench_rate), last = step(t + 0.5 / wrench_rate);
-      for (std::size_t k = first; k <= last; ++k) sum += run_.wrench[k];
-      sum *= gain / static_cast<double>(last - first + 1);
+      const Eigen::Matrix<double, 6, 1> mean = gain * run_.mean_wrench(t, wrench_rate);
       table.row(t);
       for (std::size_t a = 0; a < 6; ++a)
-        table.value(sum[static_cast<long>(a)] +
+        table.value(mean[static_cast<long>(a)] +
                         hidden_number(s_, "wrench_bias", a < 3 ? "force" : "moment", 0.0, a % 3),
                     a < 3 ? force_std : moment_std);
       table.end();
@@ -298,20 +316,25 @@ class Tables {
 
 }  // namespace
 
-std::vector<Outside> write_case(const std::filesystem::path& folder, const Setting& setting) {
+std::vector<Run> make_case(const std::filesystem::path& folder, const Setting& setting) {
   const std::vector<Drive> drives = drives_of(setting);
   write(folder / "reacher.urdf", urdf());
   write(folder / "plant.yaml", plant(setting));
   write(folder / "scene.yaml", scene(setting, drives.front().joints.front()));
   write(folder / "experiment.yaml", experiment(setting, drives));
-  std::vector<Outside> outside;
+  std::vector<Run> runs;
   for (std::size_t d = 0; d < drives.size(); ++d) {
-    const Run run = simulate(setting, drives[d]);
-    Tables(setting, drives[d], run, folder / drives[d].name)
+    runs.push_back(simulate(setting, drives[d]));
+    Tables(setting, drives[d], runs.back(), folder / drives[d].name)
         .write_all(1000 * setting.seed + 10 * d);
-    outside.push_back(run.outside);
   }
-  write(folder / "answer.yaml", answer(setting, drives, outside));
+  write(folder / "answer.yaml", answer(setting, drives, runs));
+  return runs;
+}
+
+std::vector<Outside> write_case(const std::filesystem::path& folder, const Setting& setting) {
+  std::vector<Outside> outside;
+  for (const Run& run : make_case(folder, setting)) outside.push_back(run.outside);
   return outside;
 }
 

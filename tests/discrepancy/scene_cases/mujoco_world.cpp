@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -40,16 +41,72 @@ std::string text(double v) {
 std::string text(const Vec3& v) {
   return text(v.x()) + " " + text(v.y()) + " " + text(v.z());
 }
+std::string text(const Eigen::Quaterniond& q) {
+  return text(q.w()) + " " + text(q.x()) + " " + text(q.y()) + " " + text(q.z());
+}
 
-/// The stem, as nested bodies: half a segment stands fast, and a joint lies in the middle of each
-/// stretch of 10 mm that bends.
+/// How the finger holds the fruit once it is off: the pose of the fruit's body in its frame.
+struct Held {
+  Vec3 place = Vec3::Zero();  // m
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+};
+
+/// The fruit's body: half a segment of its stalk, along z, and a ball at its end.
+class Fruit {
+ public:
+  explicit Fruit(const Setting& s) : radius_(s.truss->fruit_radius) {
+    const Truss& truss = *s.truss;
+    stub_ = 0.5 * truss.length / std::round(truss.length / segment);
+    const double r2 = truss.radius * truss.radius, f2 = radius_ * radius_;
+    const double own = s.density * hidden_number(s, "density", "factor", 1.0) * pi * r2 * stub_;
+    const double ball = 4.0 / 3.0 * pi * f2 * radius_ * truss.fruit_density *
+                        hidden_number(s, "fruit_mass", "factor", 1.0);
+    mass_ = own + ball;
+    centre_ = (own * 0.5 * stub_ + ball * stub_) / mass_;
+    along_ = 0.5 * own * r2 + 0.4 * ball * f2;
+    const double near = centre_ - 0.5 * stub_, far = stub_ - centre_;
+    across_ =
+        own * (0.25 * r2 + stub_ * stub_ / 12.0 + near * near) + ball * (0.4 * f2 + far * far);
+  }
+  /// `kind`: attributes of the ball.
+  std::string text_of(const std::string& kind) const {
+    return "<inertial pos='0 0 " + text(centre_) + "' mass='" + text(mass_) + "' diaginertia='" +
+           text(across_) + " " + text(across_) + " " + text(along_) + "'/>\n<geom type='sphere' " +
+           kind + " size='" + text(radius_) + "' pos='0 0 " + text(stub_) + "'/>\n";
+  }
+
+ private:
+  double radius_, stub_ = 0.0, mass_ = 0.0, centre_ = 0.0, along_ = 0.0, across_ = 0.0;
+};
+
+/// A curve of the plant, as nested bodies: half a segment stands fast, and a joint lies in the
+/// middle of each stretch of 10 mm that bends. The truss begins in the stem.
 class Chain {
  public:
-  Chain(const Setting& s, std::ostringstream& out) : s_(s), out_(out) {
-    count_ = static_cast<int>(std::lround(s.height / segment));
-    length_ = s.height / count_;
+  /// `held`: the fruit is off.
+  static void write_stem(const Setting& s, const Held* held, std::ostringstream& out) {
+    const double yaw = hidden_number(s, "plant_pose", "yaw", 0.0);
+    Vec3 root = s.root;
+    for (int a = 0; a < 3; ++a)
+      root[a] += hidden_number(s, "plant_pose", "offset", 0.0, static_cast<std::size_t>(a));
+    Chain(s, "stem", "", s.height, s.radius, held, out)
+        .write("pos='" + text(root) + "' euler='0 0 " + text(yaw) + "'");
+  }
+
+ private:
+  Chain(const Setting& s, const std::string& curve, const std::string& letter, double length,
+        double radius, const Held* held, std::ostringstream& out)
+      : s_(s),
+        curve_(curve),
+        letter_(letter),
+        whole_(length),
+        radius_(radius),
+        held_(held),
+        out_(out) {
+    count_ = static_cast<int>(std::lround(whole_ / segment));
+    length_ = whole_ / count_;
     const double factor = hidden_number(s, "youngs_modulus", "factor", 1.0);
-    const double area = pi * s.radius * s.radius, second = 0.25 * area * s.radius * s.radius;
+    const double area = pi * radius * radius, second = 0.25 * area * radius * radius;
     bend_ = factor * s.modulus * second / length_;
     twist_ = bend_ / 1.35;  // GJ = 2 I E / (2 (1 + nu))
     stretch_ = factor * s.modulus * area / (length_ * stretching);
@@ -57,63 +114,86 @@ class Chain {
     mass_ = density * area * length_;
   }
 
-  void write() {
-    const double yaw = hidden_number(s_, "plant_pose", "yaw", 0.0);
-    Vec3 root = s_.root;
-    for (int a = 0; a < 3; ++a)
-      root[a] += hidden_number(s_, "plant_pose", "offset", 0.0, static_cast<std::size_t>(a));
-    out_ << "<body name='s0' pos='" << text(root) << "' euler='0 0 " << text(yaw) << "'>\n";
+  bool is_truss() const { return curve_ == "truss"; }
+
+  void write(const std::string& pose) {
+    out_ << "<body name='" << letter_ << "s0' " << pose << ">\n";
     piece(0.5 * length_);
+    int open = 1;
     for (int i = 1; i <= count_; ++i) {
+      const bool fruit = is_truss() && i == count_;
+      if (fruit && held_) break;
       const double end = i < count_ ? length_ : 0.5 * length_;
-      out_ << "<body name='s" << i << "' pos='0 0 " << text(i == 1 ? 0.5 * length_ : length_)
+      const std::string name = fruit ? "fruit" : letter_ + "s" + std::to_string(i);
+      out_ << "<body name='" << name << "' pos='0 0 " << text(i == 1 ? 0.5 * length_ : length_)
            << "'>\n";
+      ++open;
       if (i % stretching == stretching / 2) stretch(i);
       hinge("x", "1 0 0", i, bend_);
       hinge("y", "0 1 0", i, bend_);
       hinge("z", "0 0 1", i, twist_);
-      piece(end);
+      if (fruit)
+        out_ << Fruit(s_).text_of("class='plant'");
+      else
+        piece(end);
       places(i);
+      if (!is_truss() && s_.truss) branch(i);
     }
-    for (int i = 0; i <= count_; ++i) out_ << "</body>\n";
+    for (; open > 0; --open) out_ << "</body>\n";
   }
 
- private:
+  // The truss begins in the middle of the stem's piece at its foot.
+  void branch(int i) {
+    const Truss& truss = *s_.truss;
+    if (i != static_cast<int>(std::lround(truss.from / length_))) return;
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(Vec3(0, 0, 1), truss.direction);
+    Chain(s_, "truss", "t", truss.length, truss.radius, held_, out_)
+        .write("pos='0 0 " + text(truss.from - (i - 0.5) * length_) + "' quat='" + text(turn) +
+               "'");
+  }
+
   void hinge(const char* axis, const char* vector, int i, double stiffness) {
     // Damping that acts at the step's end: (M + dt D) dv = dt (f - D v). As inertia it is in what
     // MuJoCo reckons contacts with, too; its own damping is not, and they would creep.
-    out_ << "<joint name='" << axis << i << "' type='hinge' axis='" << vector << "' stiffness='"
-         << text(stiffness) << "' armature='" << text(dt * damping_time(s_) * stiffness) << "'/>\n";
+    out_ << "<joint name='" << letter_ << axis << i << "' type='hinge' axis='" << vector
+         << "' stiffness='" << text(stiffness) << "' armature='"
+         << text(dt * damping_time(s_) * stiffness) << "'/>\n";
   }
   // A stem that sticks to a finger is held by its stretch, which is some 10 um/N.
   void stretch(int i) {
-    out_ << "<joint name='a" << i << "' type='slide' axis='0 0 1' stiffness='" << text(stretch_)
-         << "' armature='" << text(dt * damping_time(s_) * stretch_) << "'/>\n";
+    out_ << "<joint name='" << letter_ << "a" << i << "' type='slide' axis='0 0 1' stiffness='"
+         << text(stretch_) << "' armature='" << text(dt * damping_time(s_) * stretch_) << "'/>\n";
   }
   void piece(double length) {
-    const double r2 = s_.radius * s_.radius, mass = mass_ * length / length_;
+    const double r2 = radius_ * radius_, mass = mass_ * length / length_;
     const double across = mass * (0.25 * r2 + length * length / 12.0);
     out_ << "<inertial pos='0 0 " << text(0.5 * length) << "' mass='" << text(mass)
          << "' diaginertia='" << text(across) << " " << text(across) << " " << text(0.5 * mass * r2)
-         << "'/>\n<geom type='capsule' class='plant' size='" << text(s_.radius)
+         << "'/>\n<geom type='capsule' class='plant' size='" << text(radius_)
          << "' fromto='0 0 0 0 0 " << text(length) << "'/>\n";
   }
-  // Sites of markers whose place lies in this piece.
+  // Sites of what is told of this piece.
   void places(int i) {
-    const double from = (i - 0.5) * length_, to = i < count_ ? from + length_ : s_.height + 1e-9;
-    int m = 0;
-    for (const auto& [curve, at] : markers_of(s_)) {
-      const double place = at * s_.height;
-      if (curve == "stem" && place > from && place <= to)
-        out_ << "<site name='m" << m << "' pos='0 0 " << text(place - from) << "'/>\n";
-      ++m;
-    }
-    const double tied = hidden_number(s_, "string", "at", -1.0) * s_.height;
-    if (tied > from && tied <= to)
+    const double from = (i - 0.5) * length_, to = i < count_ ? from + length_ : whole_ + 1e-9;
+    const auto sites = [&](const std::vector<Place>& all, const char* letter) {
+      for (std::size_t m = 0; m < all.size(); ++m) {
+        const double place = all[m].second * whole_;
+        if (all[m].first == curve_ && place > from && place <= to)
+          out_ << "<site name='" << letter << m << "' pos='0 0 " << text(place - from) << "'/>\n";
+      }
+    };
+    sites(markers_of(s_), "m");
+    sites(points_of(s_), "p");
+    const double tied = hidden_number(s_, "string", "at", -1.0) * whole_;
+    if (!is_truss() && tied > from && tied <= to)
       out_ << "<site name='tied' pos='0 0 " << text(tied - from) << "'/>\n";
   }
 
   const Setting& s_;
+  std::string curve_, letter_;
+  double whole_, radius_;
+  const Held* held_;
   std::ostringstream& out_;
   int count_ = 0;
   double length_ = 0.0, bend_ = 0.0, twist_ = 0.0, stretch_ = 0.0, mass_ = 0.0;
@@ -129,7 +209,7 @@ void arm_joint(std::ostringstream& out, const char* name, bool slides, double st
         << text(stiffness) << "' damping='" << text(0.01 * stiffness) << "'/>\n";
 }
 
-void arm(const Setting& s, std::ostringstream& out) {
+void arm(const Setting& s, const Held* held, std::ostringstream& out) {
   const double k = hidden_number(s, "reaction", "joint_stiffness", 0.0);
   Vec3 offset = Vec3::Zero(), turn = Vec3::Zero();
   for (int a = 0; a < 3; ++a) {
@@ -162,10 +242,16 @@ void arm(const Setting& s, std::ostringstream& out) {
         << text(hidden_number(s, "payload", "mass", 0.0))
         << "' diaginertia='1e-9 1e-9 1e-9'/></body>\n";
   }
+  // It has come off, is carried, and touches nothing any more.
+  if (held)
+    out << "<body name='fruit' pos='" << text(held->place) << "' quat='" << text(held->turn)
+        << "'>\n"
+        << Fruit(s).text_of("contype='0' conaffinity='0'") << "</body>\n";
   out << "</body></body></body></body></body>\n";
 }
 
-std::string model_text(const Setting& s) {
+/// `held`: the fruit is off, and the finger carries it.
+std::string model_text(const Setting& s, const Held* held = nullptr) {
   const double friction = hidden_number(s, "contact_friction", "coefficient", s.friction);
   std::ostringstream out;
   out << "<mujoco><compiler angle='radian' autolimits='true'/>\n<option timestep='" << text(dt)
@@ -184,9 +270,13 @@ std::string model_text(const Setting& s) {
     out << "<geom class='finger' type='capsule' size='0.003' fromto='"
         << text(place - Vec3(0.03, 0, 0)) << " " << text(place + Vec3(0.03, 0, 0)) << "'/>\n";
   }
-  Chain(s, out).write();
-  arm(s, out);
+  Chain::write_stem(s, held, out);
+  arm(s, held, out);
   out << "</worldbody>\n";
+  // Of hardly any softness: who holds it holds it rigidly.
+  if (s.truss && !held)
+    out << "<equality><weld name='grasp' body1='finger' body2='fruit' active='false' "
+           "solref='0.001 1' solimp='0.999 0.999 0.001'/></equality>\n";
   out << "</mujoco>\n";
   return out.str();
 }
@@ -195,34 +285,42 @@ Vec3 of(const mjtNum* v) {
   return {v[0], v[1], v[2]};
 }
 
+Eigen::Quaterniond turn_of(const mjtNum* q) {
+  return {q[0], q[1], q[2], q[3]};
+}
+
+Model compiled(const std::string& xml) {
+  auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), "case.xml", static_cast<int>(xml.size()));
+  std::copy(xml.begin(), xml.end(), static_cast<char*>(files->filedata[0]));
+  char error[1000] = "";
+  Model model(mj_loadXML("case.xml", files.get(), error, sizeof error));
+  mj_deleteVFS(files.get());
+  if (!model) throw std::runtime_error(std::string("MuJoCo: ") + error + "\n" + xml);
+  return model;
+}
+
+/// Where the plant's springs are at rest, by the joint's name: it stands as drawn under its own
+/// weight, by what its file says.
+std::map<std::string, double> rest_of(Setting s) {
+  std::map<std::string, double> rest;
+  if (!s.truss) return rest;
+  s.hidden.clear();
+  const Model model = compiled(model_text(s));
+  const Data data(mj_makeData(model.get()));
+  mj_forward(model.get(), data.get());
+  for (int j = 0; j < model->njnt; ++j)
+    if (model->jnt_stiffness[j] > 0.0)
+      rest[mj_id2name(model.get(), mjOBJ_JOINT, j)] =
+          data->qfrc_bias[model->jnt_dofadr[j]] / model->jnt_stiffness[j];
+  return rest;
+}
+
 class World {
  public:
-  World(const Setting& s, const Drive& drive) : s_(s), drive_(drive) {
-    const std::string xml = model_text(s);
-    auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    mj_makeEmptyFileVFS(files.get(), "case.xml", static_cast<int>(xml.size()));
-    std::copy(xml.begin(), xml.end(), static_cast<char*>(files->filedata[0]));
-    char error[1000] = "";
-    model_.reset(mj_loadXML("case.xml", files.get(), error, sizeof error));
-    mj_deleteVFS(files.get());
-    if (!model_) throw std::runtime_error(std::string("MuJoCo: ") + error + "\n" + xml);
-    data_.reset(mj_makeData(model_.get()));
-    for (const char* name : {"shoulder", "elbow", "lift"}) {
-      const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, name);
-      driven_.push_back(model_->jnt_dofadr[joint]);
-      const int give = mj_name2id(model_.get(), mjOBJ_JOINT, (std::string(name) + "_give").c_str());
-      giving_.push_back(give < 0 ? -1 : model_->jnt_dofadr[give]);
-    }
-    for (const char* name : {"hand", "finger", "payload"})
-      if (const int body = mj_name2id(model_.get(), mjOBJ_BODY, name); body >= 0)
-        beyond_.push_back(body);
-    first_of_arm_ = mj_name2id(model_.get(), mjOBJ_BODY, "upper");
-    hand_ = mj_name2id(model_.get(), mjOBJ_BODY, "hand");
-    for (std::size_t m = 0; m < markers_of(s).size(); ++m)
-      sites_.push_back(mj_name2id(model_.get(), mjOBJ_SITE, ("m" + std::to_string(m)).c_str()));
-    sites_.push_back(mj_name2id(model_.get(), mjOBJ_SITE, "nail"));
-    tied_ = mj_name2id(model_.get(), mjOBJ_SITE, "tied");
+  World(const Setting& s, const Drive& drive) : s_(s), drive_(drive), rest_(rest_of(s)) {
+    load(nullptr);
   }
 
   Run run() {
@@ -234,10 +332,15 @@ class World {
     const int steps = static_cast<int>(std::lround(drive_.duration / dt));
     for (int k = 0; k <= steps; ++k) {
       lead(k * dt);
+      if (k * dt >= drive_.grasp && !is_held_) take_hold();
       push();
       mj_forward(model_.get(), data_.get());
       note(out, k > 0);
       note_outside(out.outside);
+      if (is_held_ && !out.came_off && stalk_load() > strength()) {
+        out.came_off = time_;
+        come_off();
+      }
       mj_Euler(model_.get(), data_.get());
     }
     out.wrench.front() = out.wrench[1];
@@ -245,6 +348,96 @@ class World {
   }
 
  private:
+  void load(const Held* held) {
+    model_ = compiled(model_text(s_, held));
+    data_.reset(mj_makeData(model_.get()));
+    const auto id = [&](int kind, const std::string& name) {
+      return mj_name2id(model_.get(), kind, name.c_str());
+    };
+    driven_.clear(), giving_.clear(), beyond_.clear(), sites_.clear(), points_.clear();
+    for (const std::string name : {"shoulder", "elbow", "lift"}) {
+      driven_.push_back(model_->jnt_dofadr[id(mjOBJ_JOINT, name)]);
+      const int give = id(mjOBJ_JOINT, name + "_give");
+      giving_.push_back(give < 0 ? -1 : model_->jnt_dofadr[give]);
+    }
+    for (const std::string name : {"hand", "finger", "payload"})
+      if (const int body = id(mjOBJ_BODY, name); body >= 0) beyond_.push_back(body);
+    finger_ = id(mjOBJ_BODY, "finger");
+    fruit_ = id(mjOBJ_BODY, "fruit");
+    if (held) beyond_.push_back(fruit_);
+    first_of_arm_ = id(mjOBJ_BODY, "upper");
+    hand_ = id(mjOBJ_BODY, "hand");
+    for (std::size_t m = 0; m < markers_of(s_).size(); ++m)
+      sites_.push_back(id(mjOBJ_SITE, "m" + std::to_string(m)));
+    sites_.push_back(id(mjOBJ_SITE, "nail"));
+    for (std::size_t p = 0; p < points_of(s_).size(); ++p)
+      points_.push_back(id(mjOBJ_SITE, "p" + std::to_string(p)));
+    tied_ = id(mjOBJ_SITE, "tied");
+    for (int j = 0; j < model_->njnt; ++j)
+      if (const auto known = rest_.find(mj_id2name(model_.get(), mjOBJ_JOINT, j));
+          known != rest_.end() && model_->jnt_bodyid[j] < first_of_arm_)
+        model_->qpos_spring[model_->jnt_qposadr[j]] = known->second;
+  }
+
+  // The finger's and the fruit's frames stay to each other as they are now.
+  void take_hold() {
+    mj_kinematics(model_.get(), data_.get());
+    const Vec3 place = of(data_->xpos + 3 * fruit_);
+    const Eigen::Quaterniond finger = turn_of(data_->xquat + 4 * finger_),
+                             fruit = turn_of(data_->xquat + 4 * fruit_);
+    const Vec3 in_finger = finger.conjugate() * (place - of(data_->xpos + 3 * finger_));
+    const Eigen::Quaterniond turn = finger.conjugate() * fruit;
+    // The place in the fruit's frame, in the finger's, the turn, and how much moments weigh.
+    const mjtNum pose[mjNEQDATA] = {0.0,           0.0,           0.0,      in_finger.x(),
+                                    in_finger.y(), in_finger.z(), turn.w(), turn.x(),
+                                    turn.y(),      turn.z(),      1.0};
+    std::copy(pose, pose + mjNEQDATA, model_->eq_data);
+    model_->eq_active[0] = 1;
+    is_held_ = true;
+  }
+
+  double strength() const {
+    return s_.truss->strength * hidden_number(s_, "detachment_threshold", "factor", 1.0);
+  }
+
+  // N, N m about the fruit's frame, W: of the fruit on the finger that holds it.
+  std::pair<Vec3, Vec3> hold() const {
+    if (!is_held_ || is_off_ || data_->ne != 6) return {Vec3::Zero(), Vec3::Zero()};
+    return {of(data_->efc_force),
+            0.5 * (turn_of(data_->xquat + 4 * fruit_) * of(data_->efc_force + 3))};
+  }
+
+  // N, in the joint next to the fruit: what the fruit's motion leaves of weight, hold and touch.
+  double stalk_load() const {
+    const Vec3 weight = model_->body_mass[fruit_] * Vec3(0, 0, -9.81);
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    add_contacts({fruit_}, force, moment);
+    return (model_->body_mass[fruit_] * fruit_acceleration_ - weight - force + hold().first).norm();
+  }
+
+  // From now on the finger carries the fruit as its own.
+  void come_off() {
+    const Eigen::Quaterniond finger = turn_of(data_->xquat + 4 * finger_);
+    const Held held{
+        finger.conjugate() * (of(data_->xpos + 3 * fruit_) - of(data_->xpos + 3 * finger_)),
+        finger.conjugate() * turn_of(data_->xquat + 4 * fruit_)};
+    const Model model = std::move(model_);
+    const Data data = std::move(data_);
+    load(&held);
+    for (int j = 0; j < model_->njnt; ++j) {
+      const int old =
+          mj_name2id(model.get(), mjOBJ_JOINT, mj_id2name(model_.get(), mjOBJ_JOINT, j));
+      data_->qpos[model_->jnt_qposadr[j]] = data->qpos[model->jnt_qposadr[old]];
+      data_->qvel[model_->jnt_dofadr[j]] = data->qvel[model->jnt_dofadr[old]];
+    }
+    is_off_ = true;
+    lead(time_);
+    mj_forward(model_.get(), data_.get());
+    push();
+    mj_forward(model_.get(), data_.get());
+    momentum();
+  }
+
   // Where the links are told to be: readings and the encoders' zeros.
   Vec3 told(double t) const {
     Vec3 q = drive_.at(t);
@@ -324,8 +517,8 @@ class World {
     for (const int body : beyond_) {
       mjtNum v[6];
       mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, body, v, 0);
-      const Vec3 w = of(v), com = of(data_->xipos + 3 * body);
-      const Vec3 velocity = of(v + 3) + w.cross(com - of(data_->xpos + 3 * body));
+      // MuJoCo's velocity of a body is that of its centre of mass.
+      const Vec3 w = of(v), com = of(data_->xipos + 3 * body), velocity = of(v + 3);
       const Eigen::Matrix3d axes =
           Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->ximat + 9 * body);
       const Vec3 inertia = of(model_->body_inertia + 3 * body);
@@ -335,11 +528,29 @@ class World {
     }
   }
 
+  // What has come off has no place any more.
+  std::vector<Vec3> places(const std::vector<int>& sites) const {
+    std::vector<Vec3> out;
+    for (const int site : sites)
+      out.push_back(site < 0 ? Vec3::Constant(std::nan("")) : of(data_->site_xpos + 3 * site));
+    return out;
+  }
+
+  void note_fruit(bool moved) {
+    if (fruit_ < 0) return;
+    mjtNum v[6];
+    mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, fruit_, v, 0);
+    const Vec3 velocity = of(v + 3);
+    fruit_acceleration_ = moved ? Vec3((velocity - fruit_velocity_) / dt) : Vec3(0, 0, 0);
+    fruit_velocity_ = velocity;
+  }
+
   void note(Run& out, bool moved) {
     out.joints.push_back(drive_.at(time_));
-    std::vector<Vec3> markers;
-    for (const int site : sites_) markers.push_back(of(data_->site_xpos + 3 * site));
-    out.markers.push_back(std::move(markers));
+    out.markers.push_back(places(sites_));
+    out.points.push_back(places(points_));
+    out.pushed.push_back(pushed());
+    note_fruit(moved);
     const Vec3 before = linear_, turning = angular_;
     momentum();
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
@@ -349,13 +560,39 @@ class World {
       force += weight;
       moment += of(data_->xipos + 3 * body).cross(weight);
     }
-    add_contacts(force, moment);
+    add_contacts(beyond_, force, moment);
+    const auto [held, turned] = hold();
+    force += held;
+    moment += of(data_->xpos + 3 * std::max(0, fruit_)).cross(held) + turned;
     const Eigen::Matrix3d axes =
         Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * hand_);
     Eigen::Matrix<double, 6, 1> wrench;
     wrench << axes.transpose() * force,
         axes.transpose() * (moment - of(data_->xpos + 3 * hand_).cross(force));
     out.wrench.push_back(wrench);
+  }
+
+  // m, along the stem, of the middle of all pushes of the arm; NaN without any.
+  double pushed() const {
+    double sum = 0.0, all = 0.0;
+    for (int c = 0; c < data_->ncon; ++c) {
+      const mjContact& contact = data_->contact[c];
+      int body = model_->geom_bodyid[contact.geom1], other = model_->geom_bodyid[contact.geom2];
+      if (body > other) std::swap(body, other);
+      // The arm's bodies come after the plant's, whose names count the stem's pieces.
+      const std::string name = mj_id2name(model_.get(), mjOBJ_BODY, body);
+      if (other < first_of_arm_ || !name.starts_with("s")) continue;
+      const double length = s_.height / std::lround(s_.height / segment);
+      const int piece = std::stoi(name.substr(1));
+      const Eigen::Matrix3d axes =
+          Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * body);
+      const double along = axes.col(2).dot(of(contact.pos) - of(data_->xpos + 3 * body));
+      mjtNum local[6];
+      mj_contactForce(model_.get(), data_.get(), c, local);
+      sum += local[0] * (along + std::max(0.0, (piece - 0.5) * length));
+      all += local[0];
+    }
+    return all > 0.0 ? sum / all : std::nan("");
   }
 
   // When something from outside first acts on the stem with more than a trifle.
@@ -378,22 +615,23 @@ class World {
     }
   }
 
-  void add_contacts(Vec3& force, Vec3& moment) const {
+  // Of all else on some bodies; moments about the world's origin.
+  void add_contacts(const std::vector<int>& bodies, Vec3& force, Vec3& moment) const {
     for (int c = 0; c < data_->ncon; ++c) {
       const mjContact& contact = data_->contact[c];
       const int first = model_->geom_bodyid[contact.geom1],
                 second = model_->geom_bodyid[contact.geom2];
-      const auto is_beyond = [&](int body) {
-        return std::find(beyond_.begin(), beyond_.end(), body) != beyond_.end();
+      const auto is_one = [&](int body) {
+        return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
       };
-      if (is_beyond(first) == is_beyond(second)) continue;
+      if (is_one(first) == is_one(second)) continue;
       mjtNum local[6];
       mj_contactForce(model_.get(), data_.get(), c, local);
       const Eigen::Matrix3d frame =
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(contact.frame);
       // The normal points from the first to the second; the force acts on the second.
       Vec3 f = frame.transpose() * of(local);
-      if (is_beyond(first)) f = -f;
+      if (is_one(first)) f = -f;
       force += f;
       moment += of(contact.pos).cross(f);
     }
@@ -404,9 +642,12 @@ class World {
   Model model_;
   Data data_;
   double time_ = 0.0;
-  std::vector<int> driven_, giving_, beyond_, sites_;
-  int hand_ = 0, first_of_arm_ = 0, tied_ = -1;
+  std::map<std::string, double> rest_;  // rad or m, by joint
+  std::vector<int> driven_, giving_, beyond_, sites_, points_;
+  int hand_ = 0, finger_ = 0, fruit_ = -1, first_of_arm_ = 0, tied_ = -1;
+  bool is_held_ = false, is_off_ = false;
   Vec3 linear_ = Vec3::Zero(), angular_ = Vec3::Zero();
+  Vec3 fruit_velocity_ = Vec3::Zero(), fruit_acceleration_ = Vec3::Zero();
 };
 
 }  // namespace

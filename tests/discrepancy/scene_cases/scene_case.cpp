@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "discrepancy/scene_cases/harvest_case.h"
 
 namespace pedicel::scene_case {
 
-namespace {
-
-// rad, of the two turning joints, that put the finger's line through a point at its middle: the
-// fore arm and the finger lie along one line.
-Vec3 reaching(const Vec3& place, double height) {
-  const double far = place.head<2>().norm(), out = fore_length + 0.6 * finger_length;
+Vec3 reaching(const Vec3& place, double height, double along) {
+  const double far = place.head<2>().norm(), out = fore_length + along * finger_length;
   const double c =
       std::clamp((far * far - upper_length * upper_length - out * out) / (2.0 * upper_length * out),
                  -1.0, 1.0);
@@ -20,8 +20,6 @@ Vec3 reaching(const Vec3& place, double height) {
                           std::atan2(out * std::sin(elbow), upper_length + out * std::cos(elbow));
   return {shoulder, elbow, height - shoulder_height};
 }
-
-}  // namespace
 
 void draw(Setting& s) {
   std::mt19937_64 random(s.seed * 7919 + 17);
@@ -49,6 +47,21 @@ double hidden_number(const Setting& setting, const std::string& name, const std:
   return otherwise;
 }
 
+Hidden hidden_of(const std::string& text) {
+  Hidden one;
+  std::istringstream words(text);
+  words >> one.name;
+  for (std::string word; words >> word;) {
+    const std::size_t cut = word.find('=');
+    if (cut == std::string::npos) throw std::invalid_argument("--hide: expected KEY=VALUE");
+    std::vector<double> values;
+    std::istringstream list(word.substr(cut + 1));
+    for (std::string value; std::getline(list, value, ',');) values.push_back(std::stod(value));
+    one.numbers.emplace_back(word.substr(0, cut), values);
+  }
+  return one;
+}
+
 Vec3 Drive::at(double t) const {
   if (t <= time.front()) return joints.front();
   for (std::size_t i = 1; i < time.size(); ++i) {
@@ -60,7 +73,19 @@ Vec3 Drive::at(double t) const {
   return joints.back();
 }
 
+std::size_t Run::step(double t) const {
+  return std::min(joints.size() - 1, static_cast<std::size_t>(std::max(0.0, std::round(t / dt))));
+}
+
+Eigen::Matrix<double, 6, 1> Run::mean_wrench(double t, double rate) const {
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+  const std::size_t first = step(t - 0.5 / rate), last = step(t + 0.5 / rate);
+  for (std::size_t k = first; k <= last; ++k) sum += wrench[k];
+  return sum / static_cast<double>(last - first + 1);
+}
+
 std::vector<Drive> drives_of(const Setting& s) {
+  if (s.truss) return harvest_drives(s);
   const auto beside = [&](double y, double z) { return reaching(s.root + Vec3(0.0, y, 0.0), z); };
   // m, of the finger's axis from the stem's: first it stands clear.
   const double clear = -(s.radius + finger_radius + 0.012);
@@ -89,8 +114,18 @@ std::vector<Drive> drives_of(const Setting& s) {
   return all;
 }
 
-std::vector<std::pair<std::string, double>> markers_of(const Setting&) {
-  return {{"stem", 0.3}, {"stem", 0.55}, {"stem", 0.8}, {"stem", 1.0}};
+std::vector<Place> markers_of(const Setting& s) {
+  std::vector<Place> all = {{"stem", 0.3}, {"stem", 0.55}, {"stem", 0.8}, {"stem", 1.0}};
+  if (s.truss) all.emplace_back("truss", 0.5);
+  return all;
+}
+
+std::vector<Place> points_of(const Setting& s) {
+  std::vector<Place> all;
+  if (!s.truss) return all;
+  for (int i = 1; i <= 10; ++i) all.emplace_back("stem", 0.1 * i);
+  for (int i = 1; i <= 4; ++i) all.emplace_back("truss", 0.2 * i);
+  return all;
 }
 
 }  // namespace pedicel::scene_case

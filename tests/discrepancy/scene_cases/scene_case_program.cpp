@@ -1,30 +1,10 @@
 // scene_case --out FOLDER [--seed N] [--trials N] [--hide "NAME KEY=V[,V,V] ..."]... [--bench N]
+//            [--harvest]
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <sstream>
 
 #include "discrepancy/scene_cases/drawn_case.h"
-
-namespace {
-
-using pedicel::scene_case::Hidden;
-
-Hidden hidden_of(const std::string& text) {
-  Hidden one;
-  std::istringstream words(text);
-  words >> one.name;
-  for (std::string word; words >> word;) {
-    const std::size_t cut = word.find('=');
-    if (cut == std::string::npos) throw std::invalid_argument("--hide: expected KEY=VALUE");
-    std::vector<double> values;
-    std::istringstream list(word.substr(cut + 1));
-    for (std::string value; std::getline(list, value, ',');) values.push_back(std::stod(value));
-    one.numbers.emplace_back(word.substr(0, cut), values);
-  }
-  return one;
-}
-
-}  // namespace
+#include "discrepancy/scene_cases/harvest_case.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Writes a measured run of an arm at a stem, made by MuJoCo, with something hidden");
@@ -32,14 +12,17 @@ int main(int argc, char** argv) {
   pedicel::scene_case::Setting setting;
   std::vector<std::string> hide;
   int bench = -1;
+  bool harvest = false;
   app.add_option("--out", out, "folder to write")->required();
   app.add_option("--seed", setting.seed, "of sizes and noise");
   app.add_option("--trials", setting.trials, "how many")->check(CLI::Range(1, 4));
+  auto* harvests = app.add_flag("--harvest", harvest, "the finger takes a fruit and pulls it off");
   auto* hidden = app.add_option("--hide", hide, "\"NAME KEY=V[,V,V]\": an effect, post or string")
                      ->allow_extra_args(false);
   app.add_option("--bench", bench, "the case of this number of `scene_bench --seed N`")
       ->check(CLI::Range(0, 99))
-      ->excludes(hidden);
+      ->excludes(hidden)
+      ->excludes(harvests);
   CLI11_PARSE(app, argc, argv);
   try {
     if (bench >= 0) {
@@ -48,8 +31,10 @@ int main(int argc, char** argv) {
       setting.trials = trials;
     } else {
       pedicel::scene_case::draw(setting);
+      if (harvest) pedicel::scene_case::make_harvest(setting);
     }
-    for (const std::string& text : hide) setting.hidden.push_back(hidden_of(text));
+    for (const std::string& text : hide)
+      setting.hidden.push_back(pedicel::scene_case::hidden_of(text));
     pedicel::scene_case::write_case(out, setting);
   } catch (const std::exception& fault) {
     std::fprintf(stderr, "%s\n", fault.what());
