@@ -55,7 +55,9 @@ TEST(NearestToTriangle, OfAnAxisThatLiesFlatIsInTheMiddle) {
   EXPECT_NEAR(3.0 * point.shares[2], 0.25, 1e-3);
 }
 
-Section stiff_section() { return circle_section(0.002, {2.0e9, 0.3, 1000.0, 0.0}); }
+Section stiff_section() {
+  return circle_section(0.002, {2.0e9, 0.3, 1000.0, 0.0});
+}
 
 void finish_with(RodModel& model, const std::string& name) {
   for (Element& element : model.elements) {
@@ -91,8 +93,8 @@ struct LeafUnderATip : RodSystem {
     finish_with(stem, "stem");
     add_plant(std::move(stem));
     if (with_blade)
-      add_contact_source(0, std::make_unique<PlantBlades>(
-                                std::vector<BladeTriangle>{level_triangle}, half_blade));
+      add_contact_source(
+          0, std::make_unique<PlantBlades>(std::vector<BladeTriangle>{level_triangle}, half_blade));
     let_plants_touch({1.0e5, 1.0e4, 0.5, 2.0e-4});
     loads(1).push_back({7, 0.0, Vec3(0, 0, -0.4), Vec3::Zero()});
   }
@@ -188,8 +190,7 @@ TEST(BladeContact, LeavesOutWhatOverlapsAsDrawn) {
   finish_with(stem, "stem");
   system.add_plant(std::move(stem));
   system.add_contact_source(
-      0, std::make_unique<PlantBlades>(std::vector<BladeTriangle>{level_triangle},
-                                       half_blade));
+      0, std::make_unique<PlantBlades>(std::vector<BladeTriangle>{level_triangle}, half_blade));
   system.let_plants_touch({1.0e5, 1.0e4, 0.5, 2.0e-4});
   for (int i = 0; i < 60; ++i) {
     system.step(blade_dt, no_gravity);
