@@ -120,8 +120,10 @@ TEST(RodWire, AStretchedWireHasItsFrequency) {
       system.step(dt, no_gravity);
       signal.add(system.state(0).time, system.state(0).position[19].z());
     }
-    const double e = std::sqrt(section.bend1 / tension) / length;
-    const double exact = 0.5 / length * std::sqrt(tension / section.mass) *
+    // The post holds the last element from turning: the wire is clamped at that one's middle.
+    const double between = length * (1.0 - 0.5 / 40.0);
+    const double e = std::sqrt(section.bend1 / tension) / between;
+    const double exact = 0.5 / between * std::sqrt(tension / section.mass) *
                          (1.0 + 2.0 * e + (4.0 + 0.5 * pi * pi) * e * e);
     RecordProperty("wire_frequency_off_" + std::to_string(static_cast<int>(pull)),
                    std::to_string(signal.frequency() / exact - 1.0));
