@@ -166,27 +166,22 @@ std::array<SceneDataSet::Sum, scene_channels> SceneDataSet::sums(
 }
 
 void SceneDataSet::widen(int trial, const SceneReadings& reference,
-                         std::span<const SceneReadings> others,
-                         std::span<const SceneReadings> apart) {
+                         std::span<const SceneReadings> others) {
   const long rows = size(trial);
   Eigen::VectorXd own(rows), square = Eigen::VectorXd::Zero(rows), other(rows);
   weight_.resize(experiment_->trials.size());
   weight_[static_cast<std::size_t>(trial)].resize(0);
   const double always = std::numeric_limits<double>::infinity();
   residual(trial, reference, always, own);
-  const auto add = [&](std::span<const SceneReadings> readings) {
-    int count = 0;
-    for (const SceneReadings& one : readings) {
-      if (!one.healthy) continue;
-      residual(trial, one, always, other);
-      square += (other - own).cwiseAbs2();
-      ++count;
-    }
-    return count;
-  };
-  const int count = add(others);
-  if (count > 0) square /= count;
-  if (count + add(apart) == 0) return;
+  int count = 0;
+  for (const SceneReadings& one : others) {
+    if (!one.healthy) continue;
+    residual(trial, one, always, other);
+    square += (other - own).cwiseAbs2();
+    ++count;
+  }
+  if (count == 0) return;
+  square /= count;
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(rows);
   long first = 0;
   for_each_channel(experiment_->trials[static_cast<std::size_t>(trial)], nullptr,

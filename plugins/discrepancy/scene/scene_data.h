@@ -24,11 +24,8 @@ class SceneDataSet {
   explicit SceneDataSet(const SceneExperiment& experiment);
 
   /// Counts samples less where predictions are unsure of themselves: `others` are predictions as
-  /// good as `reference`, and how far they are from it on average adds to the noise of the samples
-  /// around. How far each of `apart` is from it adds in full: each is unsure for a reason of its
-  /// own.
-  void widen(int trial, const SceneReadings& reference, std::span<const SceneReadings> others,
-             std::span<const SceneReadings> apart = {});
+  /// good as `reference`, and how far they are from it adds to the noise of the samples around.
+  void widen(int trial, const SceneReadings& reference, std::span<const SceneReadings> others);
 
   double deviation(SceneChannel kind) const { return deviation_[static_cast<std::size_t>(kind)]; }
   /// Entries of residual() of a trial; those without a measurement are 0.

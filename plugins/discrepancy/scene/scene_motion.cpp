@@ -348,7 +348,6 @@ class SceneRun {
       cosserat::RodModel model = makers_[p]->make(masses_of(p), own).model;
       const SceneState::Plant& state = member_.state->plants[p];
       change_plant(model, state);
-      stiffen_along(model, member_.along);
       move_supports(model, state);
       models_.push_back(std::move(model));
     }

@@ -57,7 +57,6 @@ struct SceneMember {
   bool is_run = false;  ///< the path is that of the links themselves (commands), not of readings
   std::vector<plant::Effect> effects;  ///< of the plants' models
   std::span<const SceneForce> forces;
-  double along = 1.0;  ///< 1, factor on how stiff plants are along themselves (E A)
 };
 
 /// Simulates variants of one trial side by side: one-way coupling, the arm as `path` says.

@@ -38,10 +38,10 @@ Makers makers_of(const SceneExperiment& experiment, const SceneTrial& trial,
 
 // What the motion depends on: requests with the same share one simulation. `moves`: what acts on
 // the arm moves it, too, because it follows commands.
-std::string key_of(int trial, const SceneVariant& variant, bool moves, double until,
+std::string key_of(int trial, int draw, bool moves, double until,
                    const std::vector<plant::Effect>& effects) {
-  std::string key = std::to_string(trial) + "/" + std::to_string(variant.draw) + "*" +
-                    std::to_string(variant.along) + "@" + std::to_string(until);
+  std::string key =
+      std::to_string(trial) + "/" + std::to_string(draw) + "@" + std::to_string(until);
   for (const plant::Effect& effect : effects)
     if (moves || !is_only_seen(effect)) key += plant::effect_text(effect);
   return key;
@@ -125,11 +125,10 @@ struct SceneSimulator::Impl {
     if (request.variant->plants_away)
       for (SceneState::Plant& plant : out.state.plants) plant.offset += Vec3(0.0, 0.0, -far_below);
     out.arm = std::make_unique<Arm>(experiment, out.state);
-    out.key = key_of(request.trial, *request.variant, trial.follows_commands,
+    out.key = key_of(request.trial, request.variant->draw, trial.follows_commands,
                      std::min(request.until, trial.duration()), all) +
               key_of(request.variant->forces) + (request.variant->plants_away ? "|away" : "");
     out.member.forces = request.variant->forces;
-    out.member.along = request.variant->along;
     out.path = &path(request.trial, request.variant->draw);
     return out;
   }

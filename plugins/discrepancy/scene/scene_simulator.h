@@ -17,7 +17,6 @@ struct SceneVariant {
   /// Not 0: the arm goes as readings with other noise of the same size would say, one such draw a
   /// number.
   int draw = 0;
-  double along = 1.0;  ///< 1, factor on how stiff plants are along themselves (E A)
   std::vector<SceneForce> forces{};
   bool plants_away = false;  ///< plants stand far below, where nothing touches them
 };

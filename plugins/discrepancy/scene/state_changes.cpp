@@ -80,14 +80,6 @@ void change_plant(cosserat::RodModel& model, const SceneState::Plant& state) {
   for (const cosserat::Fruit& fruit : model.fruits) cosserat::lump_inertia(model, fruit.element);
 }
 
-void stiffen_along(cosserat::RodModel& model, double factor) {
-  if (factor == 1.0) return;
-  for (cosserat::Element& element : model.elements) {
-    element.stretch_stiffness.z() *= factor;
-    element.rest_strain.z() /= factor;
-  }
-}
-
 Pose moved_plant(const Vec3& root_W, const SceneState::Plant& state) {
   const Quat turn(Eigen::AngleAxisd(state.yaw, Vec3::UnitZ()));
   return {root_W + state.offset - turn * root_W, turn};

@@ -19,10 +19,6 @@ robot::RobotDescription with_joint_offsets(robot::RobotDescription robot, const 
 /// Masses of fruits and thresholds of stalks of a built plant. Its rest shape stays.
 void change_plant(cosserat::RodModel& model, const SceneState::Plant& state);
 
-/// A built plant that is `factor` times as stiff along itself (E A), in the same rest shape under
-/// its weight.
-void stiffen_along(cosserat::RodModel& model, double factor);
-
 /// Where the plant stands in place of where it was built: turned about the vertical through its
 /// root, `root_W`, and moved.
 Pose moved_plant(const Vec3& root_W, const SceneState::Plant& state);

@@ -3,9 +3,8 @@
 namespace pedicel::discrepancy {
 
 namespace {
-// With the model itself and its stiff twin they fill the solver's eight lanes.
-constexpr int draws = 6;
-}  // namespace
+constexpr int draws = 7;  // with the model itself they fill the solver's eight lanes
+}
 
 std::vector<SceneReadings> predictions_of(SceneSimulator& simulator, const SceneVariant& model) {
   std::vector<SceneSimulator::Request> requests;
@@ -17,9 +16,8 @@ std::vector<SceneReadings> predictions_of(SceneSimulator& simulator, const Scene
 void widen_noise(SceneSimulator& simulator, SceneDataSet& data, const SceneVariant& model,
                  std::span<const SceneReadings> finer) {
   const int trials = static_cast<int>(simulator.experiment().trials.size());
-  std::vector<SceneVariant> variants(draws + 2, model);
+  std::vector<SceneVariant> variants(draws + 1, model);
   for (int d = 0; d <= draws; ++d) variants[static_cast<std::size_t>(d)].draw = d;
-  variants.back().along = stiff_along;
   std::vector<SceneSimulator::Request> requests;
   for (int t = 0; t < trials; ++t)
     for (const SceneVariant& variant : variants) requests.push_back({&variant, t});
@@ -33,8 +31,7 @@ void widen_noise(SceneSimulator& simulator, SceneDataSet& data, const SceneVaria
       for (int d = 0; d < draws; ++d) others.push_back(finer[static_cast<std::size_t>(t)]);
       for (int d = 0; d < draws; ++d) others.push_back(readings[first]);
     }
-    const SceneReadings& twin = readings[first + draws + 1];
-    if (readings[first].healthy) data.widen(t, readings[first], others, {&twin, 1});
+    if (readings[first].healthy) data.widen(t, readings[first], others);
   }
 }
 

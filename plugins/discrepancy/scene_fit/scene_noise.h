@@ -7,15 +7,9 @@
 
 namespace pedicel::discrepancy {
 
-/// Of the stiffness along plants, in a twin of a model that hardly gives along itself: other
-/// engines' plants do not at all. What two honest solvers differ by where a contact sticks is most
-/// of all this.
-inline constexpr double stiff_along = 100.0;
-
 /// Adds to the data's noise what predictions of a model do not know of themselves: how far they are
-/// from each other with other noise of the encoders, and from those of plants that hardly give
-/// along themselves. `finer`: predictions of the same model with a finer mesh, one a trial; empty:
-/// none.
+/// from each other with other noise of the encoders. `finer`: predictions of the same model with a
+/// finer mesh, one a trial; empty: none.
 void widen_noise(SceneSimulator& simulator, SceneDataSet& data, const SceneVariant& model,
                  std::span<const SceneReadings> finer = {});
 
