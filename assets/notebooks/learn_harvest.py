@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Learn to take a fruit off and to lay it down
 #
-# A policy looks at what the one by hand does, and then becomes better than it by the cross-entropy method,
-# in numpy, as in `learn_reveal.py`. `python3 learn_harvest.py SECONDS` learns for that long (default: 600).
+# A policy looks at what the one by hand does, and then becomes better than it by an evolution
+# strategy, in numpy. `python3 learn_harvest.py SECONDS` learns for that long (default: 600).
 
 # %%
 import sys
@@ -83,22 +83,27 @@ def shown(seeds):
 begin, generation = time.perf_counter(), 0
 seen, done = shown(range(500, 504))
 square = seen.T @ seen + 0.1 * np.eye(2 * inputs)
-mean = np.linalg.solve(square, seen.T @ done).T.ravel()
-size = len(mean)
-spread = 0.06 * np.ones(size)
+kept = np.linalg.solve(square, seen.T @ done).T.ravel()
+size, spread, proposed = len(kept), 0.01, None
 
 # %% [markdown]
-# Then many that are like it are tried at once, and the next ones are drawn around the best.
+# Then many that are like it are tried at once. The mean of those that did better is proposed, and takes the
+# place of the one that is kept where it does better than it on the next seed, too.
 
 # %%
 while time.perf_counter() - begin < seconds:
-    tried = mean + spread * drawn.normal(size=(worlds, size))
+    tried = kept + spread * drawn.normal(size=(worlds, size))
+    tried[0] = kept
+    if proposed is not None:
+        tried[1] = proposed
     score = returns(tried, 1000 + generation)
-    elite = tried[np.argsort(score)[-best:]]
-    mean, spread = 0.3 * mean + 0.7 * elite.mean(axis=0), 0.3 * spread + 0.7 * elite.std(axis=0) + 0.005
+    if proposed is not None and score[1] > score[0]:
+        kept = proposed
+    order = np.argsort(score)[-best:]
+    proposed = tried[order[score[order] >= score[0]]].mean(axis=0)
     generation += 1
-    print(f"{time.perf_counter() - begin:6.0f} s, generation {generation}: mean {score.mean():6.2f}, "
-          f"best {score.max():6.2f}", flush=True)
+    print(f"{time.perf_counter() - begin:6.0f} s, generation {generation}: kept {score[0]:6.2f}, "
+          f"mean {score.mean():6.2f}, best {score.max():6.2f}", flush=True)
 
 # %% [markdown]
 # On seeds that it has not learned on, beside the policy written by hand and a random one.
@@ -120,7 +125,7 @@ def single(policy, seeds):
 
 
 seeds = range(1, 6) if seconds >= 60 else range(1, 2)
-results = {"learned": single(lambda env, o: actions(mean[None], o[None])[0], seeds),
+results = {"learned": single(lambda env, o: actions(kept[None], o[None])[0], seeds),
            "by hand": single(lambda env, o: scripted.harvest(env.task), seeds),
            "random": single(lambda env, o: env.action_space.sample(), seeds)}
 for name, (total, laid) in results.items():
