@@ -51,6 +51,12 @@ def main(program, scene):
             assert data["tf/truss/fruit_1"].attrs["parent"] == "world"
             assert data["tf/truss/fruit_1/position"].shape == (len(table), 3)
             assert data["wrist/wrench/force"].shape[1] == 3 and abs(data["wrist/wrench/force"][-1]).max() > 0.1
+            assert [str(one) for one in data["joint_commands"].attrs["names"]] == names
+            assert data["joint_commands/position"].shape == data["joint_states/effort"].shape == (len(table), len(names))
+            turns = data["tf/truss/fruit_1/orientation"]
+            assert turns.shape == (len(table), 4) and abs((turns[-1] ** 2).sum() - 1) < 1e-9
+            held = data["organ_forces/truss/fruit_5"]
+            assert held["values"].shape[1] == len(held.attrs["names"]) in (5, 6), list(held.attrs["names"])
             assert data["robot_description/text"][0].decode().lstrip().startswith("<")
             if "top_view" in data:
                 image, depth = data["top_view/image/data"], data["top_view/depth_image/data"]

@@ -1,148 +1,13 @@
-// A client of the services and actions of `pedicel SCENE --ros`, as ROS 2's middleware for Fast DDS
-// calls them: topics rq/... and rr/..., and a request names the reader that waits for its reply.
-// Bytes are made and read by Fast CDR. Usage: fast_client DOMAIN; ends with 0 where all is as it
-// should be.
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-
-#include <chrono>
+// A client of the services and actions of `pedicel SCENE --ros`, in a process of its own.
+// Usage: fast_client DOMAIN; ends with 0 where all is as it should be.
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
-#include <functional>
-#include <string>
-#include <thread>
-#include <vector>
 
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-using eprosima::fastcdr::Cdr;
-using eprosima::fastcdr::FastBuffer;
+#include "fast_dds.h"
+
+using namespace ros2_client;
 
 namespace {
-
-class Raw : public fdds::TopicDataType {
- public:
-  explicit Raw(const std::string& name) {
-    setName(name.c_str());
-    m_typeSize = 65536;
-  }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    const auto& bytes = *static_cast<std::string*>(data);
-    std::memcpy(payload->data, bytes.data(), bytes.size());
-    payload->length = static_cast<std::uint32_t>(bytes.size());
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    static_cast<std::string*>(data)->assign(reinterpret_cast<char*>(payload->data),
-                                            payload->length);
-    return true;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<std::uint32_t>(static_cast<std::string*>(data)->size()); };
-  }
-  void* createData() override { return new std::string; }
-  void deleteData(void* data) override { delete static_cast<std::string*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
-};
-
-std::string bytes_of(const std::function<void(Cdr&)>& fill) {
-  FastBuffer buffer;
-  Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
-  cdr.serialize_encapsulation();
-  fill(cdr);
-  return {cdr.getBufferPointer(), cdr.getSerializedDataLength()};
-}
-
-void read(std::string& bytes, const std::function<void(Cdr&)>& take) {
-  FastBuffer buffer(bytes.data(), bytes.size());
-  Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
-  cdr.read_encapsulation();
-  take(cdr);
-}
-
-int failures = 0;
-void expect(bool holds, const std::string& what) {
-  std::printf("%s: %s\n", holds ? "ok" : "FAILED", what.c_str());
-  failures += !holds;
-}
-
-class Client {
- public:
-  explicit Client(int domain) {
-    participant_ = fdds::DomainParticipantFactory::get_instance()->create_participant(
-        static_cast<std::uint32_t>(domain), fdds::PARTICIPANT_QOS_DEFAULT);
-    publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
-    subscriber_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT);
-  }
-
-  fdds::DataReader* reader(const std::string& topic, const std::string& type) {
-    fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
-    qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
-    qos.history().depth = 100;
-    return subscriber_->create_datareader(topic_of(topic, type), qos);
-  }
-
-  /// Empty where no reply comes in time.
-  std::string call(const std::string& service, const std::string& type, std::string request,
-                   double patience = 5.0) {
-    fdds::DataReader* replies = reader("rr" + service + "Reply", type + "_Response_");
-    fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
-    qos.reliability().kind = fdds::RELIABLE_RELIABILITY_QOS;
-    fdds::DataWriter* requests = publisher_->create_datawriter(
-        topic_of("rq" + service + "Request", type + "_Request_"), qos);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
-    const auto wait = [&](const std::function<bool()>& over) {
-      while (!over() && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    };
-    wait([&] {
-      fdds::PublicationMatchedStatus there;
-      fdds::SubscriptionMatchedStatus here;
-      requests->get_publication_matched_status(there);
-      replies->get_subscription_matched_status(here);
-      return there.current_count > 0 && here.current_count > 0;
-    });
-    rtps::WriteParams params;
-    params.related_sample_identity().writer_guid() = replies->guid();
-    requests->write(&request, params);
-    const auto number = params.sample_identity().sequence_number();
-    std::string reply;
-    wait([&] {
-      std::string bytes;
-      fdds::SampleInfo info;
-      while (replies->take_next_sample(&bytes, &info) ==
-             eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
-        if (info.valid_data && info.related_sample_identity.writer_guid() == replies->guid() &&
-            info.related_sample_identity.sequence_number() == number)
-          reply = bytes;
-      return !reply.empty();
-    });
-    publisher_->delete_datawriter(requests);
-    subscriber_->delete_datareader(replies);
-    return reply;
-  }
-
- private:
-  fdds::Topic* topic_of(const std::string& name, const std::string& type) {
-    if (auto* known = dynamic_cast<fdds::Topic*>(participant_->lookup_topicdescription(name)))
-      return known;
-    participant_->register_type(fdds::TypeSupport(new Raw(type)));
-    return participant_->create_topic(name, type, fdds::TOPIC_QOS_DEFAULT);
-  }
-  fdds::DomainParticipant* participant_;
-  fdds::Publisher* publisher_;
-  fdds::Subscriber* subscriber_;
-};
 
 const std::string services = "simulation_interfaces::srv::dds_::";
 const std::string actions = "control_msgs::action::dds_::";
@@ -152,14 +17,6 @@ std::string nothing() {
 }
 std::string one_byte(std::uint8_t value) {
   return bytes_of([&](Cdr& cdr) { cdr << value; });
-}
-/// Of a response that begins with a Result; 255 where none came.
-int result_of(std::string reply) {
-  if (reply.empty()) return 255;
-  std::uint8_t result = 255;
-  std::string text;
-  read(reply, [&](Cdr& cdr) { cdr >> result >> text; });
-  return result;
 }
 int state_of(std::string reply) {
   std::uint8_t state = 255;
@@ -189,7 +46,18 @@ void check_services(Client& client) {
   expect(step(1) == 3, "no step while it plays");
   expect(set(2) == 1 && state() == 2, "it is paused");
   expect(set(2) == 101, "it is paused already");
-  expect(step(20) == 1, "twenty steps");
+  const auto time = [&] {
+    std::string said = client.call("/get_entity_state", services + "GetEntityState",
+                                   bytes_of([](Cdr& cdr) { cdr << std::string("arm"); }));
+    std::uint8_t result = 0;
+    std::string text;
+    std::int32_t sec = -1;
+    std::uint32_t nanosec = 0;
+    if (!said.empty()) read(said, [&](Cdr& cdr) { cdr >> result >> text >> sec >> nanosec; });
+    return sec + 1e-9 * nanosec;
+  };
+  const double before = time();
+  expect(step(20) == 1 && std::abs(time() - before - 20.0 / 240.0) < 1e-8, "twenty steps");
   expect(set(77) == 0, "no such state");
   expect(
       result_of(client.call("/reset_simulation", services + "ResetSimulation", one_byte(0))) == 1,
