@@ -130,8 +130,8 @@ class GltfFilm : public RunWatcher {
   void add_strings() {
     for (const SceneTies::One& tie : simulation_.ties().all()) {
       constexpr int places = string_parts + 1;
-      skins_.push_back({tie.name, tracks_.size(), places,
-                        gltf_.mesh(tie.name, {string_surface(places)})});
+      skins_.push_back(
+          {tie.name, tracks_.size(), places, gltf_.mesh(tie.name, {string_surface(places)})});
       for (std::size_t i = 0; i < places; ++i)
         tracks_.push_back({tie.name,
                            -1,

@@ -12,7 +12,8 @@ std::vector<GltfSurface> surfaces_of(const render::DrawList& shape);
 /// A plant's stems and leaves as surfaces that hang on its elements.
 std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model, const PlantInfo& plant);
 
-/// A tube about a string's places, a ring at each of so many joints, along whose third axis it runs.
+/// A tube about a string's places, a ring at each of so many joints, along whose third axis it
+/// runs.
 GltfSurface string_surface(int places);
 
 }  // namespace pedicel::app

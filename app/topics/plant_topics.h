@@ -6,8 +6,8 @@
 
 namespace pedicel::app {
 
-/// /plant: stems, leaves, fruits and strings as RViz draws them; /bodies: rigid bodies and fruits that came
-/// off.
+/// /plant: stems, leaves, fruits and strings as RViz draws them; /bodies: rigid bodies and fruits
+/// that came off.
 class MarkerTopics : public TopicSource {
  public:
   MarkerTopics(const Simulation& simulation, TopicSink& sink);

@@ -110,11 +110,11 @@ TEST(HiddenCases, DistinguishabilityLeavesWhatNoOtherCauseMakes) {
   };
   Eigen::VectorXd truth(6);
   truth << 7, 3, 2, 5, 4, 1;
-  const Distinguishability with({unit(0)}, {2.0 * unit(3)}, causes, change);
+  const Distinguishability with(Eigen::MatrixXd(unit(0)), {2.0 * unit(3)}, causes, change);
   const Distinguishability::Nearest nearest = with.nearest(truth);
   EXPECT_EQ(nearest.cause, "has_a_place");
   EXPECT_NEAR(nearest.distance, std::sqrt(3 * 3 + 2 * 2 + 3 * 3 + 1), 1e-9);
-  const Distinguishability alone({unit(0)}, {2.0 * unit(3)}, {}, change);
+  const Distinguishability alone(Eigen::MatrixXd(unit(0)), {2.0 * unit(3)}, {}, change);
   EXPECT_EQ(alone.nearest(truth).cause, "");
   EXPECT_NEAR(alone.nearest(truth).distance, std::sqrt(3 * 3 + 2 * 2 + 3 * 3 + 4 * 4 + 1), 1e-9);
   // Nothing is taken the other way round.

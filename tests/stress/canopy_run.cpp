@@ -120,7 +120,9 @@ class Canopy {
       for (int i = random_.integer(0, 12); i > 0; --i) {
         const int e = any_element(p), parent = model.elements[e].parent;
         const int before = parent < 0 ? -1 : model.elements[parent].parent;
-        if (before >= 0) triangles.push_back({BladePlace{e, 0.0}, BladePlace{parent, 0.0}, BladePlace{before, 0.0}});
+        if (before >= 0)
+          triangles.push_back(
+              {BladePlace{e, 0.0}, BladePlace{parent, 0.0}, BladePlace{before, 0.0}});
       }
       all += triangles.size();
       if (!triangles.empty())

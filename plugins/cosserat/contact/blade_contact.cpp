@@ -42,8 +42,7 @@ Axis axis_of(const RodState& state, const CollisionShape& shape) {
 // m: how far a material point of an element moved that is at `arm_W` from its child node now.
 Vec3 motion_of(const RodState& start, const RodState& now, int element, const Vec3& arm_W) {
   const Vec3 arm = now.orientation[element].conjugate() * arm_W;
-  return now.position[element] + arm_W - start.position[element] -
-         start.orientation[element] * arm;
+  return now.position[element] + arm_W - start.position[element] - start.orientation[element] * arm;
 }
 
 // The quadratic program of nearest_to_triangle() in (s, u, v), the fraction along the axis and the
@@ -72,8 +71,8 @@ class Program {
     // Inside of both there is no lesser value.
     if (try_face<3>(Vec3::Zero(), {s, u, v})) return best();
     for (const double end : {0.0, 1.0}) try_face<2>(end * s, {u, v});
-    for (const auto& [from, to] : {std::pair(u, v), std::pair(v, Vec3(Vec3::Zero())),
-                                   std::pair(Vec3(Vec3::Zero()), u)}) {
+    for (const auto& [from, to] :
+         {std::pair(u, v), std::pair(v, Vec3(Vec3::Zero())), std::pair(Vec3(Vec3::Zero()), u)}) {
       try_face<2>(from, {s, to - from});
       try_face<1>(from, {s});
       for (const double end : {0.0, 1.0}) {
@@ -108,8 +107,7 @@ class Program {
     return true;
   }
   NearestToTriangle best() const {
-    Vec3 shares(std::max(0.0, at_[1]), std::max(0.0, at_[2]),
-                std::max(0.0, 1.0 - at_[1] - at_[2]));
+    Vec3 shares(std::max(0.0, at_[1]), std::max(0.0, at_[2]), std::max(0.0, 1.0 - at_[1] - at_[2]));
     return {std::clamp(at_[0], 0.0, 1.0), shares / shares.sum()};
   }
 
@@ -234,9 +232,8 @@ void BladeContact::rebuild(const RodModel& model, const RodState& state) {
     for (int p = 0; p < static_cast<int>(plants_.size()); ++p)
       if (p != leaf.plant) meet(state, leaf, p);
   std::ranges::sort(candidates_);
-  std::erase_if(candidates_, [&](const Candidate& pair) {
-    return std::ranges::binary_search(left_out_, pair);
-  });
+  std::erase_if(candidates_,
+                [&](const Candidate& pair) { return std::ranges::binary_search(left_out_, pair); });
   reference_.resize(state.position.size());
   for (int e = 0; e < state.size(); ++e)
     reference_[e] = {place_of(state, e, model.elements[e].length), state.position[e]};
@@ -250,7 +247,8 @@ void BladeContact::meet(const RodState& state, const Leaf& leaf, int plant) {
   for (const int shape : shapes_[plant]) {
     if (!way.intersects(shape_ways_[shape])) continue;
     for (int f = leaf.first; f < leaf.last; ++f)
-      if (way_of(state, faces_[f]).intersects(shape_ways_[shape])) candidates_.push_back({f, shape});
+      if (way_of(state, faces_[f]).intersects(shape_ways_[shape]))
+        candidates_.push_back({f, shape});
   }
 }
 
@@ -314,12 +312,11 @@ void BladeContact::touch(const RodModel& model, const RodState& state, double dt
     touch.normal_W = (way + back).normalized();
     distance = way.dot(touch.normal_W);
   }
-  touch.radius =
-      shape.radius_near + touch.at.along * (shape.radius_far - shape.radius_near);
+  touch.radius = shape.radius_near + touch.at.along * (shape.radius_far - shape.radius_near);
   touch.back = shape.back_near + touch.at.along * (shape.back_far - shape.back_near);
   touch.gap = distance - touch.radius - blades.half_thickness();
-  const Vec3 arm = axis.at(touch.at.along) - touch.radius * touch.normal_W -
-                   state.position[shape.element];
+  const Vec3 arm =
+      axis.at(touch.at.along) - touch.radius * touch.normal_W - state.position[shape.element];
   const Vec3 motion = motion_of(*start_, state, shape.element, arm);
   Vec3 motion_of_blade = Vec3::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -343,9 +340,8 @@ void BladeContact::add_sides(const RodModel& model, double dt, const Candidate& 
   double lightest = model.elements[shape.element].mass;
   for (const BladePlace& corner : face.corners)
     lightest = std::min(lightest, model.elements[corner.element].mass);
-  const double stiffness =
-      std::min(shape.fruit >= 0 ? settings.fruit_stiffness : settings.stiffness,
-               lightest / (dt * dt));
+  const double stiffness = std::min(
+      shape.fruit >= 0 ? settings.fruit_stiffness : settings.stiffness, lightest / (dt * dt));
   ContactPoint point;
   point.gap = 0.5 * touch.gap;
   point.friction = settings.friction;

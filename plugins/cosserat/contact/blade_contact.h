@@ -12,8 +12,8 @@ namespace pedicel::cosserat {
 
 /// Where a straight axis and a triangle are nearest.
 struct NearestToTriangle {
-  double along = 0.5;                        ///< 1, of the axis, 0 at its near end
-  Vec3 shares = Vec3::Constant(1.0 / 3.0);   ///< barycentric coordinates
+  double along = 0.5;                       ///< 1, of the axis, 0 at its near end
+  Vec3 shares = Vec3::Constant(1.0 / 3.0);  ///< barycentric coordinates
 };
 
 /// Minimises |a(s) - T(w)|^2 + e ((s - 1/2)^2 + |w - 1/3|^2) over axis and triangle, with e = 1e-4
@@ -37,8 +37,8 @@ NearestToTriangle nearest_to_triangle(const Vec3& start, const Vec3& along,
 class BladeContact : public ContactSource {
  public:
   struct Plant {
-    int first_element = 0, elements = 0;   ///< of the joined model
-    const PlantBlades* blades = nullptr;   ///< null: it has none
+    int first_element = 0, elements = 0;  ///< of the joined model
+    const PlantBlades* blades = nullptr;  ///< null: it has none
   };
   /// The model must be finished; it is only read here, not kept. The blades must outlive it.
   BladeContact(const RodModel& joined, std::vector<Plant> plants);

@@ -42,7 +42,8 @@ struct Fall : SimWorld {
 };
 
 TEST(FallingFruit, ComesBackAsHighAsRestitutionSays) {
-  for (const auto& [fruit_e, table_e] : {std::pair(0.9, 0.8), std::pair(0.7, 0.7), std::pair(0.0, 0.9)}) {
+  for (const auto& [fruit_e, table_e] :
+       {std::pair(0.9, 0.8), std::pair(0.7, 0.7), std::pair(0.0, 0.9)}) {
     Fall fall(0.5, fruit_e, table_e, Vec3::Zero(), 1.0 / 2000.0);
     double highest = 0.0;
     bool was_down = false;

@@ -155,8 +155,7 @@ TEST_F(StringsSeen, InMovingScenes) {
   // Its surface is as wide as it is drawn, and hangs on all of its joints.
   for (const auto& mesh : gltf.json["meshes"]) {
     if (mesh["name"] != "tie_1") continue;
-    const auto places =
-        gltf.floats(mesh["primitives"][0]["attributes"]["POSITION"].get<int>(), 3);
+    const auto places = gltf.floats(mesh["primitives"][0]["attributes"]["POSITION"].get<int>(), 3);
     for (std::size_t v = 0; v < places.size(); v += 3) {
       EXPECT_NEAR(std::hypot(places[v], places[v + 1]), string_radius, 1e-7);
       EXPECT_EQ(places[v + 2], 0.0F);
