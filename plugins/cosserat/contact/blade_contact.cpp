@@ -340,8 +340,7 @@ void BladeContact::add_sides(const RodModel& model, double dt, const Candidate& 
   double lightest = model.elements[shape.element].mass;
   for (const BladePlace& corner : face.corners)
     lightest = std::min(lightest, model.elements[corner.element].mass);
-  const double stiffness = std::min(
-      shape.fruit >= 0 ? settings.fruit_stiffness : settings.stiffness, lightest / (dt * dt));
+  const double stiffness = pair_stiffness(settings, shape.fruit >= 0, lightest, dt);
   ContactPoint point;
   point.gap = 0.5 * touch.gap;
   point.friction = settings.friction;
@@ -352,17 +351,9 @@ void BladeContact::add_sides(const RodModel& model, double dt, const Candidate& 
     take_tangent(point);
     point.surface_motion_W = touch.motion_W[static_cast<std::size_t>(i)];
     point.place = 3 * pair.face + i + 1;
-    const auto add = [&](int own, int other, double back, double radius, const Vec3& normal) {
-      point.shape = own;
-      point.collider = self_contact_base + other;
-      point.back = back;
-      point.radius = radius;
-      point.normal_W = normal;
-      found.push_back(point);
-    };
     // The shape of an element has its number.
-    add(pair.shape, corner.element, touch.back, touch.radius, touch.normal_W);
-    add(corner.element, pair.shape, corner.back, blades.half_thickness(), -touch.normal_W);
+    add_pair(point, {pair.shape, touch.back, touch.radius},
+             {corner.element, corner.back, blades.half_thickness()}, touch.normal_W, found);
   }
 }
 

@@ -54,6 +54,25 @@ void take_tangent(ContactPoint& point) {
   point.margin = overlap > 0.0 ? point.gap + force / point.stiffness : 0.5 * margin;
 }
 
+double pair_stiffness(const SelfContactSettings& settings, bool is_fruit, double lighter,
+                      double dt) {
+  return std::min(is_fruit ? settings.fruit_stiffness : settings.stiffness, lighter / (dt * dt));
+}
+
+void add_pair(ContactPoint point, const ContactSide& a, const ContactSide& b, const Vec3& normal_W,
+              std::vector<ContactPoint>& found) {
+  const auto add = [&](const ContactSide& own, const ContactSide& other, const Vec3& normal) {
+    point.shape = own.shape;
+    point.collider = self_contact_base + other.shape;
+    point.back = own.back;
+    point.radius = own.radius;
+    point.normal_W = normal;
+    found.push_back(point);
+  };
+  add(a, b, normal_W);
+  add(b, a, -normal_W);
+}
+
 SelfContact::SelfContact(const RodModel& model, const SelfContactSettings& settings,
                          std::span<const int> trees)
     : settings_(settings), motion_(model, limits_of(model, settings)) {
@@ -143,31 +162,17 @@ void SelfContact::add_contact(const RodModel& model, double dt, const TouchingRo
   if (!(gap <= settings_.margin + row.apart[lane])) return;
   const int a = row.a[lane], b = row.b[lane];
   const CollisionShape &shape_a = model.shapes[a], &shape_b = model.shapes[b];
-  // Limited by what the lighter element's inertia can follow in a step: a stiffer spring would glue
-  // light parts to where they touched.
-  const bool soft = shape_a.fruit >= 0 || shape_b.fruit >= 0;
+  const bool is_fruit = shape_a.fruit >= 0 || shape_b.fruit >= 0;
   const double lighter =
       std::min(model.elements[shape_a.element].mass, model.elements[shape_b.element].mass);
-  const double stiffness =
-      std::min(soft ? settings_.fruit_stiffness : settings_.stiffness, lighter / (dt * dt));
   ContactPoint point;
   point.gap = 0.5 * gap;
-  point.stiffening = {stiffness, settings_.margin};
+  point.stiffening = {pair_stiffness(settings_, is_fruit, lighter, dt), settings_.margin};
   take_tangent(point);
   point.friction = settings_.friction;
   point.surface_motion_W = vector_at(row.motion, lane);
-  const auto add = [&](int shape, int other, double back, double radius, const Vec3& normal) {
-    point.shape = shape;
-    point.collider = self_contact_base + other;
-    point.back = back;
-    point.radius = radius;
-    point.normal_W = normal;
-    found.push_back(point);
-  };
-  // Both sides against the plane in the middle, with the same force.
-  const Vec3 normal_W = vector_at(row.normal, lane);
-  add(a, b, row.back_a[lane], row.radius_a[lane], normal_W);
-  add(b, a, row.back_b[lane], row.radius_b[lane], -normal_W);
+  add_pair(point, {a, row.back_a[lane], row.radius_a[lane]},
+           {b, row.back_b[lane], row.radius_b[lane]}, vector_at(row.normal, lane), found);
 }
 
 }  // namespace pedicel::cosserat

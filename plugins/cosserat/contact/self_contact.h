@@ -33,6 +33,22 @@ struct SelfContactSettings {
   double margin = 2.0e-4;          ///< m, two surfaces begin to push at this gap, > 0
 };
 
+/// N/m, of the spring between two parts where it begins: limited by what the lighter one's inertia
+/// (`lighter`, kg) can follow in a step. A stiffer one would glue light parts to where they
+/// touched.
+double pair_stiffness(const SelfContactSettings& settings, bool is_fruit, double lighter,
+                      double dt);
+
+/// One of two parts that touch: its shape, and the place on it.
+struct ContactSide {
+  int shape = -1;
+  double back = 0.0, radius = 0.0;  ///< m, as ContactPoint has them
+};
+/// Adds both sides of a pair, each against the plane in the middle, with the same force. `point`:
+/// what both have in common. `normal_W`: from b to a.
+void add_pair(ContactPoint point, const ContactSide& a, const ContactSide& b, const Vec3& normal_W,
+              std::vector<ContactPoint>& found);
+
 /// Contact of a plant with itself: capsule-capsule, capsule-sphere and sphere-sphere, with the
 /// radius taken at the nearest places of the axes. Left out: shapes of elements that are at most
 /// two joints (or welds) apart, and pairs nearer than the margin in the drawn shape; of two trees,
