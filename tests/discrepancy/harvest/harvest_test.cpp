@@ -7,14 +7,20 @@
 namespace pedicel::harvest {
 namespace {
 
-// One harvest for a fit and one that is held out, with all three things hidden.
-TEST(Harvest, ExtendedSceneForetellsTheHeldOutTrialBetter) {
+/// One harvest for a fit and one that is held out, with all three things hidden.
+struct Harvest : ::testing::Test {
+  static Options two_trials() {
+    Options options;
+    options.trials = 2;
+    options.hidden = hidden_by_default();
+    return options;
+  }
   const TemporaryFolder folder;
-  Options options;
-  options.trials = 2;
-  options.hidden = hidden_by_default();
-  const scene_case::Setting setting = setting_of(options);
+  const scene_case::Setting setting = setting_of(two_trials());
   const std::vector<scene_case::Run> runs = make_case(folder / "experiment", setting);
+};
+
+TEST_F(Harvest, ExtendedSceneForetellsTheHeldOutTrialBetter) {
   ASSERT_TRUE(runs[0].came_off && runs[1].came_off);
 
   const Diagnosed found = diagnose(folder / "experiment", folder / "diagnosis", 2);
@@ -35,13 +41,7 @@ TEST(Harvest, ExtendedSceneForetellsTheHeldOutTrialBetter) {
 }
 
 // What the program foretells with the true numbers is what two engines agree to.
-TEST(Harvest, HiddenNumbersAgreeWithTheOtherEngine) {
-  const TemporaryFolder folder;
-  Options options;
-  options.trials = 2;
-  options.hidden = hidden_by_default();
-  const scene_case::Setting setting = setting_of(options);
-  const std::vector<scene_case::Run> runs = make_case(folder / "experiment", setting);
+TEST_F(Harvest, HiddenNumbersAgreeWithTheOtherEngine) {
   const Comparison all = compare(folder / "experiment", {}, setting, runs, 2);
   for (const Trial& trial : all.trials) {
     ASSERT_TRUE(trial.real.came_off && trial.hidden.came_off) << tables(all, "");
