@@ -254,23 +254,44 @@ std::string percent(double share) {
   return short_number(100.0 * std::min(share, 1.0)) + " %";
 }
 
+// "28 %", "2.5 times as much", and of a number that is seen loosely "32 to 57 %".
+std::string size_of(const Estimate& factor, bool loosely) {
+  // Beyond twice as much, per cent are read wrongly: "250 % stiffer" is 3.5 times for some and
+  // 2.5 times for others.
+  const bool in_percent = factor.value < 2.0;
+  const auto size = [&](double times) {
+    return short_number(in_percent ? 100.0 * std::abs(times - 1.0) : times);
+  };
+  std::string text = size(factor.value);
+  const bool one_side = (factor.low - 1.0) * (factor.high - 1.0) > 0.0;
+  if (loosely && one_side && std::isfinite(factor.high)) {
+    const bool more = factor.value > 1.0;
+    text = size(more ? factor.low : factor.high) + " to " + size(more ? factor.high : factor.low);
+  }
+  return text + (in_percent ? " %" : " times as much");
+}
+
 // "the plant is 28 % softer than the file says", "a weak stretch (weak_segment) at 0.21 of stem".
-std::string said(const NamedCause& cause) {
+std::string said(const NamedCause& cause, const std::map<std::string, Estimate>& ratios) {
   const effects::EffectDefinition* known = effects::find_effect(cause.name);
   const auto factor = cause.parameters.find("factor");
   // A number of the material is said as what it means, softer or heavier. "youngs_modulus, factor
   // 0.72" is for the file.
   if (known && known->material && factor != cause.parameters.end()) {
+    const Estimate& times = factor->second.front();
+    const auto ratio = std::find_if(ratios.begin(), ratios.end(), [&](const auto& one) {
+      return one.first.starts_with(cause.name + "/") || one.first.ends_with("/" + cause.name);
+    });
     // The value alone: its interval is in the file, and a sentence with both is not read to its
-    // end.
-    const double times = factor->second.front().value;
-    const std::string& word = times < 1.0 ? known->less : known->more;
-    // Beyond twice as much, per cent are read wrongly: "250 % stiffer" is 3.5 times for some and
-    // 2.5 times for others.
-    return "the plant is " +
-           (times < 2.0 ? short_number(100.0 * std::abs(times - 1.0)) + " % " + word
-                        : short_number(times) + " times as much " + word) +
-           " than the file says (" + cause.name + ")";
+    // end. Unless the data see a ratio in its place: then the value alone would claim far more than
+    // they hold.
+    const bool loosely = ratio != ratios.end();
+    return "the plant is " + size_of(times, loosely) + " " +
+           (times.value < 1.0 ? known->less : known->more) + " than the file says (" + cause.name +
+           (loosely ? "; seen closely is " + ratio->first + ", " +
+                          short_number(ratio->second.value) + " times the file's"
+                    : "") +
+           ")";
   }
   // What sits at the root has only one place to be, and need not say it.
   std::string place;
@@ -306,12 +327,13 @@ std::string named(const Verdict& verdict, const std::string& names, const std::s
   // A law of breaking changes when fruits come off, and no sample of a marker: it has no share of a
   // misfit.
   if (!first.share.fit) return "The data show " + names + (gain.empty() ? "" : "; " + gain) + ".";
-  std::string text = capital(said(first)) + ": this explains " + percent(*first.share.fit) +
-                     " of the misfit" + (gain.empty() ? "" : "; " + gain) + ".";
+  std::string text = capital(said(first, verdict.ratios)) + ": this explains " +
+                     percent(*first.share.fit) + " of the misfit" +
+                     (gain.empty() ? "" : "; " + gain) + ".";
   // In the order of their shares, as they were sorted.
   for (std::size_t c = 1; c < verdict.causes.size(); ++c) {
     const NamedCause& other = verdict.causes[c];
-    text += " Beside it " + said(other) +
+    text += " Beside it " + said(other, verdict.ratios) +
             (other.share.fit ? " explains " + percent(*other.share.fit) : "") + ".";
   }
   return text;
@@ -323,7 +345,8 @@ std::string details(const Verdict& verdict) {
   std::string text;
   for (const NamedCause& cause : verdict.details) {
     const std::string size = changed(cause);
-    text += " Beside it " + said(cause) + (size.empty() ? "" : ", which changes " + size) + ".";
+    text += " Beside it " + said(cause, verdict.ratios) +
+            (size.empty() ? "" : ", which changes " + size) + ".";
   }
   return text;
 }
@@ -363,7 +386,8 @@ std::string finding(const Verdict& verdict) {
     case Outcome::unknown: {
       std::string beside;
       // Something unknown may stand beside known things that are certain. These are still of use.
-      for (const NamedCause& cause : verdict.causes) beside += " Beside it " + said(cause) + ".";
+      for (const NamedCause& cause : verdict.causes)
+        beside += " Beside it " + said(cause, verdict.ratios) + ".";
       // A model that misses something it cannot name is wrong by an unknown amount wherever it was
       // not measured.
       return "Something is missing that none of the known causes explains." +

@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 using Json = nlohmann::ordered_json;
 
 Verdict full() {
@@ -156,6 +157,32 @@ TEST(Headline, SaysHowSureItIs) {
   v.partial = false;
   v.outcome = Outcome::unknown;
   EXPECT_THAT(headline(v), HasSubstr("Do not extrapolate."));
+}
+
+// A swing sees modulus over density. The value of either alone would claim more than the data hold.
+TEST(Headline, TellsOfAParameterSeenInARatioHowFarItMayBe) {
+  Verdict v = full();
+  v.outcome = Outcome::named;
+  v.ratios.clear();
+  v.causes.resize(1);
+  v.causes[0] = {};
+  v.causes[0].name = "youngs_modulus";
+  v.causes[0].share.fit = 0.98;
+  v.causes[0].parameters["factor"] = {{1.44, 1.32, 1.57, "1"}};
+  EXPECT_THAT(headline(v), StartsWith("The plant is 44 % stiffer than the file says "
+                                      "(youngs_modulus): this explains 98 % of the misfit"));
+  v.ratios["density/damping_time"] = {0.9, 0.89, 0.91, "1"};
+  EXPECT_THAT(headline(v), HasSubstr("(youngs_modulus): ")) << "a ratio of others";
+  v.ratios["youngs_modulus/density"] = {1.402, 1.397, 1.406, "1"};
+  EXPECT_THAT(headline(v),
+              StartsWith("The plant is 32 to 57 % stiffer than the file says (youngs_modulus; seen "
+                         "closely is youngs_modulus/density, 1.4 times the file's): this"));
+  v.causes[0].parameters["factor"] = {{0.72, 0.65, 0.8, "1"}};
+  EXPECT_THAT(headline(v), StartsWith("The plant is 20 to 35 % softer"));
+  v.causes[0].parameters["factor"] = {{3.0, 2.5, 3.6, "1"}};
+  EXPECT_THAT(headline(v), StartsWith("The plant is 2.5 to 3.6 times as much stiffer"));
+  v.causes[0].parameters["factor"] = {{1.1, 0.9, 1.3, "1"}};
+  EXPECT_THAT(headline(v), StartsWith("The plant is 10 % stiffer")) << "it may be either";
 }
 
 }  // namespace
