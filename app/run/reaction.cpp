@@ -11,7 +11,7 @@ Reaction::Reaction(world::SimWorld& world, RobotControl* robot, coupling::Collid
                    int first_body)
     : world_(world), robot_(robot), colliders_(colliders), first_body_(first_body) {
   // One push a collider at most: a step must not allocate.
-  pushes_.reserve(colliders.size());
+  reactions_.reserve(colliders.size());
   // Plants need to know how far things give way in the very first step, too.
   const std::vector<ContactSum> none(colliders.size());
   for (int i = 0; i < colliders.size(); ++i) colliders.set_give(i, give_of(i, none));
@@ -26,15 +26,15 @@ void Reaction::act(const coupling::ContactReport& contacts) {
 }
 
 void Reaction::push_robot(const coupling::ContactReport& contacts) {
-  pushes_.clear();
+  reactions_.clear();
   for (int i = 0; i < colliders_.size(); ++i) {
     const ContactSum& sum = contacts.colliders()[i];
     if (colliders_.collider(i).body == robot_body && sum.contacts > 0 && !is_gripping(i))
-      pushes_.push_back({colliders_.collider(i).link, sum.force_W, sum.place_W, sum.moment_W});
+      reactions_.push_back({colliders_.collider(i).link, sum.force_W, sum.place_W, sum.moment_W});
   }
   // Also without pushes: the motors have to hear that nothing pushes any more.
   // All at once: the inverse mass matrix of the robot couples its links.
-  robot_->robot().push_back(pushes_, world_.dt());
+  robot_->robot().add_reactions(reactions_, world_.dt());
 }
 
 void Reaction::push_bodies(const coupling::ContactReport& contacts) {
@@ -43,7 +43,7 @@ void Reaction::push_bodies(const coupling::ContactReport& contacts) {
     const int body = colliders_.collider(i).body;
     // The ground and the robot have numbers below 0.
     if (body < first_body_ || sum.contacts == 0) continue;
-    world_.push_back_body(body, sum.force_W, sum.place_W, sum.moment_W);
+    world_.add_body_reaction(body, sum.force_W, sum.place_W, sum.moment_W);
   }
 }
 
@@ -68,18 +68,19 @@ double Reaction::give_of(int i, const std::vector<ContactSum>& sums) const {
   if (is_gripping(i)) return 0.0;
   const Collider& own = colliders_.collider(i);
   const Vec3 place = place_of(i, sums);
-  double mobility = 0.0;  // 1/kg
+  double inverse_inertia = 0.0;  // 1/kg
   for (int j = 0; j < colliders_.size(); ++j) {
     const Collider& other = colliders_.collider(j);
     const int contacts = i == j ? 1 : sums[j].contacts;
     if (other.body != own.body || contacts == 0 || is_gripping(j)) continue;
-    if (own.body >= first_body_) mobility += contacts * world_.body_mobility(own.body, place);
+    if (own.body >= first_body_)
+      inverse_inertia += contacts * world_.body_inverse_inertia(own.body, place);
     if (own.body == robot_body && robot_)
-      mobility +=
-          contacts * robot_->robot().mobility(own.link, place, other.link, place_of(j, sums));
+      inverse_inertia += contacts * robot_->robot().inverse_inertia(own.link, place, other.link,
+                                                                    place_of(j, sums));
   }
   // A force acts for dt, and what it moves goes on for dt: m/N.
-  return mobility * world_.dt() * world_.dt();
+  return inverse_inertia * world_.dt() * world_.dt();
 }
 
 }  // namespace pedicel::app

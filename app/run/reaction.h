@@ -33,7 +33,7 @@ class Reaction {
   RobotControl* robot_;
   coupling::ColliderSet& colliders_;
   int first_body_;
-  std::vector<robot::LinkPush> pushes_;
+  std::vector<robot::LinkReaction> reactions_;
 };
 
 }  // namespace pedicel::app

@@ -56,7 +56,7 @@ struct Robot::Impl {
   mutable Dynamics dynamics;  // only its work space changes
   mutable Jacobian work_jacobian;
   Eigen::LLT<Eigen::MatrixXd> mass;  // at q
-  Eigen::VectorXd recoil;            // rad or m, of the last push_back()
+  Eigen::VectorXd recoil;            // rad or m, of the last add_reactions()
   Eigen::VectorXd q, qd, torques;
   std::vector<Pose> poses;
   std::vector<Twist> twists;
@@ -164,19 +164,19 @@ void Robot::add_external_force(int link, const Vec3& force_W, const Vec3& point_
   impl_->forces.push_back({link, force_W, point_W});
 }
 
-void Robot::push_back(std::span<const LinkPush> pushes, double dt) {
+void Robot::add_reactions(std::span<const LinkReaction> reactions, double dt) {
   Impl& robot = *impl_;
   robot.mass.compute(robot.dynamics.mass_matrix(robot.q));
   robot.recoil.setZero();
-  for (const LinkPush& push : pushes) {
-    const Jacobian& j = robot.jacobian(push.link, push.point_W);
-    robot.recoil += j.topRows<3>().transpose() * push.force_W;
-    robot.recoil += j.bottomRows<3>().transpose() * push.moment_W;
+  for (const LinkReaction& reaction : reactions) {
+    const Jacobian& j = robot.jacobian(reaction.link, reaction.point_W);
+    robot.recoil += j.topRows<3>().transpose() * reaction.force_W;
+    robot.recoil += j.bottomRows<3>().transpose() * reaction.moment_W;
   }
   robot.mass.solveInPlace(robot.recoil);
   robot.recoil *= dt * dt;
   robot.drive.expect_recoil(robot.recoil);
-  if (pushes.empty()) return;
+  if (reactions.empty()) return;
   robot.q += robot.recoil;
   robot.qd += robot.recoil / dt;
   robot.place_joints(robot.q, robot.qd);
@@ -184,7 +184,7 @@ void Robot::push_back(std::span<const LinkPush> pushes, double dt) {
   robot.read();
 }
 
-double Robot::mobility(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const {
+double Robot::inverse_inertia(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const {
   const Eigen::MatrixXd response =
       impl_->mass.solve(impl_->jacobian(b, point_b_W).topRows<3>().transpose());
   const Mat3 both = impl_->jacobian(a, point_a_W).topRows<3>() * response;

@@ -36,7 +36,7 @@ struct RobotState {
 };
 
 /// A force (N) and a moment (N m) about its point (m) on a link, world frame.
-struct LinkPush {
+struct LinkReaction {
   int link = 0;
   Vec3 force_W = Vec3::Zero(), point_W = Vec3::Zero(), moment_W = Vec3::Zero();
 };
@@ -90,10 +90,10 @@ class Robot {
   /// of what was moved after Bullet: plants). Velocities change by M^-1 J^T f dt and positions by
   /// dt times that, as if backward Euler had known of them; motors reckon with the same again in
   /// the next step. To be called once every step, with none where there are none. Fixed bases only.
-  void push_back(std::span<const LinkPush> pushes, double dt);
+  void add_reactions(std::span<const LinkReaction> reactions, double dt);
   /// 1/kg: the largest change of velocity of a point of link `a` for a unit impulse at a point of
   /// link `b`, world frame: |J_a M^-1 J_b^T|. Fixed bases only.
-  double mobility(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const;
+  double inverse_inertia(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const;
 
   /// After end_step(): puts one joint elsewhere, with another velocity; its mimics follow, the
   /// others stay. For what was found after Bullet's part of the step (a grip).

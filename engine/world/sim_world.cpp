@@ -212,8 +212,8 @@ void SimWorld::push_body(int index, const Vec3& force_W, const Vec3& point_W) {
   body.applyForce(to_bullet(force_W), lever);
 }
 
-void SimWorld::push_back_body(int index, const Vec3& force_W, const Vec3& point_W,
-                              const Vec3& moment_W) {
+void SimWorld::add_body_reaction(int index, const Vec3& force_W, const Vec3& point_W,
+                                 const Vec3& moment_W) {
   btRigidBody& body = *bodies_[index]->bullet;
   if (body.getInvMass() == 0.0) return;
   const btVector3 lever = to_bullet(point_W) - body.getWorldTransform().getOrigin();
@@ -227,7 +227,7 @@ void SimWorld::push_back_body(int index, const Vec3& force_W, const Vec3& point_
   body.setCenterOfMassTransform(moved);
 }
 
-double SimWorld::body_mobility(int index, const Vec3& point_W) const {
+double SimWorld::body_inverse_inertia(int index, const Vec3& point_W) const {
   const btRigidBody& body = *bodies_[index]->bullet;
   const Vec3 lever = point_W - from_bullet(body.getWorldTransform().getOrigin());
   return body.getInvMass() +

@@ -68,9 +68,9 @@ class SimWorld {
   /// A force (N, at a point, m) and a moment (N m) on a body that belong to the step which is
   /// ending: from within the plants phase. Velocities change by what they do in dt, the pose by dt
   /// times that.
-  void push_back_body(int index, const Vec3& force_W, const Vec3& point_W, const Vec3& moment_W);
+  void add_body_reaction(int index, const Vec3& force_W, const Vec3& point_W, const Vec3& moment_W);
   /// 1/kg: at most what a unit impulse at a point of the body changes that point's velocity by.
-  double body_mobility(int index, const Vec3& point_W) const;
+  double body_inverse_inertia(int index, const Vec3& point_W) const;
 
   /// For robots. Its callback slots belong to this class.
   btMultiBodyDynamicsWorld& bullet();

@@ -255,13 +255,13 @@ TEST(UrdfAsItIs, ARobotWithoutMovingJointsStands) {
     Robot robot(testing::parse(text), {}, world.world);
     for (int i = 0; i < 10; ++i) {
       world.step(robot, 1.0 / 240.0);
-      robot.push_back(std::vector<LinkPush>{{0, Vec3(1, 2, 3), Vec3::Zero(), Vec3::Zero()}},
-                      1.0 / 240.0);
+      robot.add_reactions(std::vector<LinkReaction>{{0, Vec3(1, 2, 3), Vec3::Zero(), Vec3::Zero()}},
+                          1.0 / 240.0);
     }
     EXPECT_EQ(robot.model().dofs(), 0);
     EXPECT_EQ(robot.link_poses().front().position, Vec3::Zero());
     EXPECT_EQ(robot.link_poses().back().position.z(), text == standing ? 1.0 : 0.0);
-    EXPECT_EQ(robot.mobility(0, Vec3::Zero(), 0, Vec3::Zero()), 0.0);
+    EXPECT_EQ(robot.inverse_inertia(0, Vec3::Zero(), 0, Vec3::Zero()), 0.0);
   }
 }
 
