@@ -14,6 +14,7 @@ using Json = nlohmann::json;
 
 // JSON has no word for what is not finite.
 Json of_number(double value) {
+  // Finite numbers need no word of ours: the library writes them so that they come back to the bit.
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
 }
@@ -35,6 +36,7 @@ Eigen::MatrixXd to_matrix(const Json& json) {
   Eigen::MatrixXd matrix(json.at("rows").get<Eigen::Index>(),
                          json.at("columns").get<Eigen::Index>());
   const Json& numbers = json.at("numbers");
+  // An answer comes from another process and may be cut off. Eigen would read on behind its end.
   if (std::cmp_not_equal(numbers.size(), matrix.size()))
     throw std::runtime_error("a matrix has other numbers than its size says");
   for (Eigen::Index i = 0; i < matrix.size(); ++i)
@@ -149,6 +151,7 @@ Made parsed(const std::string& text, Made (*make)(const Json&)) {
   try {
     return make(Json::parse(text));
   } catch (const Json::exception& fault) {
+    // Whatever JSON finds wrong is told as what it means here.
     throw std::runtime_error(std::string("a part of a search has no answer: ") + fault.what());
   }
 }
@@ -183,6 +186,7 @@ std::vector<FitSummary> fits_by(FitParts* parts, const std::string& stage, int c
                                 const std::function<FitSummary(int)>& one) {
   std::vector<FitSummary> fits;
   if (!parts)
+    // Without a text in between: as text and back no bit is lost, so both ways give the same fits.
     for (int i = 0; i < count; ++i) fits.push_back(one(i));
   else
     for (const std::string& text :

@@ -11,6 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json number(double value) {
+  // JSON has neither nan nor inf. A reader takes null for what it is: no number.
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -30,6 +31,7 @@ std::string remark_on(const FittedParameter& p) {
   std::string remark;
   if (p.low_open) remark = "no lower end: these data allow all down to its bound";
   if (p.high_open) remark = "no upper end: these data allow all up to its bound";
+  // Beside an open end it says more: the best value itself is where it is for want of room.
   if (p.at_bound) remark += std::string(remark.empty() ? "" : "; ") + "stands at its bound";
   return remark;
 }
@@ -48,6 +50,8 @@ std::string to_json(const ParameterFit& fit) {
   for (const FittedParameter& p : fit.parameters) {
     parameters.push_back({{"name", p.name},
                           {"value", number(p.value)},
+                          // An open end has a number, too, its bound, but that is no finding, and
+                          // programs would take it for one.
                           {"low", p.low_open ? Json(nullptr) : number(p.low)},
                           {"high", p.high_open ? Json(nullptr) : number(p.high)},
                           {"unit", p.unit},
@@ -101,6 +105,7 @@ std::string to_table(const ParameterFit& fit) {
     table +=
         padded(t.trial, name) + padded(t.check ? "check" : "fit", 10) + text("%.3g", t.rms) + "\n";
   table += "\n";
+  // Chance alone makes some per cent of it; below that the sentence would alarm for nothing.
   if (fit.spread > 1.05)
     table += "More than noise is left: the intervals are " + text("%.3g", fit.spread) +
              " times as wide as noise alone would make them.\n";
