@@ -21,11 +21,13 @@ Json of_number(double value) {
 
 double to_number(const Json& json) {
   if (json.is_number()) return json.get<double>();
+  // Standard errors are infinite where data leave a number open, so such words do come.
   const auto word = json.get<std::string>();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return word == "inf" ? infinity : word == "-inf" ? -infinity : std::nan("");
 }
 
+// In the order of memory, with both sizes: a Jacobian of thousands of rows takes no name a number.
 Json of_matrix(const Eigen::MatrixXd& matrix) {
   Json numbers = Json::array();
   for (Eigen::Index i = 0; i < matrix.size(); ++i) numbers.push_back(of_number(matrix.data()[i]));
@@ -50,6 +52,7 @@ Json of_effect(const plant::Effect& effect) {
     json["numbers"][name] = Json::array();
     for (const double value : values) json["numbers"][name].push_back(of_number(value));
   }
+  // Absent where an effect has no place: an empty name would be a curve that the plant lacks.
   if (effect.place) json["curve"] = effect.place->curve, json["at"] = of_number(effect.place->at);
   return json;
 }
@@ -68,6 +71,8 @@ plant::Effect to_effect(const Json& json) {
   return effect;
 }
 
+// Every field, since the fit that follows is to go on as if it had been made here. One that is
+// forgotten would come back with its default, in silence.
 Json of_free(const FreeParameter& free) {
   return {{"effect", free.effect},
           {"name", free.name},
@@ -79,6 +84,7 @@ Json of_free(const FreeParameter& free) {
           {"unit", free.unit},
           {"prior", of_number(free.prior)},
           {"prior_centre", of_number(free.prior_centre)},
+          // By number: both ends are the same program.
           {"vanishes", static_cast<int>(free.vanishes)},
           {"nominal", of_number(free.nominal)},
           {"heading_of", free.heading_of}};
@@ -102,6 +108,7 @@ FreeParameter to_free(const Json& json) {
   return free;
 }
 
+// With residual and derivatives, large as they are: they would else be simulated again.
 Json of_fit(const FitSummary& fit) {
   Json json = {{"name", fit.hypothesis.name},
                {"effects", Json::array()},
@@ -157,7 +164,9 @@ Made parsed(const std::string& text, Made (*make)(const Json&)) {
 }
 
 Profile to_profile(const Json& json) {
+  // Ends as unknowns, and not as values: what asked goes on to compute with them.
   Profile profile{to_end(json.at("low")), to_end(json.at("high")), {}};
+  // A better fit ends the round of whoever asked, so it comes back whole.
   if (json.contains("better")) profile.better = to_fit(json.at("better"));
   return profile;
 }

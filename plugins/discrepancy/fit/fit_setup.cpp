@@ -37,6 +37,8 @@ FitSetup::FitSetup(const Experiment& experiment, int threads, const NoiseRule& r
 }
 
 Evaluator FitSetup::evaluator() {
+  // Made anew for each use: it refers to the simulator and to the corrections, which a refinement
+  // replaces.
   return Evaluator(*simulator_, data_, corrections());
 }
 

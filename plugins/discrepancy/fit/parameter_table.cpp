@@ -26,6 +26,8 @@ std::string padded(std::string cell, std::size_t width) {
   return cell + "  ";
 }
 
+// What cannot be seen is told before all else: any further word would be about a number that means
+// nothing.
 std::string remark_on(const FittedParameter& p) {
   if (!p.seen) return "these data cannot see it";
   std::string remark;
@@ -37,6 +39,7 @@ std::string remark_on(const FittedParameter& p) {
 }
 
 std::string interval_of(const FittedParameter& p) {
+  // An interval between two bounds would look like a result.
   if (!p.seen) return "-";
   const auto end = [](double value, bool open) { return open ? "..." : text("%.4g", value); };
   return end(p.low, p.low_open) + " to " + end(p.high, p.high_open);
@@ -57,6 +60,7 @@ std::string to_json(const ParameterFit& fit) {
                           {"unit", p.unit},
                           {"seen", p.seen},
                           {"remark", remark_on(p)}});
+    // Apart, too, because a program should not have to read remarks.
     if (p.at_bound) bounds.push_back(p.name);
   }
   for (const TrialError& t : fit.trials)
@@ -66,6 +70,7 @@ std::string to_json(const ParameterFit& fit) {
                      {"version", 1},
                      {"parameters", parameters},
                      {"interval", "95 %, profile likelihood"},
+                     // So that somebody who knows the noise better can undo it.
                      {"widened", number(fit.spread)},
                      {"condition", number(summary.condition)},
                      {"at_bound", bounds},
@@ -78,6 +83,7 @@ std::string to_json(const ParameterFit& fit) {
                       {{"distance", fit.numerics.distance},
                        {"dt", fit.numerics.dt},
                        {"error", number(fit.numerical_error)}}},
+                     // A nuisance, told because the modulus depends on it.
                      {"mesh_share", number(summary.hypothesis.mesh_share())},
                      {"converged", summary.converged},
                      {"why", summary.why},
@@ -90,6 +96,7 @@ std::string to_json(const ParameterFit& fit) {
 }
 
 std::string to_table(const ParameterFit& fit) {
+  // As wide as the longest name: places and components make some of them long.
   std::size_t name = 9, interval = 15;
   for (const FittedParameter& p : fit.parameters) {
     name = std::max(name, p.name.size());
@@ -101,6 +108,7 @@ std::string to_table(const ParameterFit& fit) {
     table += padded(p.name, name) + padded(text("%.4g", p.value), 10) + padded(p.unit, 8) +
              padded(interval_of(p), interval) + remark_on(p) + "\n";
   table += "\n" + padded("trial", name) + padded("use", 10) + "rms over noise\n";
+  // Held-out trials stand among the fitted ones, so that their error is seen beside theirs.
   for (const TrialError& t : fit.trials)
     table +=
         padded(t.trial, name) + padded(t.check ? "check" : "fit", 10) + text("%.3g", t.rms) + "\n";
@@ -112,6 +120,7 @@ std::string to_table(const ParameterFit& fit) {
   table += "Condition of the scaled problem " + text("%.3g", fit.summary.condition) +
            (fit.summary.condition > 100.0 ? ": these data hardly tell some parameters apart" : "") +
            ". Stopped: " + fit.summary.why + "\n";
+  // Last, but always: what was left out of the data is a part of the answer.
   for (const std::string& remark : fit.remarks) table += remark + "\n";
   return table;
 }
