@@ -93,6 +93,7 @@ void PickForce::thin() {
     int end = i + 1;
     // Breaks take milliseconds. What a record has beyond that is noise and time.
     while (end < size() && time(end) - time(i) < finest) ++end;
+    // About the first of them, so that times on a clock since 1970 lose no digits in the sum.
     double sum = 0.0;
     for (int j = i; j < end; ++j) sum += time(j) - time(i);
     // The mean time of a mean force, or edges would come late by half of it.

@@ -140,7 +140,8 @@ LabelledPicks compare_with_labels(const std::vector<JudgedPick>& all,
     // held did not come off.
     const bool right =
         pick.end != Pick::End::unclear && (pick.end == Pick::End::came_off) == label->came_off;
-    // Others were judged by levels alone: no response or sharpness would change them.
+    // Others were judged by levels alone: no response or sharpness would change them. Sampling and
+    // averaging are each record's own; the response is common to all.
     if (pick.probability && pick.fall->half) {
       const double blur = std::hypot(pick.interval, 0.5 * pick.fall->smoothing);
       timed.push_back({*pick.fall->half, pick.fall->half_error, blur, label->came_off});

@@ -102,7 +102,8 @@ class PickReader {
     }
     record.time = si_values(table_, *time, Quantity::time, {said_.time_unit, "--time-unit"},
                             diagnostics_, notes_);
-    // A clock that jumps back makes falls of no time.
+    // A clock that jumps back makes falls of no time. Empty where a unit is missing, which has been
+    // told.
     if (!record.time.empty()) check_increasing(table_, *time, diagnostics_);
   }
 

@@ -59,6 +59,7 @@ void write_pick_report(const std::filesystem::path& file, const std::vector<Judg
   for (const JudgedPick& judged : all) {
     const Pick& pick = judged.pick;
     report.heading(judged.record.file);
+    // Marked as good where the fruit came off, which is what a picker is for.
     report.note(pick.sentence(), pick.end == Pick::End::came_off);
     // Made again as it was judged, without zero and spikes: a plot of the raw record would not show
     // what the answer is about.

@@ -99,6 +99,7 @@ std::string to_table(const std::vector<JudgedPick>& all) {
   for (const JudgedPick& judged : all)
     widest = std::max(widest, std::filesystem::path(judged.record.file).filename().string().size());
   const auto line = [widest](const std::vector<std::string>& cells) {
+    // Numbers to the right, so that a season's records read down a column.
     constexpr int widths[] = {8, 8, 10, 9, 9, 9, 8};
     std::string row = cells.front();
     row.resize(std::max(row.size(), widest), ' ');
@@ -113,6 +114,8 @@ std::string to_table(const std::vector<JudgedPick>& all) {
       line({"file", "outcome", "end", "P detached", "time, s", "peak, N", "half, ms", "lost, %"});
   for (const JudgedPick& judged : all) {
     const Pick& pick = judged.pick;
+    // Also of a record without a probability, where there is one: what was measured is told
+    // whatever came of it.
     const std::optional<double> half = pick.fall ? pick.fall->half : std::nullopt;
     table += line({std::filesystem::path(judged.record.file).filename().string(), pick.outcome(),
                    name_of(pick.end), cell("%.3f", pick.probability), cell("%.3f", pick.time()),
