@@ -193,8 +193,8 @@ bool leave_out_after_break(Trial& trial) {
       const double interval =
           // Of its neighbours, since tables have clocks of their own.
           samples->time[std::min(i + 1, samples->size() - 1)] - samples->time[std::max(i - 1, 0)];
-      // The interval holds two samples, so this is one and a half before: the moment itself is
-      // known to a sample.
+      // The interval holds two samples, so this is one and a half before: when it came off is known
+      // to a sample.
       if (samples->time[i] < first - 0.75 * interval) continue;
       samples->value.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
       any = true;

@@ -200,7 +200,7 @@ Following following(const Track& track, const Drive& drive, const ClockReading& 
 bool is_led_slowly(const TrialView& view, const Drive& drive) {
   // The softest way of the point and the whole mass give the lowest frequency that the plant may
   // have there. The trace is more than the softest, so the error is towards calling a drive fast,
-  // of which nothing is judged.
+  // and of such a one less is judged.
   const double compliance = view.nominal_plant->compliance(drive.spot).trace();
   return frequency_square(*drive.path, drive.until) * compliance * view.nominal_plant->mass() <=
          slow;

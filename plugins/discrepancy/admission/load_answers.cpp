@@ -11,7 +11,7 @@ namespace {
 // The range of a thousand samples of noise is six or seven deviations.
 constexpr double at_rest = 10.0;  // times the noise: the range of a marker at rest
 constexpr double leaves = 6.0;    // times the noise, from the mean of its rest
-// A swing that turns stays as near to one place for a moment, but not for so long.
+// A swing that turns stays as near to one place for a short time, but not for so long.
 constexpr double least_rest = 0.25;  // s
 constexpr int least_samples = 5;     // at rest
 constexpr std::size_t turning_samples = 3;
@@ -122,7 +122,7 @@ std::vector<Rest> distinct(const Track& track, const std::vector<Rest>& rests, d
   double longest = 0.0;
   // Relative to the longest, since plants are slow or fast.
   for (const Rest& rest : found) longest = std::max(longest, lasts(rest));
-  // A swing stands still for a moment where it turns, and a slow plant does so for longer than any
+  // A swing stands still for a short time where it turns, and a slow plant for longer than any
   // fixed limit.
   std::erase_if(found, [&](const Rest& rest) { return lasts(rest) < short_rest * longest; });
   return found;

@@ -84,7 +84,7 @@ std::optional<Fault> leaves_early(const Beside& beside) {
   // all no release.
   const double limit = std::max({left_behind * reach, left_share * led, visible * beside.noise()});
   // The mean square over the rest and not the farthest sample: a swing that dies out at the end of
-  // a fast path goes far for a moment.
+  // a fast path goes far for a short time.
   if (held.rows < least_rows || held.rms < limit) return std::nullopt;
   return Fault{"markers.csv",
                "has " + beside.marker() +
@@ -119,7 +119,7 @@ std::optional<Fault> follows_on(const Beside& beside) {
 std::string likely_clock(const Beside& beside, double begins) {
   const double ratio = begins / beside.drive().until;
   const double step = clock_of({}, beside.drive().path->time).step;
-  // The moment that is seen over the one that is stated is the factor of the unit.
+  // When it is seen over when it is stated is the factor of the unit.
   const auto is_near = [&](double unit) { return std::abs(std::log(ratio / unit)) < 0.1; };
   if (is_near(1e3)) return "; times in milliseconds?";
   if (step > 0.0 && 1.0 / step > 5.0 && is_near(1.0 / step)) return "; numbers of frames?";

@@ -34,7 +34,7 @@ Hypothesis take_seen(Evaluator& evaluator, const FitOptions& options, const Hypo
   Hypothesis found;
   int column = 0;
   std::erase_if(names, [&](const std::string& name) {
-    // The largest change of any sample, not the mean: a density is seen at the moment of a release
+    // The largest change of any sample, not the mean: a density is seen right after a release
     // alone, and a record with long rests would hide it in a mean.
     if ((r.col(++column) - r.col(0)).cwiseAbs().maxCoeff() < least) return false;
     found.add(parameter(name));

@@ -185,7 +185,7 @@ class Run {
     // Over the whole records: what the first part does not show a later one may.
     const Eigen::MatrixXd r = with.residuals(models, setup_.options());
     const auto moves = [&](int model) {
-      // The largest change of any sample: a number may be seen at one moment alone.
+      // The largest change of any sample: a number may be seen in one sample alone.
       return (r.col(model) - r.col(0)).cwiseAbs().maxCoeff() >=
              setup_.options().settings->accuracy.seen;
     };

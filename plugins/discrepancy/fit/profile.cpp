@@ -139,8 +139,8 @@ ProfileEnd profile_end(const Deviance& deviance, double best, double bound, doub
       far_root = found;
     }
     // Not bracketed yet: on along the line through the origin. At least a tenth farther, so that it
-    // gets on where the deviance is steep, and four times at most, because a flat stretch near the
-    // best value says little of what comes behind it.
+    // gets past the end, and four times at most, because a flat stretch near the best value says
+    // little of what comes behind it.
     if (far < 0.0) {
       away *= std::clamp(root / std::max(found, 1.0e-6), 1.1, 4.0);
     } else {

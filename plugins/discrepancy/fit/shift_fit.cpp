@@ -40,8 +40,8 @@ std::vector<Predictions> run_shifted(Simulator& simulator, const Hypothesis& mod
 ShiftFit::ShiftFit(Simulator& simulator, const DataSet& data, const Hypothesis& model,
                    const Shift& own, const FitOptions& options)
     : data_(data), options_(options) {
-  // To one side. What is sought is far smaller than this step, and whoever uses the shift simulates
-  // with it and adds what it still lacks.
+  // To one side. It need not be exact: whoever uses the shift simulates with it, and adds what it
+  // still lacks.
   const double step = options.settings->accuracy.shift_step;
   // All three, fitted or not: a number that is held in the model is still what a coarse mesh gets
   // wrong.

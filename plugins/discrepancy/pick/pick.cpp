@@ -102,7 +102,7 @@ Pick judge_pick(const PickRecord& record, const PickSettings& settings) {
 
 std::optional<double> Pick::time() const {
   if (!fall || (end != End::came_off && end != End::slipped)) return std::nullopt;
-  // Where it was held, or nothing can be told, no moment is a finding.
+  // Where it was held, or nothing can be told, no point of time is a finding.
   return fall->onset;
 }
 

@@ -32,7 +32,7 @@ plots::LinePlot plot_of(const PickForce& course, const Pick& pick, const std::st
   }
   plot.series.push_back(size);
   if (pick.fall) plot.series.push_back(along);
-  // The moment stands in the plot, so that a person can see whether it is where the load goes.
+  // Marked in the plot, so that a person can see whether it is where the load goes.
   if (const auto time = pick.time())
     plot.events.push_back({*time, pick.end == Pick::End::came_off ? "came off" : "slips"});
   return plot;

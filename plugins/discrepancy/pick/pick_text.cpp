@@ -51,7 +51,7 @@ Json json_of(const JudgedPick& judged) {
           {"end", name_of(pick.end)},
           {"probability_detached", number(pick.probability)},
           {"moment_s", number(pick.time())},
-          // An error without a moment would be taken for one of something else.
+          // An error without its number would be taken for one of something else.
           {"moment_error_s", has_time ? number(fall->onset_error) : Json(nullptr)},
           {"peak_force_N", number(pick.peak_force)},
           // Of one sample, as the peak is one.

@@ -306,8 +306,8 @@ class ForceSearch {
       const double left = count[b] > 3.0 ? std::max(1.0, (square[b] - gain) / count[b]) : 1.0;
       clear[b] = gain / left;
     }
-    // Of what is above the noise in all bins, so that a place that explains one moment well is not
-    // the best.
+    // Of what is above the noise in all bins, so that a place that explains a short time well is
+    // not the best.
     out.share = all > 0.0 ? taken / all : 0.0;
     mark_active(out, clear);
     return out;
